@@ -1,0 +1,21 @@
+//! grainform turns the 3D scan of a grain into a small analytic surface and tells how good it is.
+//!
+//! Data flows one way, and each step is a module that can be read alone:
+//!
+//! ```text
+//! scan -> fit -> model -> measure -> export / report
+//! ```
+//!
+//! # Conventions
+//!
+//! * **Angles**: polar angle theta in \[0, pi\] from +z, azimuth phi in \[0, 2 pi) from +x, so that
+//!   x = r sin(theta) cos(phi), y = r sin(theta) sin(phi), z = r cos(theta).
+//! * **Lengths** are in the scan's own unit; areas and volumes in its square and cube. No unit is
+//!   ever guessed.
+//! * **Density** is one: a moment of inertia is in the scan's unit to the fifth power.
+
+pub mod mesh;
+pub mod model;
+pub mod scan;
+
+pub use mesh::Mesh;

@@ -1,0 +1,3 @@
+//! The `grainform` command line.
+
+fn main() {}

@@ -1,0 +1,5 @@
+//! What a fitted grain is.
+
+mod surface;
+
+pub use surface::StarSurface;
