@@ -14,8 +14,13 @@
 //!   ever guessed.
 //! * **Density** is one: a moment of inertia is in the scan's unit to the fifth power.
 
+pub mod fit;
+pub mod measure;
 pub mod mesh;
 pub mod model;
 pub mod scan;
+pub mod sphere;
 
+pub use fit::{FitError, FitOptions, Fitted, Tolerance, fit};
 pub use mesh::Mesh;
+pub use model::{Grain, StarSurface};

@@ -1,6 +1,7 @@
 //! A triangle mesh: what a scan may bring, what a fitted grain is exported as.
 
 use nalgebra::Point3;
+use std::collections::HashMap;
 
 /// Triangles over shared vertices, wound counter-clockwise when seen from outside.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -9,4 +10,76 @@ pub struct Mesh {
     pub vertices: Vec<Point3<f64>>,
     /// Three indices into `vertices` per triangle.
     pub triangles: Vec<[u32; 3]>,
+}
+
+/// What keeps a mesh from being a closed, consistently oriented surface.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum MeshDefect {
+    /// A triangle names a vertex that does not exist.
+    #[error("triangle {triangle} names a vertex that does not exist")]
+    IndexOutOfRange {
+        /// Index of the triangle.
+        triangle: usize,
+    },
+    /// An edge is walked twice in the same direction: not manifold, or wound inconsistently.
+    #[error("edge {from}-{to} is used twice in the same direction")]
+    EdgeUsedTwice {
+        /// First vertex of the edge.
+        from: u32,
+        /// Second vertex of the edge.
+        to: u32,
+    },
+    /// An edge has a triangle on one side only: the surface is open there.
+    #[error("edge {from}-{to} has a triangle on one side only")]
+    OpenEdge {
+        /// First vertex of the edge.
+        from: u32,
+        /// Second vertex of the edge.
+        to: u32,
+    },
+    /// Vertices - edges + faces differs from 2: more than one body, or a handle.
+    #[error("the Euler characteristic is {found}, not 2")]
+    EulerCharacteristic {
+        /// The number found.
+        found: i64,
+    },
+}
+
+impl Mesh {
+    /// Checks that the mesh is one closed, consistently oriented, manifold surface of the topology
+    /// of a sphere, with every vertex in use.
+    ///
+    /// # Errors
+    /// The first [`MeshDefect`] met.
+    pub fn check_closed(&self) -> Result<(), MeshDefect> {
+        let mut directed = HashMap::with_capacity(3 * self.triangles.len());
+        for (triangle, corners) in self.triangles.iter().enumerate() {
+            if corners.iter().any(|&c| c as usize >= self.vertices.len()) {
+                return Err(MeshDefect::IndexOutOfRange { triangle });
+            }
+            for (from, to) in edges(corners) {
+                if directed.insert((from, to), ()).is_some() {
+                    return Err(MeshDefect::EdgeUsedTwice { from, to });
+                }
+            }
+        }
+        for corners in &self.triangles {
+            for (from, to) in edges(corners) {
+                if !directed.contains_key(&(to, from)) {
+                    return Err(MeshDefect::OpenEdge { from, to });
+                }
+            }
+        }
+        let found =
+            self.vertices.len() as i64 - (directed.len() / 2) as i64 + self.triangles.len() as i64;
+        if found != 2 {
+            return Err(MeshDefect::EulerCharacteristic { found });
+        }
+        Ok(())
+    }
+}
+
+fn edges(&[a, b, c]: &[u32; 3]) -> [(u32, u32); 3] {
+    [(a, b), (b, c), (c, a)]
 }

@@ -11,4 +11,10 @@ pub struct Scan {
     pub triangles: Vec<[u32; 3]>,
     /// What was odd in the file, but did not stop the reader: whole sentences.
     pub warnings: Vec<String>,
+    pub topology: Option<Topology>,
+}
+#[derive(Debug, Clone, PartialEq)]
+pub struct Topology {
+    pub closed: bool,
+    pub bodies: usize,
 }

@@ -1,0 +1,231 @@
+//! One orthogonal factorization per segment that serves every degree.
+//!
+//! The columns of the design matrix are ordered by degree, so the leading (d+1)^2 columns of
+//! B = Q R are the fit of degree d: its coefficients solve the leading triangle of R, and its
+//! residual is the tail of Q^T r. Rows come in blocks (samples of a segment, or the reduced rows of
+//! whole cells): each block is factored together with the triangle of those before it, so the cost
+//! is linear and the memory constant in the number of rows. Householder QR (`faer`) throughout;
+//! never the normal equations.
+
+use super::samples::Sample;
+use crate::sphere::{Cap, CapBasis, coefficient_count};
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::linalg::qr::no_pivoting::factor::{
+    qr_in_place, qr_in_place_scratch, recommended_block_size,
+};
+use faer::{MatMut, Par};
+
+/// Rows factored at once: enough for blocked kernels, few enough for the cache.
+const BLOCK_ROWS: usize = 512;
+
+/// A column whose new direction is shorter than this, relative to the column, counts as dependent
+/// on those before it. The cap basis itself stays above 1e-4 on a well sampled segment, rounding
+/// makes 1e-15; degenerate samplings (points on a few rings) fall in between and are decided by the
+/// leverage of the segment's corners.
+const RANK_TOLERANCE: f64 = 1e-9;
+
+/// A growing factorization [B | r] = Q R; column-major, `rows` of a fixed stride in use.
+pub(crate) struct Factorization {
+    columns: usize,
+    matrix: Vec<f64>,
+    used: usize,
+    householder: Vec<f64>,
+    scratch: MemBuffer,
+    stride: usize,
+}
+
+impl Factorization {
+    /// Room for expansions up to `degree`.
+    pub(crate) fn new(degree: usize) -> Self {
+        let columns = coefficient_count(degree) + 1;
+        let stride = BLOCK_ROWS + columns;
+        let block = recommended_block_size::<f64>(stride, columns);
+        Self {
+            columns,
+            matrix: vec![0.0; stride * columns],
+            used: 0,
+            householder: vec![0.0; block * columns],
+            scratch: MemBuffer::new(qr_in_place_scratch::<f64>(
+                stride,
+                columns,
+                block,
+                Par::Seq,
+                Default::default(),
+            )),
+            stride,
+        }
+    }
+
+    /// Forgets all rows.
+    pub(crate) fn clear(&mut self) {
+        self.used = 0;
+    }
+
+    /// Rows that can be added before the next factorization.
+    pub(crate) fn room(&self) -> usize {
+        self.stride - self.used
+    }
+
+    /// Space for `rows` more rows: a column-major matrix of the returned stride whose last column
+    /// is the radius. Factors what is there first if it has to.
+    pub(crate) fn append(&mut self, rows: usize) -> (&mut [f64], usize) {
+        if self.room() < rows {
+            self.compress();
+        }
+        let start = self.used;
+        self.used += rows;
+        (&mut self.matrix[start..], self.stride)
+    }
+
+    /// Adds samples of the radius, with the functions of `basis` on `cap` as columns.
+    pub(crate) fn add_samples(&mut self, basis: &CapBasis, cap: &Cap, samples: &[Sample]) {
+        let mut rest = samples;
+        while !rest.is_empty() {
+            if self.room() == 0 {
+                self.compress();
+            }
+            let (block, tail) = rest.split_at(self.room().min(rest.len()));
+            let functions = self.columns - 1;
+            let (out, stride) = self.append(block.len());
+            let (design, radius) = out.split_at_mut(functions * stride);
+            basis.evaluate(cap, block, design, stride);
+            for (out, sample) in radius.iter_mut().zip(block) {
+                *out = sample[3];
+            }
+            rest = tail;
+        }
+    }
+
+    /// Replaces the rows by their triangle.
+    pub(crate) fn compress(&mut self) {
+        if self.used == 0 {
+            return;
+        }
+        let size = self.used.min(self.columns);
+        let block = recommended_block_size::<f64>(self.used, self.columns);
+        let mut matrix = MatMut::from_column_major_slice_with_stride_mut(
+            &mut self.matrix,
+            self.used,
+            self.columns,
+            self.stride,
+        );
+        qr_in_place(
+            matrix.as_mut(),
+            MatMut::from_column_major_slice_mut(&mut self.householder[..block * size], block, size),
+            Par::Seq,
+            MemStack::new(&mut self.scratch),
+            Default::default(),
+        );
+        for column in 0..self.columns {
+            let at = column * self.stride;
+            self.matrix[at + (column + 1).min(self.used)..at + self.used].fill(0.0);
+        }
+        self.used = size;
+    }
+
+    /// The triangle R of [B | r], after the last rows have been factored in.
+    pub(crate) fn triangle(&mut self) -> Triangle<'_> {
+        self.compress();
+        Triangle {
+            columns: self.columns,
+            rows: self.used,
+            stride: self.stride,
+            matrix: &self.matrix,
+        }
+    }
+}
+
+/// The upper triangle R of a factored [B | r].
+#[derive(Clone, Copy)]
+pub(crate) struct Triangle<'a> {
+    columns: usize,
+    rows: usize,
+    stride: usize,
+    matrix: &'a [f64],
+}
+
+impl Triangle<'_> {
+    /// Entry of R; 0 below the rows that the data gave.
+    pub(crate) fn at(&self, row: usize, column: usize) -> f64 {
+        if row < self.rows {
+            self.matrix[column * self.stride + row]
+        } else {
+            0.0
+        }
+    }
+
+    /// Rows of R: the number of columns, or of samples where those are fewer.
+    pub(crate) fn rows(&self) -> usize {
+        self.rows
+    }
+
+    /// Columns of [B | r].
+    pub(crate) fn columns(&self) -> usize {
+        self.columns
+    }
+
+    /// The part of Q^T r that belongs to function `row`.
+    pub(crate) fn projection(&self, row: usize) -> f64 {
+        self.at(row, self.columns - 1)
+    }
+
+    /// Sum of squared residuals of the fit of the given degree.
+    pub(crate) fn residual_squared(&self, degree: usize) -> f64 {
+        (coefficient_count(degree)..self.rows)
+            .map(|row| self.projection(row).powi(2))
+            .sum()
+    }
+
+    /// The largest degree whose columns are independent on the samples, if any.
+    pub(crate) fn full_rank_degree(&self) -> Option<usize> {
+        let independent = (0..self.columns - 1)
+            .take_while(|&j| {
+                let column: f64 = (0..=j).map(|i| self.at(i, j).powi(2)).sum();
+                self.at(j, j).powi(2) > RANK_TOLERANCE.powi(2) * column
+            })
+            .count();
+        independent.isqrt().checked_sub(1)
+    }
+
+    /// Coefficients of the fit of the given degree, which must be of full rank.
+    pub(crate) fn solve(&self, degree: usize) -> Vec<f64> {
+        let count = coefficient_count(degree);
+        let mut x: Vec<f64> = (0..count).map(|row| self.projection(row)).collect();
+        for j in (0..count).rev() {
+            x[j] /= self.at(j, j);
+            let pivot = x[j];
+            let column = &self.matrix[j * self.stride..][..j];
+            for (x, r) in x[..j].iter_mut().zip(column) {
+                *x -= r * pivot;
+            }
+        }
+        x
+    }
+
+    /// z = R^-T b for the first `b.len()` functions, in place: the squared sum of the first
+    /// (d+1)^2 entries is the leverage of a sample with basis values b in the fit of degree d.
+    pub(crate) fn whiten(&self, b: &mut [f64]) {
+        for j in 0..b.len() {
+            let column = &self.matrix[j * self.stride..][..j + 1];
+            let known: f64 = b[..j].iter().zip(column).map(|(z, r)| z * r).sum();
+            b[j] = (b[j] - known) / column[j];
+        }
+    }
+
+    /// [`Self::whiten`] for many samples at once: column-major, `count` columns of length `rows`
+    /// and the given stride.
+    pub(crate) fn whiten_columns(&self, b: &mut [f64], rows: usize, stride: usize, count: usize) {
+        let transposed = MatMut::from_column_major_slice_with_stride_mut(b, rows, count, stride);
+        let triangle = faer::MatRef::from_column_major_slice_with_stride(
+            self.matrix,
+            count,
+            count,
+            self.stride,
+        );
+        faer::linalg::triangular_solve::solve_lower_triangular_in_place(
+            triangle.transpose(),
+            transposed.transpose_mut(),
+            Par::Seq,
+        );
+    }
+}

@@ -1,0 +1,131 @@
+//! One level of a search: all segments of one partition, at every degree at once.
+
+use super::reference::Reference;
+use super::search::{Candidate, Rejection};
+use super::segment::{HeldOut, Level, SegmentFit, Workspace};
+use crate::sphere::{CapBasis, coefficient_count, gauss_legendre};
+use rayon::prelude::*;
+use std::f64::consts::PI;
+
+/// A candidate that misses a sample by more than this fraction of its radius is no model of the
+/// grain, whatever its mean error.
+const LARGEST_MISS: f64 = 0.1;
+
+/// All segments of one partition.
+#[derive(Clone)]
+pub(crate) struct FittedLevel {
+    pub(crate) segments: Vec<SegmentFit>,
+}
+
+impl FittedLevel {
+    /// Fits every segment of a level.
+    pub(crate) fn new(level: &Level<'_>) -> Self {
+        let segments = (0..level.partition.segments())
+            .into_par_iter()
+            .map_init(
+                || Workspace::new(level.basis.degree()),
+                |workspace, segment| level.fit(segment, workspace),
+            )
+            .collect();
+        Self { segments }
+    }
+
+    /// What becomes of the level at the given degree.
+    pub(crate) fn candidate(
+        &self,
+        level: &Level<'_>,
+        degree: usize,
+        reference: &Reference,
+    ) -> Candidate {
+        let held_out = self
+            .segments
+            .iter()
+            .map(|segment| segment.at_most(degree).held_out)
+            .fold(HeldOut::default(), |sum, part| HeldOut {
+                squared: sum.squared + part.squared,
+                worst: sum.worst.max(part.worst),
+                count: sum.count + part.count,
+            });
+        let reduced_segments = self
+            .segments
+            .iter()
+            .filter(|segment| segment.degrees.len() <= degree)
+            .count();
+        let rejected = if reduced_segments == self.segments.len() {
+            Some(Rejection::Unsupported { degree })
+        } else if held_out.worst > LARGEST_MISS {
+            Some(Rejection::Misses {
+                worst: held_out.worst,
+            })
+        } else {
+            None
+        };
+        let [area, volume] = self.area_and_volume(level, degree);
+        Candidate {
+            degree,
+            segments: self.segments.len(),
+            coefficients: self.segments.len() * coefficient_count(degree),
+            reduced_segments,
+            area_error: Some(area / reference.area - 1.0),
+            volume_error: Some(volume / reference.volume - 1.0),
+            heldout_rms: Some((held_out.squared / held_out.count.max(1) as f64).sqrt()),
+            rejected,
+        }
+    }
+
+    /// The variance of the samples round the fit: the median over the segments of the residual
+    /// variance at the largest degree each supports, so that a few creases do not count as noise.
+    pub(crate) fn residual_variance(&self) -> f64 {
+        let mut variances: Vec<f64> = self
+            .segments
+            .iter()
+            .filter_map(|segment| {
+                let degree = segment.degrees.len() - 1;
+                let spare = segment.samples.checked_sub(coefficient_count(degree))?;
+                (spare >= LEAST_SPARE_SAMPLES)
+                    .then(|| segment.degrees[degree].residual_squared / spare as f64)
+            })
+            .collect();
+        let middle = variances.len() / 2;
+        if variances.is_empty() {
+            return 0.0;
+        }
+        *variances.select_nth_unstable_by(middle, f64::total_cmp).1
+    }
+
+    /// Area and volume by Gauss quadrature per segment, to 1e-6 or better: enough to compare with a
+    /// reference surface, whose own error is 1e-4 to 1e-2.
+    fn area_and_volume(&self, level: &Level<'_>, degree: usize) -> [f64; 2] {
+        let k = level.partition.per_angle();
+        // r^3 sin(theta) is a trigonometric polynomial of degree 3L + 1; n nodes on an interval of
+        // width h integrate degree d to rounding once n is well above d h / 4.
+        let nodes = |width: f64| 4 + ((3 * degree + 1) as f64 * width / 4.0).ceil() as usize;
+        let (polar, azimuthal) = (
+            gauss_legendre(nodes(PI / k as f64)),
+            gauss_legendre(nodes(2.0 * PI / k as f64)),
+        );
+        let mut directions = Vec::with_capacity(polar.len() * azimuthal.len());
+        let mut weights = Vec::with_capacity(directions.capacity());
+        let mut values = vec![[0.0; 2]; directions.capacity()];
+        let mut sums = [0.0; 2];
+        for (segment, fit) in self.segments.iter().enumerate() {
+            let rectangle = level.partition.rectangle(segment);
+            directions.clear();
+            weights.clear();
+            rectangle.nodes(&polar, &azimuthal, &mut directions, &mut weights);
+            let cap = rectangle.cap();
+            let coefficients = &fit.at_most(degree).coefficients;
+            level
+                .basis
+                .values_and_slopes(&cap, coefficients, &directions, &mut values);
+            for (&[r, slope_squared], weight) in values.iter().zip(&weights) {
+                sums[0] += weight * r.abs() * (r * r + slope_squared).sqrt();
+                sums[1] += weight * r * r * r / 3.0;
+            }
+        }
+        sums
+    }
+}
+
+/// Samples beyond the coefficients that a segment needs to tell of the noise.
+const LEAST_SPARE_SAMPLES: usize = 8;

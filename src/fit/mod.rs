@@ -1,0 +1,73 @@
+//! From a scan to a fitted grain: centre and axes, least squares per segment, search.
+//!
+//! ```no_run
+//! use grainform::{FitOptions, fit, scan::read_scan};
+//!
+//! let scan = read_scan("grains/maize.ply".as_ref())?;
+//! let fitted = fit(&scan, &FitOptions::default())?;
+//! println!("{} coefficients", fitted.grain.coefficient_count());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod axes;
+mod centre;
+mod factor;
+mod level;
+mod options;
+mod prepare;
+mod reduce;
+mod reference;
+mod samples;
+mod search;
+mod segment;
+mod strays;
+mod surface;
+mod thin;
+
+pub use options::{FitError, FitOptions, MAX_DEGREE, MAX_PARTS, Tolerance};
+pub use prepare::PreparedScan;
+pub use reference::{Reference, ReferenceKind};
+pub use search::{Candidate, Rejection, Search, Work};
+
+use crate::model::Grain;
+use crate::scan::Scan;
+
+/// A fitted grain and what is known of it.
+#[derive(Debug, Clone)]
+pub struct Fitted {
+    /// The grain, in the scan's frame and unit.
+    pub grain: Grain,
+    /// The candidates, the choice and the work done.
+    pub search: Search,
+    /// What the candidates were compared with.
+    pub reference: Reference,
+    /// Distinct points that the fit rests on.
+    pub points: usize,
+    /// Mean of the radius over all directions, in the scan's unit.
+    pub mean_radius: f64,
+    /// Radial residuals of all points the fit rests on.
+    pub residuals: Residuals,
+    /// What a user should know of the scan: whole sentences.
+    pub warnings: Vec<String>,
+}
+
+/// Radial residuals: radius of the point minus radius of the grain in its direction.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Residuals {
+    /// Root mean square, in the scan's unit.
+    pub rms: f64,
+    /// Largest absolute value, in the scan's unit.
+    pub max: f64,
+}
+
+/// Fits a grain to a scan: [`PreparedScan::new`], [`PreparedScan::search`] and
+/// [`PreparedScan::finish`] in one.
+///
+/// # Errors
+/// [`FitError`] if the options are out of range or the scan is not one closed surface round a
+/// centre.
+pub fn fit(scan: &Scan, options: &FitOptions) -> Result<Fitted, FitError> {
+    let prepared = PreparedScan::new(scan, options)?;
+    let found = prepared.search(&|_, _| ());
+    Ok(prepared.finish(found))
+}

@@ -1,0 +1,238 @@
+//! From the points of a scan to samples of the radius: reference surface, centre, axes, cells.
+
+use super::Fitted;
+use super::axes::principal_axes;
+use super::centre::{deepest_centre, facing_away_share};
+use super::options::{FitError, FitOptions};
+use super::reduce::{ReducedCell, reduce_cells};
+use super::reference::Reference;
+use super::samples::{CellGrid, Sample, Samples};
+use super::search::{Found, search};
+use super::segment::{BORROWED_SAMPLES, Level};
+use super::surface::{Surface, scanned_surface};
+use crate::measure::mesh_properties;
+use crate::mesh::Mesh;
+use crate::model::{Frame, Grain};
+use crate::scan::Scan;
+use crate::sphere::{AngularPartition, CapBasis};
+use kiddo::{ImmutableKdTree, SquaredEuclidean};
+use nalgebra::{Point3, Vector3};
+use std::sync::OnceLock;
+
+/// Share of the area that may face away from the centre. The folds of real kernels (the crease of
+/// barley, knapped stone) stay below 2 %; the inner side of a ring is 20 % or more.
+const LARGEST_SHARE_AWAY: f64 = 0.05;
+
+/// Share of the area that may face away from the centroid before another centre is looked for: a few
+/// slivers of a noisy mesh.
+const NEGLIGIBLE_SHARE: f64 = 1e-4;
+
+/// Samples per segment of the level that tells of the noise.
+const SAMPLES_PER_NOISE_SEGMENT: usize = 32;
+
+/// Parts per angle of the finest level that tells of the noise.
+const FINEST_NOISE_LEVEL: usize = 10;
+
+/// A scan made ready for the fits that its options ask for.
+pub struct PreparedScan {
+    frame: Frame,
+    pub(crate) reference: Reference,
+    mean_radius: f64,
+    pub(crate) tolerance: f64,
+    samples: Samples,
+    pub(crate) degrees: Vec<usize>,
+    pub(crate) parts: Vec<usize>,
+    pub(crate) noise_parts: usize,
+    pub(crate) exhaustive: bool,
+    warnings: Vec<String>,
+    grid: CellGrid,
+    probes: Option<Samples>,
+    reduced: Vec<Option<ReducedCell>>,
+    bases: Vec<CapBasis>,
+    tree: OnceLock<Option<ImmutableKdTree<f64, 3>>>,
+}
+
+impl PreparedScan {
+    /// Finds the reference surface, the centre and the axes, and sorts the samples.
+    ///
+    /// # Errors
+    /// [`FitError`] if the options are out of range or the scan is not one closed surface round a
+    /// centre.
+    pub fn new(scan: &Scan, options: &FitOptions) -> Result<Self, FitError> {
+        let (degrees, parts) = options.candidates()?;
+        let Surface {
+            mesh,
+            kind,
+            points,
+            representatives,
+            mut warnings,
+        } = scanned_surface(scan)?;
+        let properties = mesh_properties(&mesh);
+        let no_volume = FitError::NoVolume {
+            points: scan.points.len(),
+        };
+        if !(properties.volume > 0.0) {
+            return Err(no_volume);
+        }
+        let centre = star_centre(&mesh, properties.centroid, &mut warnings)?;
+        let frame = Frame {
+            centre,
+            axes: principal_axes(&mesh, &properties),
+        };
+        let mean_radius = mean_radius(&mesh, &centre);
+
+        let noise_parts = (points.len() / SAMPLES_PER_NOISE_SEGMENT)
+            .isqrt()
+            .clamp(1, FINEST_NOISE_LEVEL);
+        let grid = CellGrid::new(parts.iter().copied().chain([noise_parts]));
+        let samples = Samples::new(&points, &frame, &grid);
+        let probes = representatives.map(|points| Samples::new(&points, &frame, &grid));
+        let bases: Vec<CapBasis> = (0..=degrees[degrees.len() - 1])
+            .map(CapBasis::new)
+            .collect();
+        let reduced = reduce_cells(&samples, &grid, &bases[bases.len() - 1]);
+        Ok(Self {
+            frame,
+            reference: Reference {
+                kind,
+                area: properties.area,
+                volume: properties.volume,
+            },
+            mean_radius,
+            tolerance: options.tolerance.length(mean_radius),
+            samples,
+            degrees,
+            parts,
+            noise_parts,
+            exhaustive: options.exhaustive,
+            warnings,
+            grid,
+            probes,
+            reduced,
+            bases,
+            tree: OnceLock::new(),
+        })
+    }
+
+    /// Searches the candidates and tells `progress` how many of how many levels are done.
+    pub fn search(&self, progress: &dyn Fn(usize, usize)) -> Found {
+        search(self, progress)
+    }
+
+    /// The grain of the chosen candidate, and what is known of it.
+    pub fn finish(self, found: Found) -> Fitted {
+        let Found { search, segments } = found;
+        let choice = search.choice();
+        let degree = choice.degree;
+        let partition = AngularPartition::new(choice.segments.isqrt());
+        let residuals = self.level(partition.per_angle(), degree, |level| {
+            level.residuals(&segments)
+        });
+        let coefficients = segments
+            .into_iter()
+            .map(|mut segment| {
+                let fitted = degree.min(segment.degrees.len() - 1);
+                segment.degrees.swap_remove(fitted).coefficients
+            })
+            .collect();
+        let mut warnings = self.warnings;
+        warnings.extend(search.warning());
+        Fitted {
+            grain: Grain::new(self.frame, partition, coefficients)
+                .expect("a finite scan gives finite coefficients, (L + 1)^2 per segment"),
+            reference: self.reference,
+            points: self.samples.rows().len(),
+            mean_radius: self.mean_radius,
+            residuals,
+            warnings,
+            search,
+        }
+    }
+
+    /// Hands the level with `k` parts per angle, up to `degree`, to `work`.
+    pub(crate) fn level<T>(
+        &self,
+        k: usize,
+        degree: usize,
+        work: impl FnOnce(&Level<'_>) -> T,
+    ) -> T {
+        work(&Level {
+            partition: AngularPartition::new(k),
+            basis: &self.bases[degree],
+            grid: &self.grid,
+            samples: &self.samples,
+            probes: self.probes(),
+            reduced: &self.reduced,
+            neighbours: &|direction| self.neighbours(direction),
+        })
+    }
+
+    /// The samples that are predicted from all others.
+    fn probes(&self) -> &Samples {
+        self.probes.as_ref().unwrap_or(&self.samples)
+    }
+
+    /// The samples nearest to a direction. The tree is built when first asked for: most searches
+    /// have no empty segment.
+    fn neighbours(&self, direction: &Vector3<f64>) -> Vec<Sample> {
+        let rows = self.probes().rows();
+        let tree = self.tree.get_or_init(|| {
+            let directions: Vec<[f64; 3]> = rows.iter().map(|&[x, y, z, _]| [x, y, z]).collect();
+            ImmutableKdTree::new_from_slice(&directions).ok()
+        });
+        let Some(tree) = tree else {
+            return Vec::new();
+        };
+        tree.query(direction.as_ref())
+            .nearest_n::<SquaredEuclidean<f64>>(BORROWED_SAMPLES)
+            .execute()
+            .into_iter()
+            .map(|hit| rows[hit.item as usize])
+            .collect()
+    }
+}
+
+/// The centroid if it sees the whole surface, else the centre that sees most of it.
+fn star_centre(
+    mesh: &Mesh,
+    centroid: Point3<f64>,
+    warnings: &mut Vec<String>,
+) -> Result<Point3<f64>, FitError> {
+    let mut centre = centroid;
+    let mut share = facing_away_share(mesh, &centroid);
+    if share > NEGLIGIBLE_SHARE
+        && let Some(deepest) = deepest_centre(mesh, &centroid)
+    {
+        let deepest_share = facing_away_share(mesh, &deepest);
+        if deepest_share < share {
+            (centre, share) = (deepest, deepest_share);
+        }
+    }
+    if share > LARGEST_SHARE_AWAY {
+        return Err(FitError::NotStarShaped { share });
+    }
+    if share > NEGLIGIBLE_SHARE {
+        warnings.push(format!(
+            "The surface is not quite star-shaped: {:.2} % of its area faces away from the best \
+             centre and is smoothed over.",
+            100.0 * share
+        ));
+    }
+    Ok(centre)
+}
+
+/// Mean of the radius over all directions: facets weighted by the solid angle they fill.
+fn mean_radius(mesh: &Mesh, centre: &Point3<f64>) -> f64 {
+    let (mut sum, mut whole) = (0.0, 0.0);
+    for corners in &mesh.triangles {
+        let [a, b, c] = corners.map(|i| mesh.vertices[i as usize] - centre);
+        let middle = (a + b + c) / 3.0;
+        let radius = middle.norm();
+        let solid_angle = (b - a).cross(&(c - a)).dot(&middle) / radius.powi(3);
+        if solid_angle.is_finite() {
+            sum += solid_angle * radius;
+            whole += solid_angle;
+        }
+    }
+    sum / whole
+}

@@ -1,0 +1,33 @@
+//! The reference surface of a scan: its own faces, or the triangulation of its directions.
+
+/// What a fit is compared with. It is a polyhedron through the points, and itself off: low by
+/// 0.3 % in area and 0.5 % in volume on 1538 points of a smooth bean, high by 2 % in area with noise
+/// of 0.5 % of the radius on 6146 points.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Reference {
+    /// Where it comes from.
+    pub kind: ReferenceKind,
+    /// Area, in the square of the scan's unit.
+    pub area: f64,
+    /// Volume, in the cube of the scan's unit.
+    pub volume: f64,
+}
+
+/// Where a reference surface comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ReferenceKind {
+    /// The scan's own faces, which are closed and of one piece.
+    Faces,
+    /// The spherical Delaunay triangulation of the points' directions.
+    Directions,
+}
+
+impl ReferenceKind {
+    /// The name used in reports: "faces" or "directions".
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Faces => "faces",
+            Self::Directions => "directions",
+        }
+    }
+}

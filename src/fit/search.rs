@@ -1,0 +1,244 @@
+//! The search over segment count and degree.
+//!
+//! **Rule.** Among the candidates that are not rejected, take the fewest coefficients whose held-out
+//! RMS is within the limit; of several with the same count, the one that deviates least from the
+//! reference surface (|area error| + |volume error|). Where none is within the limit, take the least
+//! held-out RMS. The limit is the tolerance, or the scan's noise floor where that is larger. The
+//! reference deviations alone do not decide: the reference is a polyhedron that is itself off by up
+//! to some percent, and coarse steppy surfaces meet its area by accident.
+//!
+//! **Held-out error.** Every sample is predicted from all samples but itself (leave-one-out, in
+//! closed form: residual / (1 - leverage)); of clouds above 16 384 points, one point in each of
+//! 13 824 patches of directions.
+//!
+//! **Noise floor.** 1.1 times the standard deviation of the samples round a local fit with some 32
+//! samples per segment: a model within it adds less than half the noise to the truth.
+//!
+//! **Skipping.** Levels are fitted from coarse to fine. Once a candidate is within the limit, those
+//! with more coefficients cannot win and are not fitted; a level is factored only up to the largest
+//! degree that still can.
+
+use super::level::FittedLevel;
+use super::prepare::PreparedScan;
+use super::segment::SegmentFit;
+use crate::sphere::coefficient_count;
+use std::fmt;
+
+/// One setting of the search and what became of it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Candidate {
+    /// Degree of the segments' expansions.
+    pub degree: usize,
+    /// Number of segments, n_s = k^2.
+    pub segments: usize,
+    /// (degree + 1)^2 n_s.
+    pub coefficients: usize,
+    /// Segments fitted at a lower degree, because their samples do not support this one.
+    pub reduced_segments: usize,
+    /// Area against the reference surface: signed, relative. `None` if not fitted.
+    pub area_error: Option<f64>,
+    /// Volume against the reference surface: signed, relative. `None` if not fitted.
+    pub volume_error: Option<f64>,
+    /// Root mean square of the radial leave-one-out errors, in the scan's unit. `None` if not fitted.
+    pub heldout_rms: Option<f64>,
+    /// Why this candidate cannot be chosen, if so.
+    pub rejected: Option<Rejection>,
+}
+
+/// Why a candidate cannot be chosen.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Rejection {
+    /// It has more coefficients than one that is good enough already, and was not fitted.
+    Skipped,
+    /// No segment holds the samples that this degree needs.
+    Unsupported {
+        /// The degree.
+        degree: usize,
+    },
+    /// It misses a held-out sample by too much.
+    Misses {
+        /// The largest error relative to the radius.
+        worst: f64,
+    },
+}
+
+impl fmt::Display for Rejection {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Skipped => write!(
+                f,
+                "skipped: one with fewer coefficients is within the limit"
+            ),
+            Self::Unsupported { degree } => {
+                write!(f, "no segment has enough points for degree {degree}")
+            }
+            Self::Misses { worst } => {
+                write!(f, "misses a point by {:.0} % of its radius", 100.0 * worst)
+            }
+        }
+    }
+}
+
+/// What a search found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Search {
+    /// Every candidate, by segments and then by degree.
+    pub candidates: Vec<Candidate>,
+    /// Index of the chosen one.
+    pub chosen: usize,
+    /// The held-out RMS that was good enough, in the scan's unit.
+    pub limit: f64,
+    /// Standard deviation of the samples round a local fit, in the scan's unit.
+    pub noise: f64,
+    /// What the search did and what it could leave out.
+    pub work: Work,
+}
+
+/// A count of work done and avoided.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Work {
+    /// Candidates fitted.
+    pub candidates: usize,
+    /// Candidates that could not win and were not fitted.
+    pub candidates_skipped: usize,
+    /// Segments factored.
+    pub segments: usize,
+    /// Segments of levels of which no candidate could win.
+    pub segments_skipped: usize,
+}
+
+impl Search {
+    /// The chosen candidate.
+    pub fn choice(&self) -> &Candidate {
+        &self.candidates[self.chosen]
+    }
+
+    /// What is wrong with the choice, if anything: a whole sentence.
+    pub(crate) fn warning(&self) -> Option<String> {
+        let reason = self.choice().rejected?;
+        Some(format!(
+            "No candidate is a good model of this scan; the best one {reason}."
+        ))
+    }
+}
+
+/// The findings of a search, and the segments of the chosen candidate's level.
+pub struct Found {
+    /// The findings.
+    pub search: Search,
+    pub(crate) segments: Vec<SegmentFit>,
+}
+
+/// A local fit adds noise / sqrt(samples per coefficient); the limit leaves room for that.
+const NOISE_MARGIN: f64 = 1.1;
+
+/// Searches the prepared scan; tells `progress` how many of how many levels are done.
+pub(crate) fn search(prepared: &PreparedScan, progress: &dyn Fn(usize, usize)) -> Found {
+    let (degrees, parts) = (&prepared.degrees, &prepared.parts);
+    let top = degrees[degrees.len() - 1];
+    let mut work = Work::default();
+    let mut fit = |k: usize, degree: usize| {
+        work.segments += k * k;
+        prepared.level(k, degree, FittedLevel::new)
+    };
+
+    let only_one = degrees.len() * parts.len() == 1;
+    let noise_level = (!only_one).then(|| {
+        let k = prepared.noise_parts;
+        (k, fit(k, top))
+    });
+    let noise = noise_level
+        .as_ref()
+        .map_or(0.0, |(_, level)| level.residual_variance().sqrt());
+    let limit = prepared.tolerance.max(NOISE_MARGIN * noise);
+
+    let mut candidates = Vec::with_capacity(degrees.len() * parts.len());
+    let mut levels = Vec::with_capacity(parts.len());
+    let mut enough = usize::MAX;
+    for (done, &k) in parts.iter().enumerate() {
+        progress(done, parts.len());
+        let within_reach =
+            |degree: usize| prepared.exhaustive || k * k * coefficient_count(degree) <= enough;
+        let reachable = degrees.iter().copied().filter(|&d| within_reach(d)).max();
+        let level = reachable.map(|degree| match &noise_level {
+            Some((noise_parts, level)) if *noise_parts == k => level.clone(),
+            _ => fit(k, degree),
+        });
+        for &degree in degrees {
+            candidates.push(match &level {
+                Some(level) if within_reach(degree) => prepared.level(k, degree, |setting| {
+                    level.candidate(setting, degree, &prepared.reference)
+                }),
+                _ => skipped(degree, k),
+            });
+        }
+        for candidate in &candidates[candidates.len() - degrees.len()..] {
+            if candidate.rejected.is_none() && candidate.heldout_rms.is_some_and(|rms| rms <= limit)
+            {
+                enough = enough.min(candidate.coefficients);
+            }
+        }
+        levels.push(level);
+    }
+    progress(parts.len(), parts.len());
+
+    let chosen = choose(&candidates, limit);
+    let fitted = |c: &&Candidate| c.rejected != Some(Rejection::Skipped);
+    work.candidates = candidates.iter().filter(fitted).count();
+    work.candidates_skipped = candidates.len() - work.candidates;
+    work.segments_skipped = levels
+        .iter()
+        .zip(parts)
+        .filter(|(level, _)| level.is_none())
+        .map(|(_, k)| k * k)
+        .sum();
+    let segments = levels
+        .swap_remove(chosen / degrees.len())
+        .map_or_else(Vec::new, |level| level.segments);
+    let search = Search {
+        candidates,
+        chosen,
+        limit,
+        noise,
+        work,
+    };
+    Found { search, segments }
+}
+
+fn skipped(degree: usize, k: usize) -> Candidate {
+    Candidate {
+        degree,
+        segments: k * k,
+        coefficients: k * k * coefficient_count(degree),
+        reduced_segments: 0,
+        area_error: None,
+        volume_error: None,
+        heldout_rms: None,
+        rejected: Some(Rejection::Skipped),
+    }
+}
+
+/// The rule at the head of this file. Rejected candidates are chosen only where there is no other.
+fn choose(candidates: &[Candidate], limit: f64) -> usize {
+    let heldout = |c: &Candidate| c.heldout_rms.unwrap_or(f64::INFINITY);
+    let deviation = |c: &Candidate| {
+        c.area_error.unwrap_or(f64::INFINITY).abs() + c.volume_error.unwrap_or(f64::INFINITY).abs()
+    };
+    let usable = candidates
+        .iter()
+        .enumerate()
+        .filter(|(_, c)| c.rejected.is_none());
+    let good = usable
+        .clone()
+        .filter(|(_, c)| heldout(c) <= limit)
+        .min_by(|(_, a), (_, b)| {
+            a.coefficients
+                .cmp(&b.coefficients)
+                .then(deviation(a).total_cmp(&deviation(b)))
+        });
+    let least =
+        |a: &(usize, &Candidate), b: &(usize, &Candidate)| heldout(a.1).total_cmp(&heldout(b.1));
+    good.or_else(|| usable.min_by(least))
+        .or_else(|| candidates.iter().enumerate().min_by(least))
+        .map_or(0, |(index, _)| index)
+}

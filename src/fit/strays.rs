@@ -1,0 +1,55 @@
+//! Points that stand apart from their neighbours: outliers of the scan.
+
+use crate::mesh::Mesh;
+use nalgebra::Point3;
+
+/// A point is a stray when its radius differs from the median of its neighbours' by more than this
+/// fraction, whatever the scatter. Real shape between neighbours of a scan of 1500 points differs by
+/// 2 % at the sharpest tip of the test grains.
+pub(crate) const LEAST_STRAY: f64 = 0.1;
+
+/// ... and by more than this many times the scatter of the cloud (standard deviation estimated by
+/// the median, so that the strays themselves do not hide it).
+const SCATTERS: f64 = 8.0;
+
+/// How the radii of neighbours differ.
+pub(crate) struct Strays {
+    /// Indices of the strays, in order.
+    pub(crate) indices: Vec<u32>,
+    /// Standard deviation of a radius against the median of its neighbours, relative to the latter.
+    pub(crate) scatter: f64,
+}
+
+/// Compares every vertex's distance from `centre` with those of the vertices it shares a triangle
+/// with.
+pub(crate) fn find_strays(mesh: &Mesh, centre: &Point3<f64>) -> Strays {
+    let radii: Vec<f64> = mesh.vertices.iter().map(|p| (p - centre).norm()).collect();
+    let mut neighbours = vec![Vec::new(); radii.len()];
+    for &[a, b, c] in &mesh.triangles {
+        for (from, to) in [(a, b), (b, c), (c, a)] {
+            neighbours[from as usize].push(radii[to as usize]);
+        }
+    }
+    let deviations: Vec<f64> = neighbours
+        .iter_mut()
+        .zip(&radii)
+        .map(|(around, radius)| match median(around) {
+            Some(middle) if middle > 0.0 => (radius - middle).abs() / middle,
+            _ => 0.0,
+        })
+        .collect();
+    // 1.4826: standard deviation over median absolute deviation of a normal distribution.
+    let scatter = 1.4826 * median(&mut deviations.clone()).unwrap_or(0.0);
+    let limit = LEAST_STRAY.max(SCATTERS * scatter);
+    Strays {
+        indices: (0..radii.len() as u32)
+            .filter(|&i| deviations[i as usize] > limit)
+            .collect(),
+        scatter,
+    }
+}
+
+fn median(values: &mut [f64]) -> Option<f64> {
+    let middle = values.len() / 2;
+    (!values.is_empty()).then(|| *values.select_nth_unstable_by(middle, f64::total_cmp).1)
+}

@@ -1,0 +1,223 @@
+//! The surface that a scan draws: a closed mesh through its points, by its own faces or by the
+//! triangulation of their directions.
+
+use super::options::FitError;
+use super::reference::ReferenceKind;
+use super::strays::{LEAST_STRAY, find_strays};
+use super::thin::{Thinned, WHOLE_CLOUD, thin};
+use crate::mesh::Mesh;
+use crate::scan::Scan;
+use crate::sphere::triangulate_directions;
+use nalgebra::{Point3, Vector3};
+use std::borrow::Cow;
+
+/// Median scatter of neighbouring radii beyond which points do not form one surface.
+const LARGEST_SCATTER: f64 = 0.1;
+
+/// A gap in the scan is told of when no point lies within this angle (radians) and three times the
+/// mean spacing of the points.
+const WIDE_GAP: f64 = 0.2;
+
+/// The points to fit, and a closed mesh through them.
+pub(crate) struct Surface<'a> {
+    /// The mesh, through all points or, of large clouds, through representatives.
+    pub(crate) mesh: Mesh,
+    /// What the mesh is made of.
+    pub(crate) kind: ReferenceKind,
+    /// The points to fit: without strays and without vertices that no face uses.
+    pub(crate) points: Cow<'a, [Point3<f64>]>,
+    /// One point per small patch of directions, where the cloud is large.
+    pub(crate) representatives: Option<Vec<Point3<f64>>>,
+    /// What a user should know: whole sentences.
+    pub(crate) warnings: Vec<String>,
+}
+
+/// Finds the surface of a scan.
+pub(crate) fn scanned_surface(scan: &Scan) -> Result<Surface<'_>, FitError> {
+    if let Some(index) = scan
+        .points
+        .iter()
+        .position(|p| !p.iter().all(|x| x.is_finite()))
+    {
+        return Err(FitError::NotFinite { index });
+    }
+    match &scan.topology {
+        Some(topology) if topology.closed && topology.bodies == 1 => Ok(from_faces(scan)),
+        Some(_) => {
+            let mut surface = from_directions(scan)?;
+            surface.warnings.push(
+                "The faces do not enclose one body, so the reference surface is the triangulation \
+                 of the points' directions."
+                    .into(),
+            );
+            Ok(surface)
+        }
+        None => from_directions(scan),
+    }
+}
+
+fn from_faces(scan: &Scan) -> Surface<'_> {
+    let mut used = vec![false; scan.points.len()];
+    for &corner in scan.triangles.iter().flatten() {
+        used[corner as usize] = true;
+    }
+    let points = if used.iter().all(|&used| used) {
+        Cow::Borrowed(scan.points.as_slice())
+    } else {
+        let kept = scan.points.iter().zip(&used).filter(|(_, used)| **used);
+        Cow::Owned(kept.map(|(p, _)| *p).collect())
+    };
+    let representatives = (points.len() > WHOLE_CLOUD).then(|| {
+        let Thinned {
+            representatives, ..
+        } = thin(&points, &middle(&points), f64::INFINITY);
+        select(&points, &representatives)
+    });
+    Surface {
+        mesh: Mesh {
+            vertices: scan.points.clone(),
+            triangles: scan.triangles.clone(),
+        },
+        kind: ReferenceKind::Faces,
+        points,
+        representatives,
+        warnings: Vec::new(),
+    }
+}
+
+fn from_directions(scan: &Scan) -> Result<Surface<'_>, FitError> {
+    let centre = middle(&scan.points);
+    if scan.points.len() <= WHOLE_CLOUD {
+        let mesh = mesh_of_directions(scan.points.clone(), &centre)?;
+        let strays = find_strays(&mesh, &centre);
+        if strays.scatter > LARGEST_SCATTER {
+            return Err(FitError::Scattered {
+                scatter: strays.scatter,
+            });
+        }
+        let (mesh, points) = if strays.indices.is_empty() {
+            (mesh, Cow::Borrowed(scan.points.as_slice()))
+        } else {
+            let kept = without(&scan.points, &strays.indices);
+            (mesh_of_directions(kept.clone(), &centre)?, Cow::Owned(kept))
+        };
+        let warnings = warnings(&mesh, &centre, strays.indices.len(), scan.points.len());
+        return Ok(Surface {
+            mesh,
+            kind: ReferenceKind::Directions,
+            points,
+            representatives: None,
+            warnings,
+        });
+    }
+    let Thinned {
+        representatives,
+        strays,
+    } = thin(&scan.points, &centre, LEAST_STRAY);
+    let representatives = select(&scan.points, &representatives);
+    let mesh = mesh_of_directions(representatives.clone(), &centre)?;
+    let scatter = find_strays(&mesh, &centre).scatter;
+    if scatter > LARGEST_SCATTER {
+        return Err(FitError::Scattered { scatter });
+    }
+    Ok(Surface {
+        warnings: warnings(&mesh, &centre, strays.len(), scan.points.len()),
+        mesh,
+        kind: ReferenceKind::Directions,
+        points: if strays.is_empty() {
+            Cow::Borrowed(scan.points.as_slice())
+        } else {
+            Cow::Owned(without(&scan.points, &strays))
+        },
+        representatives: Some(representatives),
+    })
+}
+
+/// The mean of the points, from sums that do not lose digits to a far-off origin.
+fn middle(points: &[Point3<f64>]) -> Point3<f64> {
+    let origin = points.first().copied().unwrap_or_else(Point3::origin);
+    let sum: Vector3<f64> = points
+        .chunks(1024)
+        .map(|chunk| chunk.iter().map(|p| p - origin).sum::<Vector3<f64>>())
+        .sum();
+    origin + sum / points.len().max(1) as f64
+}
+
+fn mesh_of_directions(points: Vec<Point3<f64>>, centre: &Point3<f64>) -> Result<Mesh, FitError> {
+    let directions: Vec<Vector3<f64>> = points
+        .iter()
+        .map(|p| {
+            let d = p - centre;
+            let length = d.norm();
+            if length > 0.0 {
+                d / length
+            } else {
+                Vector3::z()
+            }
+        })
+        .collect();
+    let triangles = triangulate_directions(&directions).map_err(|_| FitError::NoVolume {
+        points: points.len(),
+    })?;
+    Ok(Mesh {
+        vertices: points,
+        triangles,
+    })
+}
+
+fn warnings(mesh: &Mesh, centre: &Point3<f64>, strays: usize, points: usize) -> Vec<String> {
+    let mut warnings = Vec::new();
+    if strays > 0 {
+        warnings.push(format!(
+            "{strays} of {points} points stand apart from their neighbours by more than {:.0} % of \
+             the radius and were left out.",
+            100.0 * LEAST_STRAY
+        ));
+    }
+    let (gap, direction) = widest_gap(mesh, centre);
+    let spacing = (4.0 * std::f64::consts::PI / mesh.vertices.len() as f64).sqrt();
+    if gap > WIDE_GAP.max(3.0 * spacing) {
+        warnings.push(format!(
+            "No point lies within {:.0} degrees of the direction ({:.2}, {:.2}, {:.2}): the \
+             surface there is a guess.",
+            gap.to_degrees(),
+            direction.x,
+            direction.y,
+            direction.z
+        ));
+    }
+    warnings
+}
+
+/// Angular radius and direction of the largest empty cap: the largest circumscribed circle of the
+/// triangulation.
+fn widest_gap(mesh: &Mesh, centre: &Point3<f64>) -> (f64, Vector3<f64>) {
+    let mut widest = (-1.0, Vector3::z());
+    let mut least = f64::INFINITY;
+    for corners in &mesh.triangles {
+        let [a, b, c] = corners.map(|i| (mesh.vertices[i as usize] - centre).normalize());
+        let pole = (b - a).cross(&(c - a)).normalize();
+        let cosine = pole.dot(&a);
+        if cosine < least {
+            least = cosine;
+            widest = (cosine.clamp(-1.0, 1.0).acos(), pole);
+        }
+    }
+    widest
+}
+
+fn select(points: &[Point3<f64>], indices: &[u32]) -> Vec<Point3<f64>> {
+    indices.iter().map(|&i| points[i as usize]).collect()
+}
+
+/// All points but those at the given sorted indices.
+fn without(points: &[Point3<f64>], indices: &[u32]) -> Vec<Point3<f64>> {
+    let mut left_out = indices.iter().peekable();
+    let mut kept = Vec::with_capacity(points.len() - indices.len());
+    for (i, point) in points.iter().enumerate() {
+        if left_out.next_if(|&&stray| stray as usize == i).is_none() {
+            kept.push(*point);
+        }
+    }
+    kept
+}

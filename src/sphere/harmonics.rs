@@ -1,0 +1,86 @@
+//! Real orthonormal spherical harmonics, as the dissertation publishes them (2.13, 2.15).
+//!
+//! ```text
+//! m > 0: sqrt(2) N cos(m phi) P_l^m(cos theta)    m = 0: N P_l(cos theta)
+//! m < 0: sqrt(2) N sin(|m| phi) P_l^|m|(cos theta)
+//! ```
+//!
+//! without the Condon-Shortley phase (P_1^1 = + sin theta), and index j = l(l+1) + m. Evaluated by
+//! the fully normalised recurrence, which holds sin^m theta inside and needs no factorials; error
+//! below 1e-13 up to degree 64.
+
+use nalgebra::Vector3;
+use std::f64::consts::PI;
+
+/// Index of the harmonic of degree l and order m in a list: j = l(l+1) + m.
+pub const fn harmonic_index(degree: usize, order: isize) -> usize {
+    (degree * (degree + 1)).strict_add_signed(order)
+}
+
+/// All real orthonormal harmonics of degree <= `degree` in the direction of the unit vector `n`, at
+/// their [`harmonic_index`].
+pub fn harmonics(degree: usize, n: &Vector3<f64>) -> Vec<f64> {
+    let mut out = vec![0.0; (degree + 1) * (degree + 1)];
+    let mut sectoral = 1.0 / (4.0 * PI).sqrt();
+    let (mut re, mut im) = (1.0, 0.0);
+    for m in 0..=degree {
+        if m > 0 {
+            sectoral *= ((2 * m + 1) as f64 / (2 * m) as f64).sqrt();
+            (re, im) = (re * n.x - im * n.y, re * n.y + im * n.x);
+        }
+        let scale = if m == 0 { 1.0 } else { 2.0_f64.sqrt() };
+        let (mut below, mut current) = (0.0, sectoral);
+        for l in m..=degree {
+            let order = m as isize;
+            out[harmonic_index(l, order)] = scale * re * current;
+            if m > 0 {
+                out[harmonic_index(l, -order)] = scale * im * current;
+            }
+            let ratio = |l: usize| {
+                let (l, m) = (l as f64, m as f64);
+                ((4.0 * l * l - 1.0) / (l * l - m * m)).sqrt()
+            };
+            let next = ratio(l + 1) * (n.z * current - if l == m { 0.0 } else { below / ratio(l) });
+            (below, current) = (current, next);
+        }
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn low_degrees_match_their_closed_forms() {
+        let n = Vector3::new(0.48, 0.6, 0.64);
+        let y = harmonics(2, &n);
+        let expected = [
+            0.5 / PI.sqrt(),
+            (3.0 / (4.0 * PI)).sqrt() * n.y,
+            (3.0 / (4.0 * PI)).sqrt() * n.z,
+            (3.0 / (4.0 * PI)).sqrt() * n.x,
+            (15.0 / (4.0 * PI)).sqrt() * n.x * n.y,
+            (15.0 / (4.0 * PI)).sqrt() * n.y * n.z,
+            (5.0 / (16.0 * PI)).sqrt() * (3.0 * n.z * n.z - 1.0),
+            (15.0 / (4.0 * PI)).sqrt() * n.x * n.z,
+            (15.0 / (16.0 * PI)).sqrt() * (n.x * n.x - n.y * n.y),
+        ];
+        for (have, want) in y.iter().zip(expected) {
+            assert!((have - want).abs() < 1e-15, "{have} {want}");
+        }
+    }
+
+    #[test]
+    fn the_addition_theorem_holds_at_high_degree() {
+        let degree = 64;
+        for n in [Vector3::new(0.0, 0.0, 1.0), Vector3::new(0.48, 0.6, 0.64)] {
+            let y = harmonics(degree, &n);
+            for l in 0..=degree {
+                let sum: f64 = y[l * l..(l + 1) * (l + 1)].iter().map(|y| y * y).sum();
+                let want = (2 * l + 1) as f64 / (4.0 * PI);
+                assert!((sum / want - 1.0).abs() < 1e-12, "l = {l}");
+            }
+        }
+    }
+}

@@ -1,0 +1,16 @@
+//! The unit sphere: directions, bases, partitions, triangulation. No knowledge of grains.
+
+mod cap_basis;
+mod cube_grid;
+mod harmonics;
+mod partition;
+mod quadrature;
+mod triangulation;
+
+pub use cap_basis::{Cap, CapBasis, coefficient_count};
+pub use cube_grid::cube_grid;
+pub use harmonics::{harmonic_index, harmonics};
+pub use partition::{AngleRectangle, AngularPartition};
+pub(crate) use partition::{azimuth_fraction, polar_fraction};
+pub use quadrature::gauss_legendre;
+pub use triangulation::{TriangulationError, triangulate_directions};
