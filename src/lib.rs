@@ -14,8 +14,11 @@
 //!   ever guessed.
 //! * **Density** is one: a moment of inertia is in the scan's unit to the fifth power.
 
+pub mod measure;
 pub mod mesh;
 pub mod model;
 pub mod scan;
+pub mod shapes;
+pub mod sphere;
 
 pub use mesh::Mesh;

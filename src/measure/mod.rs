@@ -1,0 +1,9 @@
+//! Area, volume, centroid and inertia of star-shaped surfaces and of meshes.
+
+mod integrals;
+mod mass;
+mod mesh;
+
+pub use integrals::{Integrals, MAX_EVALUATIONS, integrate};
+pub use mass::{MassProperties, Moments, PrincipalInertia};
+pub use mesh::{MeshIntegralError, mesh_properties};
