@@ -14,11 +14,13 @@
 //!   ever guessed.
 //! * **Density** is one: a moment of inertia is in the scan's unit to the fifth power.
 
+pub mod export;
 pub mod fit;
 pub mod measure;
 pub mod mesh;
 pub mod model;
 pub mod scan;
+pub mod shapes;
 pub mod sphere;
 
 pub use fit::{FitError, FitOptions, Fitted, Tolerance, fit};

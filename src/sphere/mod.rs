@@ -1,4 +1,5 @@
-//! The unit sphere: directions, bases, partitions, triangulation. No knowledge of grains.
+//! The unit sphere: directions, bases, partitions, quadrature, triangulation. Knows nothing of
+//! grains.
 
 mod cap_basis;
 mod cube_grid;
@@ -12,5 +13,5 @@ pub use cube_grid::cube_grid;
 pub use harmonics::{harmonic_index, harmonics};
 pub use partition::{AngleRectangle, AngularPartition};
 pub(crate) use partition::{azimuth_fraction, polar_fraction};
-pub use quadrature::gauss_legendre;
+pub use quadrature::GaussLegendre;
 pub use triangulation::{TriangulationError, triangulate_directions};

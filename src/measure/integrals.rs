@@ -1,0 +1,344 @@
+//! Area, volume and inertia of a star-shaped surface, to a tolerance.
+//!
+//! Adaptive product Gauss quadrature over rectangles in (polar angle, azimuth). The sphere starts
+//! as eight octants. A rectangle that is not yet known well enough is cut in four, and the change
+//! this makes is taken as the error of the four: a pessimistic estimate on a smooth surface, where
+//! the four are better than the one by a factor near 2^-24. A rectangle is done when its error is
+//! within its share, by solid angle, of the tolerance, so the errors add up to at most the tolerance.
+
+use super::{MassProperties, Moments};
+use crate::model::StarSurface;
+use crate::sphere::GaussLegendre;
+use nalgebra::{Point3, Vector3};
+use std::collections::VecDeque;
+use std::f64::consts::{FRAC_PI_2, PI};
+
+/// Surface evaluations after which [`integrate`] stops and returns what it has.
+pub const MAX_EVALUATIONS: usize = 4_000_000;
+
+/// Gauss nodes per side of a rectangle.
+const ORDER: usize = 12;
+
+/// What [`integrate`] found, and how well.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Integrals {
+    /// Area, volume, centroid and inertia, in the surface's own frame.
+    pub properties: MassProperties,
+    /// Mean radius over all directions, (1/4 pi) ∫ r dΩ.
+    pub mean_radius: f64,
+    /// Estimated error, an upper bound on smooth surfaces: the largest of those of the mean radius
+    /// R, the area and the volume V, each relative to itself, of the first moments relative to V R
+    /// and of the second moments relative to V R². Above the tolerance when [`MAX_EVALUATIONS`] did
+    /// not suffice, not finite when the surface is not.
+    pub relative_error: f64,
+    /// Evaluations of the surface.
+    pub evaluations: usize,
+}
+
+/// Integrates a surface to a relative tolerance, see [`Integrals::relative_error`].
+///
+/// Rounding limits what can be reached to some 1e-14. A surface that is not smooth costs more and
+/// may end above the tolerance; the result says so.
+pub fn integrate(surface: &(impl StarSurface + ?Sized), tolerance: f64) -> Integrals {
+    let rule = GaussLegendre::new(ORDER);
+    let octants = (0..8).map(|i| {
+        let (polar, azimuth) = ((i / 4) as f64 * FRAC_PI_2, (i % 4) as f64 * FRAC_PI_2);
+        Cell::new(
+            surface,
+            &rule,
+            [polar, polar + FRAC_PI_2],
+            [azimuth, azimuth + FRAC_PI_2],
+        )
+    });
+    let mut pending: VecDeque<Cell> = octants.collect();
+    let mut evaluations = pending.len() * ORDER * ORDER;
+    let scale = pending
+        .iter()
+        .fold(Sums::default(), |all, cell| all + cell.sums);
+
+    let mut total = Sums::default();
+    let mut relative_error = 0.0;
+    while let Some(cell) = pending.pop_front() {
+        let is_settled = cell.error <= tolerance * cell.share() || cell.error.is_nan();
+        if is_settled || evaluations + 4 * ORDER * ORDER > MAX_EVALUATIONS {
+            total = total + cell.sums;
+            relative_error += cell.error;
+        } else {
+            pending.extend(cell.quarters(surface, &rule, &scale));
+            evaluations += 4 * ORDER * ORDER;
+        }
+    }
+    Integrals {
+        properties: total.moments.about_centroid(&Point3::origin()),
+        mean_radius: total.radius / (4.0 * PI),
+        relative_error,
+        evaluations,
+    }
+}
+
+/// A rectangle of directions and the integrals over it.
+struct Cell {
+    polar: [f64; 2],
+    azimuth: [f64; 2],
+    sums: Sums,
+    /// Estimated error of `sums`, relative to the whole surface's.
+    error: f64,
+}
+
+impl Cell {
+    /// Integrates over a rectangle; its error is not known yet.
+    fn new(
+        surface: &(impl StarSurface + ?Sized),
+        rule: &GaussLegendre,
+        polar: [f64; 2],
+        azimuth: [f64; 2],
+    ) -> Self {
+        let mut sums = Sums::default();
+        for (theta, theta_weight) in rule.on(polar[0], polar[1]) {
+            let (sin_theta, cos_theta) = theta.sin_cos();
+            for (phi, phi_weight) in rule.on(azimuth[0], azimuth[1]) {
+                let (sin_phi, cos_phi) = phi.sin_cos();
+                let n = Vector3::new(sin_theta * cos_phi, sin_theta * sin_phi, cos_theta);
+                let solid_angle = theta_weight * phi_weight * sin_theta;
+                let (r, g) = surface.radius_and_gradient(&n);
+                sums.radius += r * solid_angle;
+                sums.moments.add_ray(&n, r, &g, solid_angle);
+            }
+        }
+        Self {
+            polar,
+            azimuth,
+            sums,
+            error: f64::INFINITY,
+        }
+    }
+
+    /// Solid angle over 4 pi.
+    fn share(&self) -> f64 {
+        let [north, south] = self.polar;
+        let [west, east] = self.azimuth;
+        (north.cos() - south.cos()) * (east - west) / (4.0 * PI)
+    }
+
+    /// The four quarters, with the difference to the whole dealt out to them by solid angle.
+    fn quarters(
+        &self,
+        surface: &(impl StarSurface + ?Sized),
+        rule: &GaussLegendre,
+        scale: &Sums,
+    ) -> [Self; 4] {
+        let halves = |[low, high]: [f64; 2]| {
+            let middle = 0.5 * (low + high);
+            [[low, middle], [middle, high]]
+        };
+        let ([north, south], [west, east]) = (halves(self.polar), halves(self.azimuth));
+        let mut quarters = [(north, west), (north, east), (south, west), (south, east)]
+            .map(|(polar, azimuth)| Self::new(surface, rule, polar, azimuth));
+        let sum = quarters
+            .iter()
+            .fold(Sums::default(), |all, quarter| all + quarter.sums);
+        let error = sum.difference(&self.sums, scale) / self.share();
+        for quarter in &mut quarters {
+            quarter.error = error * quarter.share();
+        }
+        quarters
+    }
+}
+
+/// The integrals over a part of the sphere.
+#[derive(Clone, Copy, Default)]
+struct Sums {
+    /// ∫ r dΩ.
+    radius: f64,
+    moments: Moments,
+}
+
+impl Sums {
+    /// Largest difference to `other`, relative to `scale`; NaN when any difference is.
+    fn difference(&self, other: &Self, scale: &Self) -> f64 {
+        let length = scale.radius / (4.0 * PI);
+        let volume = scale.moments.volume;
+        let difference = self.moments - other.moments;
+        [
+            (self.radius - other.radius) / scale.radius,
+            difference.area / scale.moments.area,
+            difference.volume / volume,
+        ]
+        .into_iter()
+        .chain(difference.first.iter().map(|d| d / (volume * length)))
+        .chain(
+            difference
+                .second
+                .iter()
+                .map(|d| d / (volume * length * length)),
+        )
+        .map(f64::abs)
+        .fold(
+            0.0,
+            |worst, d| if d > worst || d.is_nan() { d } else { worst },
+        )
+    }
+}
+
+impl std::ops::Add for Sums {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self {
+            radius: self.radius + other.radius,
+            moments: self.moments + other.moments,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Mesh;
+    use crate::measure::mesh_properties;
+    use crate::shapes::{Body, Ellipsoid, Sphere};
+    use approx::{assert_abs_diff_eq, assert_relative_eq};
+    use nalgebra::Matrix3;
+    use proptest::prelude::*;
+
+    fn ellipsoid(a: f64, b: f64, c: f64) -> Ellipsoid {
+        Ellipsoid {
+            semi_axes: Vector3::new(a, b, c),
+        }
+    }
+
+    #[test]
+    fn a_sphere_has_its_closed_form() {
+        let found = integrate(&Sphere { radius: 5.0 }, 1e-12);
+        let solid = found.properties;
+        let volume = 4.0 / 3.0 * PI * 125.0;
+        assert_relative_eq!(solid.area, 100.0 * PI, max_relative = 1e-13);
+        assert_relative_eq!(solid.volume, volume, max_relative = 1e-13);
+        assert_relative_eq!(found.mean_radius, 5.0, max_relative = 1e-13);
+        assert_abs_diff_eq!(solid.centroid, Point3::origin(), epsilon = 1e-13);
+        let inertia = Matrix3::identity() * (0.4 * volume * 25.0);
+        assert_relative_eq!(solid.inertia, inertia, epsilon = 1e-9);
+        assert!(found.relative_error < 1e-12);
+    }
+
+    #[test]
+    fn the_oblate_ellipsoid_has_its_area() {
+        // 2 pi a² (1 + (1 - e²)/e artanh(e)) with e² = 1 - c²/a².
+        let e = 0.75_f64.sqrt();
+        let area = 8.0 * PI * (1.0 + (1.0 - e * e) / e * e.atanh());
+        assert_abs_diff_eq!(area, 34.68753, epsilon = 5e-6);
+        let found = integrate(&ellipsoid(2.0, 2.0, 1.0), 1e-10);
+        assert_relative_eq!(found.properties.area, area, max_relative = 1e-10);
+        assert!(found.relative_error < 1e-10);
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(20))]
+        #[test]
+        fn ellipsoids_have_their_volume_and_inertia(
+            a in 1.0..2.5_f64, b in 1.0..2.5_f64, c in 1.0..2.5_f64,
+        ) {
+            let found = integrate(&ellipsoid(a, b, c), 1e-10);
+            let volume = 4.0 / 3.0 * PI * a * b * c;
+            prop_assert!((found.properties.volume / volume - 1.0).abs() < 1e-10);
+            let (x, y, z) = (a * a, b * b, c * c);
+            let inertia = Matrix3::from_diagonal(&Vector3::new(y + z, z + x, x + y)) * (volume / 5.0);
+            prop_assert!((found.properties.inertia - inertia).amax() < 1e-10 * inertia.amax());
+        }
+    }
+
+    #[test]
+    fn tightening_the_tolerance_moves_the_result_by_less_than_the_error() {
+        for body in Body::ALL {
+            let surface = body.surface();
+            let exact = integrate(surface.as_ref(), 1e-12).properties;
+            for tolerance in [1e-3, 1e-6, 1e-9] {
+                let found = integrate(surface.as_ref(), tolerance);
+                assert!(found.relative_error <= tolerance);
+                let error = (found.properties.area / exact.area - 1.0).abs();
+                assert!(error <= found.relative_error + 1e-13, "{body}: {error:e}");
+                let error = (found.properties.volume / exact.volume - 1.0).abs();
+                assert!(error <= found.relative_error + 1e-13, "{body}: {error:e}");
+            }
+        }
+    }
+
+    /// A sphere with a step of the radius along a great circle that no cell follows.
+    struct Step;
+
+    impl StarSurface for Step {
+        fn radius(&self, n: &Vector3<f64>) -> f64 {
+            match n.dot(&Vector3::new(0.5, 0.3, 0.7)) > 0.0 {
+                true => 2.0,
+                false => 1.0,
+            }
+        }
+
+        fn radius_and_gradient(&self, n: &Vector3<f64>) -> (f64, Vector3<f64>) {
+            (self.radius(n), Vector3::zeros())
+        }
+    }
+
+    #[test]
+    fn evaluations_are_bounded_and_the_shortfall_is_told() {
+        let found = integrate(&Step, 1e-10);
+        assert!(found.evaluations <= MAX_EVALUATIONS);
+        assert!(found.relative_error > 1e-10);
+        let volume = 2.0 * PI / 3.0 * (1.0 + 8.0);
+        let error = (found.properties.volume / volume - 1.0).abs();
+        assert!(error < found.relative_error.min(1e-3));
+    }
+
+    #[test]
+    fn a_surface_that_is_not_finite_ends_at_once() {
+        let found = integrate(&Sphere { radius: f64::NAN }, 1e-10);
+        assert!(found.relative_error.is_nan());
+        assert!(found.evaluations < 10_000);
+    }
+
+    /// A mesh of n x 2 n quadrilaterals in (polar angle, azimuth), triangles at the poles.
+    fn latitude_mesh(surface: &dyn StarSurface, n: u32) -> Mesh {
+        let vertices = (0..=n)
+            .flat_map(|i| (0..2 * n).map(move |j| (i, j)))
+            .map(|(i, j)| {
+                let (theta, phi) = (PI * i as f64 / n as f64, PI * j as f64 / n as f64);
+                let ring = Vector3::new(phi.cos(), phi.sin(), 0.0) * theta.sin();
+                let direction = (ring + Vector3::z() * theta.cos()).normalize();
+                Point3::from(direction * surface.radius(&direction))
+            })
+            .collect();
+        let triangles = (0..n)
+            .flat_map(|i| (0..2 * n).map(move |j| (i, j)))
+            .flat_map(|(i, j)| {
+                let at = |i: u32, j: u32| i * 2 * n + j % (2 * n);
+                let (a, b, c, d) = (at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
+                [[a, b, c], [a, c, d]]
+            })
+            .collect();
+        Mesh {
+            vertices,
+            triangles,
+        }
+    }
+
+    #[test]
+    fn meshes_converge_to_the_integrals_at_second_order() {
+        for body in Body::ALL {
+            let surface = body.surface();
+            let exact = integrate(surface.as_ref(), 1e-10).properties;
+            let errors = [64, 128].map(|n| {
+                let mesh = mesh_properties(&latitude_mesh(surface.as_ref(), n)).unwrap();
+                [
+                    (mesh.volume - exact.volume).abs() / exact.volume,
+                    (mesh.area - exact.area).abs() / exact.area,
+                    (mesh.inertia - exact.inertia).norm() / exact.inertia.norm(),
+                ]
+            });
+            for (coarse, fine) in errors[0].iter().zip(errors[1]) {
+                let order = (coarse / fine).log2();
+                assert!((order - 2.0).abs() < 0.1, "{body}: order {order}");
+                assert!(fine < 2e-3);
+            }
+        }
+    }
+}

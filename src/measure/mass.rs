@@ -1,0 +1,193 @@
+//! Area, volume, centroid and inertia, and the moments they come from.
+
+use nalgebra::{Matrix3, Point3, SymmetricEigen, Vector3};
+use std::ops::{Add, AddAssign, Sub};
+
+/// Iterations allowed for the eigenvalues of a 3 x 3 matrix, which takes fewer than ten.
+const MAX_EIGEN_ITERATIONS: usize = 100;
+
+/// Area, volume, centroid and inertia of a solid of density one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MassProperties {
+    /// Surface area S, in the surface's unit squared.
+    pub area: f64,
+    /// Volume V, in the unit cubed.
+    pub volume: f64,
+    /// Centroid c = (1/V) ∫ x dV, in the unit and frame of the surface.
+    pub centroid: Point3<f64>,
+    /// Inertia tensor about the centroid, ∫ (|x - c|² I - (x - c)(x - c)ᵀ) dV, in the unit to the
+    /// fifth power, along the axes of the surface's frame.
+    pub inertia: Matrix3<f64>,
+}
+
+impl MassProperties {
+    /// Principal moments of inertia and their axes; `None` when the inertia is not finite.
+    pub fn principal(&self) -> Option<PrincipalInertia> {
+        if !self.inertia.iter().all(|entry| entry.is_finite()) {
+            return None;
+        }
+        let eigen = SymmetricEigen::try_new(self.inertia, f64::EPSILON, MAX_EIGEN_ITERATIONS)?;
+        let mut order = [0, 1, 2];
+        order.sort_by(|&i, &j| eigen.eigenvalues[i].total_cmp(&eigen.eigenvalues[j]));
+        let axis = |i: usize| {
+            let axis = eigen.eigenvectors.column(order[i]).into_owned();
+            axis * axis[axis.iamax()].signum()
+        };
+        let (first, second) = (axis(0), axis(1));
+        Some(PrincipalInertia {
+            moments: Vector3::from_fn(|i, _| eigen.eigenvalues[order[i]]),
+            axes: Matrix3::from_columns(&[first, second, first.cross(&second)]),
+        })
+    }
+}
+
+/// Principal moments of inertia, ascending, and the axes they belong to.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PrincipalInertia {
+    /// Moments, ascending, in the unit to the fifth power: the first belongs to the long axis.
+    pub moments: Vector3<f64>,
+    /// Unit axes in the columns, in the order of the moments: a rotation. The largest component of
+    /// the first and of the second axis is positive.
+    pub axes: Matrix3<f64>,
+}
+
+/// Integrals over a surface and the solid inside it, about the origin of the frame they were
+/// gathered in. Those of parts add up to those of the whole.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Moments {
+    /// Area.
+    pub area: f64,
+    /// Volume.
+    pub volume: f64,
+    /// First moments ∫ x dV.
+    pub first: Vector3<f64>,
+    /// Second moments ∫ x xᵀ dV, symmetric.
+    pub second: Matrix3<f64>,
+}
+
+impl Moments {
+    /// Adds one quadrature node of a star-shaped surface r(n) with surface gradient g and the solid
+    /// angle dΩ as weight:
+    ///
+    /// ```text
+    /// S = ∫ r sqrt(r² + |g|²) dΩ      ∫ x dV   = ∫ n   r⁴/4 dΩ
+    /// V = ∫ r³/3 dΩ                   ∫ xxᵀ dV = ∫ nnᵀ r⁵/5 dΩ
+    /// ```
+    ///
+    /// (Radvilaite 2016, equations 2.27, 2.34 and 2.39–2.41, written with the direction `n`.)
+    pub fn add_ray(&mut self, n: &Vector3<f64>, r: f64, g: &Vector3<f64>, solid_angle: f64) {
+        let cube = r * r * r * solid_angle;
+        self.area += r * (r * r + g.norm_squared()).sqrt() * solid_angle;
+        self.volume += cube / 3.0;
+        self.first += n * (cube * r / 4.0);
+        self.second += n * n.transpose() * (cube * r * r / 5.0);
+    }
+
+    /// Adds the triangle `a b c`, counter-clockwise from outside, and the tetrahedron it spans with
+    /// the origin: with d = a . (b x c) and s = a + b + c,
+    ///
+    /// ```text
+    /// S = |(b - a) x (c - a)| / 2     ∫ x dV   = d/24 s
+    /// V = d/6                         ∫ xxᵀ dV = d/120 (aaᵀ + bbᵀ + ccᵀ + ssᵀ)
+    /// ```
+    pub fn add_triangle(&mut self, a: &Vector3<f64>, b: &Vector3<f64>, c: &Vector3<f64>) {
+        let d = a.dot(&b.cross(c));
+        let s = a + b + c;
+        let squares = [a, b, c, &s].map(|v| v * v.transpose());
+        self.area += (b - a).cross(&(c - a)).norm() / 2.0;
+        self.volume += d / 6.0;
+        self.first += s * (d / 24.0);
+        self.second += squares.iter().sum::<Matrix3<f64>>() * (d / 120.0);
+    }
+
+    /// Centroid and inertia about it, by the parallel-axis shift; `origin` is where the moments'
+    /// own origin lies in the caller's frame. A zero volume gives a centroid that is not finite.
+    pub fn about_centroid(&self, origin: &Point3<f64>) -> MassProperties {
+        let centroid = self.first / self.volume;
+        let central = self.second - centroid * self.first.transpose();
+        MassProperties {
+            area: self.area,
+            volume: self.volume,
+            centroid: origin + centroid,
+            inertia: Matrix3::identity() * central.trace() - central,
+        }
+    }
+}
+
+impl AddAssign for Moments {
+    fn add_assign(&mut self, other: Self) {
+        *self = *self + other;
+    }
+}
+
+impl Add for Moments {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self {
+            area: self.area + other.area,
+            volume: self.volume + other.volume,
+            first: self.first + other.first,
+            second: self.second + other.second,
+        }
+    }
+}
+
+impl Sub for Moments {
+    type Output = Self;
+
+    fn sub(self, other: Self) -> Self {
+        Self {
+            area: self.area - other.area,
+            volume: self.volume - other.volume,
+            first: self.first - other.first,
+            second: self.second - other.second,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+    use nalgebra::Rotation3;
+    use proptest::prelude::*;
+
+    fn with_inertia(inertia: Matrix3<f64>) -> MassProperties {
+        MassProperties {
+            area: 1.0,
+            volume: 1.0,
+            centroid: Point3::origin(),
+            inertia,
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn principal_axes_are_a_sorted_rotation(
+            angles in prop::array::uniform3(-3.0..3.0_f64),
+            moments in prop::array::uniform3(0.1..10.0_f64),
+        ) {
+            let turn = Rotation3::from_euler_angles(angles[0], angles[1], angles[2]).into_inner();
+            let inertia = turn * Matrix3::from_diagonal(&Vector3::from(moments)) * turn.transpose();
+            let principal = with_inertia((inertia + inertia.transpose()) / 2.0).principal().unwrap();
+
+            let mut sorted = moments;
+            sorted.sort_by(f64::total_cmp);
+            assert_relative_eq!(principal.moments, Vector3::from(sorted), epsilon = 1e-12);
+            assert_relative_eq!(principal.axes.determinant(), 1.0, epsilon = 1e-12);
+            let back = principal.axes * Matrix3::from_diagonal(&principal.moments)
+                * principal.axes.transpose();
+            assert_relative_eq!(back, inertia, epsilon = 1e-11);
+        }
+    }
+
+    #[test]
+    fn an_inertia_that_is_not_finite_has_no_axes() {
+        assert!(
+            with_inertia(Matrix3::from_element(f64::NAN))
+                .principal()
+                .is_none()
+        );
+    }
+}
