@@ -14,6 +14,7 @@
 //!   ever guessed.
 //! * **Density** is one: a moment of inertia is in the scan's unit to the fifth power.
 
+pub mod export;
 pub mod mesh;
 pub mod model;
 pub mod scan;

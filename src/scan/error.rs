@@ -31,6 +31,8 @@ pub enum ReadError {
 pub enum Place {
     /// A line of text, counted from one.
     Line(usize),
+    /// A byte, counted from zero.
+    Byte(usize),
     /// A point, counted from zero.
     Point(usize),
     /// A record of binary data.
@@ -48,6 +50,7 @@ impl fmt::Display for Place {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Line(line) => write!(f, "line {line}"),
+            Self::Byte(byte) => write!(f, "byte {byte}"),
             Self::Point(point) => write!(f, "point {point} (counted from 0)"),
             Self::Record { what, number, byte } => {
                 write!(f, "{what} {number} (counted from 0, at byte {byte})")
@@ -100,6 +103,21 @@ pub enum ParseError {
         place: Place,
         /// What should have followed.
         expected: &'static str,
+    },
+    /// The text has fewer rows than the header counts: copy or export the file again.
+    #[error(
+        "line {line}: the file ends after {found} of {rows} rows of the element {element}; it is \
+         cut short, copy or export it again"
+    )]
+    TooFewRows {
+        /// The last line of the file.
+        line: usize,
+        /// The element whose rows are missing.
+        element: String,
+        /// How many rows the header counts.
+        rows: usize,
+        /// How many rows there are.
+        found: usize,
     },
     /// The header counts more rows than the file has bytes for: copy or export it again.
     #[error(

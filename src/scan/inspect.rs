@@ -39,37 +39,33 @@ fn drop_degenerate(scan: &mut Scan) {
     if let dropped @ 1.. = before - scan.triangles.len() {
         let triangles = plural(dropped, "triangle");
         scan.warnings
-            .push(format!("{triangles} with coinciding corners were dropped."));
+            .push(format!("Dropped {triangles} with coinciding corners."));
     }
 }
 
 fn warnings(topology: &Topology) -> impl Iterator<Item = String> {
-    let count = |number: usize, noun: &str, rest: &str| {
-        (number > 0).then(|| format!("{} {rest}.", plural(number, noun)))
+    let count = |number: usize, start: &str, noun: &str| {
+        (number > 0).then(|| format!("{start} {}.", plural(number, noun)))
     };
-    let bodies = topology.bodies;
     [
         count(
             topology.boundary_edges,
+            "The surface is open: its holes have",
             "edge",
-            "border a hole: the surface is open",
         ),
         count(
             topology.branching_edges,
+            "More than two triangles meet at",
             "edge",
-            "border more than two triangles",
         ),
         count(
             topology.twisted_edges,
+            "Triangles wound in opposite senses meet at",
             "edge",
-            "join triangles wound in opposite senses",
         ),
-        count(
-            topology.unreferenced.len(),
-            "point",
-            "belong to no triangle",
-        ),
-        (bodies > 1).then(|| format!("The scan holds {bodies} separate bodies.")),
+        count(topology.unreferenced.len(), "No triangle uses", "point"),
+        (topology.bodies > 1)
+            .then(|| format!("The scan holds {} separate bodies.", topology.bodies)),
     ]
     .into_iter()
     .flatten()
@@ -129,6 +125,6 @@ mod tests {
         scan.triangles.push([1, 1, 2]);
         inspect(&mut scan);
         assert_eq!(scan.triangles.len(), 4);
-        assert!(scan.warnings[0].starts_with("1 triangle "));
+        assert!(scan.warnings[0].starts_with("Dropped 1 triangle "));
     }
 }

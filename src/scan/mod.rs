@@ -3,7 +3,7 @@
 //! Any file may be hostile. No reader trusts a count before the bytes behind it were seen, none
 //! panics, and each error says what was wrong, where, and what to do.
 
-mod check;
+pub(crate) mod check;
 mod error;
 mod format;
 mod inspect;

@@ -7,10 +7,10 @@ use std::borrow::Cow;
 
 use nalgebra::Point3;
 
-use super::Scan;
 use super::error::{ParseError, Place};
 use super::polygon::fan;
 use super::text::{Lines, coordinate, integer, unexpected, words};
+use super::{Scan, plural};
 
 /// The words that OBJ files begin with; nothing else does.
 const KEYWORDS: [&[u8]; 10] = [
@@ -30,6 +30,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Scan, ParseError> {
     let mut corners = Vec::new();
     // The highest index of a face so far, and its line: faces may come before their points.
     let mut highest = (0, 0);
+    let mut short = 0;
     let mut lines = Lines::after(0, bytes);
     while let Some((number, line)) = lines.next() {
         let line = whole_line(line, &mut lines);
@@ -50,13 +51,16 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Scan, ParseError> {
                     highest = highest.max((index, number));
                     corners.push(index);
                 }
-                if corners.len() < 3 {
-                    return Err(unexpected(number, "`f` and at least three corners", &line));
-                }
+                short += usize::from(corners.len() < 3);
                 fan(&corners, &mut scan.triangles);
             }
             _ => {}
         }
+    }
+    if short > 0 {
+        let faces = plural(short, "face");
+        scan.warnings
+            .push(format!("Dropped {faces} of fewer than three corners."));
     }
     let (index, line) = highest;
     if scan.triangles.is_empty() || (index as usize) < scan.points.len() {

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use nalgebra::{Point3, Vector3};
+use nalgebra::Point3;
 
 use super::topology::each_edge;
 use super::{ParseError, Scan, plural};
@@ -66,7 +66,7 @@ pub(super) fn close_gaps(scan: &mut Scan, extent: f64) {
     if merged > 0 {
         let corners = plural(merged, "corner");
         scan.warnings.push(format!(
-            "{corners} along open rims lay within {:.1e} of another and were merged with it.",
+            "Merged {corners} along open rims with another within {:.1e}.",
             NEAR * extent
         ));
         scan.points = kept;
@@ -106,6 +106,8 @@ pub(super) fn first_at_same_place(points: &[Point3<f64>]) -> Vec<u32> {
 
 #[cfg(test)]
 mod tests {
+    use nalgebra::Vector3;
+
     use super::*;
 
     /// A tetrahedron whose faces share no corners, each corner moved by `step` per face.
@@ -129,7 +131,7 @@ mod tests {
         close_gaps(&mut scan, 1.0);
         assert_eq!(scan.points.len(), 4);
         assert!(
-            scan.warnings[0].starts_with("8 corners "),
+            scan.warnings[0].starts_with("Merged 8 corners "),
             "{:?}",
             scan.warnings
         );

@@ -34,7 +34,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Scan, ParseError> {
     if skipped > 0 {
         let rows = plural(skipped, "row");
         scan.warnings.push(format!(
-            "{rows} with a coordinate that is not finite were dropped."
+            "Dropped {rows} with a coordinate that is not finite."
         ));
     }
     let read = scan.points.len() + skipped;
@@ -43,7 +43,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Scan, ParseError> {
     {
         let rows = plural(read, "row");
         scan.warnings.push(format!(
-            "The first line counts {count} rows, but {rows} follow."
+            "The first line counts {count}, but the file has {rows}."
         ));
     }
     Ok(scan)
@@ -219,11 +219,7 @@ mod tests {
     fn a_count_is_no_point() {
         assert_eq!(parse(b"1\n1 2 3 9").unwrap().points.len(), 1);
         let scan = parse(b"5\n1 2 3 9").unwrap();
-        assert!(
-            scan.warnings[0].contains("counts 5 rows"),
-            "{:?}",
-            scan.warnings
-        );
+        assert!(scan.warnings[0].contains("counts 5"), "{:?}", scan.warnings);
     }
 
     #[test]
@@ -231,7 +227,7 @@ mod tests {
         let scan = parse(b"1 2 3\nNaN NaN nan\n4 5 6").unwrap();
         assert_eq!(scan.points.len(), 2);
         assert!(
-            scan.warnings[0].starts_with("1 row "),
+            scan.warnings[0].starts_with("Dropped 1 row "),
             "{:?}",
             scan.warnings
         );

@@ -26,11 +26,13 @@ pub(super) fn read(bytes: &[u8], header: &Header) -> Result<Scan, ParseError> {
     let mut lines = Lines::after(header.lines, &bytes[header.body..]);
     for element in &header.elements {
         let columns = columns(element);
-        for _ in 0..element.count {
+        for row_number in 0..element.count {
             let Some((line, row)) = lines.find(|(_, line)| !line.trim_ascii().is_empty()) else {
-                return Err(ParseError::CutShort {
-                    place: Place::Line(lines.number),
-                    expected: "one more row of the elements that the header counts",
+                return Err(ParseError::TooFewRows {
+                    line: lines.number,
+                    element: element.name.clone(),
+                    rows: element.count,
+                    found: row_number,
                 });
             };
             let (point, corners) = read_row(line, row, &columns, header.points)?;
@@ -45,7 +47,7 @@ pub(super) fn read(bytes: &[u8], header: &Header) -> Result<Scan, ParseError> {
     if let spare @ 1.. = spare.count() {
         let lines = plural(spare, "line");
         scan.warnings.push(format!(
-            "{lines} after the data that the header counts were left unread."
+            "Left {lines} unread after the data that the header counts."
         ));
     }
     Ok(scan)
@@ -136,7 +138,7 @@ mod tests {
         let scan = parse(format!("{HEADER}1 2 3\n4 5 6\n\n7 8 9\n").as_bytes()).unwrap();
         assert_eq!(scan.points.len(), 2);
         assert!(
-            scan.warnings[0].starts_with("1 line "),
+            scan.warnings[0].starts_with("Left 1 line "),
             "{:?}",
             scan.warnings
         );

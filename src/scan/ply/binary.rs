@@ -46,7 +46,7 @@ pub(super) fn read(bytes: &[u8], header: &Header) -> Result<Scan, ParseError> {
     if let spare @ 1.. = rows.rest.len() {
         let bytes = plural(spare, "byte");
         scan.warnings.push(format!(
-            "{bytes} after the data that the header counts were left unread."
+            "Left {bytes} unread after the data that the header counts."
         ));
     }
     Ok(scan)

@@ -74,7 +74,12 @@ impl Rewriter {
         let mut tokens: Vec<&[u8]> = words(line).collect();
         let fresh_name = format!("other{number}");
         match tokens.first().copied().unwrap_or(b"comment") {
-            magic if number == 1 && magic.eq_ignore_ascii_case(b"ply") => tokens = vec![b"ply"],
+            magic if number == 1 => {
+                if !magic.eq_ignore_ascii_case(b"ply") {
+                    return Err(unexpected(number, "`ply` as the first line", line));
+                }
+                tokens = vec![b"ply"];
+            }
             b"comment" | b"obj_info" => tokens = vec![b"comment"],
             b"format" | b"end_header" => {}
             b"element" => {
@@ -172,7 +177,8 @@ fn count_points(elements: &[ElementDef]) -> Result<usize, ParseError> {
     };
     match (["x", "y", "z"].into_iter().find(|name| !axis(name)), vertex) {
         (Some(axis), _) => Err(ParseError::NoCoordinate { axis }),
-        (None, vertex) => Ok(vertex.map_or(0, |vertex| vertex.count)),
+        (None, Some(vertex)) if vertex.count > 0 => Ok(vertex.count),
+        _ => Err(ParseError::NoPoints),
     }
 }
 

@@ -50,12 +50,9 @@ fn count(bytes: &[u8]) -> Option<u64> {
 
 fn read_binary(bytes: &[u8]) -> Result<(Scan, Welder), ParseError> {
     let Some(count) = count(bytes) else {
-        return Err(ParseError::CountTooLarge {
-            byte: 0,
-            element: "header".into(),
-            rows: 1,
-            row_bytes: HEADER,
-            left: bytes.len(),
+        return Err(ParseError::CutShort {
+            place: Place::Byte(bytes.len()),
+            expected: "the rest of a binary STL header (84 bytes), or a text starting with `solid`",
         });
     };
     let body = &bytes[HEADER..];
@@ -88,7 +85,7 @@ fn read_binary(bytes: &[u8]) -> Result<(Scan, Welder), ParseError> {
     if !spare.is_empty() {
         let (bytes, facets) = (plural(spare.len(), "byte"), plural(count, "facet"));
         scan.warnings.push(format!(
-            "{bytes} after the {facets} that the header counts were left unread."
+            "Left {bytes} unread after the {facets} that the header counts."
         ));
     }
     Ok((scan, welder))
@@ -138,7 +135,7 @@ mod tests {
         let scan = parse(&bytes).unwrap();
         assert_eq!(scan.triangles.len(), 2);
         assert!(
-            scan.warnings[0].starts_with("3 bytes "),
+            scan.warnings[0].starts_with("Left 3 bytes "),
             "{:?}",
             scan.warnings
         );
