@@ -71,7 +71,8 @@ fn made_files_are_read_or_refused_as_their_manifest_says() {
             && !LEFT_TO_THE_FIT.contains(&columns[0])
         {
             let control = match &columns[0][..3] {
-                "ply" => "ply_000_control_ascii.ply",
+                // The same as ply_000, with all digits.
+                "ply" => "ply_003_bin_be_double.ply",
                 "stl" => "stl_000_control_bin.stl",
                 "xyz" => "xyz_000_control.xyz",
                 _ => "obj_000_control.obj",
