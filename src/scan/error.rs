@@ -1,0 +1,207 @@
+//! Why a scan could not be read: what was wrong, where, what was expected and what to do.
+
+use std::fmt;
+use std::io;
+use std::path::PathBuf;
+
+/// Why [`read_scan`](super::read_scan) failed; names the file.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum ReadError {
+    /// The file could not be opened or read: check the path and its permissions.
+    #[error("cannot open {}", path.display())]
+    Io {
+        /// The file asked for.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+    /// The file was read, but its bytes are not a usable scan.
+    #[error("cannot read a scan from {}", path.display())]
+    Parse {
+        /// The file asked for.
+        path: PathBuf,
+        /// What is wrong with its content.
+        source: ParseError,
+    },
+}
+
+/// A place in a scan file, for messages.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Place {
+    /// A line of text, counted from one.
+    Line(usize),
+    /// A byte, counted from zero.
+    Byte(usize),
+    /// A point, counted from zero.
+    Point(usize),
+    /// A record of binary data.
+    Record {
+        /// What the record is: `vertex`, `face`, `facet` or `row`.
+        what: &'static str,
+        /// Its number, counted from zero as indices in the file are.
+        number: usize,
+        /// Where it starts, in bytes from the beginning of the file.
+        byte: usize,
+    },
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Line(line) => write!(f, "line {line}"),
+            Self::Byte(byte) => write!(f, "byte {byte}"),
+            Self::Point(point) => write!(f, "point {point} (counted from 0)"),
+            Self::Record { what, number, byte } => {
+                write!(f, "{what} {number} (counted from 0, at byte {byte})")
+            }
+        }
+    }
+}
+
+/// Why [`parse_scan`](super::parse_scan) refused the bytes.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ParseError {
+    /// There are no bytes: the copy or export failed.
+    #[error("the file is empty; expected a scan in PLY, STL, OBJ or XYZ format")]
+    Empty,
+    /// A known kind of file that is not a scan: convert or unpack it.
+    #[error("the file starts like {what}, which is not read here; {advice}")]
+    Foreign {
+        /// What the file is.
+        what: &'static str,
+        /// How to get a scan out of it.
+        advice: &'static str,
+    },
+    /// The bytes are neither a known format nor text.
+    #[error(
+        "byte {byte} is neither text nor part of a known format; \
+         expected a scan in PLY, STL, OBJ or XYZ format"
+    )]
+    Unknown {
+        /// The first byte that no text holds.
+        byte: usize,
+    },
+    /// Something else stands where the format wants a given thing.
+    #[error("{place}: expected {expected}, found {found}; correct it or export the scan again")]
+    Unexpected {
+        /// Where.
+        place: Place,
+        /// What the format wants there.
+        expected: &'static str,
+        /// What stands there, quoted and shortened.
+        found: String,
+    },
+    /// The text ends too early: copy or export the file again.
+    #[error(
+        "{place}: the file ends where {expected} should follow; it is cut short, copy or export \
+         it again"
+    )]
+    CutShort {
+        /// The last place that was read.
+        place: Place,
+        /// What should have followed.
+        expected: &'static str,
+    },
+    /// The text has fewer rows than the header counts: copy or export the file again.
+    #[error(
+        "line {line}: the file ends after {found} of {rows} rows of the element {element}; it is \
+         cut short, copy or export it again"
+    )]
+    TooFewRows {
+        /// The last line of the file.
+        line: usize,
+        /// The element whose rows are missing.
+        element: String,
+        /// How many rows the header counts.
+        rows: usize,
+        /// How many rows there are.
+        found: usize,
+    },
+    /// The header counts more rows than the file has bytes for: copy or export it again.
+    #[error(
+        "byte {byte}: the header promises {rows} {element} rows of at least {row_bytes} bytes, \
+         but only {left} bytes are left; the file is cut short or its count is wrong, export it \
+         again"
+    )]
+    CountTooLarge {
+        /// Where the rows start.
+        byte: usize,
+        /// The element whose rows they are.
+        element: String,
+        /// How many rows the header promises.
+        rows: usize,
+        /// The least number of bytes that one row takes.
+        row_bytes: usize,
+        /// Bytes from `byte` to the end of the file.
+        left: usize,
+    },
+    /// A coordinate is NaN or infinite: remove the point or export the scan again.
+    #[error("{place}: a coordinate is not a finite number; remove the point or export again")]
+    NotFinite {
+        /// Where.
+        place: Place,
+    },
+    /// A face names a point that does not exist.
+    #[error(
+        "{place}: the face names point {index}, but the file has {points} points, \
+         numbered from {first}; export the scan again"
+    )]
+    IndexOutOfRange {
+        /// Where.
+        place: Place,
+        /// The index as the file gives it.
+        index: i64,
+        /// How many points there are.
+        points: usize,
+        /// The number of the first point in this format.
+        first: u8,
+    },
+    /// The PLY header lacks a coordinate, or declares it as a list.
+    #[error(
+        "the header has no number property `{axis}` in an element `vertex`; expected x, y and z, \
+         rename the coordinates or export the scan again"
+    )]
+    NoCoordinate {
+        /// The first coordinate that is missing.
+        axis: &'static str,
+    },
+    /// More points than a triangle's 32-bit indices can name: thin the scan.
+    #[error("{points} points are more than a mesh can number (4294967295); thin the scan")]
+    TooManyPoints {
+        /// How many points there are.
+        points: usize,
+    },
+    /// The file is valid but holds no points.
+    #[error("the file has no points; expected a scan, check the export")]
+    NoPoints,
+    /// The STL file is valid but holds no facets.
+    #[error("the file has no facets; expected a scan, check the export")]
+    NoFacets,
+    /// A coordinate whose square would overflow: change the unit.
+    #[error("point {point}: coordinate {value:e} is beyond 1e100; scale the scan to a usual unit")]
+    TooFar {
+        /// The point, counted from zero.
+        point: usize,
+        /// The coordinate.
+        value: f64,
+    },
+    /// All points coincide, or are so near that squares underflow.
+    #[error(
+        "all {points} points lie within {extent:e} of each other; expected the surface of a body, \
+         check the unit and the export"
+    )]
+    NoExtent {
+        /// How many points there are.
+        points: usize,
+        /// The longest side of their bounding box.
+        extent: f64,
+    },
+    /// All points lie on one straight line.
+    #[error("all {points} points lie on one line; expected the surface of a body")]
+    Collinear {
+        /// How many points there are.
+        points: usize,
+    },
+}

@@ -1,0 +1,130 @@
+//! Looks over the triangles of a scan: drops degenerate ones, turns the mesh right side out, and
+//! warns of what a closed surface of one body would not have.
+
+use super::topology::Topology;
+use super::weld::first_at_same_place;
+use super::{Scan, plural};
+
+/// Fills in `topology` and the warnings. All indices must be in range.
+pub(super) fn inspect(scan: &mut Scan) {
+    drop_degenerate(scan);
+    if scan.triangles.is_empty() {
+        return;
+    }
+    let own: Vec<u32> = (0..scan.points.len() as u32).collect();
+    let mut topology = Topology::new(&scan.points, &scan.triangles, &own);
+    if !topology.closed {
+        let same = first_at_same_place(&scan.points);
+        topology = Topology::new(&scan.points, &scan.triangles, &same);
+    }
+    if topology.volume < 0.0 && topology.twisted_edges == 0 {
+        for [_, b, c] in &mut scan.triangles {
+            std::mem::swap(b, c);
+        }
+        topology.volume = -topology.volume;
+        let warning = "The triangles were wound inwards and have been turned outwards.";
+        scan.warnings.push(warning.into());
+    }
+    scan.warnings.extend(warnings(&topology));
+    scan.topology = Some(topology);
+}
+
+fn drop_degenerate(scan: &mut Scan) {
+    let before = scan.triangles.len();
+    let points = &scan.points;
+    scan.triangles.retain(|corners| {
+        let [a, b, c] = corners.map(|corner| points[corner as usize]);
+        a != b && b != c && c != a
+    });
+    if let dropped @ 1.. = before - scan.triangles.len() {
+        let triangles = plural(dropped, "triangle");
+        scan.warnings
+            .push(format!("Dropped {triangles} with coinciding corners."));
+    }
+}
+
+fn warnings(topology: &Topology) -> impl Iterator<Item = String> {
+    let count = |number: usize, start: &str, noun: &str| {
+        (number > 0).then(|| format!("{start} {}.", plural(number, noun)))
+    };
+    [
+        count(
+            topology.boundary_edges,
+            "The surface is open: its holes have",
+            "edge",
+        ),
+        count(
+            topology.branching_edges,
+            "More than two triangles meet at",
+            "edge",
+        ),
+        count(
+            topology.twisted_edges,
+            "Triangles wound in opposite senses meet at",
+            "edge",
+        ),
+        count(topology.unreferenced.len(), "No triangle uses", "point"),
+        (topology.bodies > 1)
+            .then(|| format!("The scan holds {} separate bodies.", topology.bodies)),
+    ]
+    .into_iter()
+    .flatten()
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::point;
+
+    use super::*;
+
+    fn tetrahedron() -> Scan {
+        Scan {
+            points: vec![
+                point![0.0, 0.0, 0.0],
+                point![1.0, 0.0, 0.0],
+                point![0.0, 1.0, 0.0],
+                point![0.0, 0.0, 1.0],
+            ],
+            triangles: vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]],
+            ..Scan::default()
+        }
+    }
+
+    #[test]
+    fn a_sound_mesh_has_no_warnings() {
+        let mut scan = tetrahedron();
+        inspect(&mut scan);
+        assert_eq!(scan.warnings, [""; 0]);
+        assert_eq!(scan.triangles, tetrahedron().triangles);
+    }
+
+    #[test]
+    fn an_inside_out_mesh_is_turned() {
+        let mut scan = tetrahedron();
+        scan.triangles
+            .iter_mut()
+            .for_each(|corners| corners.reverse());
+        inspect(&mut scan);
+        assert!(scan.topology.unwrap().volume > 0.0);
+        assert!(scan.warnings[0].contains("inwards"));
+    }
+
+    #[test]
+    fn repeated_points_do_not_open_a_mesh() {
+        let mut scan = tetrahedron();
+        scan.points.push(scan.points[0]);
+        scan.triangles[3][0] = 4;
+        inspect(&mut scan);
+        assert!(scan.topology.unwrap().closed);
+        assert_eq!(scan.warnings, [""; 0]);
+    }
+
+    #[test]
+    fn degenerate_triangles_are_dropped() {
+        let mut scan = tetrahedron();
+        scan.triangles.push([1, 1, 2]);
+        inspect(&mut scan);
+        assert_eq!(scan.triangles.len(), 4);
+        assert!(scan.warnings[0].starts_with("Dropped 1 triangle "));
+    }
+}

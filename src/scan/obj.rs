@@ -1,0 +1,158 @@
+//! Wavefront OBJ: points and faces; all else is passed over.
+//!
+//! A reader of our own, since tobj 4.0 drops the points of a file without faces, copies them once
+//! per group, and fails on lines continued by `\`.
+
+use std::borrow::Cow;
+
+use nalgebra::Point3;
+
+use super::error::{ParseError, Place};
+use super::polygon::fan;
+use super::text::{Lines, coordinate, integer, unexpected, words};
+use super::{Scan, plural};
+
+/// The words that OBJ files begin with; nothing else does.
+const KEYWORDS: [&[u8]; 10] = [
+    b"v", b"vn", b"vt", b"f", b"o", b"g", b"s", b"p", b"mtllib", b"usemtl",
+];
+
+/// Whether the first line that is no remark is one of OBJ.
+pub(super) fn recognise(bytes: &[u8]) -> bool {
+    let first = Lines::after(0, bytes)
+        .filter_map(|(_, line)| words(line).next())
+        .find(|word| !word.starts_with(b"#"));
+    first.is_some_and(|word| KEYWORDS.contains(&word))
+}
+
+pub(super) fn parse(bytes: &[u8]) -> Result<Scan, ParseError> {
+    let mut scan = Scan::default();
+    let mut corners = Vec::new();
+    // The highest index of a face so far, and its line: faces may come before their points.
+    let mut highest = (0, 0);
+    let mut short = 0;
+    let mut lines = Lines::after(0, bytes);
+    while let Some((number, line)) = lines.next() {
+        let line = whole_line(line, &mut lines);
+        let mut values = words(&line);
+        match values.next() {
+            Some(b"v") => match [(); 3].map(|()| values.next()) {
+                [Some(x), Some(y), Some(z)] => scan.points.push(Point3::new(
+                    coordinate(number, x)?,
+                    coordinate(number, y)?,
+                    coordinate(number, z)?,
+                )),
+                _ => return Err(unexpected(number, "`v` and three numbers", &line)),
+            },
+            Some(b"f") => {
+                corners.clear();
+                for value in values {
+                    let index = corner(number, value, scan.points.len())?;
+                    highest = highest.max((index, number));
+                    corners.push(index);
+                }
+                short += usize::from(corners.len() < 3);
+                fan(&corners, &mut scan.triangles);
+            }
+            _ => {}
+        }
+    }
+    if short > 0 {
+        let faces = plural(short, "face");
+        scan.warnings
+            .push(format!("Dropped {faces} of fewer than three corners."));
+    }
+    let (index, line) = highest;
+    if scan.triangles.is_empty() || (index as usize) < scan.points.len() {
+        Ok(scan)
+    } else {
+        Err(out_of_range(line, i64::from(index) + 1, scan.points.len()))
+    }
+}
+
+/// A line with those that continue it, where it ends with `\`. Remarks are never continued: one
+/// may end with the path of a folder.
+fn whole_line<'a>(first: &'a [u8], lines: &mut Lines<'a>) -> Cow<'a, [u8]> {
+    let start = match first.strip_suffix(b"\\") {
+        Some(start) if !start.trim_ascii_start().starts_with(b"#") => start,
+        _ => return Cow::Borrowed(first),
+    };
+    let mut whole = start.to_vec();
+    for (_, line) in lines {
+        whole.push(b' ');
+        match line.strip_suffix(b"\\") {
+            Some(part) => whole.extend(part),
+            None => {
+                whole.extend(line);
+                break;
+            }
+        }
+    }
+    Cow::Owned(whole)
+}
+
+/// The point that a corner such as `7`, `7/1/2` or `-1` names, counted from zero. Negative
+/// numbers count back from the last point so far.
+fn corner(line: usize, value: &[u8], points: usize) -> Result<u32, ParseError> {
+    let end = value.iter().position(|&b| b == b'/');
+    let index = integer(line, &value[..end.unwrap_or(value.len())])?;
+    let from_zero = if index < 0 {
+        index.checked_add(points as i64)
+    } else {
+        index.checked_sub(1)
+    };
+    from_zero
+        .and_then(|index| u32::try_from(index).ok())
+        .ok_or_else(|| out_of_range(line, index, points))
+}
+
+fn out_of_range(line: usize, index: i64, points: usize) -> ParseError {
+    ParseError::IndexOutOfRange {
+        place: Place::Line(line),
+        index,
+        points,
+        first: 1,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const POINTS: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
+
+    #[test]
+    fn points_without_faces_are_kept() {
+        assert_eq!(parse(POINTS.as_bytes()).unwrap().points.len(), 4);
+    }
+
+    #[test]
+    fn faces_may_be_polygons_relative_continued_and_ahead_of_their_points() {
+        for face in ["f 1 2 3 4", "f 1/1 2//2 3/3/3 4", "f 1 2 \\\n3 4"] {
+            let expected = [[0, 1, 2], [0, 2, 3]];
+            for text in [format!("{face}\n{POINTS}"), format!("{POINTS}{face}")] {
+                assert_eq!(
+                    parse(text.as_bytes()).unwrap().triangles,
+                    expected,
+                    "{text}"
+                );
+            }
+        }
+        let scan = parse(format!("{POINTS}f -4 -3 -1").as_bytes()).unwrap();
+        assert_eq!(scan.triangles, [[0, 1, 3]]);
+    }
+
+    #[test]
+    fn indices_out_of_range_are_refused_with_their_line() {
+        for face in ["f 1 2 5", "f 0 1 2", "f -5 1 2", "f 1 2 99999999999"] {
+            let error = parse(format!("{POINTS}{face}\nf 1 2 3").as_bytes()).unwrap_err();
+            assert!(error.to_string().starts_with("line 5:"), "{error}");
+        }
+    }
+
+    #[test]
+    fn a_remark_that_ends_with_a_backslash_does_not_swallow_a_point() {
+        let scan = parse(format!("# from C:\\scans\\\n{POINTS}").as_bytes()).unwrap();
+        assert_eq!(scan.points.len(), 4);
+    }
+}

@@ -1,0 +1,193 @@
+//! How the triangles of a scan hang together, in near-linear time.
+
+use nalgebra::Point3;
+
+/// What the triangles of a scan bound.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Topology {
+    /// Every edge borders exactly two triangles, wound alike: the mesh has an inside.
+    pub closed: bool,
+    /// Parts that share no point.
+    pub bodies: usize,
+    /// Edges that border one triangle only: the rims of holes.
+    pub boundary_edges: usize,
+    /// Edges that border more than two triangles.
+    pub branching_edges: usize,
+    /// Edges whose two triangles are wound in opposite senses.
+    pub twisted_edges: usize,
+    /// Volume inside, in the cubed unit of the scan; of an open mesh, that of the cone from the
+    /// mean of the points.
+    pub volume: f64,
+    /// Indices of points that belong to no triangle, in order.
+    pub unreferenced: Vec<u32>,
+}
+
+impl Topology {
+    /// Reads the topology off triangles that all have three distinct corners. `same` names for
+    /// each point the one to take for it, so that meshes that repeat their points hang together.
+    pub(super) fn new(points: &[Point3<f64>], triangles: &[[u32; 3]], same: &[u32]) -> Self {
+        let joined: Vec<_> = triangles
+            .iter()
+            .map(|corners| corners.map(|corner| same[corner as usize]))
+            .collect();
+        let [mut boundary, mut branching, mut twisted] = [0; 3];
+        each_edge(points.len(), &joined, |edge| match edge.triangles() {
+            1 => boundary += 1,
+            2 => twisted += usize::from(edge.forward != 1),
+            _ => branching += 1,
+        });
+        Self {
+            closed: boundary + branching + twisted == 0,
+            bodies: count_bodies(points.len(), &joined),
+            boundary_edges: boundary,
+            branching_edges: branching,
+            twisted_edges: twisted,
+            volume: volume(points, triangles),
+            unreferenced: unreferenced(points.len(), triangles),
+        }
+    }
+}
+
+/// An undirected edge and how often triangles run along it.
+pub(super) struct Edge {
+    /// The lower end first.
+    pub(super) ends: [u32; 2],
+    /// Triangles that run from the lower to the higher end.
+    pub(super) forward: usize,
+    pub(super) backward: usize,
+}
+
+impl Edge {
+    pub(super) fn triangles(&self) -> usize {
+        self.forward + self.backward
+    }
+}
+
+/// Visits every edge once: half-edges are sorted into one bucket per lower end, then within it.
+pub(super) fn each_edge(points: usize, triangles: &[[u32; 3]], mut visit: impl FnMut(Edge)) {
+    let half_edges = || {
+        let sides = |&[a, b, c]: &[u32; 3]| [(a, b), (b, c), (c, a)];
+        triangles.iter().flat_map(sides)
+    };
+    let mut ends = vec![0_usize; points + 1];
+    for (a, b) in half_edges() {
+        ends[a.min(b) as usize + 1] += 1;
+    }
+    for point in 0..points {
+        ends[point + 1] += ends[point];
+    }
+    // The higher end above the direction bit, each bucket filled from its start onwards.
+    let mut sorted = vec![0_u64; 3 * triangles.len()];
+    for (a, b) in half_edges() {
+        let next = &mut ends[a.min(b) as usize];
+        sorted[*next] = u64::from(a.max(b)) << 1 | u64::from(a > b);
+        *next += 1;
+    }
+    let mut start = 0;
+    for (low, &end) in ends[..points].iter().enumerate() {
+        let bucket = &mut sorted[start..end];
+        start = end;
+        bucket.sort_unstable();
+        for same in bucket.chunk_by(|one, other| one >> 1 == other >> 1) {
+            let backward = same.iter().filter(|half| *half & 1 == 1).count();
+            visit(Edge {
+                ends: [low as u32, (same[0] >> 1) as u32],
+                forward: same.len() - backward,
+                backward,
+            });
+        }
+    }
+}
+
+/// Counts the parts that share no point, by union-find over the points.
+fn count_bodies(points: usize, triangles: &[[u32; 3]]) -> usize {
+    let mut parents: Vec<u32> = (0..points as u32).collect();
+    let mut used = vec![false; points];
+    for &[a, b, c] in triangles {
+        let root = root(&mut parents, a);
+        for corner in [a, b, c] {
+            used[corner as usize] = true;
+            let other = self::root(&mut parents, corner);
+            parents[other as usize] = root;
+        }
+    }
+    let roots = (0..points).filter(|&point| used[point] && parents[point] == point as u32);
+    roots.count()
+}
+
+/// The root of a point's tree; halves the path to it on the way.
+fn root(parents: &mut [u32], mut point: u32) -> u32 {
+    while parents[point as usize] != point {
+        let grandparent = parents[parents[point as usize] as usize];
+        parents[point as usize] = grandparent;
+        point = grandparent;
+    }
+    point
+}
+
+fn volume(points: &[Point3<f64>], triangles: &[[u32; 3]]) -> f64 {
+    let weight = 1.0 / points.len() as f64;
+    let centre = points
+        .iter()
+        .fold(nalgebra::Vector3::zeros(), |sum, p| sum + p.coords * weight);
+    let cone = |corners: &[u32; 3]| {
+        let [a, b, c] = corners.map(|corner| points[corner as usize].coords - centre);
+        a.dot(&b.cross(&c)) / 6.0
+    };
+    triangles.iter().map(cone).sum()
+}
+
+fn unreferenced(points: usize, triangles: &[[u32; 3]]) -> Vec<u32> {
+    let mut used = vec![false; points];
+    for &corner in triangles.as_flattened() {
+        used[corner as usize] = true;
+    }
+    let number = |(number, used): (usize, bool)| (!used).then_some(number as u32);
+    used.into_iter().enumerate().filter_map(number).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const CORNERS: [[f64; 3]; 4] = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    const FACES: [[u32; 3]; 4] = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]];
+
+    fn topology(corners: &[[f64; 3]], faces: &[[u32; 3]]) -> Topology {
+        let points: Vec<_> = corners.iter().copied().map(Point3::from).collect();
+        let same: Vec<u32> = (0..points.len() as u32).collect();
+        Topology::new(&points, faces, &same)
+    }
+
+    #[test]
+    fn a_tetrahedron_is_closed_and_has_its_volume() {
+        let whole = topology(&CORNERS, &FACES);
+        assert!(whole.closed);
+        assert_eq!((whole.bodies, whole.boundary_edges), (1, 0));
+        assert!((whole.volume - 1.0 / 6.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_missing_face_leaves_three_boundary_edges() {
+        let open = topology(&CORNERS, &FACES[..3]);
+        assert!(!open.closed);
+        assert_eq!(open.boundary_edges, 3);
+    }
+
+    #[test]
+    fn a_turned_face_twists_three_edges_and_a_third_one_branches_them() {
+        let turned = [FACES[0], FACES[1], FACES[2], [0, 2, 3]];
+        assert_eq!(topology(&CORNERS, &turned).twisted_edges, 3);
+        let doubled = [FACES[0], FACES[1], FACES[2], FACES[3], FACES[3]];
+        assert_eq!(topology(&CORNERS, &doubled).branching_edges, 3);
+    }
+
+    #[test]
+    fn bodies_and_strays_are_counted() {
+        let corners = [CORNERS, CORNERS, CORNERS].concat();
+        let moved = FACES.map(|face| face.map(|corner| corner + 4));
+        let two = topology(&corners, &[FACES, moved].concat());
+        assert_eq!(two.bodies, 2);
+        assert_eq!(two.unreferenced, [8, 9, 10, 11]);
+    }
+}

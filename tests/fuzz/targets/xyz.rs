@@ -1,0 +1,6 @@
+//! Any bytes, offered as a file named `.xyz`.
+#![no_main]
+
+mod sound;
+
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| sound::parse(bytes, "xyz"));
