@@ -6,7 +6,7 @@
 //! the surface is skewed. Where the body does not decide (equal moments, mirror symmetry) the
 //! scan's axes do.
 
-use crate::measure::MassProperties;
+use crate::measure::{MassProperties, PrincipalInertia};
 use crate::mesh::Mesh;
 use nalgebra::{Matrix3, Vector3};
 
@@ -20,22 +20,24 @@ const SYMMETRIC: f64 = 1e-6;
 
 /// Columns: the grain's x, y and z axes in the frame of `mesh`.
 pub(crate) fn principal_axes(mesh: &Mesh, properties: &MassProperties) -> Matrix3<f64> {
-    let (moments, vectors) = properties.principal_axes();
+    let Some(PrincipalInertia { moments, axes }) = properties.principal() else {
+        return Matrix3::identity();
+    };
     let greatest = moments[2];
     let equal = |a: usize, b: usize| (moments[a] - moments[b]).abs() <= EQUAL_MOMENTS * greatest;
     let [z, x] = match (equal(0, 1), equal(1, 2)) {
         (true, true) => return Matrix3::identity(),
         (true, false) => {
-            let x = vectors.column(2).into_owned();
+            let x = axes.column(2).into_owned();
             [nearest_scan_axis(&x), x]
         }
         (false, true) => {
-            let z = vectors.column(0).into_owned();
+            let z = axes.column(0).into_owned();
             [z, nearest_scan_axis(&z)]
         }
         (false, false) => [
-            vectors.column(0).into_owned(),
-            vectors.column(2).into_owned(),
+            axes.column(0).into_owned(),
+            axes.column(2).into_owned(),
         ],
     };
     let sense = |axis: Vector3<f64>| axis * sense(mesh, properties, &axis);

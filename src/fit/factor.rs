@@ -159,11 +159,6 @@ impl Triangle<'_> {
         self.rows
     }
 
-    /// Columns of [B | r].
-    pub(crate) fn columns(&self) -> usize {
-        self.columns
-    }
-
     /// The part of Q^T r that belongs to function `row`.
     pub(crate) fn projection(&self, row: usize) -> f64 {
         self.at(row, self.columns - 1)

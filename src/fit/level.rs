@@ -3,7 +3,7 @@
 use super::reference::Reference;
 use super::search::{Candidate, Rejection};
 use super::segment::{HeldOut, Level, SegmentFit, Workspace};
-use crate::sphere::{CapBasis, coefficient_count, gauss_legendre};
+use crate::sphere::{GaussLegendre, coefficient_count};
 use rayon::prelude::*;
 use std::f64::consts::PI;
 
@@ -101,24 +101,22 @@ impl FittedLevel {
         // width h integrate degree d to rounding once n is well above d h / 4.
         let nodes = |width: f64| 4 + ((3 * degree + 1) as f64 * width / 4.0).ceil() as usize;
         let (polar, azimuthal) = (
-            gauss_legendre(nodes(PI / k as f64)),
-            gauss_legendre(nodes(2.0 * PI / k as f64)),
+            GaussLegendre::new(nodes(PI / k as f64)),
+            GaussLegendre::new(nodes(2.0 * PI / k as f64)),
         );
-        let mut directions = Vec::with_capacity(polar.len() * azimuthal.len());
-        let mut weights = Vec::with_capacity(directions.capacity());
-        let mut values = vec![[0.0; 2]; directions.capacity()];
         let mut sums = [0.0; 2];
+        let mut values = Vec::new();
         for (segment, fit) in self.segments.iter().enumerate() {
             let rectangle = level.partition.rectangle(segment);
-            directions.clear();
-            weights.clear();
-            rectangle.nodes(&polar, &azimuthal, &mut directions, &mut weights);
+            let nodes = rectangle.nodes(&polar, &azimuthal);
+            let directions: Vec<_> = nodes.iter().map(|(n, _)| [n.x, n.y, n.z, 0.0]).collect();
             let cap = rectangle.cap();
             let coefficients = &fit.at_most(degree).coefficients;
+            values.resize(nodes.len(), [0.0; 2]);
             level
                 .basis
                 .values_and_slopes(&cap, coefficients, &directions, &mut values);
-            for (&[r, slope_squared], weight) in values.iter().zip(&weights) {
+            for (&[r, slope_squared], (_, weight)) in values.iter().zip(&nodes) {
                 sums[0] += weight * r.abs() * (r * r + slope_squared).sqrt();
                 sums[1] += weight * r * r * r / 3.0;
             }

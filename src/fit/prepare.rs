@@ -67,13 +67,12 @@ impl PreparedScan {
             representatives,
             mut warnings,
         } = scanned_surface(scan)?;
-        let properties = mesh_properties(&mesh);
-        let no_volume = FitError::NoVolume {
-            points: scan.points.len(),
-        };
-        if !(properties.volume > 0.0) {
-            return Err(no_volume);
-        }
+        let properties = mesh_properties(&mesh)
+            .ok()
+            .filter(|properties| properties.volume > 0.0)
+            .ok_or(FitError::NoVolume {
+                points: scan.points.len(),
+            })?;
         let centre = star_centre(&mesh, properties.centroid, &mut warnings)?;
         let frame = Frame {
             centre,

@@ -1,14 +1,14 @@
 //! Area, volume and inertia of a star-shaped surface, to a tolerance.
 //!
 //! Adaptive product Gauss quadrature over rectangles in (polar angle, azimuth). The sphere starts
-//! as eight octants. A rectangle that is not yet known well enough is cut in four, and the change
+//! as eight octants, or as the pieces a surface is made of. A rectangle that is not yet known well enough is cut in four, and the change
 //! this makes is taken as the error of the four: a pessimistic estimate on a smooth surface, where
 //! the four are better than the one by a factor near 2^-24. A rectangle is done when its error is
 //! within its share, by solid angle, of the tolerance, so the errors add up to at most the tolerance.
 
 use super::{MassProperties, Moments};
 use crate::model::StarSurface;
-use crate::sphere::GaussLegendre;
+use crate::sphere::{AngleRectangle, GaussLegendre};
 use nalgebra::{Point3, Vector3};
 use std::collections::VecDeque;
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -40,17 +40,30 @@ pub struct Integrals {
 /// Rounding limits what can be reached to some 1e-14. A surface that is not smooth costs more and
 /// may end above the tolerance; the result says so.
 pub fn integrate(surface: &(impl StarSurface + ?Sized), tolerance: f64) -> Integrals {
-    let rule = GaussLegendre::new(ORDER);
     let octants = (0..8).map(|i| {
         let (polar, azimuth) = ((i / 4) as f64 * FRAC_PI_2, (i % 4) as f64 * FRAC_PI_2);
-        Cell::new(
-            surface,
-            &rule,
-            [polar, polar + FRAC_PI_2],
-            [azimuth, azimuth + FRAC_PI_2],
-        )
+        let octant = AngleRectangle {
+            theta: [polar, polar + FRAC_PI_2],
+            phi: [azimuth, azimuth + FRAC_PI_2],
+        };
+        (octant, |n: &Vector3<f64>| surface.radius_and_gradient(n))
     });
-    let mut pending: VecDeque<Cell> = octants.collect();
+    integrate_pieces(octants, tolerance)
+}
+
+/// Integrates a surface made of pieces: rectangles that tile the sphere, each with its own radius
+/// and surface gradient, which need not meet. As [`integrate`].
+pub(crate) fn integrate_pieces<S>(
+    pieces: impl Iterator<Item = (AngleRectangle, S)>,
+    tolerance: f64,
+) -> Integrals
+where
+    S: Fn(&Vector3<f64>) -> (f64, Vector3<f64>) + Clone,
+{
+    let rule = GaussLegendre::new(ORDER);
+    let mut pending: VecDeque<Cell<S>> = pieces
+        .map(|(rectangle, surface)| Cell::new(surface, rectangle, &rule))
+        .collect();
     let mut evaluations = pending.len() * ORDER * ORDER;
     let scale = pending
         .iter()
@@ -64,7 +77,7 @@ pub fn integrate(surface: &(impl StarSurface + ?Sized), tolerance: f64) -> Integ
             total = total + cell.sums;
             relative_error += cell.error;
         } else {
-            pending.extend(cell.quarters(surface, &rule, &scale));
+            pending.extend(cell.quarters(&rule, &scale));
             evaluations += 4 * ORDER * ORDER;
         }
     }
@@ -77,37 +90,26 @@ pub fn integrate(surface: &(impl StarSurface + ?Sized), tolerance: f64) -> Integ
 }
 
 /// A rectangle of directions and the integrals over it.
-struct Cell {
-    polar: [f64; 2],
-    azimuth: [f64; 2],
+struct Cell<S> {
+    surface: S,
+    rectangle: AngleRectangle,
     sums: Sums,
     /// Estimated error of `sums`, relative to the whole surface's.
     error: f64,
 }
 
-impl Cell {
+impl<S: Fn(&Vector3<f64>) -> (f64, Vector3<f64>) + Clone> Cell<S> {
     /// Integrates over a rectangle; its error is not known yet.
-    fn new(
-        surface: &(impl StarSurface + ?Sized),
-        rule: &GaussLegendre,
-        polar: [f64; 2],
-        azimuth: [f64; 2],
-    ) -> Self {
+    fn new(surface: S, rectangle: AngleRectangle, rule: &GaussLegendre) -> Self {
         let mut sums = Sums::default();
-        for (theta, theta_weight) in rule.on(polar[0], polar[1]) {
-            let (sin_theta, cos_theta) = theta.sin_cos();
-            for (phi, phi_weight) in rule.on(azimuth[0], azimuth[1]) {
-                let (sin_phi, cos_phi) = phi.sin_cos();
-                let n = Vector3::new(sin_theta * cos_phi, sin_theta * sin_phi, cos_theta);
-                let solid_angle = theta_weight * phi_weight * sin_theta;
-                let (r, g) = surface.radius_and_gradient(&n);
-                sums.radius += r * solid_angle;
-                sums.moments.add_ray(&n, r, &g, solid_angle);
-            }
+        for (n, solid_angle) in rectangle.nodes(rule, rule) {
+            let (r, g) = surface(&n);
+            sums.radius += r * solid_angle;
+            sums.moments.add_ray(&n, r, &g, solid_angle);
         }
         Self {
-            polar,
-            azimuth,
+            surface,
+            rectangle,
             sums,
             error: f64::INFINITY,
         }
@@ -115,25 +117,15 @@ impl Cell {
 
     /// Solid angle over 4 pi.
     fn share(&self) -> f64 {
-        let [north, south] = self.polar;
-        let [west, east] = self.azimuth;
-        (north.cos() - south.cos()) * (east - west) / (4.0 * PI)
+        self.rectangle.solid_angle() / (4.0 * PI)
     }
 
     /// The four quarters, with the difference to the whole dealt out to them by solid angle.
-    fn quarters(
-        &self,
-        surface: &(impl StarSurface + ?Sized),
-        rule: &GaussLegendre,
-        scale: &Sums,
-    ) -> [Self; 4] {
-        let halves = |[low, high]: [f64; 2]| {
-            let middle = 0.5 * (low + high);
-            [[low, middle], [middle, high]]
-        };
-        let ([north, south], [west, east]) = (halves(self.polar), halves(self.azimuth));
-        let mut quarters = [(north, west), (north, east), (south, west), (south, east)]
-            .map(|(polar, azimuth)| Self::new(surface, rule, polar, azimuth));
+    fn quarters(&self, rule: &GaussLegendre, scale: &Sums) -> [Self; 4] {
+        let mut quarters = self
+            .rectangle
+            .quarters()
+            .map(|quarter| Self::new(self.surface.clone(), quarter, rule));
         let sum = quarters
             .iter()
             .fold(Sums::default(), |all, quarter| all + quarter.sums);

@@ -157,12 +157,15 @@ impl Grain {
         (n * radius - gradient).normalize()
     }
 
-    pub(crate) fn segments(&self) -> &[Segment] {
-        &self.segments
-    }
-
-    pub(crate) fn basis(&self) -> &CapBasis {
-        &self.basis
+    /// Radius and surface gradient of a segment's expansion in a direction of the grain's own
+    /// frame, also beyond the segment.
+    pub(crate) fn segment_radius_and_gradient(
+        &self,
+        segment: usize,
+        n: &Vector3<f64>,
+    ) -> (f64, Vector3<f64>) {
+        let Segment { cap, coefficients } = &self.segments[segment];
+        self.basis.value_and_gradient(cap, coefficients, n)
     }
 
     /// Radius of a segment's expansion in a direction of the grain's own frame, also beyond the
@@ -181,8 +184,8 @@ impl StarSurface for Grain {
 
     fn radius_and_gradient(&self, n: &Vector3<f64>) -> (f64, Vector3<f64>) {
         let local = self.frame.axes.tr_mul(n);
-        let Segment { cap, coefficients } = &self.segments[self.partition.segment_of(&local)];
-        let (radius, gradient) = self.basis.value_and_gradient(cap, coefficients, &local);
+        let segment = self.partition.segment_of(&local);
+        let (radius, gradient) = self.segment_radius_and_gradient(segment, &local);
         (radius, self.frame.axes * gradient)
     }
 }

@@ -1,9 +1,9 @@
 //! The coefficients as the dissertation publishes them: a_l^m of the real orthonormal harmonics.
 
 use super::Grain;
-use crate::sphere::{AngleRectangle, coefficient_count, gauss_legendre, harmonics};
+use crate::sphere::{AngleRectangle, GaussLegendre, coefficient_count, harmonics};
 use nalgebra::Vector3;
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 
 /// A segment's expansion r = sum of a_l^m Y_l^m in the real orthonormal harmonics.
 #[derive(Debug, Clone, PartialEq)]
@@ -34,14 +34,13 @@ impl Grain {
         let degree = self.coefficients(segment).len().isqrt() - 1;
         let turns = 2 * degree + 1;
         let mut coefficients = vec![0.0; coefficient_count(degree)];
-        for (t, weight) in gauss_legendre(degree + 1) {
-            let z = 2.0 * t - 1.0;
+        for (z, weight) in GaussLegendre::new(degree + 1).on(-1.0, 1.0) {
             let s = (1.0 - z * z).sqrt();
             for turn in 0..turns {
                 let (sp, cp) = (TAU * turn as f64 / turns as f64).sin_cos();
                 let n = Vector3::new(s * cp, s * sp, z);
                 let radius = self.segment_radius(segment, &n);
-                let solid_angle = 4.0 * PI * weight / turns as f64;
+                let solid_angle = TAU * weight / turns as f64;
                 for (a, y) in coefficients.iter_mut().zip(harmonics(degree, &n)) {
                     *a += solid_angle * radius * y;
                 }

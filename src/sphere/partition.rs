@@ -1,7 +1,7 @@
 //! The partition of the angle domain (dissertation, 4.1 and 4.2): [0, pi] and [0, 2 pi) are each cut
 //! in k equal parts, which makes n_s = k^2 segments.
 
-use super::Cap;
+use super::{Cap, GaussLegendre};
 use nalgebra::Vector3;
 use std::f64::consts::{PI, TAU};
 
@@ -74,28 +74,40 @@ impl AngleRectangle {
         Vector3::new(st * cp, st * sp, ct)
     }
 
-    /// Appends the directions of a product of two rules on [0, 1] (pairs of node and weight) and
-    /// their weights in solid angle.
+    /// The nodes of a product of two Gauss rules: unit vectors, and their weights in solid angle.
     pub(crate) fn nodes(
         &self,
-        polar: &[(f64, f64)],
-        azimuthal: &[(f64, f64)],
-        directions: &mut Vec<[f64; 4]>,
-        weights: &mut Vec<f64>,
-    ) {
-        let widths = [self.theta[1] - self.theta[0], self.phi[1] - self.phi[0]];
+        polar: &GaussLegendre,
+        azimuthal: &GaussLegendre,
+    ) -> Vec<(Vector3<f64>, f64)> {
         let turns: Vec<_> = azimuthal
-            .iter()
-            .map(|&(t, weight)| ((self.phi[0] + t * widths[1]).sin_cos(), weight))
+            .on(self.phi[0], self.phi[1])
+            .map(|(phi, weight)| (phi.sin_cos(), weight))
             .collect();
-        for &(s, polar_weight) in polar {
-            let (st, ct) = (self.theta[0] + s * widths[0]).sin_cos();
-            let ring = polar_weight * st * widths[0] * widths[1];
+        let mut nodes = Vec::with_capacity(polar.nodes().len() * turns.len());
+        for (theta, polar_weight) in polar.on(self.theta[0], self.theta[1]) {
+            let (st, ct) = theta.sin_cos();
             for &((sp, cp), weight) in &turns {
-                directions.push([st * cp, st * sp, ct, 0.0]);
-                weights.push(ring * weight);
+                nodes.push((Vector3::new(st * cp, st * sp, ct), polar_weight * weight * st));
             }
         }
+        nodes
+    }
+
+    /// Solid angle of the rectangle.
+    pub fn solid_angle(&self) -> f64 {
+        (self.theta[0].cos() - self.theta[1].cos()) * (self.phi[1] - self.phi[0])
+    }
+
+    /// The four rectangles that the middle angles cut it in.
+    pub fn quarters(&self) -> [Self; 4] {
+        let halves = |[low, high]: [f64; 2]| {
+            let middle = 0.5 * (low + high);
+            [[low, middle], [middle, high]]
+        };
+        let ([north, south], [west, east]) = (halves(self.theta), halves(self.phi));
+        [(north, west), (north, east), (south, west), (south, east)]
+            .map(|(theta, phi)| Self { theta, phi })
     }
 
     /// The cap round the middle of the rectangle that just holds it.
