@@ -186,8 +186,6 @@ impl std::ops::Add for Sums {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Mesh;
-    use crate::measure::mesh_properties;
     use crate::shapes::{Body, Ellipsoid, Sphere};
     use approx::{assert_abs_diff_eq, assert_relative_eq};
     use nalgebra::Matrix3;
@@ -286,51 +284,5 @@ mod tests {
         let found = integrate(&Sphere { radius: f64::NAN }, 1e-10);
         assert!(found.relative_error.is_nan());
         assert!(found.evaluations < 10_000);
-    }
-
-    /// A mesh of n x 2 n quadrilaterals in (polar angle, azimuth), triangles at the poles.
-    fn latitude_mesh(surface: &dyn StarSurface, n: u32) -> Mesh {
-        let vertices = (0..=n)
-            .flat_map(|i| (0..2 * n).map(move |j| (i, j)))
-            .map(|(i, j)| {
-                let (theta, phi) = (PI * i as f64 / n as f64, PI * j as f64 / n as f64);
-                let ring = Vector3::new(phi.cos(), phi.sin(), 0.0) * theta.sin();
-                let direction = (ring + Vector3::z() * theta.cos()).normalize();
-                Point3::from(direction * surface.radius(&direction))
-            })
-            .collect();
-        let triangles = (0..n)
-            .flat_map(|i| (0..2 * n).map(move |j| (i, j)))
-            .flat_map(|(i, j)| {
-                let at = |i: u32, j: u32| i * 2 * n + j % (2 * n);
-                let (a, b, c, d) = (at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
-                [[a, b, c], [a, c, d]]
-            })
-            .collect();
-        Mesh {
-            vertices,
-            triangles,
-        }
-    }
-
-    #[test]
-    fn meshes_converge_to_the_integrals_at_second_order() {
-        for body in Body::ALL {
-            let surface = body.surface();
-            let exact = integrate(surface.as_ref(), 1e-10).properties;
-            let errors = [64, 128].map(|n| {
-                let mesh = mesh_properties(&latitude_mesh(surface.as_ref(), n)).unwrap();
-                [
-                    (mesh.volume - exact.volume).abs() / exact.volume,
-                    (mesh.area - exact.area).abs() / exact.area,
-                    (mesh.inertia - exact.inertia).norm() / exact.inertia.norm(),
-                ]
-            });
-            for (coarse, fine) in errors[0].iter().zip(errors[1]) {
-                let order = (coarse / fine).log2();
-                assert!((order - 2.0).abs() < 0.1, "{body}: order {order}");
-                assert!(fine < 2e-3);
-            }
-        }
     }
 }

@@ -14,7 +14,7 @@ use nalgebra::Vector3;
 pub fn maize() -> Bumpy<Wedge> {
     Bumpy {
         base: Wedge {
-            semi_axes: Vector3::new(5.65, 3.6, 2.4),
+            semi_axes: Vector3::new(5.6, 3.6, 2.45),
             taper: Vector3::new(0.0, 0.35, 0.1),
         },
         bumps: vec![

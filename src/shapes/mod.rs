@@ -10,6 +10,7 @@ mod bump;
 mod chickpea;
 mod ellipsoid;
 mod maize;
+mod random;
 mod sampling;
 mod sphere;
 mod synth;

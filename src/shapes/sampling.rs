@@ -1,6 +1,6 @@
 //! Where a synthetic scan looks: sets of directions.
 
-use super::synth::{Stream, random};
+use super::random::{Stream, random};
 use nalgebra::Vector3;
 use rand_distr::{Distribution, UnitSphere};
 use std::f64::consts::{FRAC_PI_4, PI, TAU};

@@ -1,10 +1,9 @@
 //! Synthetic scans: a closed-form body seen with the faults of a real scanner.
 
+use super::random::{Stream, random};
 use super::{Body, MIN_POINTS, Sampling, SamplingError};
 use crate::measure::{Integrals, MassProperties, integrate};
 use nalgebra::{Point3, Vector3};
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::SeedableRng;
 use rand_distr::{Distribution, StandardNormal, StandardUniform};
 use thiserror::Error;
 
@@ -187,21 +186,6 @@ fn truth(options: &SynthOptions, integrals: Integrals) -> Truth {
         },
         relative_error: integrals.relative_error,
     }
-}
-
-/// What random numbers are drawn for; each purpose has a stream of its own.
-#[derive(Debug, Clone, Copy)]
-pub(super) enum Stream {
-    Directions,
-    Noise,
-    Outliers,
-}
-
-/// The generator of one stream of a seed.
-pub(super) fn random(seed: u64, stream: Stream) -> ChaCha8Rng {
-    let mut generator = ChaCha8Rng::seed_from_u64(seed);
-    generator.set_stream(stream as u64);
-    generator
 }
 
 #[cfg(test)]
