@@ -35,10 +35,7 @@ pub(crate) fn principal_axes(mesh: &Mesh, properties: &MassProperties) -> Matrix
             let z = axes.column(0).into_owned();
             [z, nearest_scan_axis(&z)]
         }
-        (false, false) => [
-            axes.column(0).into_owned(),
-            axes.column(2).into_owned(),
-        ],
+        (false, false) => [axes.column(0).into_owned(), axes.column(2).into_owned()],
     };
     let sense = |axis: Vector3<f64>| axis * sense(mesh, properties, &axis);
     let (z, x) = (sense(z), sense(x));

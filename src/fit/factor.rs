@@ -24,6 +24,9 @@ const BLOCK_ROWS: usize = 512;
 /// leverage of the segment's corners.
 const RANK_TOLERANCE: f64 = 1e-9;
 
+/// Samples beyond the coefficients that a variance needs.
+const LEAST_SPARE_SAMPLES: usize = 8;
+
 /// A growing factorization [B | r] = Q R; column-major, `rows` of a fixed stride in use.
 pub(crate) struct Factorization {
     columns: usize,
@@ -164,11 +167,14 @@ impl Triangle<'_> {
         self.at(row, self.columns - 1)
     }
 
-    /// Sum of squared residuals of the fit of the given degree.
-    pub(crate) fn residual_squared(&self, degree: usize) -> f64 {
-        (coefficient_count(degree)..self.rows)
+    /// Variance of the `samples` factored round the fit of the given degree, if enough of them are
+    /// left beyond the coefficients to tell.
+    pub(crate) fn residual_variance(&self, degree: usize, samples: usize) -> Option<f64> {
+        let spare = samples.checked_sub(coefficient_count(degree))?;
+        let squared: f64 = (coefficient_count(degree)..self.rows)
             .map(|row| self.projection(row).powi(2))
-            .sum()
+            .sum();
+        (spare >= LEAST_SPARE_SAMPLES).then(|| squared / spare as f64)
     }
 
     /// The largest degree whose columns are independent on the samples, if any.

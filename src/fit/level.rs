@@ -7,9 +7,11 @@ use crate::sphere::{GaussLegendre, coefficient_count};
 use rayon::prelude::*;
 use std::f64::consts::PI;
 
-/// A candidate that misses a sample by more than this fraction of its radius is no model of the
-/// grain, whatever its mean error.
-const LARGEST_MISS: f64 = 0.1;
+/// A candidate that misses a held-out sample, or tears at a seam, by more than this fraction of the
+/// radius is no model of the grain, whatever its mean error. Between the samples the truth can be
+/// missed by a little more: of 1200 candidates on synthetic grains (all samplings, with and without
+/// noise) those that pass miss it by at most 8.3 % anywhere; with 10 % here it would be 11.3 %.
+const LARGEST_MISS: f64 = 0.08;
 
 /// All segments of one partition.
 #[derive(Clone)]
@@ -51,12 +53,15 @@ impl FittedLevel {
             .iter()
             .filter(|segment| segment.degrees.len() <= degree)
             .count();
+        let tear = self.largest_tear(level, degree);
         let rejected = if reduced_segments == self.segments.len() {
             Some(Rejection::Unsupported { degree })
         } else if held_out.worst > LARGEST_MISS {
             Some(Rejection::Misses {
                 worst: held_out.worst,
             })
+        } else if tear > LARGEST_MISS {
+            Some(Rejection::Tears { by: tear })
         } else {
             None
         };
@@ -73,18 +78,48 @@ impl FittedLevel {
         }
     }
 
+    /// The largest difference, relative to the radius, between the expansions that meet at a corner
+    /// or in the middle of a border.
+    fn largest_tear(&self, level: &Level<'_>, degree: usize) -> f64 {
+        let k = level.partition.per_angle();
+        let columns = 2 * k;
+        let mut least = vec![f64::INFINITY; (2 * k + 1) * columns];
+        let mut most = vec![f64::NEG_INFINITY; least.len()];
+        let mut values = [0.0; 9];
+        for (segment, fit) in self.segments.iter().enumerate() {
+            let rectangle = level.partition.rectangle(segment);
+            let directions = rectangle.lattice();
+            let coefficients = &fit.at_most(degree).coefficients;
+            level
+                .basis
+                .values(&rectangle.cap(), coefficients, &directions, &mut values);
+            for (i, &value) in values.iter().enumerate() {
+                let row = 2 * (segment / k) + i / 3;
+                let column = match row {
+                    0 => 0,
+                    row if row == 2 * k => 0,
+                    _ => (2 * (segment % k) + i % 3) % columns,
+                };
+                let at = row * columns + column;
+                least[at] = least[at].min(value);
+                most[at] = most[at].max(value);
+            }
+        }
+        least
+            .iter()
+            .zip(&most)
+            .filter(|(least, most)| least < most)
+            .map(|(least, most)| 2.0 * (most - least) / (most + least).abs())
+            .fold(0.0, f64::max)
+    }
+
     /// The variance of the samples round the fit: the median over the segments of the residual
     /// variance at the largest degree each supports, so that a few creases do not count as noise.
     pub(crate) fn residual_variance(&self) -> f64 {
         let mut variances: Vec<f64> = self
             .segments
             .iter()
-            .filter_map(|segment| {
-                let degree = segment.degrees.len() - 1;
-                let spare = segment.samples.checked_sub(coefficient_count(degree))?;
-                (spare >= LEAST_SPARE_SAMPLES)
-                    .then(|| segment.degrees[degree].residual_squared / spare as f64)
-            })
+            .filter_map(|segment| segment.degrees.last()?.residual_variance)
             .collect();
         let middle = variances.len() / 2;
         if variances.is_empty() {
@@ -124,6 +159,3 @@ impl FittedLevel {
         sums
     }
 }
-
-/// Samples beyond the coefficients that a segment needs to tell of the noise.
-const LEAST_SPARE_SAMPLES: usize = 8;

@@ -8,15 +8,15 @@ use super::reduce::{ReducedCell, reduce_cells};
 use super::reference::Reference;
 use super::samples::{CellGrid, Sample, Samples};
 use super::search::{Found, search};
-use super::segment::{BORROWED_SAMPLES, Level};
+use super::segment::{Level, NEAREST_SAMPLES};
 use super::surface::{Surface, scanned_surface};
 use crate::measure::mesh_properties;
 use crate::mesh::Mesh;
 use crate::model::{Frame, Grain};
 use crate::scan::Scan;
-use crate::sphere::{AngularPartition, CapBasis};
+use crate::sphere::{AngularPartition, Cap, CapBasis};
 use kiddo::{ImmutableKdTree, SquaredEuclidean};
-use nalgebra::{Point3, Vector3};
+use nalgebra::Point3;
 use std::sync::OnceLock;
 
 /// Share of the area that may face away from the centre. The folds of real kernels (the crease of
@@ -162,7 +162,7 @@ impl PreparedScan {
             samples: &self.samples,
             probes: self.probes(),
             reduced: &self.reduced,
-            neighbours: &|direction| self.neighbours(direction),
+            samples_of_cap: &|cap| self.samples_of_cap(cap),
         })
     }
 
@@ -171,9 +171,9 @@ impl PreparedScan {
         self.probes.as_ref().unwrap_or(&self.samples)
     }
 
-    /// The samples nearest to a direction. The tree is built when first asked for: most searches
-    /// have no empty segment.
-    fn neighbours(&self, direction: &Vector3<f64>) -> Vec<Sample> {
+    /// The samples within a cap, or the nearest to its centre where those are few. The tree is
+    /// built when first asked for: segments with enough samples do not need it.
+    fn samples_of_cap(&self, cap: &Cap) -> Vec<Sample> {
         let rows = self.probes().rows();
         let tree = self.tree.get_or_init(|| {
             let directions: Vec<[f64; 3]> = rows.iter().map(|&[x, y, z, _]| [x, y, z]).collect();
@@ -182,12 +182,19 @@ impl PreparedScan {
         let Some(tree) = tree else {
             return Vec::new();
         };
-        tree.query(direction.as_ref())
-            .nearest_n::<SquaredEuclidean<f64>>(BORROWED_SAMPLES)
-            .execute()
-            .into_iter()
-            .map(|hit| rows[hit.item as usize])
-            .collect()
+        let query = tree.query(cap.centre.as_ref());
+        // |n - c|^2 = 2 (1 - n.c)
+        let mut hits = query
+            .within::<SquaredEuclidean<f64>>(2.0 * cap.height)
+            .execute();
+        if hits.len() < NEAREST_SAMPLES.get() {
+            hits = query
+                .nearest_n::<SquaredEuclidean<f64>>(NEAREST_SAMPLES)
+                .execute();
+        }
+        let mut items: Vec<_> = hits.into_iter().map(|hit| hit.item as usize).collect();
+        items.sort_unstable();
+        items.into_iter().map(|item| rows[item]).collect()
     }
 }
 

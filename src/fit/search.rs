@@ -60,6 +60,11 @@ pub enum Rejection {
         /// The largest error relative to the radius.
         worst: f64,
     },
+    /// Its segments do not meet: between samples, at least one of them is far off.
+    Tears {
+        /// The largest difference at a seam, relative to the radius.
+        by: f64,
+    },
 }
 
 impl fmt::Display for Rejection {
@@ -75,6 +80,7 @@ impl fmt::Display for Rejection {
             Self::Misses { worst } => {
                 write!(f, "misses a point by {:.0} % of its radius", 100.0 * worst)
             }
+            Self::Tears { by } => write!(f, "tears at a seam by {:.0} % of the radius", 100.0 * by),
         }
     }
 }

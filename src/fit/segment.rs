@@ -17,8 +17,8 @@ const SAMPLES_PER_COEFFICIENT: usize = 2;
 /// place than a single look at it would tell: it extrapolates.
 const MAX_LEVERAGE: f64 = 10.0;
 
-/// Nearest samples that a segment without samples of its own is fitted to.
-pub(crate) const BORROWED_SAMPLES: NonZero<usize> = NonZero::new(12).unwrap();
+/// Nearest samples that a segment is fitted to when its whole cap holds fewer.
+pub(crate) const NEAREST_SAMPLES: NonZero<usize> = NonZero::new(12).unwrap();
 
 /// Everything the segments of one level share.
 pub(crate) struct Level<'a> {
@@ -29,8 +29,8 @@ pub(crate) struct Level<'a> {
     /// The samples that are predicted from all others.
     pub(crate) probes: &'a Samples,
     pub(crate) reduced: &'a [Option<ReducedCell>],
-    /// The samples nearest to a direction.
-    pub(crate) neighbours: &'a (dyn Fn(&nalgebra::Vector3<f64>) -> Vec<Sample> + Sync),
+    /// The samples of a whole cap, also outside of its segment; the nearest ones if it is empty.
+    pub(crate) samples_of_cap: &'a (dyn Fn(&Cap) -> Vec<Sample> + Sync),
 }
 
 /// Memory that is reused from segment to segment.
@@ -63,8 +63,8 @@ pub(crate) struct SegmentFit {
 #[derive(Debug, Clone)]
 pub(crate) struct DegreeFit {
     pub(crate) coefficients: Vec<f64>,
-    /// Sum of squared residuals of the segment's samples.
-    pub(crate) residual_squared: f64,
+    /// Variance of the fitted samples round the fit; `None` if too few are left to tell.
+    pub(crate) residual_variance: Option<f64>,
     pub(crate) held_out: HeldOut,
 }
 
@@ -87,46 +87,61 @@ impl SegmentFit {
 }
 
 impl Level<'_> {
-    /// Fits one segment.
+    /// Fits one segment. Each degree is fitted to the segment's own samples where they determine it
+    /// everywhere, else to the samples of the whole cap round the segment, if those do.
     pub(crate) fn fit(&self, segment: usize, workspace: &mut Workspace) -> SegmentFit {
         let rectangle = self.partition.rectangle(segment);
         let cap = rectangle.cap();
-        let Workspace {
-            factorization,
-            values,
-            probes,
-        } = workspace;
-
-        factorization.clear();
-        let samples = self.add_rows(segment, &cap, factorization, values);
-        let mut triangle = factorization.triangle();
-        let mut supported = self.supported_degree(&triangle, samples, &rectangle, &cap);
-        if supported.is_none() {
-            let borrowed = (self.neighbours)(&cap.centre);
-            factorization.clear();
-            factorization.add_samples(self.basis, &cap, &borrowed);
-            triangle = factorization.triangle();
-            supported = self
-                .supported_degree(&triangle, borrowed.len(), &rectangle, &cap)
-                .map(|degree| degree.min(1));
-        }
-
-        probes.clear();
+        workspace.probes.clear();
         for run in self.runs(segment) {
-            probes.extend_from_slice(self.probes.run(run));
+            workspace.probes.extend_from_slice(self.probes.run(run));
         }
-        let top = supported.unwrap_or(0);
-        let held_out = self.predict(&triangle, top, &cap, probes, values);
-        let degrees = held_out
-            .into_iter()
-            .enumerate()
-            .map(|(degree, held_out)| DegreeFit {
-                coefficients: triangle.solve(degree),
-                residual_squared: triangle.residual_squared(degree),
-                held_out,
-            })
-            .collect();
+
+        workspace.factorization.clear();
+        let samples = self.add_rows(segment, &cap, workspace);
+        let mut degrees = Vec::new();
+        self.add_degrees(&mut degrees, samples, &rectangle, &cap, workspace);
+        if degrees.len() <= self.basis.degree() {
+            let widened = (self.samples_of_cap)(&cap);
+            workspace.factorization.clear();
+            workspace
+                .factorization
+                .add_samples(self.basis, &cap, &widened);
+            self.add_degrees(&mut degrees, widened.len(), &rectangle, &cap, workspace);
+        }
         SegmentFit { samples, degrees }
+    }
+
+    /// Appends the fits of the degrees that the factored samples support and that are still missing.
+    fn add_degrees(
+        &self,
+        degrees: &mut Vec<DegreeFit>,
+        samples: usize,
+        rectangle: &AngleRectangle,
+        cap: &Cap,
+        workspace: &mut Workspace,
+    ) {
+        let triangle = workspace.factorization.triangle();
+        let Some(top) = self.supported_degree(&triangle, samples, rectangle, cap) else {
+            return;
+        };
+        if top < degrees.len() {
+            return;
+        }
+        let held_out = self.predict(
+            &triangle,
+            top,
+            cap,
+            &workspace.probes,
+            &mut workspace.values,
+        );
+        for (degree, held_out) in held_out.into_iter().enumerate().skip(degrees.len()) {
+            degrees.push(DegreeFit {
+                coefficients: triangle.solve(degree),
+                residual_variance: triangle.residual_variance(degree, samples),
+                held_out,
+            });
+        }
     }
 
     /// Residuals of all samples against the segments' fits at the level's degree.
@@ -160,13 +175,12 @@ impl Level<'_> {
     }
 
     /// Adds what the segment's cells hold; returns the number of samples.
-    fn add_rows(
-        &self,
-        segment: usize,
-        cap: &Cap,
-        factorization: &mut Factorization,
-        values: &mut Vec<f64>,
-    ) -> usize {
+    fn add_rows(&self, segment: usize, cap: &Cap, workspace: &mut Workspace) -> usize {
+        let Workspace {
+            factorization,
+            values,
+            ..
+        } = workspace;
         let mut samples = 0;
         for run in self.runs(segment) {
             samples += self.samples.run(run.clone()).len();
@@ -206,11 +220,7 @@ impl Level<'_> {
         let top = enough
             .min(triangle.full_rank_degree()?)
             .min(self.basis.degree());
-        let places = [0.0, 0.5, 1.0];
-        let guards: Vec<Sample> = (0..9)
-            .map(|i| rectangle.direction(places[i / 3], places[i % 3]))
-            .map(|d| [d.x, d.y, d.z, 0.0])
-            .collect();
+        let guards = rectangle.lattice();
         let mut values = vec![0.0; coefficient_count(self.basis.degree()) * guards.len()];
         self.basis.evaluate(cap, &guards, &mut values, guards.len());
         let mut supported = top;

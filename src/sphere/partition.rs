@@ -88,10 +88,21 @@ impl AngleRectangle {
         for (theta, polar_weight) in polar.on(self.theta[0], self.theta[1]) {
             let (st, ct) = theta.sin_cos();
             for &((sp, cp), weight) in &turns {
-                nodes.push((Vector3::new(st * cp, st * sp, ct), polar_weight * weight * st));
+                nodes.push((
+                    Vector3::new(st * cp, st * sp, ct),
+                    polar_weight * weight * st,
+                ));
             }
         }
         nodes
+    }
+
+    /// Corners, middles of the borders and the middle: 3 x 3 directions, row by row.
+    pub(crate) fn lattice(&self) -> [[f64; 4]; 9] {
+        std::array::from_fn(|i| {
+            let n = self.direction((i / 3) as f64 / 2.0, (i % 3) as f64 / 2.0);
+            [n.x, n.y, n.z, 0.0]
+        })
     }
 
     /// Solid angle of the rectangle.
