@@ -22,6 +22,7 @@ pub mod model;
 pub mod scan;
 pub mod shapes;
 pub mod sphere;
+mod vectorize;
 
 pub use fit::{FitError, FitOptions, Fitted, Tolerance, fit};
 pub use mesh::Mesh;

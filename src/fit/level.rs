@@ -2,10 +2,9 @@
 
 use super::reference::Reference;
 use super::search::{Candidate, Rejection};
-use super::segment::{HeldOut, Level, SegmentFit, Workspace};
-use crate::sphere::{GaussLegendre, coefficient_count};
+use super::segment::{DegreeFit, HeldOut, Level, SegmentFit, Workspace};
+use crate::sphere::coefficient_count;
 use rayon::prelude::*;
-use std::f64::consts::PI;
 
 /// A candidate that misses a held-out sample, or tears at a seam, by more than this fraction of the
 /// radius is no model of the grain, whatever its mean error. Between the samples the truth can be
@@ -33,27 +32,21 @@ impl FittedLevel {
     }
 
     /// What becomes of the level at the given degree.
-    pub(crate) fn candidate(
-        &self,
-        level: &Level<'_>,
-        degree: usize,
-        reference: &Reference,
-    ) -> Candidate {
-        let held_out = self
-            .segments
-            .iter()
-            .map(|segment| segment.at_most(degree).held_out)
-            .fold(HeldOut::default(), |sum, part| HeldOut {
-                squared: sum.squared + part.squared,
-                worst: sum.worst.max(part.worst),
-                count: sum.count + part.count,
-            });
+    pub(crate) fn candidate(&self, degree: usize, reference: &Reference) -> Candidate {
+        let held_out =
+            self.at(degree)
+                .map(|fit| fit.held_out)
+                .fold(HeldOut::default(), |sum, part| HeldOut {
+                    squared: sum.squared + part.squared,
+                    worst: sum.worst.max(part.worst),
+                    count: sum.count + part.count,
+                });
         let reduced_segments = self
             .segments
             .iter()
             .filter(|segment| segment.degrees.len() <= degree)
             .count();
-        let tear = self.largest_tear(level, degree);
+        let tear = self.largest_tear(degree);
         let rejected = if reduced_segments == self.segments.len() {
             Some(Rejection::Unsupported { degree })
         } else if held_out.worst > LARGEST_MISS {
@@ -65,7 +58,8 @@ impl FittedLevel {
         } else {
             None
         };
-        let [area, volume] = self.area_and_volume(level, degree);
+        let area: f64 = self.at(degree).map(|fit| fit.area).sum();
+        let volume: f64 = self.at(degree).map(|fit| fit.volume).sum();
         Candidate {
             degree,
             segments: self.segments.len(),
@@ -78,27 +72,28 @@ impl FittedLevel {
         }
     }
 
+    /// The segments' fits at the given degree, or the largest below that each supports.
+    fn at(&self, degree: usize) -> impl Iterator<Item = &DegreeFit> {
+        self.segments
+            .iter()
+            .map(move |segment| segment.at_most(degree))
+    }
+
     /// The largest difference, relative to the radius, between the expansions that meet at a corner
     /// or in the middle of a border.
-    fn largest_tear(&self, level: &Level<'_>, degree: usize) -> f64 {
-        let k = level.partition.per_angle();
+    fn largest_tear(&self, degree: usize) -> f64 {
+        let k = self.segments.len().isqrt();
         let columns = 2 * k;
         let mut least = vec![f64::INFINITY; (2 * k + 1) * columns];
         let mut most = vec![f64::NEG_INFINITY; least.len()];
-        let mut values = [0.0; 9];
-        for (segment, fit) in self.segments.iter().enumerate() {
-            let rectangle = level.partition.rectangle(segment);
-            let directions = rectangle.lattice();
-            let coefficients = &fit.at_most(degree).coefficients;
-            level
-                .basis
-                .values(&rectangle.cap(), coefficients, &directions, &mut values);
-            for (i, &value) in values.iter().enumerate() {
+        for (segment, fit) in self.at(degree).enumerate() {
+            for (i, &value) in fit.lattice.iter().enumerate() {
                 let row = 2 * (segment / k) + i / 3;
-                let column = match row {
-                    0 => 0,
-                    row if row == 2 * k => 0,
-                    _ => (2 * (segment % k) + i % 3) % columns,
+                let is_pole = row == 0 || row == 2 * k;
+                let column = if is_pole {
+                    0
+                } else {
+                    (2 * (segment % k) + i % 3) % columns
                 };
                 let at = row * columns + column;
                 least[at] = least[at].min(value);
@@ -126,36 +121,5 @@ impl FittedLevel {
             return 0.0;
         }
         *variances.select_nth_unstable_by(middle, f64::total_cmp).1
-    }
-
-    /// Area and volume by Gauss quadrature per segment, to 1e-6 or better: enough to compare with a
-    /// reference surface, whose own error is 1e-4 to 1e-2.
-    fn area_and_volume(&self, level: &Level<'_>, degree: usize) -> [f64; 2] {
-        let k = level.partition.per_angle();
-        // r^3 sin(theta) is a trigonometric polynomial of degree 3L + 1; n nodes on an interval of
-        // width h integrate degree d to rounding once n is well above d h / 4.
-        let nodes = |width: f64| 4 + ((3 * degree + 1) as f64 * width / 4.0).ceil() as usize;
-        let (polar, azimuthal) = (
-            GaussLegendre::new(nodes(PI / k as f64)),
-            GaussLegendre::new(nodes(2.0 * PI / k as f64)),
-        );
-        let mut sums = [0.0; 2];
-        let mut values = Vec::new();
-        for (segment, fit) in self.segments.iter().enumerate() {
-            let rectangle = level.partition.rectangle(segment);
-            let nodes = rectangle.nodes(&polar, &azimuthal);
-            let directions: Vec<_> = nodes.iter().map(|(n, _)| [n.x, n.y, n.z, 0.0]).collect();
-            let cap = rectangle.cap();
-            let coefficients = &fit.at_most(degree).coefficients;
-            values.resize(nodes.len(), [0.0; 2]);
-            level
-                .basis
-                .values_and_slopes(&cap, coefficients, &directions, &mut values);
-            for (&[r, slope_squared], (_, weight)) in values.iter().zip(&nodes) {
-                sums[0] += weight * r.abs() * (r * r + slope_squared).sqrt();
-                sums[1] += weight * r * r * r / 3.0;
-            }
-        }
-        sums
     }
 }

@@ -12,6 +12,7 @@
 mod axes;
 mod centre;
 mod factor;
+mod householder;
 mod level;
 mod options;
 mod prepare;
@@ -28,6 +29,7 @@ pub use options::{FitError, FitOptions, MAX_DEGREE, MAX_PARTS, Tolerance};
 pub use prepare::PreparedScan;
 pub use reference::{Reference, ReferenceKind};
 pub use search::{Candidate, Rejection, Search, Work};
+pub use segment::STARVED;
 
 use crate::model::Grain;
 use crate::scan::Scan;

@@ -27,7 +27,8 @@ pub(crate) struct ReducedCell {
     radius: Vec<f64>,
 }
 
-/// Reduces every cell that holds enough samples; `None` where the samples themselves are fewer.
+/// Reduces every cell that holds enough samples; `None` where the samples themselves are fewer, and
+/// an empty list where no cell is worth it.
 pub(crate) fn reduce_cells(
     samples: &Samples,
     grid: &CellGrid,
@@ -35,13 +36,18 @@ pub(crate) fn reduce_cells(
 ) -> Vec<Option<ReducedCell>> {
     let columns = coefficient_count(basis.degree()) + 1;
     let per_angle = grid.per_angle();
-    (0..per_angle * per_angle)
+    let cells = 0..per_angle * per_angle;
+    let worth_it = |cell| samples.run(cell..cell + 1).len() >= WORTH_REDUCING * columns;
+    if !cells.clone().any(worth_it) {
+        return Vec::new();
+    }
+    cells
         .into_par_iter()
         .map_init(
             || Factorization::new(basis.degree()),
             |factorization, cell| {
                 let rows = samples.run(cell..cell + 1);
-                (rows.len() >= WORTH_REDUCING * columns)
+                worth_it(cell)
                     .then(|| ReducedCell::new(rows, &grid.rectangle(cell), basis, factorization))
             },
         )

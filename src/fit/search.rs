@@ -172,9 +172,7 @@ pub(crate) fn search(prepared: &PreparedScan, progress: &dyn Fn(usize, usize)) -
         });
         for &degree in degrees {
             candidates.push(match &level {
-                Some(level) if within_reach(degree) => prepared.level(k, degree, |setting| {
-                    level.candidate(setting, degree, &prepared.reference)
-                }),
+                Some(level) if within_reach(degree) => level.candidate(degree, &prepared.reference),
                 _ => skipped(degree, k),
             });
         }

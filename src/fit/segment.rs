@@ -4,7 +4,9 @@ use super::Residuals;
 use super::factor::{Factorization, Triangle};
 use super::reduce::ReducedCell;
 use super::samples::{CellGrid, Sample, Samples};
-use crate::sphere::{AngleRectangle, AngularPartition, Cap, CapBasis, coefficient_count};
+use crate::sphere::{
+    AngleRectangle, AngularPartition, Cap, CapBasis, GaussLegendre, coefficient_count,
+};
 use rayon::prelude::*;
 use std::num::NonZero;
 
@@ -24,6 +26,8 @@ pub(crate) const NEAREST_SAMPLES: NonZero<usize> = NonZero::new(12).unwrap();
 pub(crate) struct Level<'a> {
     pub(crate) partition: AngularPartition,
     pub(crate) basis: &'a CapBasis,
+    /// Gauss rules for a segment's polar angle and azimuth.
+    pub(crate) rules: [GaussLegendre; 2],
     pub(crate) grid: &'a CellGrid,
     pub(crate) samples: &'a Samples,
     /// The samples that are predicted from all others.
@@ -37,6 +41,7 @@ pub(crate) struct Level<'a> {
 pub(crate) struct Workspace {
     factorization: Factorization,
     values: Vec<f64>,
+    gathered: Vec<Sample>,
     probes: Vec<Sample>,
 }
 
@@ -45,6 +50,7 @@ impl Workspace {
         Self {
             factorization: Factorization::new(degree),
             values: Vec::new(),
+            gathered: Vec::new(),
             probes: Vec::new(),
         }
     }
@@ -66,6 +72,11 @@ pub(crate) struct DegreeFit {
     /// Variance of the fitted samples round the fit; `None` if too few are left to tell.
     pub(crate) residual_variance: Option<f64>,
     pub(crate) held_out: HeldOut,
+    /// Area and volume over the segment.
+    pub(crate) area: f64,
+    pub(crate) volume: f64,
+    /// Radius at the corners, middles of the borders and middle of the segment, row by row.
+    pub(crate) lattice: [f64; 9],
 }
 
 /// What a fit says of samples that it has not seen.
@@ -102,6 +113,7 @@ impl Level<'_> {
         let mut degrees = Vec::new();
         self.add_degrees(&mut degrees, samples, &rectangle, &cap, workspace);
         if degrees.len() <= self.basis.degree() {
+            STARVED.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
             let widened = (self.samples_of_cap)(&cap);
             workspace.factorization.clear();
             workspace
@@ -121,8 +133,14 @@ impl Level<'_> {
         cap: &Cap,
         workspace: &mut Workspace,
     ) {
-        let triangle = workspace.factorization.triangle();
-        let Some(top) = self.supported_degree(&triangle, samples, rectangle, cap) else {
+        let Workspace {
+            factorization,
+            values,
+            probes,
+            ..
+        } = workspace;
+        let triangle = factorization.triangle();
+        let Some(top) = self.supported_degree(&triangle, samples, rectangle, cap, values) else {
             return;
         };
         if top < degrees.len() {
@@ -135,11 +153,28 @@ impl Level<'_> {
             &workspace.probes,
             &mut workspace.values,
         );
+        let nodes = rectangle.nodes(&self.rules[0], &self.rules[1]);
+        let directions: Vec<Sample> = nodes.iter().map(|(n, _)| [n.x, n.y, n.z, 0.0]).collect();
+        let mut radii_and_slopes = vec![[0.0; 2]; nodes.len()];
         for (degree, held_out) in held_out.into_iter().enumerate().skip(degrees.len()) {
+            let coefficients = triangle.solve(degree);
+            self.basis
+                .values_and_slopes(cap, &coefficients, &directions, &mut radii_and_slopes);
+            let (mut area, mut volume) = (0.0, 0.0);
+            for (&[r, slope_squared], (_, weight)) in radii_and_slopes.iter().zip(&nodes) {
+                area += weight * r.abs() * (r * r + slope_squared).sqrt();
+                volume += weight * r * r * r / 3.0;
+            }
+            let mut lattice = [0.0; 9];
+            self.basis
+                .values(cap, &coefficients, &rectangle.lattice(), &mut lattice);
             degrees.push(DegreeFit {
-                coefficients: triangle.solve(degree),
+                coefficients,
                 residual_variance: triangle.residual_variance(degree, samples),
                 held_out,
+                area,
+                volume,
+                lattice,
             });
         }
     }
@@ -174,26 +209,31 @@ impl Level<'_> {
         }
     }
 
-    /// Adds what the segment's cells hold; returns the number of samples.
+    /// Factors what the segment's cells hold; returns the number of samples. Cells that are not
+    /// reduced are gathered first, so that the basis is evaluated along long columns.
     fn add_rows(&self, segment: usize, cap: &Cap, workspace: &mut Workspace) -> usize {
         let Workspace {
             factorization,
             values,
+            gathered,
             ..
         } = workspace;
+        gathered.clear();
         let mut samples = 0;
         for run in self.runs(segment) {
             samples += self.samples.run(run.clone()).len();
-            let mut direct = run.start;
-            for cell in run.clone() {
-                if let Some(reduced) = &self.reduced[cell] {
-                    factorization.add_samples(self.basis, cap, self.samples.run(direct..cell));
-                    reduced.add_to(factorization, self.basis, cap, values);
-                    direct = cell + 1;
+            if self.reduced.is_empty() {
+                gathered.extend_from_slice(self.samples.run(run));
+                continue;
+            }
+            for cell in run {
+                match &self.reduced[cell] {
+                    Some(reduced) => reduced.add_to(factorization, self.basis, cap, values),
+                    None => gathered.extend_from_slice(self.samples.run(cell..cell + 1)),
                 }
             }
-            factorization.add_samples(self.basis, cap, self.samples.run(direct..run.end));
         }
+        factorization.add_samples(self.basis, cap, gathered);
         samples
     }
 
@@ -215,33 +255,30 @@ impl Level<'_> {
         samples: usize,
         rectangle: &AngleRectangle,
         cap: &Cap,
+        values: &mut Vec<f64>,
     ) -> Option<usize> {
         let enough = (samples / SAMPLES_PER_COEFFICIENT).isqrt().checked_sub(1)?;
         let top = enough
             .min(triangle.full_rank_degree()?)
             .min(self.basis.degree());
         let guards = rectangle.lattice();
-        let mut values = vec![0.0; coefficient_count(self.basis.degree()) * guards.len()];
-        self.basis.evaluate(cap, &guards, &mut values, guards.len());
-        let mut supported = top;
-        let mut whitened = Vec::with_capacity(coefficient_count(top));
-        for guard in 0..guards.len() {
-            whitened.clear();
-            whitened.extend(
-                (0..coefficient_count(supported)).map(|j| values[j * guards.len() + guard]),
-            );
-            triangle.whiten(&mut whitened);
-            let mut leverage = 0.0;
-            let within = whitened
-                .iter()
-                .take_while(|z| {
-                    leverage += *z * *z;
-                    leverage <= MAX_LEVERAGE
-                })
-                .count();
-            supported = within.isqrt().checked_sub(1)?;
-        }
-        Some(supported)
+        let rows = guards.len();
+        values.resize(coefficient_count(self.basis.degree()) * rows, 0.0);
+        self.basis.evaluate(cap, &guards, values, rows);
+        triangle.whiten(values, rows, rows, coefficient_count(top));
+        let mut leverage = [0.0; 9];
+        (0..=top)
+            .take_while(|&degree| {
+                for column in
+                    values[degree * degree * rows..coefficient_count(degree) * rows].chunks(rows)
+                {
+                    for (leverage, z) in leverage.iter_mut().zip(column) {
+                        *leverage += z * z;
+                    }
+                }
+                leverage.iter().all(|&leverage| leverage <= MAX_LEVERAGE)
+            })
+            .last()
     }
 
     /// Predicts every probe from the fit of all samples but itself, at all degrees up to `top`: the
@@ -262,7 +299,7 @@ impl Level<'_> {
         }
         values.resize(coefficient_count(self.basis.degree()) * rows, 0.0);
         self.basis.evaluate(cap, probes, values, rows);
-        triangle.whiten_columns(values, rows, rows, count);
+        triangle.whiten(values, rows, rows, count);
         let mut residual: Vec<f64> = probes.iter().map(|s| s[3]).collect();
         let mut spare = vec![1.0; rows];
         for (degree, out) in out.iter_mut().enumerate() {
@@ -287,3 +324,5 @@ impl Level<'_> {
 
 /// Floor of 1 - h: rounding can take the leverage of a sample that alone decides a coefficient to 1.
 const LEAST_SPARE: f64 = 1e-6;
+
+pub static STARVED: std::sync::atomic::AtomicUsize = std::sync::atomic::AtomicUsize::new(0);

@@ -20,6 +20,7 @@
 //! degree m + j, so that the first (d+1)^2 span the harmonics of degree <= d. No trigonometric
 //! function is called, and 1 - n.c is taken as |n - c|^2 / 2, which does not cancel.
 
+use crate::vectorize::vectorize;
 use nalgebra::Vector3;
 
 /// Number of coefficients of an expansion of degree `degree`: (L+1)^2.
@@ -136,49 +137,63 @@ impl CapBasis {
     /// If `stride` is below the number of directions or `out` below (L+1)^2 columns.
     pub fn evaluate(&self, cap: &Cap, directions: &[[f64; 4]], out: &mut [f64], stride: usize) {
         assert!(directions.len() <= stride && out.len() >= coefficient_count(self.degree) * stride);
-        pulp::Arch::new().dispatch(
+        vectorize(
             #[inline(always)]
-            || self.evaluate_blocks(cap, directions, out, stride),
+            || self.evaluate_columns(cap, directions, out, stride),
         );
     }
 
+    /// Column by column: every function follows from two of lower degree and the same order by the
+    /// recurrence of the Jacobi polynomials, and the first of an order from the first of the order
+    /// below by a product with u + iv. Every loop runs along a column.
     #[inline(always)]
-    fn evaluate_blocks(&self, cap: &Cap, directions: &[[f64; 4]], out: &mut [f64], stride: usize) {
-        for (block, chunk) in directions.chunks(LANES).enumerate() {
-            let [u, v, x] = cap.block_coordinates(chunk);
-            let mut store = |column: usize, values: &[f64; LANES]| {
-                let at = column * stride + block * LANES;
-                if chunk.len() == LANES {
-                    out[at..at + LANES].copy_from_slice(values);
+    fn evaluate_columns(&self, cap: &Cap, directions: &[[f64; 4]], out: &mut [f64], stride: usize) {
+        let rows = directions.len();
+        let mut coordinates = vec![0.0; 3 * rows];
+        let (u, vx) = coordinates.split_at_mut(rows);
+        let (v, x) = vx.split_at_mut(rows);
+        for (i, &[nx, ny, nz, _]) in directions.iter().enumerate() {
+            [u[i], v[i], x[i]] = cap.coordinates(&[nx, ny, nz]);
+        }
+        let mut scale_below = 1.0;
+        for (m, (scale, steps)) in self.orders.iter().enumerate() {
+            let first = column(m, m) * stride;
+            if m == 0 {
+                out[first..first + rows].fill(*scale);
+            } else {
+                let (below, rest) = out.split_at_mut(first);
+                let re_below = &below[column(m - 1, m - 1) * stride..][..rows];
+                let (re, im) = rest.split_at_mut(stride);
+                let (re, im) = (&mut re[..rows], &mut im[..rows]);
+                let ratio = scale / scale_below;
+                if m == 1 {
+                    for i in 0..rows {
+                        re[i] = ratio * re_below[i] * u[i];
+                        im[i] = ratio * re_below[i] * v[i];
+                    }
                 } else {
-                    out[at..at + chunk.len()].copy_from_slice(&values[..chunk.len()]);
-                }
-            };
-            let (mut re, mut im) = ([1.0; LANES], [0.0; LANES]);
-            for (m, (first, steps)) in self.orders.iter().enumerate() {
-                if m > 0 {
-                    for i in 0..LANES {
-                        (re[i], im[i]) = (re[i] * u[i] - im[i] * v[i], re[i] * v[i] + im[i] * u[i]);
+                    let im_below = &below[(column(m - 1, m - 1) + 1) * stride..][..rows];
+                    for i in 0..rows {
+                        re[i] = ratio * (re_below[i] * u[i] - im_below[i] * v[i]);
+                        im[i] = ratio * (re_below[i] * v[i] + im_below[i] * u[i]);
                     }
                 }
-                let (mut previous, mut current) = ([0.0; LANES], [*first; LANES]);
-                for j in 0..=steps.len() {
-                    let mut values = [0.0; LANES];
-                    for i in 0..LANES {
-                        values[i] = re[i] * current[i];
-                    }
-                    store(column(m + j, m), &values);
-                    if m > 0 {
-                        for i in 0..LANES {
-                            values[i] = im[i] * current[i];
+            }
+            scale_below = *scale;
+            for part in 0..if m == 0 { 1 } else { 2 } {
+                for (j, step) in steps.iter().enumerate() {
+                    let at = |j: usize| (column(m + j, m) + part) * stride;
+                    let (known, rest) = out.split_at_mut(at(j + 1));
+                    let next = &mut rest[..rows];
+                    let current = &known[at(j)..][..rows];
+                    if j == 0 {
+                        for i in 0..rows {
+                            next[i] = (step.a * x[i] + step.b) * current[i];
                         }
-                        store(column(m + j, m) + 1, &values);
-                    }
-                    if let Some(step) = steps.get(j) {
-                        for i in 0..LANES {
-                            let next = (step.a * x[i] + step.b) * current[i] - step.c * previous[i];
-                            previous[i] = current[i];
-                            current[i] = next;
+                    } else {
+                        let previous = &known[at(j - 1)..][..rows];
+                        for i in 0..rows {
+                            next[i] = (step.a * x[i] + step.b) * current[i] - step.c * previous[i];
                         }
                     }
                 }
@@ -214,13 +229,15 @@ impl CapBasis {
         directions: &[[f64; 4]],
         out: &mut [f64],
     ) {
-        pulp::Arch::new().dispatch(
+        vectorize(
             #[inline(always)]
             || {
                 for (chunk, out) in directions.chunks(LANES).zip(out.chunks_mut(LANES)) {
                     let [u, v, x] = cap.block_coordinates(chunk);
                     let e = self.expand(coefficients, u, v, x);
-                    out.copy_from_slice(&e.value[..out.len()]);
+                    for (out, value) in out.iter_mut().zip(e.value) {
+                        *out = value;
+                    }
                 }
             },
         );
@@ -234,7 +251,7 @@ impl CapBasis {
         directions: &[[f64; 4]],
         out: &mut [[f64; 2]],
     ) {
-        pulp::Arch::new().dispatch(
+        vectorize(
             #[inline(always)]
             || {
                 for (chunk, out) in directions.chunks(LANES).zip(out.chunks_mut(LANES)) {
