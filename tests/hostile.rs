@@ -46,7 +46,6 @@ fn shape(file: &str) -> Shape {
         "ply_081_far_origin_double.ply" => Shape::Moved,
         "stl_013_ascii_two_bodies.stl" => Shape::Count(2 * 162),
         "stl_024_bin_count_small.stl" => Shape::Count(64),
-        "xyz_011_nan_row.xyz" => Shape::Count(162 - 1),
         _ => Shape::Scaled([1.0; 3]),
     }
 }

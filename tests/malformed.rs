@@ -1,6 +1,6 @@
 //! One small broken file per trap that a reader, or a library below it, once fell into.
 
-use grainform::scan::{ParseError, Scan, parse_scan};
+use grainform::scan::{ParseError, ReadError, Scan, parse_scan, read_scan};
 use nalgebra::Point3;
 
 const AXES: &str = "property float x\nproperty float y\nproperty float z\n";
@@ -231,4 +231,16 @@ fn a_faraway_scan_keeps_its_digits() {
     let xyz = parse_scan(text.as_bytes(), Some("xyz")).unwrap();
     assert_eq!(ply.points, xyz.points);
     assert_eq!(xyz.points[0].x, 5_000_000.001);
+}
+
+#[test]
+fn errors_of_files_name_the_file() {
+    let missing = std::path::Path::new("no/such/scan.ply");
+    let error = read_scan(missing).unwrap_err();
+    assert!(matches!(error, ReadError::Io { .. }));
+    assert_eq!(error.to_string(), "cannot read the file no/such/scan.ply");
+    let manifest = std::path::Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/Cargo.toml"));
+    let error = read_scan(manifest).unwrap_err();
+    assert!(matches!(error, ReadError::Parse { .. }), "{error}");
+    assert!(error.to_string().ends_with("Cargo.toml"), "{error}");
 }

@@ -120,6 +120,30 @@ proptest! {
     }
 
     #[test]
+    fn meshes_survive_writing_and_reading(corners in prop::array::uniform4(
+        prop::array::uniform3(-1000_i16..1000),
+    )) {
+        let mut mesh = mesh();
+        mesh.vertices = corners.map(|corner| Point3::from(corner.map(f64::from))).to_vec();
+        let [a, b, c, d] = corners.map(|corner| Point3::from(corner.map(f64::from)));
+        let volume = (b - a).cross(&(c - a)).dot(&(d - a)) / 6.0;
+        prop_assume!(volume.abs() > 1.0);
+        let [mut stl, mut ply, mut obj] = [const { Vec::new() }; 3];
+        write_stl(&mesh, &mut stl).unwrap();
+        write_ply(&mesh, &mut ply).unwrap();
+        write_obj(&mesh, &mut obj).unwrap();
+        for bytes in [stl, ply, obj] {
+            let scan = parse_scan(&bytes, None).unwrap();
+            prop_assert!(scan.points.len() == 4 && scan.triangles.len() == 4);
+            prop_assert!(scan.points.iter().all(|point| mesh.vertices.contains(point)));
+            prop_assert_eq!(scan.warnings.is_empty(), volume > 0.0);
+            let topology = scan.topology.unwrap();
+            prop_assert!(topology.closed);
+            prop_assert!((topology.volume - volume.abs()).abs() < 1e-6 * volume.abs());
+        }
+    }
+
+    #[test]
     fn arbitrary_bytes_are_refused_or_read_soundly(
         bytes in prop::collection::vec(any::<u8>(), 0..300),
         extension in prop::sample::select(vec![None, Some("ply"), Some("stl"), Some("obj")]),

@@ -18,9 +18,9 @@ use super::{SaveError, WriteError};
 ///
 /// [`SaveError::NoFolder`] where the folder is missing, [`SaveError::Write`] where `write` or the
 /// system fails.
-pub fn write_atomically<E: Into<WriteError>>(
+pub fn write_atomically(
     path: &Path,
-    write: impl FnOnce(&mut BufWriter<&File>) -> Result<(), E>,
+    write: impl FnOnce(&mut BufWriter<&File>) -> Result<(), WriteError>,
 ) -> Result<(), SaveError> {
     let target = path.canonicalize().unwrap_or_else(|_| path.into());
     let folder = match target.parent() {
@@ -49,10 +49,10 @@ pub fn write_atomically<E: Into<WriteError>>(
     })
 }
 
-fn replace<E: Into<WriteError>>(
+fn replace(
     target: &Path,
     folder: &Path,
-    write: impl FnOnce(&mut BufWriter<&File>) -> Result<(), E>,
+    write: impl FnOnce(&mut BufWriter<&File>) -> Result<(), WriteError>,
 ) -> Result<(), WriteError> {
     let mut builder = Builder::new();
     if let Some(permissions) = permissions() {
@@ -64,12 +64,12 @@ fn replace<E: Into<WriteError>>(
     Ok(())
 }
 
-fn fill<E: Into<WriteError>>(
+fn fill(
     file: &File,
-    write: impl FnOnce(&mut BufWriter<&File>) -> Result<(), E>,
+    write: impl FnOnce(&mut BufWriter<&File>) -> Result<(), WriteError>,
 ) -> Result<(), WriteError> {
     let mut writer = BufWriter::with_capacity(1 << 16, file);
-    write(&mut writer).map_err(Into::into)?;
+    write(&mut writer)?;
     Ok(writer.flush()?)
 }
 
@@ -96,7 +96,7 @@ mod tests {
         std::fs::write(&path, "old").unwrap();
         let result = write_atomically(&path, |writer| {
             writer.write_all(b"new")?;
-            Err(io::Error::other("disk full"))
+            Err(io::Error::other("disk full").into())
         });
         assert!(matches!(result, Err(SaveError::Write { .. })));
         assert_eq!(std::fs::read(&path).unwrap(), b"old");
@@ -107,7 +107,7 @@ mod tests {
     fn a_missing_folder_is_named() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("none/a.txt");
-        let error = write_atomically(&path, |w| w.write_all(b"")).unwrap_err();
+        let error = write_atomically(&path, |w| Ok(w.write_all(b"")?)).unwrap_err();
         assert!(error.to_string().contains("none does not exist"), "{error}");
     }
 
@@ -123,7 +123,7 @@ mod tests {
         std::fs::write(folder.path().join("plain"), "").unwrap();
         std::os::unix::fs::symlink("plain", folder.path().join("link")).unwrap();
         for name in ["ours", "link"] {
-            write_atomically(&folder.path().join(name), |w| w.write_all(b"new")).unwrap();
+            write_atomically(&folder.path().join(name), |w| Ok(w.write_all(b"new")?)).unwrap();
         }
         assert_eq!(mode("ours"), mode("plain"));
         assert_eq!(std::fs::read(folder.path().join("plain")).unwrap(), b"new");
@@ -133,7 +133,7 @@ mod tests {
     #[cfg(unix)]
     #[test]
     fn a_device_is_written_to_and_not_replaced() {
-        write_atomically(Path::new("/dev/null"), |w| w.write_all(b"x")).unwrap();
+        write_atomically(Path::new("/dev/null"), |w| Ok(w.write_all(b"x")?)).unwrap();
         assert!(!Path::new("/dev/null").is_file());
     }
 }

@@ -28,3 +28,24 @@ pub fn save_mesh(path: &Path, mesh: &Mesh) -> Result<(), SaveError> {
         _ => Err(SaveError::UnknownExtension { path: path.into() }),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_extension_chooses_the_format() {
+        let folder = tempfile::tempdir().unwrap();
+        let save = |name: &str| {
+            let path = folder.path().join(name);
+            save_mesh(&path, &Mesh::default()).map(|()| std::fs::read(path).unwrap())
+        };
+        assert_eq!(save("a.STL").unwrap().len(), 84);
+        assert!(save("a.ply").unwrap().starts_with(b"ply\n"));
+        assert_eq!(save("a.obj").unwrap(), b"");
+        for name in ["a.vtk", "stl"] {
+            let error = save(name).unwrap_err().to_string();
+            assert!(error.ends_with("must be stl, ply or obj"), "{error}");
+        }
+    }
+}

@@ -1,4 +1,4 @@
-//! Whether points can be those of a body at all, in four passes over them.
+//! Whether points can be those of a body at all, in two passes over them.
 
 use nalgebra::{Point3, Vector3};
 
@@ -31,7 +31,7 @@ pub(crate) fn check(points: &[Point3<f64>]) -> Result<Span, ParseError> {
     let first = *points.first().ok_or(ParseError::NoPoints)?;
     let (mut low, mut high) = (first.coords, first.coords);
     for (number, point) in points.iter().enumerate() {
-        if !(point.coords.amax() <= LARGEST && point.iter().all(|c| c.is_finite())) {
+        if !point.iter().all(|c| c.abs() <= LARGEST) {
             return Err(out_of_range(number, point));
         }
         low = low.inf(&point.coords);
@@ -43,7 +43,9 @@ pub(crate) fn check(points: &[Point3<f64>]) -> Result<Span, ParseError> {
         return Err(ParseError::NoExtent { points, extent });
     }
     let offsets = || points.iter().map(|point| (point - first) / extent);
-    let direction = longest(offsets()).normalize();
+    // Half the extent at least lies between the first point and some other.
+    let far = offsets().find(|offset| offset.amax() >= 0.4);
+    let direction = far.unwrap_or_default().normalize();
     let across = longest(offsets().map(|offset| direction.cross(&offset)));
     if across.norm() <= FLAT {
         let points = points.len();

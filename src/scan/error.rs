@@ -9,7 +9,7 @@ use std::path::PathBuf;
 #[non_exhaustive]
 pub enum ReadError {
     /// The file could not be opened or read: check the path and its permissions.
-    #[error("cannot open {}", path.display())]
+    #[error("cannot read the file {}", path.display())]
     Io {
         /// The file asked for.
         path: PathBuf,

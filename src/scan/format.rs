@@ -58,15 +58,15 @@ pub(super) fn detect(bytes: &[u8], extension: Option<&str>) -> Result<Format, Pa
     if stl::starts_with_solid(bytes) {
         return Ok(Format::Stl);
     }
-    if obj::recognise(bytes) {
-        return Ok(Format::Obj);
-    }
     let extension = extension.map(str::to_ascii_lowercase);
-    match extension.as_deref() {
-        Some("ply") => Ok(Format::Ply),
-        Some("stl") => Ok(Format::Stl),
-        Some("obj") => Ok(Format::Obj),
-        _ => text(bytes).map(|()| Format::Xyz),
+    match (first_strange_byte(bytes), extension.as_deref()) {
+        (Some(_), Some("stl")) => Ok(Format::Stl),
+        (Some(byte), _) => Err(ParseError::Unknown { byte }),
+        (None, _) if obj::recognise(bytes) => Ok(Format::Obj),
+        (None, Some("ply")) => Ok(Format::Ply),
+        (None, Some("stl")) => Ok(Format::Stl),
+        (None, Some("obj")) => Ok(Format::Obj),
+        (None, _) => Ok(Format::Xyz),
     }
 }
 
@@ -77,13 +77,10 @@ fn starts_with_ply(bytes: &[u8]) -> bool {
     [a, b, c].eq_ignore_ascii_case(b"ply") && next.is_ascii_whitespace()
 }
 
-/// Refuses bytes that text of any single-byte or UTF-8 encoding does not hold.
-fn text(bytes: &[u8]) -> Result<(), ParseError> {
+/// The first byte that text of no single-byte encoding nor UTF-8 holds, early in the file.
+fn first_strange_byte(bytes: &[u8]) -> Option<usize> {
     let strange = |b: &u8| b.is_ascii_control() && !b.is_ascii_whitespace();
-    match bytes.iter().take(4096).position(strange) {
-        Some(byte) => Err(ParseError::Unknown { byte }),
-        None => Ok(()),
-    }
+    bytes.iter().take(4096).position(strange)
 }
 
 #[cfg(test)]
@@ -109,6 +106,13 @@ mod tests {
     fn the_extension_decides_where_the_content_does_not() {
         assert_eq!(detect(&[1; 90], Some("STL")), Ok(Format::Stl));
         assert_eq!(detect(&[1; 90], None), Err(ParseError::Unknown { byte: 0 }));
+        assert_eq!(detect(b"a b c\n1 2 3", Some("obj")), Ok(Format::Obj));
+    }
+
+    #[test]
+    fn a_binary_header_of_obj_words_stays_stl() {
+        let bytes = [&b"o part"[..], &[0; 200]].concat();
+        assert_eq!(detect(&bytes, Some("stl")), Ok(Format::Stl));
     }
 
     #[test]

@@ -16,15 +16,29 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Scan, ParseError> {
     let mut rows = Lines::after(0, bytes)
         .filter(|(_, line)| !is_remark(line))
         .peekable();
-    let start = Start::read(&mut rows, &mut scan.warnings);
+    let (mut count, mut heading) = (None, None);
+    if let Some((line, row)) = rows.next_if(|(_, row)| is_heading(row) || is_count(row)) {
+        count = integer(line, row.trim_ascii()).ok();
+        heading = count.is_none().then_some(row);
+    }
     let Some(&(_, first)) = rows.peek() else {
         return Ok(scan);
     };
     let separator = Separator::of(first);
     let columns = separator.split(first).count();
+    let mut axes = [0, 1, 2];
+    if let Some(heading) = heading {
+        match named_axes(heading, separator, columns) {
+            Some(named) => axes = named,
+            None => scan.warnings.push(format!(
+                "The heading {} does not name the columns x, y and z; the first three were read.",
+                quote(heading)
+            )),
+        }
+    }
     let mut skipped = 0;
     for (line, row) in rows {
-        let point = read_row(line, row, separator, columns, start.axes)?;
+        let point = read_row(line, row, separator, columns, axes)?;
         if point.iter().all(|c| c.is_finite()) {
             scan.points.push(point);
         } else {
@@ -38,7 +52,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Scan, ParseError> {
         ));
     }
     let read = scan.points.len() + skipped;
-    if let Some(count) = start.count
+    if let Some(count) = count
         && count != read as i64
     {
         let rows = plural(read, "row");
@@ -55,39 +69,6 @@ fn is_remark(line: &[u8]) -> bool {
     line.is_empty() || marks.iter().any(|mark| line.starts_with(mark))
 }
 
-/// What lines before the first row say.
-struct Start {
-    /// The number of rows.
-    count: Option<i64>,
-    /// The columns of x, y and z.
-    axes: [usize; 3],
-}
-
-impl Start {
-    fn read<'a>(
-        rows: &mut std::iter::Peekable<impl Iterator<Item = (usize, &'a [u8])>>,
-        warnings: &mut Vec<String>,
-    ) -> Self {
-        let mut count = None;
-        let mut axes = None;
-        if let Some((line, row)) = rows.next_if(|(_, row)| is_heading(row) || is_count(row)) {
-            count = integer(line, row.trim_ascii()).ok();
-            if count.is_none() {
-                axes = named_axes(row);
-                if axes.is_none() {
-                    warnings.push(format!(
-                        "The heading {} does not name x, y and z; the first three columns were \
-                         read.",
-                        quote(row)
-                    ));
-                }
-            }
-        }
-        let axes = axes.unwrap_or([0, 1, 2]);
-        Self { count, axes }
-    }
-}
-
 fn is_count(row: &[u8]) -> bool {
     let row = row.trim_ascii();
     !row.is_empty() && row.iter().all(u8::is_ascii_digit)
@@ -99,20 +80,23 @@ fn is_heading(row: &[u8]) -> bool {
     columns.all(|column| number(0, column).is_err()) && row.iter().any(u8::is_ascii_alphabetic)
 }
 
-/// The columns whose names are `x`, `y` and `z`, or start so before a mark: `X (mm)`, `x_mm`.
-fn named_axes(heading: &[u8]) -> Option<[usize; 3]> {
-    let separator = Separator::of(heading);
-    let column = |axis: u8| {
-        separator.split(heading).position(|name| {
-            let name = name.trim_ascii_start();
-            let name = name.strip_prefix(b"\"").unwrap_or(name);
-            let next = name.get(1).copied().unwrap_or(b' ');
-            name.first()
-                .is_some_and(|first| first.eq_ignore_ascii_case(&axis))
-                && !next.is_ascii_alphanumeric()
-        })
+/// The columns named `x`, `y` and `z`, perhaps with a unit as in `X (mm)`, where the heading has
+/// a name for every column.
+fn named_axes(heading: &[u8], separator: Separator, columns: usize) -> Option<[usize; 3]> {
+    let is_named = |name: &[u8], axis: u8| {
+        let name = name.strip_prefix(b"\"").unwrap_or(name);
+        let unit = name.get(1..).unwrap_or_default().trim_ascii_start();
+        name.first()
+            .is_some_and(|first| first.eq_ignore_ascii_case(&axis))
+            && matches!(unit.first(), None | Some(b'(' | b'[' | b'"'))
     };
-    Some([column(b'x')?, column(b'y')?, column(b'z')?])
+    let column = |axis| {
+        separator
+            .split(heading)
+            .position(|name| is_named(name, axis))
+    };
+    let axes = [column(b'x')?, column(b'y')?, column(b'z')?];
+    (separator.split(heading).count() == columns).then_some(axes)
 }
 
 #[derive(Clone, Copy)]
@@ -199,12 +183,16 @@ mod tests {
             first("\"Z (mm)\";\"Y (mm)\";\"X (mm)\"\n3;2;1"),
             [1.0, 2.0, 3.0]
         );
-        let scan = parse(b"east north up\n1 2 3").unwrap();
-        assert!(
-            scan.warnings[0].contains("first three columns"),
-            "{:?}",
-            scan.warnings
-        );
+        assert_eq!(first("x_normal,x,y,z\n7,1,2,3"), [1.0, 2.0, 3.0]);
+        for heading in ["east north up", "X [mm] Y [mm] Z [mm]", "x,y,z"] {
+            let scan = parse(format!("{heading}\n1 2 3 4").as_bytes()).unwrap();
+            assert_eq!(scan.points[0], [1.0, 2.0, 3.0].into());
+            assert!(
+                scan.warnings[0].contains("first three"),
+                "{:?}",
+                scan.warnings
+            );
+        }
     }
 
     #[test]

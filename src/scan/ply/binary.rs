@@ -128,31 +128,35 @@ fn least_bytes(property: &ply_rs::ply::PropertyDef) -> usize {
 
 struct Vertex(Point3<f64>);
 
+impl Vertex {
+    fn set(&mut self, name: &str, value: f64) -> PropertyAccessResult {
+        match name {
+            "x" => self.0.x = value,
+            "y" => self.0.y = value,
+            "z" => self.0.z = value,
+            _ => return PropertyAccessResult::Ignored,
+        }
+        PropertyAccessResult::Set
+    }
+}
+
+/// One setter per type: through the common `set_property` a point takes a third longer.
+macro_rules! scalar_setters {
+    ($($setter:ident($kind:ty))*) => {$(
+        fn $setter(&mut self, name: &str, value: $kind) -> PropertyAccessResult {
+            self.set(name, value.into())
+        }
+    )*};
+}
+
 impl PropertyAccess for Vertex {
     fn new() -> Self {
         Self(Point3::origin())
     }
 
-    #[inline]
-    fn set_property(&mut self, name: &str, value: Property) -> PropertyAccessResult {
-        let coordinate = match name {
-            "x" => &mut self.0.x,
-            "y" => &mut self.0.y,
-            "z" => &mut self.0.z,
-            _ => return PropertyAccessResult::Ignored,
-        };
-        *coordinate = match value {
-            Property::Char(value) => value.into(),
-            Property::UChar(value) => value.into(),
-            Property::Short(value) => value.into(),
-            Property::UShort(value) => value.into(),
-            Property::Int(value) => value.into(),
-            Property::UInt(value) => value.into(),
-            Property::Float(value) => value.into(),
-            Property::Double(value) => value,
-            _ => return PropertyAccessResult::UnsupportedType,
-        };
-        PropertyAccessResult::Set
+    scalar_setters! {
+        set_char(i8) set_uchar(u8) set_short(i16) set_ushort(u16)
+        set_int(i32) set_uint(u32) set_float(f32) set_double(f64)
     }
 }
 

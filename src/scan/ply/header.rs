@@ -91,25 +91,7 @@ impl Rewriter {
                 }
             }
             b"property" => {
-                if let [
-                    _,
-                    b"list",
-                    b"float" | b"float32" | b"double" | b"float64",
-                    ..,
-                ] = tokens[..]
-                {
-                    return Err(unexpected(number, "a list length of an integer type", line));
-                }
-                if let [_, .., name] = &mut tokens[..] {
-                    if *name == b"vertex_index" {
-                        *name = b"vertex_indices";
-                    }
-                    if !NAMES.contains(name) {
-                        *name = fresh_name.as_bytes();
-                    } else if !self.properties.insert(name.to_vec()) {
-                        return Err(unexpected(number, "a property not declared before", name));
-                    }
-                }
+                self.check_property(number, line, &mut tokens, fresh_name.as_bytes())?;
             }
             _ => {
                 let expected = "a header line: format, comment, element, property or end_header";
@@ -125,6 +107,34 @@ impl Rewriter {
             return Err(unexpected(number, "the end of the header by now", line));
         }
         Ok(line == b"end_header")
+    }
+
+    /// Keeps the name of a property that is read, once per element, and replaces any other.
+    fn check_property<'a>(
+        &mut self,
+        number: usize,
+        line: &[u8],
+        tokens: &mut [&'a [u8]],
+        fresh_name: &'a [u8],
+    ) -> Result<(), ParseError> {
+        const FLOATS: [&[u8]; 4] = [b"float", b"float32", b"double", b"float64"];
+        if let [_, b"list", length, ..] = tokens
+            && FLOATS.contains(length)
+        {
+            return Err(unexpected(number, "a list length of an integer type", line));
+        }
+        let [_, .., name] = tokens else {
+            return Ok(());
+        };
+        if *name == b"vertex_index" {
+            *name = b"vertex_indices";
+        }
+        if !NAMES.contains(name) {
+            *name = fresh_name;
+        } else if !self.properties.insert(name.to_vec()) {
+            return Err(unexpected(number, "a property not declared before", name));
+        }
+        Ok(())
     }
 }
 

@@ -1,10 +1,10 @@
 //! STL, in text or binary.
 //!
-//! Not read by stl_io 0.11: it takes every file that starts with `solid ` for text (many binary
-//! files do) and every other for binary (text without a name, in upper case or after a blank),
-//! drops the second solid of a text file, keeps only 32 bits of its numbers, and passes over NaN
-//! and spare bytes. What is left of the work, the records of 50 bytes, is the loop below. The
-//! tests hold both readers and the writer against stl_io where it is right.
+//! stl_io writes our STL, but does not read it: its version 0.11 takes every file that starts
+//! with `solid ` for text (many binary files do) and every other for binary (text without a name,
+//! in upper case or after a blank), drops the second solid of a text file, keeps only 32 bits of
+//! its numbers, and passes over NaN and spare bytes. What is left to do for a binary file, once
+//! all that is ruled out, is one loop over records of 50 bytes.
 
 mod ascii;
 
