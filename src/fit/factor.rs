@@ -9,7 +9,7 @@
 
 use super::householder::triangularise;
 use super::samples::Sample;
-use crate::sphere::{Cap, CapBasis, coefficient_count};
+use crate::sphere::{Cap, CapBasis, Places, coefficient_count};
 use crate::vectorize::vectorize;
 /// Rows factored at once: with 17 columns they fit in the nearest cache.
 const BLOCK_ROWS: usize = 192;
@@ -29,6 +29,7 @@ pub(crate) struct Factorization {
     matrix: Vec<f64>,
     used: usize,
     stride: usize,
+    places: Places,
 }
 
 impl Factorization {
@@ -41,6 +42,7 @@ impl Factorization {
             matrix: vec![0.0; stride * columns],
             used: 0,
             stride,
+            places: Places::default(),
         }
     }
 
@@ -73,11 +75,13 @@ impl Factorization {
                 self.compress();
             }
             let (block, tail) = rest.split_at(self.room().min(rest.len()));
-            let functions = self.columns - 1;
-            let (out, stride) = self.append(block.len());
-            let (design, radius) = out.split_at_mut(functions * stride);
-            basis.evaluate(cap, block, design, stride);
-            for (out, sample) in radius.iter_mut().zip(block) {
+            cap.locate(block, &mut self.places);
+            let start = self.used;
+            self.used += block.len();
+            let radius_column = (self.columns - 1) * self.stride;
+            let (design, radius) = self.matrix.split_at_mut(radius_column);
+            basis.evaluate(&self.places, &mut design[start..], self.stride);
+            for (out, sample) in radius[start..].iter_mut().zip(block) {
                 *out = sample[3];
             }
             rest = tail;

@@ -1,8 +1,9 @@
 //! One level of a search: all segments of one partition, at every degree at once.
 
+use super::held_out::HeldOut;
 use super::reference::Reference;
 use super::search::{Candidate, Rejection};
-use super::segment::{DegreeFit, HeldOut, Level, SegmentFit, Workspace};
+use super::segment::{DegreeFit, Level, SegmentFit, Workspace};
 use crate::sphere::coefficient_count;
 use rayon::prelude::*;
 
@@ -33,14 +34,10 @@ impl FittedLevel {
 
     /// What becomes of the level at the given degree.
     pub(crate) fn candidate(&self, degree: usize, reference: &Reference) -> Candidate {
-        let held_out =
-            self.at(degree)
-                .map(|fit| fit.held_out)
-                .fold(HeldOut::default(), |sum, part| HeldOut {
-                    squared: sum.squared + part.squared,
-                    worst: sum.worst.max(part.worst),
-                    count: sum.count + part.count,
-                });
+        let held_out = self
+            .at(degree)
+            .map(|fit| fit.held_out)
+            .fold(HeldOut::default(), HeldOut::and);
         let reduced_segments = self
             .segments
             .iter()

@@ -12,12 +12,14 @@
 mod axes;
 mod centre;
 mod factor;
+mod held_out;
 mod householder;
 mod level;
 mod options;
 mod prepare;
 mod reduce;
 mod reference;
+mod row;
 mod samples;
 mod search;
 mod segment;
@@ -29,7 +31,6 @@ pub use options::{FitError, FitOptions, MAX_DEGREE, MAX_PARTS, Tolerance};
 pub use prepare::PreparedScan;
 pub use reference::{Reference, ReferenceKind};
 pub use search::{Candidate, Rejection, Search, Work};
-pub use segment::STARVED;
 
 use crate::model::Grain;
 use crate::scan::Scan;

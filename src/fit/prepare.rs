@@ -6,6 +6,7 @@ use super::centre::{deepest_centre, facing_away_share};
 use super::options::{FitError, FitOptions};
 use super::reduce::{ReducedCell, reduce_cells};
 use super::reference::Reference;
+use super::row::rows;
 use super::samples::{CellGrid, Sample, Samples};
 use super::search::{Found, search};
 use super::segment::{Level, NEAREST_SAMPLES};
@@ -14,10 +15,9 @@ use crate::measure::mesh_properties;
 use crate::mesh::Mesh;
 use crate::model::{Frame, Grain};
 use crate::scan::Scan;
-use crate::sphere::{AngularPartition, Cap, CapBasis, GaussLegendre};
+use crate::sphere::{AngularPartition, Cap, CapBasis};
 use kiddo::{ImmutableKdTree, SquaredEuclidean};
 use nalgebra::Point3;
-use std::f64::consts::{PI, TAU};
 use std::sync::OnceLock;
 
 /// Share of the area that may face away from the centre. The folds of real kernels (the crease of
@@ -159,7 +159,7 @@ impl PreparedScan {
         work(&Level {
             partition: AngularPartition::new(k),
             basis: &self.bases[degree],
-            rules: level_rules(k, degree),
+            rows: rows(AngularPartition::new(k), degree),
             grid: &self.grid,
             samples: &self.samples,
             probes: self.probes(),
@@ -188,6 +188,7 @@ impl PreparedScan {
         // |n - c|^2 = 2 (1 - n.c)
         let mut hits = query
             .within::<SquaredEuclidean<f64>>(2.0 * cap.height)
+            .unsorted()
             .execute();
         if hits.len() < NEAREST_SAMPLES.get() {
             hits = query
@@ -198,18 +199,6 @@ impl PreparedScan {
         items.sort_unstable();
         items.into_iter().map(|item| rows[item]).collect()
     }
-}
-
-/// Gauss rules for the area and volume of a segment, to 1e-6 or better: enough to compare with a
-/// reference surface, whose own error is 1e-4 to 1e-2.
-///
-/// r^3 sin(theta) is a trigonometric polynomial of degree 3L + 1; n nodes on an interval of width h
-/// integrate degree d to rounding once n is well above d h / 4.
-fn level_rules(k: usize, degree: usize) -> [GaussLegendre; 2] {
-    [PI, TAU].map(|whole| {
-        let width = whole / k as f64;
-        GaussLegendre::new(4 + ((3 * degree + 1) as f64 * width / 4.0).ceil() as usize)
-    })
 }
 
 /// The centroid if it sees the whole surface, else the centre that sees most of it.

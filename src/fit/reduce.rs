@@ -9,7 +9,7 @@
 
 use super::factor::Factorization;
 use super::samples::{CellGrid, Sample, Samples};
-use crate::sphere::{AngleRectangle, Cap, CapBasis, coefficient_count};
+use crate::sphere::{AngleRectangle, Cap, CapBasis, Places, coefficient_count};
 use faer::linalg::solvers::SolveLstsq;
 use faer::{Accum, Mat, MatMut, MatRef, Par};
 use rayon::prelude::*;
@@ -75,7 +75,9 @@ impl ReducedCell {
 
         let nodes = directions.len();
         let mut values = vec![0.0; nodes * count];
-        basis.evaluate(&cap, &directions, &mut values, nodes);
+        let mut places = Places::default();
+        cap.locate(&directions, &mut places);
+        basis.evaluate(&places, &mut values, nodes);
         let pseudo_inverse = MatRef::from_column_major_slice(&values, nodes, count)
             .qr()
             .solve_lstsq(Mat::<f64>::identity(nodes, nodes));
@@ -93,11 +95,13 @@ impl ReducedCell {
         basis: &CapBasis,
         cap: &Cap,
         values: &mut Vec<f64>,
+        places: &mut Places,
     ) {
         let (rows, nodes) = (self.radius.len(), self.directions.len());
         let count = coefficient_count(basis.degree());
         values.resize(nodes * count, 0.0);
-        basis.evaluate(cap, &self.directions, values, nodes);
+        cap.locate(&self.directions, places);
+        basis.evaluate(places, values, nodes);
         let (out, stride) = factorization.append(rows);
         let (design, radius) = out.split_at_mut(count * stride);
         radius[..rows].copy_from_slice(&self.radius);

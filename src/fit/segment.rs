@@ -2,11 +2,11 @@
 
 use super::Residuals;
 use super::factor::{Factorization, Triangle};
+use super::held_out::{HeldOut, leave_one_out};
 use super::reduce::ReducedCell;
+use super::row::Row;
 use super::samples::{CellGrid, Sample, Samples};
-use crate::sphere::{
-    AngleRectangle, AngularPartition, Cap, CapBasis, GaussLegendre, coefficient_count,
-};
+use crate::sphere::{AngularPartition, Cap, CapBasis, Places, coefficient_count};
 use rayon::prelude::*;
 use std::num::NonZero;
 
@@ -26,8 +26,8 @@ pub(crate) const NEAREST_SAMPLES: NonZero<usize> = NonZero::new(12).unwrap();
 pub(crate) struct Level<'a> {
     pub(crate) partition: AngularPartition,
     pub(crate) basis: &'a CapBasis,
-    /// Gauss rules for a segment's polar angle and azimuth.
-    pub(crate) rules: [GaussLegendre; 2],
+    /// What the segments between two polar angles share, from north to south.
+    pub(crate) rows: Vec<Row>,
     pub(crate) grid: &'a CellGrid,
     pub(crate) samples: &'a Samples,
     /// The samples that are predicted from all others.
@@ -41,8 +41,11 @@ pub(crate) struct Level<'a> {
 pub(crate) struct Workspace {
     factorization: Factorization,
     values: Vec<f64>,
+    places: Places,
     gathered: Vec<Sample>,
     probes: Vec<Sample>,
+    probe_places: Places,
+    radii_and_slopes: Vec<[f64; 2]>,
 }
 
 impl Workspace {
@@ -50,8 +53,11 @@ impl Workspace {
         Self {
             factorization: Factorization::new(degree),
             values: Vec::new(),
+            places: Places::default(),
             gathered: Vec::new(),
             probes: Vec::new(),
+            probe_places: Places::default(),
+            radii_and_slopes: Vec::new(),
         }
     }
 }
@@ -59,8 +65,6 @@ impl Workspace {
 /// One segment, fitted at every degree that its samples support.
 #[derive(Debug, Clone)]
 pub(crate) struct SegmentFit {
-    /// Samples in the segment.
-    pub(crate) samples: usize,
     /// One fit per degree, from 0 to the largest that the samples support.
     pub(crate) degrees: Vec<DegreeFit>,
 }
@@ -79,17 +83,6 @@ pub(crate) struct DegreeFit {
     pub(crate) lattice: [f64; 9],
 }
 
-/// What a fit says of samples that it has not seen.
-#[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct HeldOut {
-    /// Sum of squared errors.
-    pub(crate) squared: f64,
-    /// Largest error, relative to the radius.
-    pub(crate) worst: f64,
-    /// Number of samples predicted.
-    pub(crate) count: usize,
-}
-
 impl SegmentFit {
     /// The fit of the given degree, or of the largest one below that the samples support.
     pub(crate) fn at_most(&self, degree: usize) -> &DegreeFit {
@@ -101,27 +94,27 @@ impl Level<'_> {
     /// Fits one segment. Each degree is fitted to the segment's own samples where they determine it
     /// everywhere, else to the samples of the whole cap round the segment, if those do.
     pub(crate) fn fit(&self, segment: usize, workspace: &mut Workspace) -> SegmentFit {
-        let rectangle = self.partition.rectangle(segment);
-        let cap = rectangle.cap();
+        let row = &self.rows[segment / self.partition.per_angle()];
+        let cap = self.partition.cap(segment);
         workspace.probes.clear();
         for run in self.runs(segment) {
             workspace.probes.extend_from_slice(self.probes.run(run));
         }
+        cap.locate(&workspace.probes, &mut workspace.probe_places);
 
         workspace.factorization.clear();
         let samples = self.add_rows(segment, &cap, workspace);
         let mut degrees = Vec::new();
-        self.add_degrees(&mut degrees, samples, &rectangle, &cap, workspace);
+        self.add_degrees(&mut degrees, samples, row, workspace);
         if degrees.len() <= self.basis.degree() {
-            STARVED.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
             let widened = (self.samples_of_cap)(&cap);
             workspace.factorization.clear();
             workspace
                 .factorization
                 .add_samples(self.basis, &cap, &widened);
-            self.add_degrees(&mut degrees, widened.len(), &rectangle, &cap, workspace);
+            self.add_degrees(&mut degrees, widened.len(), row, workspace);
         }
-        SegmentFit { samples, degrees }
+        SegmentFit { degrees }
     }
 
     /// Appends the fits of the degrees that the factored samples support and that are still missing.
@@ -129,45 +122,37 @@ impl Level<'_> {
         &self,
         degrees: &mut Vec<DegreeFit>,
         samples: usize,
-        rectangle: &AngleRectangle,
-        cap: &Cap,
+        row: &Row,
         workspace: &mut Workspace,
     ) {
         let Workspace {
             factorization,
             values,
             probes,
+            probe_places,
+            radii_and_slopes,
             ..
         } = workspace;
         let triangle = factorization.triangle();
-        let Some(top) = self.supported_degree(&triangle, samples, rectangle, cap, values) else {
+        let supported = self.supported_degree(&triangle, samples, row, values);
+        let Some(top) = supported.filter(|&top| top >= degrees.len()) else {
             return;
         };
-        if top < degrees.len() {
-            return;
-        }
-        let held_out = self.predict(
-            &triangle,
-            top,
-            cap,
-            &workspace.probes,
-            &mut workspace.values,
-        );
-        let nodes = rectangle.nodes(&self.rules[0], &self.rules[1]);
-        let directions: Vec<Sample> = nodes.iter().map(|(n, _)| [n.x, n.y, n.z, 0.0]).collect();
-        let mut radii_and_slopes = vec![[0.0; 2]; nodes.len()];
+        values.resize(coefficient_count(self.basis.degree()) * probes.len(), 0.0);
+        self.basis.evaluate(probe_places, values, probes.len());
+        let held_out = leave_one_out(&triangle, top, probes, values);
+        radii_and_slopes.resize(row.weights.len(), [0.0; 2]);
         for (degree, held_out) in held_out.into_iter().enumerate().skip(degrees.len()) {
             let coefficients = triangle.solve(degree);
             self.basis
-                .values_and_slopes(cap, &coefficients, &directions, &mut radii_and_slopes);
+                .values_and_slopes(&row.cap, &coefficients, &row.nodes, radii_and_slopes);
             let (mut area, mut volume) = (0.0, 0.0);
-            for (&[r, slope_squared], (_, weight)) in radii_and_slopes.iter().zip(&nodes) {
+            for (&[r, slope_squared], weight) in radii_and_slopes.iter().zip(&row.weights) {
                 area += weight * r.abs() * (r * r + slope_squared).sqrt();
                 volume += weight * r * r * r / 3.0;
             }
             let mut lattice = [0.0; 9];
-            self.basis
-                .values(cap, &coefficients, &rectangle.lattice(), &mut lattice);
+            self.basis.values(&coefficients, &row.lattice, &mut lattice);
             degrees.push(DegreeFit {
                 coefficients,
                 residual_variance: triangle.residual_variance(degree, samples),
@@ -187,12 +172,13 @@ impl Level<'_> {
             .map(|(segment, fit)| {
                 let cap = self.partition.cap(segment);
                 let coefficients = &fit.at_most(self.basis.degree()).coefficients;
-                let mut values = Vec::new();
+                let (mut values, mut places) = (Vec::new(), Places::default());
                 let (mut squared, mut max) = (0.0, 0.0_f64);
                 for run in self.runs(segment) {
                     let samples = self.samples.run(run);
                     values.resize(samples.len(), 0.0);
-                    self.basis.values(&cap, coefficients, samples, &mut values);
+                    cap.locate(samples, &mut places);
+                    self.basis.values(coefficients, &places, &mut values);
                     for (value, sample) in values.iter().zip(samples) {
                         let residual = sample[3] - value;
                         squared += residual * residual;
@@ -216,6 +202,7 @@ impl Level<'_> {
             factorization,
             values,
             gathered,
+            places,
             ..
         } = workspace;
         gathered.clear();
@@ -228,7 +215,7 @@ impl Level<'_> {
             }
             for cell in run {
                 match &self.reduced[cell] {
-                    Some(reduced) => reduced.add_to(factorization, self.basis, cap, values),
+                    Some(reduced) => reduced.add_to(factorization, self.basis, cap, values, places),
                     None => gathered.extend_from_slice(self.samples.run(cell..cell + 1)),
                 }
             }
@@ -253,18 +240,16 @@ impl Level<'_> {
         &self,
         triangle: &Triangle<'_>,
         samples: usize,
-        rectangle: &AngleRectangle,
-        cap: &Cap,
+        row: &Row,
         values: &mut Vec<f64>,
     ) -> Option<usize> {
         let enough = (samples / SAMPLES_PER_COEFFICIENT).isqrt().checked_sub(1)?;
         let top = enough
             .min(triangle.full_rank_degree()?)
             .min(self.basis.degree());
-        let guards = rectangle.lattice();
-        let rows = guards.len();
+        let rows = row.lattice.len();
         values.resize(coefficient_count(self.basis.degree()) * rows, 0.0);
-        self.basis.evaluate(cap, &guards, values, rows);
+        self.basis.evaluate(&row.lattice, values, rows);
         triangle.whiten(values, rows, rows, coefficient_count(top));
         let mut leverage = [0.0; 9];
         (0..=top)
@@ -280,49 +265,4 @@ impl Level<'_> {
             })
             .last()
     }
-
-    /// Predicts every probe from the fit of all samples but itself, at all degrees up to `top`: the
-    /// exact leave-one-out error e / (1 - h), with h the probe's leverage.
-    fn predict(
-        &self,
-        triangle: &Triangle<'_>,
-        top: usize,
-        cap: &Cap,
-        probes: &[Sample],
-        values: &mut Vec<f64>,
-    ) -> Vec<HeldOut> {
-        let rows = probes.len();
-        let count = coefficient_count(top);
-        let mut out = vec![HeldOut::default(); top + 1];
-        if rows == 0 {
-            return out;
-        }
-        values.resize(coefficient_count(self.basis.degree()) * rows, 0.0);
-        self.basis.evaluate(cap, probes, values, rows);
-        triangle.whiten(values, rows, rows, count);
-        let mut residual: Vec<f64> = probes.iter().map(|s| s[3]).collect();
-        let mut spare = vec![1.0; rows];
-        for (degree, out) in out.iter_mut().enumerate() {
-            for j in degree * degree..coefficient_count(degree) {
-                let projection = triangle.projection(j);
-                let column = &values[j * rows..(j + 1) * rows];
-                for ((residual, spare), z) in residual.iter_mut().zip(&mut spare).zip(column) {
-                    *residual -= z * projection;
-                    *spare -= z * z;
-                }
-            }
-            out.count = rows;
-            for ((residual, spare), sample) in residual.iter().zip(&spare).zip(probes) {
-                let error = residual / spare.max(LEAST_SPARE);
-                out.squared += error * error;
-                out.worst = out.worst.max((error / sample[3]).abs());
-            }
-        }
-        out
-    }
 }
-
-/// Floor of 1 - h: rounding can take the leverage of a sample that alone decides a coefficient to 1.
-const LEAST_SPARE: f64 = 1e-6;
-
-pub static STARVED: std::sync::atomic::AtomicUsize = std::sync::atomic::AtomicUsize::new(0);

@@ -20,6 +20,7 @@
 //! degree m + j, so that the first (d+1)^2 span the harmonics of degree <= d. No trigonometric
 //! function is called, and 1 - n.c is taken as |n - c|^2 / 2, which does not cancel.
 
+use super::cap::{Cap, Places};
 use crate::vectorize::vectorize;
 use nalgebra::Vector3;
 
@@ -28,72 +29,8 @@ pub const fn coefficient_count(degree: usize) -> usize {
     (degree + 1) * (degree + 1)
 }
 
-/// Directions evaluated together, so that the compiler uses the widest registers there are.
+/// Places evaluated together, so that the compiler uses the widest registers there are.
 const LANES: usize = 8;
-
-/// A patch of the sphere in which a local expansion lives.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Cap {
-    /// Unit vector to the middle of the patch.
-    pub centre: Vector3<f64>,
-    /// Unit tangents at the centre: e1 x e2 = centre.
-    pub tangents: [Vector3<f64>; 2],
-    /// The largest 1 - n.c over the patch: 1 - cos of its angular radius, in (0, 2].
-    pub height: f64,
-}
-
-impl Cap {
-    /// The cap round the polar angle `theta` and azimuth `phi`, with the tangents along growing
-    /// theta and growing phi.
-    pub fn new(theta: f64, phi: f64, height: f64) -> Self {
-        let (st, ct) = theta.sin_cos();
-        let (sp, cp) = phi.sin_cos();
-        Self {
-            centre: Vector3::new(st * cp, st * sp, ct),
-            tangents: [
-                Vector3::new(ct * cp, ct * sp, -st),
-                Vector3::new(-sp, cp, 0.0),
-            ],
-            height,
-        }
-    }
-}
-
-impl Cap {
-    /// u, v and x = 2w - 1 of a unit vector.
-    #[inline(always)]
-    fn coordinates(&self, n: &[f64; 3]) -> [f64; 3] {
-        let (c, [e1, e2]) = (self.centre, self.tangents);
-        let tangent_scale = 1.0 / (2.0 * self.height).sqrt();
-        let (dx, dy, dz) = (n[0] - c.x, n[1] - c.y, n[2] - c.z);
-        [
-            (n[0] * e1.x + n[1] * e1.y + n[2] * e1.z) * tangent_scale,
-            (n[0] * e2.x + n[1] * e2.y + n[2] * e2.z) * tangent_scale,
-            (dx * dx + dy * dy + dz * dz) / self.height - 1.0,
-        ]
-    }
-
-    /// The coordinates of up to [`LANES`] directions, component by component.
-    #[inline(always)]
-    fn block_coordinates(&self, directions: &[[f64; 4]]) -> [[f64; LANES]; 3] {
-        let mut out = [[0.0; LANES]; 3];
-        for (i, &[x, y, z, _]) in directions.iter().enumerate() {
-            let coordinates = self.coordinates(&[x, y, z]);
-            for (out, value) in out.iter_mut().zip(coordinates) {
-                out[i] = value;
-            }
-        }
-        out
-    }
-
-    /// The gradient in space that goes with the derivatives with respect to u, v and x.
-    #[inline(always)]
-    fn ambient_gradient(&self, [du, dv, dx]: [f64; 3]) -> Vector3<f64> {
-        let tangent_scale = 1.0 / (2.0 * self.height).sqrt();
-        (self.tangents[0] * du + self.tangents[1] * dv) * tangent_scale
-            - self.centre * (2.0 * dx / self.height)
-    }
-}
 
 /// One step of a three-term recurrence: next = (a x + b) current - c previous.
 #[derive(Debug, Clone, Copy)]
@@ -130,16 +67,17 @@ impl CapBasis {
         self.degree
     }
 
-    /// Writes the basis at `directions` (the first three numbers of each entry, a unit vector) into
-    /// the columns of `out`: function j at direction i goes to `out[j * stride + i]`.
+    /// Writes the basis at `places` into the columns of `out`: function j at place i goes to
+    /// `out[j * stride + i]`.
     ///
     /// # Panics
-    /// If `stride` is below the number of directions or `out` below (L+1)^2 columns.
-    pub fn evaluate(&self, cap: &Cap, directions: &[[f64; 4]], out: &mut [f64], stride: usize) {
-        assert!(directions.len() <= stride && out.len() >= coefficient_count(self.degree) * stride);
+    /// If `stride` is below the number of places or `out` below (L+1)^2 columns.
+    pub fn evaluate(&self, places: &Places, out: &mut [f64], stride: usize) {
+        let columns = coefficient_count(self.degree);
+        assert!(places.len() <= stride && out.len() + stride >= columns * stride + places.len());
         vectorize(
             #[inline(always)]
-            || self.evaluate_columns(cap, directions, out, stride),
+            || self.evaluate_columns(places, out, stride),
         );
     }
 
@@ -147,14 +85,9 @@ impl CapBasis {
     /// recurrence of the Jacobi polynomials, and the first of an order from the first of the order
     /// below by a product with u + iv. Every loop runs along a column.
     #[inline(always)]
-    fn evaluate_columns(&self, cap: &Cap, directions: &[[f64; 4]], out: &mut [f64], stride: usize) {
-        let rows = directions.len();
-        let mut coordinates = vec![0.0; 3 * rows];
-        let (u, vx) = coordinates.split_at_mut(rows);
-        let (v, x) = vx.split_at_mut(rows);
-        for (i, &[nx, ny, nz, _]) in directions.iter().enumerate() {
-            [u[i], v[i], x[i]] = cap.coordinates(&[nx, ny, nz]);
-        }
+    fn evaluate_columns(&self, places: &Places, out: &mut [f64], stride: usize) {
+        let rows = places.len();
+        let (u, v, x) = (&places.u[..rows], &places.v[..rows], &places.x[..rows]);
         let mut scale_below = 1.0;
         for (m, (scale, steps)) in self.orders.iter().enumerate() {
             let first = column(m, m) * stride;
@@ -204,7 +137,7 @@ impl CapBasis {
     /// The value of the expansion with the given coefficients in the direction of the unit vector
     /// `n`. The number of coefficients sets the degree, at most that of the basis.
     pub fn value(&self, cap: &Cap, coefficients: &[f64], n: &Vector3<f64>) -> f64 {
-        let [u, v, x] = cap.coordinates(n.as_ref());
+        let [u, v, x] = cap.coordinates((*n).into());
         self.expand(coefficients, [u], [v], [x]).value[0]
     }
 
@@ -215,26 +148,21 @@ impl CapBasis {
         coefficients: &[f64],
         n: &Vector3<f64>,
     ) -> (f64, Vector3<f64>) {
-        let [u, v, x] = cap.coordinates(n.as_ref());
+        let [u, v, x] = cap.coordinates((*n).into());
         let e = self.expand(coefficients, [u], [v], [x]);
-        let ambient = cap.ambient_gradient([e.du[0], e.dv[0], e.dx[0]]);
-        (e.value[0], ambient - n * ambient.dot(n))
+        let [e1, e2] = cap.tangents;
+        let in_space = (e1 * e.du[0] + e2 * e.dv[0]) / cap.tangent_length()
+            - cap.centre * (2.0 * e.dx[0] / cap.height);
+        (e.value[0], in_space - n * in_space.dot(n))
     }
 
-    /// Values of an expansion in many directions (the first three numbers of each entry).
-    pub fn values(
-        &self,
-        cap: &Cap,
-        coefficients: &[f64],
-        directions: &[[f64; 4]],
-        out: &mut [f64],
-    ) {
+    /// Values of an expansion at many places.
+    pub fn values(&self, coefficients: &[f64], places: &Places, out: &mut [f64]) {
         vectorize(
             #[inline(always)]
             || {
-                for (chunk, out) in directions.chunks(LANES).zip(out.chunks_mut(LANES)) {
-                    let [u, v, x] = cap.block_coordinates(chunk);
-                    let e = self.expand(coefficients, u, v, x);
+                for (block, out) in out[..places.len()].chunks_mut(LANES).enumerate() {
+                    let e = self.expand_block(coefficients, places, block);
                     for (out, value) in out.iter_mut().zip(e.value) {
                         *out = value;
                     }
@@ -243,28 +171,47 @@ impl CapBasis {
         );
     }
 
-    /// Values and squared lengths of the surface gradient of an expansion in many directions.
+    /// Values of an expansion and squared lengths of its surface gradient at many places of `cap`.
     pub fn values_and_slopes(
         &self,
         cap: &Cap,
         coefficients: &[f64],
-        directions: &[[f64; 4]],
+        places: &Places,
         out: &mut [[f64; 2]],
     ) {
+        // With t = e1 u' + e2 v' - c x' the gradient in space, |g|^2 = |t|^2 - (t.n)^2.
+        let (per_tangent, per_height) = (1.0 / cap.tangent_length(), 2.0 / cap.height);
         vectorize(
             #[inline(always)]
             || {
-                for (chunk, out) in directions.chunks(LANES).zip(out.chunks_mut(LANES)) {
-                    let [u, v, x] = cap.block_coordinates(chunk);
-                    let e = self.expand(coefficients, u, v, x);
-                    for (i, (n, out)) in chunk.iter().zip(out).enumerate() {
-                        let ambient = cap.ambient_gradient([e.du[i], e.dv[i], e.dx[i]]);
-                        let radial = ambient.x * n[0] + ambient.y * n[1] + ambient.z * n[2];
-                        *out = [e.value[i], ambient.norm_squared() - radial * radial];
+                for (block, out) in out[..places.len()].chunks_mut(LANES).enumerate() {
+                    let e = self.expand_block(coefficients, places, block);
+                    let [u, v, x]: [[f64; LANES]; 3] = places.block(block);
+                    let mut slope_squared = [0.0; LANES];
+                    for i in 0..LANES {
+                        let (du, dv) = (e.du[i] * per_tangent, e.dv[i] * per_tangent);
+                        let dc = -e.dx[i] * per_height;
+                        let along = (du * u[i] + dv * v[i]) / per_tangent
+                            + dc * (1.0 - (x[i] + 1.0) / per_height);
+                        slope_squared[i] = du * du + dv * dv + dc * dc - along * along;
+                    }
+                    for (i, out) in out.iter_mut().enumerate() {
+                        *out = [e.value[i], slope_squared[i]];
                     }
                 }
             },
         );
+    }
+
+    #[inline(always)]
+    fn expand_block(
+        &self,
+        coefficients: &[f64],
+        places: &Places,
+        block: usize,
+    ) -> Expansion<LANES> {
+        let [u, v, x] = places.block(block);
+        self.expand(coefficients, u, v, x)
     }
 
     /// Value and partial derivatives with respect to u, v and x = 2w - 1, at N places at once.
@@ -379,7 +326,9 @@ mod tests {
             .map(|n| [n.x, n.y, n.z, 0.0])
             .collect();
         let mut out = vec![0.0; 36 * directions.len()];
-        basis.evaluate(&cap, &directions, &mut out, directions.len());
+        let mut places = Places::default();
+        cap.locate(&directions, &mut places);
+        basis.evaluate(&places, &mut out, directions.len());
         for j in 0..36 {
             let mut unit = vec![0.0; 36];
             unit[j] = 1.0;

@@ -1,6 +1,7 @@
 //! The unit sphere: directions, bases, partitions, quadrature, triangulation. Knows nothing of
 //! grains.
 
+mod cap;
 mod cap_basis;
 mod cube_grid;
 mod harmonics;
@@ -8,7 +9,8 @@ mod partition;
 mod quadrature;
 mod triangulation;
 
-pub use cap_basis::{Cap, CapBasis, coefficient_count};
+pub use cap::{Cap, Places};
+pub use cap_basis::{CapBasis, coefficient_count};
 pub use cube_grid::cube_grid;
 pub use harmonics::{harmonic_index, harmonics};
 pub use partition::{AngleRectangle, AngularPartition};
