@@ -88,6 +88,27 @@ impl Factorization {
         }
     }
 
+    /// Adds samples at which the basis has been evaluated: one column of `values` per function.
+    pub(crate) fn add_evaluated(&mut self, values: &[f64], samples: &[Sample]) {
+        let rows = samples.len();
+        let mut done = 0;
+        while done < rows {
+            if self.room() == 0 {
+                self.compress();
+            }
+            let block = done..rows.min(done + self.room());
+            let (matrix, stride) = self.append(block.len());
+            for (column, from) in values.chunks(rows).enumerate() {
+                matrix[column * stride..][..block.len()].copy_from_slice(&from[block.clone()]);
+            }
+            let radius = &mut matrix[values.len() / rows * stride..];
+            for (out, sample) in radius.iter_mut().zip(&samples[block.clone()]) {
+                *out = sample[3];
+            }
+            done = block.end;
+        }
+    }
+
     /// Replaces the rows by their triangle.
     pub(crate) fn compress(&mut self) {
         if self.used == 0 {
@@ -184,15 +205,27 @@ impl Triangle<'_> {
                 for j in 0..count {
                     let (known, rest) = b.split_at_mut(j * stride);
                     let column = &mut rest[..rows];
-                    for i in 0..j {
+                    let z = |i: usize| &known[i * stride..][..rows];
+                    let mut i = 0;
+                    // Four at a time: the column is loaded and stored a quarter as often.
+                    while i + 4 <= j {
+                        let factors: [f64; 4] = std::array::from_fn(|step| self.at(i + step, j));
+                        let [z0, z1, z2, z3] = [z(i), z(i + 1), z(i + 2), z(i + 3)];
+                        for row in 0..rows {
+                            column[row] -= (factors[0] * z0[row] + factors[1] * z1[row])
+                                + (factors[2] * z2[row] + factors[3] * z3[row]);
+                        }
+                        i += 4;
+                    }
+                    for i in i..j {
                         let factor = self.at(i, j);
-                        for (b, z) in column.iter_mut().zip(&known[i * stride..][..rows]) {
+                        for (b, z) in column.iter_mut().zip(z(i)) {
                             *b -= factor * z;
                         }
                     }
-                    let pivot = 1.0 / self.at(j, j);
+                    let per_pivot = 1.0 / self.at(j, j);
                     for b in column {
-                        *b *= pivot;
+                        *b *= per_pivot;
                     }
                 }
             },

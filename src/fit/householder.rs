@@ -5,44 +5,75 @@
 //! is kept. Why not a library's QR: at 60 to 200 rows by 17 columns, of which a search makes 500,
 //! the blocked algorithm of `faer` needs eight times the instructions of these loops, in packing
 //! and recursion, and half of a search's time. `faer` is the reference in the tests.
+//!
+//! The order of summation follows the width of the processor's registers, so the last digits of R
+//! may differ between kinds of processors; between runs, threads and orders of the points they do
+//! not.
 
-use crate::vectorize::vectorize;
-
-/// Partial sums of a dot product; their fixed number makes the result independent of the processor.
-const LANES: usize = 8;
-
-/// Columns that share a pass over the reflector.
-const GROUP: usize = 4;
+use pulp::{Arch, Simd, WithSimd};
 
 /// Replaces the column-major matrix of `rows` x `columns` (column j starts at `j * stride`) by its
 /// triangle R in the first min(rows, columns) rows, zeros below the diagonal there. The rows further
 /// down are left undefined.
 pub(super) fn triangularise(matrix: &mut [f64], rows: usize, columns: usize, stride: usize) {
-    vectorize(
-        #[inline(always)]
-        || {
-            for j in 0..columns.min(rows) {
-                let (left, right) = matrix.split_at_mut((j + 1) * stride);
-                let v = &mut left[j * stride + j..j * stride + rows];
-                let Some((diagonal, scale)) = reflector(v) else {
-                    continue;
-                };
-                let right = &mut right[..(columns - j - 1) * stride];
-                for group in right.chunks_mut(GROUP * stride) {
-                    reflect(v, scale, group, stride, j);
+    Arch::new().dispatch(Triangularise {
+        matrix,
+        rows,
+        columns,
+        stride,
+    });
+}
+
+struct Triangularise<'a> {
+    matrix: &'a mut [f64],
+    rows: usize,
+    columns: usize,
+    stride: usize,
+}
+
+impl WithSimd for Triangularise<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let Self {
+            matrix,
+            rows,
+            columns,
+            stride,
+        } = self;
+        for j in 0..columns.min(rows) {
+            let (left, right) = matrix.split_at_mut((j + 1) * stride);
+            let v = &mut left[j * stride + j..j * stride + rows];
+            let Some((diagonal, scale)) = reflector(simd, v) else {
+                continue;
+            };
+            let mut rest = right
+                .chunks_mut(stride)
+                .take(columns - j - 1)
+                .map(|column| &mut column[j..rows]);
+            while let Some(a) = rest.next() {
+                match (rest.next(), rest.next(), rest.next()) {
+                    (Some(b), Some(c), Some(d)) => reflect(simd, v, scale, [a, b, c, d]),
+                    (b, c, _) => {
+                        for column in [Some(a), b, c].into_iter().flatten() {
+                            reflect(simd, v, scale, [column]);
+                        }
+                    }
                 }
-                v.fill(0.0);
-                v[0] = diagonal;
             }
-        },
-    );
+            v.fill(0.0);
+            v[0] = diagonal;
+        }
+    }
 }
 
 /// Turns x into the reflector v that maps it to (diagonal, 0, ..., 0), and returns the diagonal and
 /// 2 / v.v; `None` where x is zero already.
 #[inline(always)]
-fn reflector(x: &mut [f64]) -> Option<(f64, f64)> {
-    let norm = dot(x, x).sqrt();
+fn reflector<S: Simd>(simd: S, x: &mut [f64]) -> Option<(f64, f64)> {
+    let [squared] = products(simd, x, [x]);
+    let norm = squared.sqrt();
     if norm == 0.0 {
         return None;
     }
@@ -52,82 +83,50 @@ fn reflector(x: &mut [f64]) -> Option<(f64, f64)> {
     Some((diagonal, scale))
 }
 
-/// Applies the reflection to up to [`GROUP`] columns, from row `top` on.
-#[inline(always)]
-fn reflect(v: &[f64], scale: f64, group: &mut [f64], stride: usize, top: usize) {
-    if group.len() == GROUP * stride {
-        let (a, rest) = group.split_at_mut(stride);
-        let (b, rest) = rest.split_at_mut(stride);
-        let (c, d) = rest.split_at_mut(stride);
-        let rows = top..top + v.len();
-        let columns = [
-            &mut a[rows.clone()],
-            &mut b[rows.clone()],
-            &mut c[rows.clone()],
-            &mut d[rows],
-        ];
-        reflect_together(v, scale, columns);
-    } else {
-        for column in group.chunks_mut(stride) {
-            reflect_together(v, scale, [&mut column[top..top + v.len()]]);
-        }
-    }
-}
-
 /// column -= scale (v.column) v for a few columns at once.
 #[inline(always)]
-fn reflect_together<const N: usize>(v: &[f64], scale: f64, mut columns: [&mut [f64]; N]) {
-    let whole = v.len() / LANES * LANES;
-    let mut sums = [[0.0; LANES]; N];
-    for at in (0..whole).step_by(LANES) {
-        let v: &[f64; LANES] = v[at..at + LANES].try_into().expect("LANES long");
-        for (sums, column) in sums.iter_mut().zip(&columns) {
-            let column: &[f64; LANES] = column[at..at + LANES].try_into().expect("LANES long");
-            for lane in 0..LANES {
-                sums[lane] += v[lane] * column[lane];
-            }
-        }
+fn reflect<S: Simd, const N: usize>(simd: S, v: &[f64], scale: f64, columns: [&mut [f64]; N]) {
+    let mut views: [&[f64]; N] = [&[]; N];
+    for (view, column) in views.iter_mut().zip(&columns) {
+        *view = column;
     }
-    let mut factors = [0.0; N];
-    for ((factor, sums), column) in factors.iter_mut().zip(&sums).zip(&columns) {
-        let tail = v[whole..].iter().zip(&column[whole..]);
-        *factor = scale * (total(sums) + tail.map(|(v, x)| v * x).sum::<f64>());
-    }
-    for at in (0..whole).step_by(LANES) {
-        let v: &[f64; LANES] = v[at..at + LANES].try_into().expect("LANES long");
-        for (factor, column) in factors.iter().zip(&mut columns) {
-            let column: &mut [f64; LANES] = (&mut column[at..at + LANES])
-                .try_into()
-                .expect("LANES long");
-            for lane in 0..LANES {
-                column[lane] -= factor * v[lane];
-            }
+    let products = products(simd, v, views);
+    let (v_whole, v_rest) = S::as_simd_f64s(v);
+    let v_rest = simd.partial_load_f64s(v_rest);
+    for (column, product) in columns.into_iter().zip(products) {
+        let factor = simd.splat_f64s(-scale * product);
+        let (whole, rest) = S::as_mut_simd_f64s(column);
+        for (x, v) in whole.iter_mut().zip(v_whole) {
+            *x = simd.mul_add_e_f64s(factor, *v, *x);
         }
-    }
-    for (factor, column) in factors.iter().zip(&mut columns) {
-        for (x, v) in column[whole..].iter_mut().zip(&v[whole..]) {
-            *x -= factor * v;
-        }
+        let x = simd.partial_load_f64s(rest);
+        simd.partial_store_f64s(rest, simd.mul_add_e_f64s(factor, v_rest, x));
     }
 }
 
+/// The dot products of v with a few columns of the same length. (Loops, not `map`: a closure that
+/// is not inlined would call every instruction as a function.)
 #[inline(always)]
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let whole = a.len() / LANES * LANES;
-    let mut sums = [0.0; LANES];
-    for (a, b) in a.chunks_exact(LANES).zip(b.chunks_exact(LANES)) {
-        for lane in 0..LANES {
-            sums[lane] += a[lane] * b[lane];
+fn products<S: Simd, const N: usize>(simd: S, v: &[f64], columns: [&[f64]; N]) -> [f64; N] {
+    let (v_whole, v_rest) = S::as_simd_f64s(v);
+    let v_rest = simd.partial_load_f64s(v_rest);
+    let mut sums = [simd.splat_f64s(0.0); N];
+    let mut whole: [&[S::f64s]; N] = [&[]; N];
+    for ((sum, whole), column) in sums.iter_mut().zip(&mut whole).zip(columns) {
+        let (column_whole, rest) = S::as_simd_f64s(column);
+        *whole = &column_whole[..v_whole.len()];
+        *sum = simd.mul_f64s(v_rest, simd.partial_load_f64s(rest));
+    }
+    for (i, v) in v_whole.iter().enumerate() {
+        for (sum, whole) in sums.iter_mut().zip(&whole) {
+            *sum = simd.mul_add_e_f64s(*v, whole[i], *sum);
         }
     }
-    let tail = a[whole..].iter().zip(&b[whole..]);
-    total(&sums) + tail.map(|(a, b)| a * b).sum::<f64>()
-}
-
-#[inline(always)]
-fn total(sums: &[f64; LANES]) -> f64 {
-    let [a, b, c, d, e, f, g, h] = sums;
-    ((a + b) + (c + d)) + ((e + f) + (g + h))
+    let mut products = [0.0; N];
+    for (product, sum) in products.iter_mut().zip(sums) {
+        *product = simd.reduce_sum_f64s(sum);
+    }
+    products
 }
 
 #[cfg(test)]

@@ -7,18 +7,16 @@ use super::options::{FitError, FitOptions};
 use super::reduce::{ReducedCell, reduce_cells};
 use super::reference::Reference;
 use super::row::rows;
-use super::samples::{CellGrid, Sample, Samples};
+use super::samples::{CellGrid, Samples};
 use super::search::{Found, search};
-use super::segment::{Level, NEAREST_SAMPLES};
+use super::segment::Level;
 use super::surface::{Surface, scanned_surface};
 use crate::measure::mesh_properties;
 use crate::mesh::Mesh;
 use crate::model::{Frame, Grain};
 use crate::scan::Scan;
-use crate::sphere::{AngularPartition, Cap, CapBasis};
-use kiddo::{ImmutableKdTree, SquaredEuclidean};
+use crate::sphere::{AngularPartition, CapBasis};
 use nalgebra::Point3;
-use std::sync::OnceLock;
 
 /// Share of the area that may face away from the centre. The folds of real kernels (the crease of
 /// barley, knapped stone) stay below 2 %; the inner side of a ring is 20 % or more.
@@ -50,7 +48,6 @@ pub struct PreparedScan {
     probes: Option<Samples>,
     reduced: Vec<Option<ReducedCell>>,
     bases: Vec<CapBasis>,
-    tree: OnceLock<Option<ImmutableKdTree<f64, 3>>>,
 }
 
 impl PreparedScan {
@@ -110,7 +107,6 @@ impl PreparedScan {
             probes,
             reduced,
             bases,
-            tree: OnceLock::new(),
         })
     }
 
@@ -159,45 +155,17 @@ impl PreparedScan {
         work(&Level {
             partition: AngularPartition::new(k),
             basis: &self.bases[degree],
-            rows: rows(AngularPartition::new(k), degree),
+            rows: rows(AngularPartition::new(k), &self.bases[degree]),
             grid: &self.grid,
             samples: &self.samples,
             probes: self.probes(),
             reduced: &self.reduced,
-            samples_of_cap: &|cap| self.samples_of_cap(cap),
         })
     }
 
     /// The samples that are predicted from all others.
     fn probes(&self) -> &Samples {
         self.probes.as_ref().unwrap_or(&self.samples)
-    }
-
-    /// The samples within a cap, or the nearest to its centre where those are few. The tree is
-    /// built when first asked for: segments with enough samples do not need it.
-    fn samples_of_cap(&self, cap: &Cap) -> Vec<Sample> {
-        let rows = self.probes().rows();
-        let tree = self.tree.get_or_init(|| {
-            let directions: Vec<[f64; 3]> = rows.iter().map(|&[x, y, z, _]| [x, y, z]).collect();
-            ImmutableKdTree::new_from_slice(&directions).ok()
-        });
-        let Some(tree) = tree else {
-            return Vec::new();
-        };
-        let query = tree.query(cap.centre.as_ref());
-        // |n - c|^2 = 2 (1 - n.c)
-        let mut hits = query
-            .within::<SquaredEuclidean<f64>>(2.0 * cap.height)
-            .unsorted()
-            .execute();
-        if hits.len() < NEAREST_SAMPLES.get() {
-            hits = query
-                .nearest_n::<SquaredEuclidean<f64>>(NEAREST_SAMPLES)
-                .execute();
-        }
-        let mut items: Vec<_> = hits.into_iter().map(|hit| hit.item as usize).collect();
-        items.sort_unstable();
-        items.into_iter().map(|item| rows[item]).collect()
     }
 }
 

@@ -7,9 +7,10 @@
 //! on the order in which the points came.
 
 use crate::model::Frame;
-use crate::sphere::{AngleRectangle, azimuth_fraction, polar_fraction};
+use crate::sphere::{AngleRectangle, Cap, azimuth_fraction, polar_fraction};
 use nalgebra::{Point3, Vector3};
 use rayon::prelude::*;
+use std::cmp::Ordering;
 use std::f64::consts::{PI, TAU};
 use std::ops::Range;
 
@@ -56,6 +57,12 @@ impl CellGrid {
             theta: bounds(row, PI),
             phi: bounds(column, TAU),
         }
+    }
+
+    /// The rows of cells between two polar angles.
+    fn rows_between(&self, theta: [f64; 2]) -> Range<usize> {
+        let [first, last] = theta.map(|t| self.cuts.partition_point(|&c| c <= t / PI));
+        first.clamp(1, self.per_angle()) - 1..last.clamp(1, self.per_angle())
     }
 
     fn cell_of(&self, n: &Vector3<f64>) -> usize {
@@ -124,13 +131,7 @@ impl Samples {
             .into_par_iter()
             .with_min_len(64)
             .map(|cell| {
-                cell.sort_unstable_by(|a, b| {
-                    let key = |s: &Sample| [s[3], s[0], s[1], s[2]].map(|x| x + 0.0);
-                    let (a, b) = (key(a), key(b));
-                    (0..4).fold(std::cmp::Ordering::Equal, |order, i| {
-                        order.then(a[i].total_cmp(&b[i]))
-                    })
-                });
+                cell.sort_unstable_by(order);
                 let mut kept = 0;
                 for i in 0..cell.len() {
                     if i == 0 || cell[i] != cell[kept - 1] {
@@ -161,4 +162,41 @@ impl Samples {
     pub(crate) fn run(&self, cells: Range<usize>) -> &[Sample] {
         &self.rows[self.starts[cells.start]..self.starts[cells.end]]
     }
+
+    /// The samples of a whole cap; where it holds few, the nearest to its centre.
+    pub(crate) fn of_cap(&self, cap: &Cap, grid: &CellGrid) -> Vec<Sample> {
+        let theta = cap.centre.z.clamp(-1.0, 1.0).acos();
+        let reach = (1.0 - cap.height).acos();
+        let rows = grid.rows_between([theta - reach, theta + reach]);
+        let run = self.run(rows.start * grid.per_angle()..rows.end * grid.per_angle());
+        // |n - c|^2 = 2 (1 - n.c)
+        let distance = |&[x, y, z, _]: &Sample| (Vector3::new(x, y, z) - cap.centre).norm_squared();
+        let within = |sample: &&Sample| distance(sample) <= 2.0 * cap.height;
+        let found: Vec<Sample> = run.iter().filter(within).copied().collect();
+        if found.len() >= FEWEST_OF_CAP {
+            return found;
+        }
+        let mut all = self.rows.clone();
+        if all.len() <= FEWEST_OF_CAP {
+            return all;
+        }
+        all.select_nth_unstable_by(FEWEST_OF_CAP - 1, |a, b| {
+            distance(a).total_cmp(&distance(b)).then(order(a, b))
+        });
+        all.truncate(FEWEST_OF_CAP);
+        all.sort_unstable_by(order);
+        all
+    }
+}
+
+/// Samples that a cap should hold, else the nearest outside are taken too.
+const FEWEST_OF_CAP: usize = 12;
+
+/// An order of samples by value, in which equal samples stand together.
+fn order(a: &Sample, b: &Sample) -> Ordering {
+    let key = |s: &Sample| [s[3], s[0], s[1], s[2]].map(|x| x + 0.0);
+    let (a, b) = (key(a), key(b));
+    (0..4).fold(Ordering::Equal, |order, i| {
+        order.then(a[i].total_cmp(&b[i]))
+    })
 }

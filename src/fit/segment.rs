@@ -4,23 +4,21 @@ use super::Residuals;
 use super::factor::{Factorization, Triangle};
 use super::held_out::{HeldOut, leave_one_out};
 use super::reduce::ReducedCell;
-use super::row::Row;
+use super::row::{LATTICE, Row};
 use super::samples::{CellGrid, Sample, Samples};
 use crate::sphere::{AngularPartition, Cap, CapBasis, Places, coefficient_count};
 use rayon::prelude::*;
-use std::num::NonZero;
 
 /// Samples per coefficient that a degree needs. In a local basis the answer with fewer oscillates
 /// between the samples (a bean of 1538 points, k = 8: area +15 %).
 const SAMPLES_PER_COEFFICIENT: usize = 2;
 
 /// Largest leverage that a degree may have anywhere in its segment: the variance of the fitted
-/// radius there, in units of the variance of one sample. Beyond one the fit knows less about the
-/// place than a single look at it would tell: it extrapolates.
-const MAX_LEVERAGE: f64 = 10.0;
-
-/// Nearest samples that a segment is fitted to when its whole cap holds fewer.
-pub(crate) const NEAREST_SAMPLES: NonZero<usize> = NonZero::new(12).unwrap();
+/// radius there, in units of the variance of one sample. Samples stop half a spacing short of the
+/// corners, so some extrapolation is usual: 5 to 20 at degree 3 with 60 samples. At 10 half of the
+/// segments of the finest partition are refitted for nothing, at 100 and with noise some corners
+/// are off by several percent of the radius.
+const MAX_LEVERAGE: f64 = 30.0;
 
 /// Everything the segments of one level share.
 pub(crate) struct Level<'a> {
@@ -33,19 +31,17 @@ pub(crate) struct Level<'a> {
     /// The samples that are predicted from all others.
     pub(crate) probes: &'a Samples,
     pub(crate) reduced: &'a [Option<ReducedCell>],
-    /// The samples of a whole cap, also outside of its segment; the nearest ones if it is empty.
-    pub(crate) samples_of_cap: &'a (dyn Fn(&Cap) -> Vec<Sample> + Sync),
 }
 
 /// Memory that is reused from segment to segment.
 pub(crate) struct Workspace {
     factorization: Factorization,
     values: Vec<f64>,
+    table: Vec<f64>,
     places: Places,
     gathered: Vec<Sample>,
     probes: Vec<Sample>,
     probe_places: Places,
-    radii_and_slopes: Vec<[f64; 2]>,
 }
 
 impl Workspace {
@@ -53,11 +49,11 @@ impl Workspace {
         Self {
             factorization: Factorization::new(degree),
             values: Vec::new(),
+            table: Vec::new(),
             places: Places::default(),
             gathered: Vec::new(),
             probes: Vec::new(),
             probe_places: Places::default(),
-            radii_and_slopes: Vec::new(),
         }
     }
 }
@@ -80,7 +76,7 @@ pub(crate) struct DegreeFit {
     pub(crate) area: f64,
     pub(crate) volume: f64,
     /// Radius at the corners, middles of the borders and middle of the segment, row by row.
-    pub(crate) lattice: [f64; 9],
+    pub(crate) lattice: [f64; LATTICE],
 }
 
 impl SegmentFit {
@@ -101,13 +97,26 @@ impl Level<'_> {
             workspace.probes.extend_from_slice(self.probes.run(run));
         }
         cap.locate(&workspace.probes, &mut workspace.probe_places);
+        self.evaluate_probes(workspace);
 
         workspace.factorization.clear();
-        let samples = self.add_rows(segment, &cap, workspace);
+        let samples = if std::ptr::eq(self.samples, self.probes) && self.reduced.is_empty() {
+            let Workspace {
+                factorization,
+                values,
+                probes,
+                ..
+            } = workspace;
+            factorization.add_evaluated(values, probes);
+            probes.len()
+        } else {
+            self.add_rows(segment, &cap, workspace)
+        };
         let mut degrees = Vec::new();
         self.add_degrees(&mut degrees, samples, row, workspace);
         if degrees.len() <= self.basis.degree() {
-            let widened = (self.samples_of_cap)(&cap);
+            let widened = self.probes.of_cap(&cap, self.grid);
+            self.evaluate_probes(workspace);
             workspace.factorization.clear();
             workspace
                 .factorization
@@ -117,7 +126,18 @@ impl Level<'_> {
         SegmentFit { degrees }
     }
 
+    /// Writes the basis at the probes into `values`.
+    fn evaluate_probes(&self, workspace: &mut Workspace) {
+        let rows = workspace.probes.len();
+        workspace
+            .values
+            .resize(coefficient_count(self.basis.degree()) * rows, 0.0);
+        self.basis
+            .evaluate(&workspace.probe_places, &mut workspace.values, rows);
+    }
+
     /// Appends the fits of the degrees that the factored samples support and that are still missing.
+    /// The basis at the probes stands in `values` and is used up.
     fn add_degrees(
         &self,
         degrees: &mut Vec<DegreeFit>,
@@ -129,37 +149,24 @@ impl Level<'_> {
             factorization,
             values,
             probes,
-            probe_places,
-            radii_and_slopes,
             ..
         } = workspace;
         let triangle = factorization.triangle();
-        let supported = self.supported_degree(&triangle, samples, row, values);
+        let supported = self.supported_degree(&triangle, samples, row);
         let Some(top) = supported.filter(|&top| top >= degrees.len()) else {
             return;
         };
-        values.resize(coefficient_count(self.basis.degree()) * probes.len(), 0.0);
-        self.basis.evaluate(probe_places, values, probes.len());
         let held_out = leave_one_out(&triangle, top, probes, values);
-        radii_and_slopes.resize(row.weights.len(), [0.0; 2]);
         for (degree, held_out) in held_out.into_iter().enumerate().skip(degrees.len()) {
             let coefficients = triangle.solve(degree);
-            self.basis
-                .values_and_slopes(&row.cap, &coefficients, &row.nodes, radii_and_slopes);
-            let (mut area, mut volume) = (0.0, 0.0);
-            for (&[r, slope_squared], weight) in radii_and_slopes.iter().zip(&row.weights) {
-                area += weight * r.abs() * (r * r + slope_squared).sqrt();
-                volume += weight * r * r * r / 3.0;
-            }
-            let mut lattice = [0.0; 9];
-            self.basis.values(&coefficients, &row.lattice, &mut lattice);
+            let [area, volume] = row.area_and_volume(&coefficients);
             degrees.push(DegreeFit {
-                coefficients,
                 residual_variance: triangle.residual_variance(degree, samples),
                 held_out,
                 area,
                 volume,
-                lattice,
+                lattice: row.lattice_radii(&coefficients),
+                coefficients,
             });
         }
     }
@@ -200,7 +207,7 @@ impl Level<'_> {
     fn add_rows(&self, segment: usize, cap: &Cap, workspace: &mut Workspace) -> usize {
         let Workspace {
             factorization,
-            values,
+            table,
             gathered,
             places,
             ..
@@ -215,7 +222,7 @@ impl Level<'_> {
             }
             for cell in run {
                 match &self.reduced[cell] {
-                    Some(reduced) => reduced.add_to(factorization, self.basis, cap, values, places),
+                    Some(reduced) => reduced.add_to(factorization, self.basis, cap, table, places),
                     None => gathered.extend_from_slice(self.samples.run(cell..cell + 1)),
                 }
             }
@@ -241,21 +248,21 @@ impl Level<'_> {
         triangle: &Triangle<'_>,
         samples: usize,
         row: &Row,
-        values: &mut Vec<f64>,
     ) -> Option<usize> {
         let enough = (samples / SAMPLES_PER_COEFFICIENT).isqrt().checked_sub(1)?;
         let top = enough
             .min(triangle.full_rank_degree()?)
             .min(self.basis.degree());
-        let rows = row.lattice.len();
-        values.resize(coefficient_count(self.basis.degree()) * rows, 0.0);
-        self.basis.evaluate(&row.lattice, values, rows);
-        triangle.whiten(values, rows, rows, coefficient_count(top));
-        let mut leverage = [0.0; 9];
+        let mut values = row.lattice.clone();
+        triangle.whiten(&mut values, LATTICE, LATTICE, coefficient_count(top));
+        let mut leverage = [0.0; LATTICE];
         (0..=top)
             .take_while(|&degree| {
-                for column in
-                    values[degree * degree * rows..coefficient_count(degree) * rows].chunks(rows)
+                let functions = degree * degree..coefficient_count(degree);
+                for column in values
+                    .chunks(LATTICE)
+                    .skip(functions.start)
+                    .take(functions.len())
                 {
                     for (leverage, z) in leverage.iter_mut().zip(column) {
                         *leverage += z * z;

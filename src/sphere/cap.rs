@@ -40,11 +40,12 @@ impl Cap {
     #[inline(always)]
     pub(super) fn coordinates(&self, [nx, ny, nz]: [f64; 3]) -> [f64; 3] {
         let (c, [e1, e2]) = (self.centre, self.tangents);
+        let (per_tangent, per_height) = (1.0 / self.tangent_length(), 1.0 / self.height);
         let (dx, dy, dz) = (nx - c.x, ny - c.y, nz - c.z);
         [
-            (nx * e1.x + ny * e1.y + nz * e1.z) / self.tangent_length(),
-            (nx * e2.x + ny * e2.y + nz * e2.z) / self.tangent_length(),
-            (dx * dx + dy * dy + dz * dz) / self.height - 1.0,
+            (nx * e1.x + ny * e1.y + nz * e1.z) * per_tangent,
+            (nx * e2.x + ny * e2.y + nz * e2.z) * per_tangent,
+            (dx * dx + dy * dy + dz * dz) * per_height - 1.0,
         ]
     }
 
@@ -55,13 +56,14 @@ impl Cap {
         for list in [&mut places.u, &mut places.v, &mut places.x] {
             list.resize(count, 0.0);
         }
-        let (u, v, x) = (&mut places.u, &mut places.v, &mut places.x);
+        let (u, v, x) = (&mut places.u[..], &mut places.v[..], &mut places.x[..]);
+        let (u, v, x) = (&mut u[..count], &mut v[..count], &mut x[..count]);
         vectorize(
             #[inline(always)]
             || {
-                let slots = u.iter_mut().zip(v.iter_mut()).zip(x.iter_mut());
-                for (&[nx, ny, nz, _], ((u, v), x)) in directions.iter().zip(slots) {
-                    [*u, *v, *x] = self.coordinates([nx, ny, nz]);
+                for at in 0..count {
+                    let [nx, ny, nz, _] = directions[at];
+                    [u[at], v[at], x[at]] = self.coordinates([nx, ny, nz]);
                 }
             },
         );

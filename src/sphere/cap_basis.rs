@@ -171,36 +171,46 @@ impl CapBasis {
         );
     }
 
-    /// Values of an expansion and squared lengths of its surface gradient at many places of `cap`.
-    pub fn values_and_slopes(
-        &self,
-        cap: &Cap,
-        coefficients: &[f64],
-        places: &Places,
-        out: &mut [[f64; 2]],
-    ) {
-        // With t = e1 u' + e2 v' - c x' the gradient in space, |g|^2 = |t|^2 - (t.n)^2.
+    /// The surface gradients of all functions at `places` of `cap`, as three matrices of the layout
+    /// of [`Self::evaluate`]: the components along the cap's tangents e1 and e2 and its centre.
+    pub(crate) fn evaluate_gradients(&self, cap: &Cap, places: &Places) -> [Vec<f64>; 3] {
+        let rows = places.len();
+        let columns = coefficient_count(self.degree);
+        let mut out = [(); 3].map(|()| vec![0.0; columns * rows]);
+        let mut unit = vec![0.0; columns];
         let (per_tangent, per_height) = (1.0 / cap.tangent_length(), 2.0 / cap.height);
         vectorize(
             #[inline(always)]
             || {
-                for (block, out) in out[..places.len()].chunks_mut(LANES).enumerate() {
-                    let e = self.expand_block(coefficients, places, block);
-                    let [u, v, x]: [[f64; LANES]; 3] = places.block(block);
-                    let mut slope_squared = [0.0; LANES];
-                    for i in 0..LANES {
-                        let (du, dv) = (e.du[i] * per_tangent, e.dv[i] * per_tangent);
-                        let dc = -e.dx[i] * per_height;
-                        let along = (du * u[i] + dv * v[i]) / per_tangent
-                            + dc * (1.0 - (x[i] + 1.0) / per_height);
-                        slope_squared[i] = du * du + dv * dv + dc * dc - along * along;
+                for column in 0..columns {
+                    unit[column] = 1.0;
+                    for block in 0..rows.div_ceil(LANES) {
+                        let e = self.expand_block(&unit, places, block);
+                        let [u, v, x]: [[f64; LANES]; 3] = places.block(block);
+                        let at = column * rows + block * LANES;
+                        for i in 0..LANES.min(rows - block * LANES) {
+                            let n = [
+                                u[i] / per_tangent,
+                                v[i] / per_tangent,
+                                1.0 - (x[i] + 1.0) / per_height,
+                            ];
+                            let in_space = [
+                                e.du[i] * per_tangent,
+                                e.dv[i] * per_tangent,
+                                -e.dx[i] * per_height,
+                            ];
+                            let radial =
+                                in_space[0] * n[0] + in_space[1] * n[1] + in_space[2] * n[2];
+                            for axis in 0..3 {
+                                out[axis][at + i] = in_space[axis] - radial * n[axis];
+                            }
+                        }
                     }
-                    for (i, out) in out.iter_mut().enumerate() {
-                        *out = [e.value[i], slope_squared[i]];
-                    }
+                    unit[column] = 0.0;
                 }
             },
         );
+        out
     }
 
     #[inline(always)]
