@@ -11,7 +11,7 @@ use rayon::prelude::*;
 /// radius is no model of the grain, whatever its mean error. Between the samples the truth can be
 /// missed by a little more: of 1200 candidates on synthetic grains (all samplings, with and without
 /// noise) those that pass miss it by at most 8.3 % anywhere; with 10 % here it would be 11.3 %.
-const LARGEST_MISS: f64 = 0.08;
+pub(crate) const LARGEST_MISS: f64 = 0.08;
 
 /// All segments of one partition.
 #[derive(Clone)]

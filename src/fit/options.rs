@@ -117,6 +117,17 @@ pub enum FitError {
         /// Share of the area that faces away from the best centre.
         share: f64,
     },
+    /// Too many points do not belong to the surface that the others draw.
+    #[error(
+        "{:.0} % of the points stand apart from their neighbours by more than a tenth of the \
+         radius; a scan of one grain has below 1 % of such outliers: remove the background, or cut \
+         out one grain",
+        100.0 * share
+    )]
+    Strays {
+        /// Share of such points.
+        share: f64,
+    },
     /// Points seen in nearly the same direction lie at very different distances.
     #[error(
         "the points are not one surface round a centre: in neighbouring directions their distance \

@@ -18,7 +18,7 @@
 //! with more coefficients cannot win and are not fitted; a level is factored only up to the largest
 //! degree that still can.
 
-use super::level::FittedLevel;
+use super::level::{FittedLevel, LARGEST_MISS};
 use super::prepare::PreparedScan;
 use super::segment::SegmentFit;
 use crate::sphere::coefficient_count;
@@ -123,7 +123,11 @@ impl Search {
     pub(crate) fn warning(&self) -> Option<String> {
         let reason = self.choice().rejected?;
         Some(format!(
-            "No candidate is a good model of this scan; the best one {reason}."
+            "Every candidate fitted misses a point or tears at a seam by more than {:.0} % of the \
+             radius; the one with the least held-out error was taken, and it {reason}. Its area, \
+             volume and inertia are as good as their deviations say, but look at the mesh before \
+             relying on details of the surface.",
+            100.0 * LARGEST_MISS
         ))
     }
 }

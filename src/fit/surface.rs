@@ -14,6 +14,9 @@ use std::borrow::Cow;
 /// Median scatter of neighbouring radii beyond which points do not form one surface.
 const LARGEST_SCATTER: f64 = 0.1;
 
+/// Share of strays beyond which the scan holds more than one grain.
+const LARGEST_SHARE_OF_STRAYS: f64 = 0.2;
+
 /// A gap in the scan is told of when no point lies within this angle (radians) and three times the
 /// mean spacing of the points.
 const WIDE_GAP: f64 = 0.2;
@@ -95,6 +98,7 @@ fn from_directions(scan: &Scan) -> Result<Surface<'_>, FitError> {
                 scatter: strays.scatter,
             });
         }
+        refuse_background(strays.indices.len(), scan.points.len())?;
         let (mesh, points) = if strays.indices.is_empty() {
             (mesh, Cow::Borrowed(scan.points.as_slice()))
         } else {
@@ -114,6 +118,7 @@ fn from_directions(scan: &Scan) -> Result<Surface<'_>, FitError> {
         representatives,
         strays,
     } = thin(&scan.points, &centre, LEAST_STRAY);
+    refuse_background(strays.len(), scan.points.len())?;
     let representatives = select(&scan.points, &representatives);
     let mesh = mesh_of_directions(representatives.clone(), &centre)?;
     let scatter = find_strays(&mesh, &centre).scatter;
@@ -131,6 +136,14 @@ fn from_directions(scan: &Scan) -> Result<Surface<'_>, FitError> {
         },
         representatives: Some(representatives),
     })
+}
+
+fn refuse_background(strays: usize, points: usize) -> Result<(), FitError> {
+    let share = strays as f64 / points as f64;
+    if share > LARGEST_SHARE_OF_STRAYS {
+        return Err(FitError::Strays { share });
+    }
+    Ok(())
 }
 
 /// The mean of the points, from sums that do not lose digits to a far-off origin.
