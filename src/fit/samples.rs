@@ -166,12 +166,13 @@ impl Samples {
     /// The samples of a whole cap; where it holds few, the nearest to its centre.
     pub(crate) fn of_cap(&self, cap: &Cap, grid: &CellGrid) -> Vec<Sample> {
         let theta = cap.centre.z.clamp(-1.0, 1.0).acos();
-        let reach = (1.0 - cap.height).acos();
+        let height = cap.height * BEYOND_THE_RIM;
+        let reach = (1.0 - height).clamp(-1.0, 1.0).acos();
         let rows = grid.rows_between([theta - reach, theta + reach]);
         let run = self.run(rows.start * grid.per_angle()..rows.end * grid.per_angle());
         // |n - c|^2 = 2 (1 - n.c)
         let distance = |&[x, y, z, _]: &Sample| (Vector3::new(x, y, z) - cap.centre).norm_squared();
-        let within = |sample: &&Sample| distance(sample) <= 2.0 * cap.height;
+        let within = |sample: &&Sample| distance(sample) <= 2.0 * height;
         let found: Vec<Sample> = run.iter().filter(within).copied().collect();
         if found.len() >= FEWEST_OF_CAP {
             return found;
@@ -188,6 +189,10 @@ impl Samples {
         all
     }
 }
+
+/// A cap's samples are looked for a little beyond its rim, on which the corners of the segment lie:
+/// a sample at a corner belongs to the cap whatever the rounding.
+const BEYOND_THE_RIM: f64 = 1.013;
 
 /// Samples that a cap should hold, else the nearest outside are taken too.
 const FEWEST_OF_CAP: usize = 12;
