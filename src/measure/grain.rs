@@ -5,14 +5,14 @@ use super::{Integrals, MassProperties};
 use crate::model::Grain;
 
 /// Relative tolerance of the integrals of a fitted grain.
-const TOLERANCE: f64 = 1e-10;
+const TOLERANCE: f64 = 1e-9;
 
 /// Area, volume, centroid and inertia of a fitted grain, in the scan's frame.
 ///
 /// Segment by segment, so the steps between segments do no harm: volume and moments are those of
 /// the solid below the expansions, and the area is that of the expansions, without the walls of the
 /// steps. The radius cubed and to the fifth power are polynomials in the direction, so volume,
-/// centroid and inertia are exact to rounding (1e-13); the area is adaptive, to 1e-10.
+/// centroid and inertia are exact to rounding (1e-13); the area is adaptive, to 1e-9.
 pub fn grain_properties(grain: &Grain) -> Integrals {
     let pieces = (0..grain.partition().segments()).flat_map(|segment| {
         let rectangle = grain.partition().rectangle(segment);

@@ -1,10 +1,10 @@
 //! Area, volume and inertia of a star-shaped surface, to a tolerance.
 //!
 //! Adaptive product Gauss quadrature over rectangles in (polar angle, azimuth). The sphere starts
-//! as eight octants, or as the pieces a surface is made of. A rectangle that is not yet known well enough is cut in four, and the change
-//! this makes is taken as the error of the four: a pessimistic estimate on a smooth surface, where
-//! the four are better than the one by a factor near 2^-24. A rectangle is done when its error is
-//! within its share, by solid angle, of the tolerance, so the errors add up to at most the tolerance.
+//! as eight octants, or as the pieces a surface is made of. Each rectangle is integrated by two
+//! rules, and their difference is taken as the error of the finer one: a pessimistic estimate on a
+//! smooth surface. A rectangle is done when its error is within its share, by solid angle, of the
+//! tolerance, so the errors add up to at most the tolerance; else it is cut in four.
 
 use super::{MassProperties, Moments};
 use crate::model::StarSurface;
@@ -16,8 +16,11 @@ use std::f64::consts::{FRAC_PI_2, PI};
 /// Surface evaluations after which [`integrate`] stops and returns what it has.
 pub const MAX_EVALUATIONS: usize = 4_000_000;
 
-/// Gauss nodes per side of a rectangle.
-const ORDER: usize = 12;
+/// Gauss nodes per side of a rectangle: of the rule, and of the one that it is checked with.
+const ORDERS: [usize; 2] = [12, 10];
+
+/// Evaluations that a rectangle costs.
+const PER_CELL: usize = ORDERS[0] * ORDERS[0] + ORDERS[1] * ORDERS[1];
 
 /// What [`integrate`] found, and how well.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -60,11 +63,11 @@ pub(crate) fn integrate_pieces<S>(
 where
     S: Fn(&Vector3<f64>) -> (f64, Vector3<f64>) + Clone,
 {
-    let rule = GaussLegendre::new(ORDER);
+    let rules = ORDERS.map(GaussLegendre::new);
     let mut pending: VecDeque<Cell<S>> = pieces
-        .map(|(rectangle, surface)| Cell::new(surface, rectangle, &rule))
+        .map(|(rectangle, surface)| Cell::new(surface, rectangle, &rules))
         .collect();
-    let mut evaluations = pending.len() * ORDER * ORDER;
+    let mut evaluations = pending.len() * PER_CELL;
     let scale = pending
         .iter()
         .fold(Sums::default(), |all, cell| all + cell.sums);
@@ -72,13 +75,14 @@ where
     let mut total = Sums::default();
     let mut relative_error = 0.0;
     while let Some(cell) = pending.pop_front() {
-        let is_settled = cell.error <= tolerance * cell.share() || cell.error.is_nan();
-        if is_settled || evaluations + 4 * ORDER * ORDER > MAX_EVALUATIONS {
+        let error = cell.sums.difference(&cell.check, &scale);
+        let is_settled = error <= tolerance * cell.share() || error.is_nan();
+        if is_settled || evaluations + 4 * PER_CELL > MAX_EVALUATIONS {
             total = total + cell.sums;
-            relative_error += cell.error;
+            relative_error += error;
         } else {
-            pending.extend(cell.quarters(&rule, &scale));
-            evaluations += 4 * ORDER * ORDER;
+            pending.extend(cell.quarters(&rules));
+            evaluations += 4 * PER_CELL;
         }
     }
     Integrals {
@@ -94,24 +98,26 @@ struct Cell<S> {
     surface: S,
     rectangle: AngleRectangle,
     sums: Sums,
-    /// Estimated error of `sums`, relative to the whole surface's.
-    error: f64,
+    /// The same integrals by the coarser rule.
+    check: Sums,
 }
 
 impl<S: Fn(&Vector3<f64>) -> (f64, Vector3<f64>) + Clone> Cell<S> {
-    /// Integrates over a rectangle; its error is not known yet.
-    fn new(surface: S, rectangle: AngleRectangle, rule: &GaussLegendre) -> Self {
-        let mut sums = Sums::default();
-        for (n, solid_angle) in rectangle.nodes(rule, rule) {
-            let (r, g) = surface(&n);
-            sums.radius += r * solid_angle;
-            sums.moments.add_ray(&n, r, &g, solid_angle);
-        }
+    fn new(surface: S, rectangle: AngleRectangle, rules: &[GaussLegendre; 2]) -> Self {
+        let [sums, check] = [&rules[0], &rules[1]].map(|rule| {
+            let mut sums = Sums::default();
+            for (n, solid_angle) in rectangle.nodes(rule, rule) {
+                let (r, g) = surface(&n);
+                sums.radius += r * solid_angle;
+                sums.moments.add_ray(&n, r, &g, solid_angle);
+            }
+            sums
+        });
         Self {
             surface,
             rectangle,
             sums,
-            error: f64::INFINITY,
+            check,
         }
     }
 
@@ -120,20 +126,10 @@ impl<S: Fn(&Vector3<f64>) -> (f64, Vector3<f64>) + Clone> Cell<S> {
         self.rectangle.solid_angle() / (4.0 * PI)
     }
 
-    /// The four quarters, with the difference to the whole dealt out to them by solid angle.
-    fn quarters(&self, rule: &GaussLegendre, scale: &Sums) -> [Self; 4] {
-        let mut quarters = self
-            .rectangle
+    fn quarters(&self, rules: &[GaussLegendre; 2]) -> [Self; 4] {
+        self.rectangle
             .quarters()
-            .map(|quarter| Self::new(self.surface.clone(), quarter, rule));
-        let sum = quarters
-            .iter()
-            .fold(Sums::default(), |all, quarter| all + quarter.sums);
-        let error = sum.difference(&self.sums, scale) / self.share();
-        for quarter in &mut quarters {
-            quarter.error = error * quarter.share();
-        }
-        quarters
+            .map(|quarter| Self::new(self.surface.clone(), quarter, rules))
     }
 }
 
