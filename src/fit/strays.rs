@@ -12,12 +12,22 @@ pub(crate) const LEAST_STRAY: f64 = 0.1;
 /// the median, so that the strays themselves do not hide it).
 const SCATTERS: f64 = 8.0;
 
+/// ... and by more than this many times the spread of the neighbours' own radii: where the surface
+/// runs steeply across the rays, neighbours differ by nature.
+const SPREADS: f64 = 3.0;
+
 /// How the radii of neighbours differ.
 pub(crate) struct Strays {
     /// Indices of the strays, in order.
     pub(crate) indices: Vec<u32>,
     /// Standard deviation of a radius against the median of its neighbours, relative to the latter.
     pub(crate) scatter: f64,
+}
+
+/// A vertex against its neighbours, relative to their median radius.
+struct Comparison {
+    deviation: f64,
+    spread: f64,
 }
 
 /// Compares every vertex's distance from `centre` with those of the vertices it shares a triangle
@@ -30,22 +40,38 @@ pub(crate) fn find_strays(mesh: &Mesh, centre: &Point3<f64>) -> Strays {
             neighbours[from as usize].push(radii[to as usize]);
         }
     }
-    let deviations: Vec<f64> = neighbours
+    let comparisons: Vec<Comparison> = neighbours
         .iter_mut()
         .zip(&radii)
-        .map(|(around, radius)| match median(around) {
-            Some(middle) if middle > 0.0 => (radius - middle).abs() / middle,
-            _ => 0.0,
-        })
+        .map(|(around, radius)| compare(around, *radius))
         .collect();
+    let mut deviations: Vec<f64> = comparisons.iter().map(|c| c.deviation).collect();
     // 1.4826: standard deviation over median absolute deviation of a normal distribution.
-    let scatter = 1.4826 * median(&mut deviations.clone()).unwrap_or(0.0);
+    let scatter = 1.4826 * median(&mut deviations).unwrap_or(0.0);
     let limit = LEAST_STRAY.max(SCATTERS * scatter);
+    let is_stray = |c: &Comparison| c.deviation > limit.max(SPREADS * c.spread);
     Strays {
         indices: (0..radii.len() as u32)
-            .filter(|&i| deviations[i as usize] > limit)
+            .filter(|&i| is_stray(&comparisons[i as usize]))
             .collect(),
         scatter,
+    }
+}
+
+fn compare(around: &mut [f64], radius: f64) -> Comparison {
+    let middle = median(around).unwrap_or(0.0);
+    if middle <= 0.0 {
+        return Comparison {
+            deviation: 0.0,
+            spread: 0.0,
+        };
+    }
+    for other in around.iter_mut() {
+        *other = (*other - middle).abs() / middle;
+    }
+    Comparison {
+        deviation: (radius - middle).abs() / middle,
+        spread: median(around).unwrap_or(0.0),
     }
 }
 

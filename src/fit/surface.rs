@@ -102,7 +102,14 @@ fn from_directions(scan: &Scan) -> Result<Surface<'_>, FitError> {
         let (mesh, points) = if strays.indices.is_empty() {
             (mesh, Cow::Borrowed(scan.points.as_slice()))
         } else {
-            let kept = without(&scan.points, &strays.indices);
+            // By value: a stray that the file holds twice goes twice.
+            let strays = select(&scan.points, &strays.indices);
+            let kept: Vec<_> = scan
+                .points
+                .iter()
+                .filter(|point| !strays.contains(point))
+                .copied()
+                .collect();
             (mesh_of_directions(kept.clone(), &centre)?, Cow::Owned(kept))
         };
         let warnings = warnings(&mesh, &centre, strays.indices.len(), scan.points.len());

@@ -1,0 +1,172 @@
+//! What a fit must not depend on.
+
+use grainform::measure::grain_properties;
+use grainform::scan::Scan;
+use grainform::shapes::{Body, Sampling, SynthOptions, synthesize};
+use grainform::{FitOptions, Fitted, fit};
+use nalgebra::{Point3, Rotation3, Vector3};
+use proptest::prelude::*;
+use std::sync::OnceLock;
+
+fn points() -> &'static [Point3<f64>] {
+    static POINTS: OnceLock<Vec<Point3<f64>>> = OnceLock::new();
+    POINTS.get_or_init(|| {
+        let options = SynthOptions {
+            points: 3000,
+            sampling: Sampling::Random,
+            noise: 0.002,
+            ..SynthOptions::clean(Body::Maize)
+        };
+        synthesize(&options).expect("valid options").points
+    })
+}
+
+fn fitted(points: Vec<Point3<f64>>) -> Fitted {
+    let scan = Scan {
+        points,
+        ..Scan::default()
+    };
+    fit(&scan, &FitOptions::default()).expect("a grain")
+}
+
+fn original() -> &'static Fitted {
+    static FITTED: OnceLock<Fitted> = OnceLock::new();
+    FITTED.get_or_init(|| fitted(points().to_vec()))
+}
+
+/// Compares everything that has no direction and no position.
+fn assert_same(a: &Fitted, b: &Fitted, scale: f64) {
+    assert_eq!(a.search.chosen, b.search.chosen);
+    assert_eq!(a.points, b.points);
+    // Errors of an exact fit are rounding: they need not agree.
+    let nothing = 1e-12 * a.mean_radius;
+    let close = |a: f64, b: f64| assert!((a - b).abs() < 1e-9 * b.abs() + nothing, "{a} {b}");
+    let (pa, pb) = (
+        grain_properties(&a.grain).properties,
+        grain_properties(&b.grain).properties,
+    );
+    close(pa.area, pb.area * scale * scale);
+    close(pa.volume, pb.volume * scale.powi(3));
+    close(pa.inertia.trace(), pb.inertia.trace() * scale.powi(5));
+    close(a.residuals.rms, b.residuals.rms * scale);
+    close(a.residuals.max, b.residuals.max * scale);
+    close(a.grain.seam_jump(), b.grain.seam_jump() * scale);
+    for (a, b) in a.search.candidates.iter().zip(&b.search.candidates) {
+        if let (Some(a), Some(b)) = (a.heldout_rms, b.heldout_rms) {
+            close(a, b * scale);
+        }
+    }
+    for segment in 0..a.grain.partition().segments() {
+        let largest = a.grain.coefficients(segment)[0].abs();
+        for (a, b) in a
+            .grain
+            .coefficients(segment)
+            .iter()
+            .zip(b.grain.coefficients(segment))
+        {
+            assert!((a - b * scale).abs() < 1e-9 * largest, "{a} {b}");
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(12))]
+
+    #[test]
+    fn a_fit_does_not_depend_on_where_the_scan_lies(
+        x in -1e4..1e4_f64, y in -1e4..1e4_f64, z in -1e4..1e4_f64,
+    ) {
+        // Ten thousand millimetres off, the coordinates themselves keep 1e-12 of a millimetre.
+        let offset = Vector3::new(x, y, z);
+        let moved = fitted(points().iter().map(|p| p + offset).collect());
+        assert_same(&moved, original(), 1.0);
+        let n = Vector3::new(0.6, 0.0, 0.8);
+        prop_assert!((moved.grain.point(&n) - original().grain.point(&n) - offset).norm() < 1e-8);
+    }
+
+    #[test]
+    fn a_fit_does_not_depend_on_how_the_scan_is_turned(
+        a in -3.0..3.0_f64, b in -3.0..3.0_f64, c in -3.0..3.0_f64,
+    ) {
+        let turn = Rotation3::new(Vector3::new(a, b, c));
+        let turned = fitted(points().iter().map(|p| turn * p).collect());
+        assert_same(&turned, original(), 1.0);
+        let n = Vector3::new(0.6, 0.0, 0.8);
+        let (have, want) = (turned.grain.point(&(turn * n)), turn * original().grain.point(&n));
+        prop_assert!((have - want).norm() < 1e-8);
+    }
+
+    #[test]
+    fn a_fit_does_not_depend_on_the_order_of_the_points(seed in any::<u64>()) {
+        let mut shuffled = points().to_vec();
+        let mut state = seed | 1;
+        for i in (1..shuffled.len()).rev() {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+            shuffled.swap(i, (state >> 33) as usize % (i + 1));
+        }
+        assert_same(&fitted(shuffled), original(), 1.0);
+    }
+
+    #[test]
+    fn a_fit_scales_with_the_unit(exponent in -9.0..9.0_f64) {
+        let scale = 10.0_f64.powf(exponent);
+        let scaled = fitted(points().iter().map(|p| p * scale).collect());
+        assert_same(&scaled, original(), scale);
+    }
+}
+
+#[test]
+fn points_given_twice_count_once() {
+    let twice = points().iter().chain(points()).copied().collect();
+    assert_same(&fitted(twice), original(), 1.0);
+}
+
+#[test]
+fn the_number_of_threads_does_not_change_a_bit() {
+    let on = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .expect("a pool");
+        pool.install(|| fitted(points().to_vec()))
+    };
+    let (one, four) = (on(1), on(4));
+    assert_eq!(one.search, four.search);
+    assert_eq!(one.residuals, four.residuals);
+    for segment in 0..one.grain.partition().segments() {
+        assert_eq!(
+            one.grain.coefficients(segment),
+            four.grain.coefficients(segment)
+        );
+    }
+}
+
+#[test]
+fn a_symmetric_body_is_fitted_alike_wherever_it_lies() {
+    // Points on the symmetry planes lie on the borders of segments, up to rounding.
+    for body in [Body::Bean, Body::Sphere] {
+        let made = synthesize(&SynthOptions::clean(body))
+            .expect("valid options")
+            .points;
+        let still = fitted(made.clone());
+        let moved = fitted(
+            made.iter()
+                .map(|p| p + Vector3::new(3.3, -7.7, 1.1))
+                .collect(),
+        );
+        assert_same(&moved, &still, 1.0);
+    }
+}
+
+#[test]
+fn a_dense_cloud_is_fitted_alike_in_any_order() {
+    let options = SynthOptions {
+        points: 60_000,
+        noise: 0.002,
+        ..SynthOptions::clean(Body::Bean)
+    };
+    let made = synthesize(&options).expect("valid options").points;
+    let forward = fitted(made.clone());
+    let backward = fitted(made.into_iter().rev().collect());
+    assert_same(&backward, &forward, 1.0);
+}
