@@ -1,0 +1,153 @@
+//! The fitted grain: evaluation, mesh, file, published coefficients.
+
+use grainform::measure::{grain_properties, integrate, mesh_properties};
+use grainform::model::{Grain, StarSurface, parse_grain, save_grain};
+use grainform::scan::Scan;
+use grainform::shapes::{Body, SynthOptions, synthesize};
+use grainform::sphere::{cube_grid, harmonics};
+use grainform::{FitOptions, fit};
+use nalgebra::Vector3;
+
+fn grain(degree: usize, parts: usize) -> Grain {
+    let made = synthesize(&SynthOptions {
+        offset: Vector3::new(40.0, -3.0, 7.0),
+        ..SynthOptions::clean(Body::Chickpea)
+    })
+    .expect("valid options");
+    let scan = Scan {
+        points: made.points,
+        ..Scan::default()
+    };
+    let options = FitOptions {
+        degree: Some(degree),
+        segments: Some(parts * parts),
+        ..FitOptions::default()
+    };
+    fit(&scan, &options).expect("a grain").grain
+}
+
+#[test]
+fn the_mesh_is_closed_at_every_resolution_and_partition() {
+    for (degree, parts) in [(0, 5), (1, 1), (3, 4), (6, 2)] {
+        let grain = grain(degree, parts);
+        for resolution in [1, 2, 7, 40] {
+            let mesh = grain.mesh(resolution);
+            mesh.check_closed().expect("closed and oriented");
+            assert_eq!(mesh.vertices.len(), 6 * resolution * resolution + 2);
+        }
+    }
+}
+
+#[test]
+fn the_mesh_has_the_volume_centroid_and_inertia_of_the_grain() {
+    let grain = grain(3, 4);
+    let exact = grain_properties(&grain).properties;
+    let mesh = mesh_properties(&grain.mesh(120)).expect("closed");
+    assert!((mesh.volume / exact.volume - 1.0).abs() < 3e-4);
+    assert!((mesh.centroid - exact.centroid).norm() < 3e-3);
+    assert!((mesh.inertia - exact.inertia).norm() < 1e-3 * exact.inertia.norm());
+}
+
+#[test]
+fn piecewise_integrals_agree_with_those_that_know_nothing_of_segments() {
+    // One segment: the surface is smooth, both routes must agree to their tolerance.
+    let grain = grain(5, 1);
+    let pieces = grain_properties(&grain);
+    let whole = integrate(&grain, 1e-10);
+    let centre = grain.frame().centre;
+    assert!((pieces.properties.area / whole.properties.area - 1.0).abs() < 1e-9);
+    assert!((pieces.properties.volume / whole.properties.volume - 1.0).abs() < 1e-12);
+    assert!(
+        (pieces.properties.centroid - centre - whole.properties.centroid.coords).norm() < 1e-10
+    );
+    let inertia = (pieces.properties.inertia - whole.properties.inertia).norm();
+    assert!(inertia < 1e-10 * pieces.properties.inertia.norm());
+}
+
+#[test]
+fn the_gradient_is_the_derivative_of_the_radius_also_at_the_poles() {
+    let grain = grain(6, 1);
+    let poles = [1.0, -1.0].map(|s| grain.frame().axes.column(2) * s);
+    let (directions, _) = cube_grid(4);
+    for n in poles.into_iter().chain(directions) {
+        let (radius, gradient) = grain.radius_and_gradient(&n);
+        assert_eq!(radius, grain.radius(&n));
+        assert!(gradient.dot(&n).abs() < 1e-12 * radius);
+        let normal = grain.normal(&n);
+        assert!((normal.norm() - 1.0).abs() < 1e-14 && normal.dot(&n) > 0.0);
+        let tangent = n.cross(&Vector3::new(0.31, 0.77, -0.52)).normalize();
+        let at = |h: f64| grain.radius(&(n * h.cos() + tangent * h.sin()));
+        let h = 1e-5;
+        let difference = (at(h) - at(-h)) / (2.0 * h);
+        assert!((gradient.dot(&tangent) - difference).abs() < 1e-6 * radius);
+    }
+}
+
+#[test]
+fn one_segment_has_no_seam_and_several_have() {
+    assert!(grain(4, 1).seam_jump() < 1e-12);
+    assert!(grain(1, 4).seam_jump() > 1e-3);
+}
+
+#[test]
+fn a_saved_grain_is_the_same_to_the_last_bit() {
+    let grain = grain(3, 5);
+    let loaded = parse_grain(&save_grain(&grain)).expect("a model");
+    assert_eq!(loaded.frame(), grain.frame());
+    for segment in 0..25 {
+        assert_eq!(loaded.coefficients(segment), grain.coefficients(segment));
+    }
+    assert_eq!(save_grain(&loaded), save_grain(&grain));
+}
+
+#[test]
+fn unsound_models_are_refused() {
+    let text = save_grain(&grain(1, 2));
+    assert!(parse_grain("{}").is_err());
+    assert!(parse_grain("solid grain").is_err());
+    assert!(parse_grain(&text.replace("\"version\": 1", "\"version\": 2")).is_err());
+    assert!(parse_grain(&text.replace("grainform model", "other model")).is_err());
+    assert!(
+        parse_grain(&text.replace("\"parts_per_angle\": 2", "\"parts_per_angle\": 3")).is_err()
+    );
+    assert!(
+        parse_grain(&text.replace("\"parts_per_angle\": 2", "\"parts_per_angle\": 4000000000"))
+            .is_err()
+    );
+    assert!(parse_grain(&text.replace("\"centre\"", "\"center\"")).is_err());
+    let first = text.find("\"segments\"").expect("segments are named");
+    let digit = first
+        + text[first..]
+            .find(|c: char| c.is_ascii_digit())
+            .expect("numbers");
+    for broken in ["1e999", "null", "\"NaN\""] {
+        let end = digit + text[digit..].find([',', '\n']).expect("a separator");
+        let start = text[..digit].rfind([' ', '\n']).expect("a separator") + 1;
+        let mutilated = format!("{}{broken}{}", &text[..start], &text[end..]);
+        assert!(parse_grain(&mutilated).is_err(), "{broken}");
+    }
+    let halved = &text[..text.len() / 2];
+    assert!(parse_grain(halved).is_err());
+}
+
+#[test]
+fn published_coefficients_give_back_the_radius_to_the_stated_loss() {
+    for (degree, parts, bound) in [(5, 1, 1e-12), (3, 4, 1e-9), (3, 10, 1e-5)] {
+        let grain = grain(degree, parts);
+        for segment in grain.published() {
+            assert!(segment.loss < bound, "k = {parts}: {}", segment.loss);
+            for i in 0..16 {
+                let local = segment
+                    .rectangle
+                    .direction((i / 4) as f64 / 4.0 + 0.1, (i % 4) as f64 / 4.0 + 0.1);
+                let sum: f64 = harmonics(degree, &local)
+                    .iter()
+                    .zip(&segment.coefficients)
+                    .map(|(y, a)| y * a)
+                    .sum();
+                let radius = grain.radius(&(grain.frame().axes * local));
+                assert!((sum - radius).abs() <= 2.0 * segment.loss + 1e-13);
+            }
+        }
+    }
+}

@@ -1,0 +1,113 @@
+//! Real scans from the folder beside the project, where it is there.
+
+use grainform::measure::grain_properties;
+use grainform::scan::read_scan;
+use grainform::{FitError, FitOptions, Fitted, fit};
+use std::path::{Path, PathBuf};
+
+fn scans() -> Option<PathBuf> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/scans");
+    if !folder.is_dir() {
+        println!("skipped: {} is not there", folder.display());
+        return None;
+    }
+    Some(folder)
+}
+
+fn try_fit(path: &Path) -> Result<Fitted, FitError> {
+    fit(
+        &read_scan(path).expect("a readable scan"),
+        &FitOptions::default(),
+    )
+}
+
+/// Fits a scan and returns the deviations of area and volume from its reference surface.
+fn deviations(path: &Path) -> (f64, f64) {
+    let fitted = try_fit(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+    let found = grain_properties(&fitted.grain).properties;
+    fitted.grain.mesh(16).check_closed().expect("closed");
+    (
+        found.area / fitted.reference.area - 1.0,
+        found.volume / fitted.reference.volume - 1.0,
+    )
+}
+
+#[test]
+fn real_grains_and_stones_are_fitted() {
+    let Some(scans) = scans() else { return };
+    for (name, area_bound, volume_bound) in [
+        ("barley/barley_S017_l1_38.stl", 0.02, 0.005),
+        ("barley/barley_S017_l2_07_ascii.ply", 0.02, 0.005),
+        ("barley/barley_S017_l1_10.stl", 0.03, 0.005),
+        ("barley/barley_seed8_mc.ply", 0.02, 0.005),
+        ("nist/cement116-anm-00377_n22_ico5.ply", 0.02, 0.005),
+        ("nist/cement140-anm-00003_n30_ico5.ply", 0.02, 0.005),
+        ("nist/ma165-anm-00001_n18_ico5.ply", 0.02, 0.005),
+        ("nist/sacci425-anm-030882_n22_ico5.ply", 0.02, 0.005),
+        ("potato/danshaku_08_L25_ico5.ply", 0.005, 0.002),
+        ("stone/073ac15d_Mesh.ply", 0.02, 0.005),
+        ("stone/low_res_AAA.ply", 0.02, 0.01),
+        ("stone/low_res_E22.ply", 0.02, 0.005),
+        ("standins/bean_stoneE22_1538.xyz", 0.03, 0.02),
+        ("standins/chickpea_danshaku_6146.xyz", 0.005, 0.003),
+        ("standins/maize_levallois_6146.xyz", 0.03, 0.01),
+        ("standins/barley_l1_01_6146.xyz", 0.03, 0.01),
+    ] {
+        let (area, volume) = deviations(&scans.join(name));
+        assert!(area.abs() < area_bound, "{name}: area {area}");
+        assert!(volume.abs() < volume_bound, "{name}: volume {volume}");
+    }
+}
+
+#[test]
+fn every_kernel_of_the_batch_is_fitted() {
+    let Some(scans) = scans() else { return };
+    let mut kernels = 0;
+    for entry in std::fs::read_dir(scans.join("barley_batch")).expect("a folder") {
+        let path = entry.expect("an entry").path();
+        if path.extension().is_some_and(|extension| extension == "ply") {
+            let (_, volume) = deviations(&path);
+            assert!(volume.abs() < 0.06, "{}: volume {volume}", path.display());
+            kernels += 1;
+        }
+    }
+    assert_eq!(kernels, 87);
+}
+
+#[test]
+fn what_is_not_star_shaped_is_refused_with_the_reason() {
+    let Some(scans) = scans() else { return };
+    match try_fit(&scans.join("not_star/torus.STL")) {
+        Err(FitError::NotStarShaped { share }) => assert!((0.1..0.5).contains(&share)),
+        other => panic!("a torus: {:?}", other.map(|_| ())),
+    }
+    match try_fit(&scans.join("not_star/A46_point_cloud.ply")) {
+        Err(FitError::Strays { share }) => assert!(share > 0.2),
+        other => panic!("a scene: {:?}", other.map(|_| ())),
+    }
+    assert!(try_fit(&scans.join("stone/remeshed_high_res_A13.ply")).is_err());
+}
+
+#[test]
+fn folds_are_told_of() {
+    let Some(scans) = scans() else { return };
+    let fitted = try_fit(&scans.join("stone/low_res_E34.ply")).expect("nearly star-shaped");
+    assert!(fitted.warnings.iter().any(|w| w.contains("faces away")));
+}
+
+#[test]
+fn odd_clouds_of_the_hostile_folder_end_as_they_should() {
+    let Some(scans) = scans() else { return };
+    let made = scans.join("../hostile/made");
+    let error = try_fit(&made.join("ply_082_torus.ply")).expect_err("a torus");
+    assert!(error.to_string().contains("faces away"), "{error}");
+    let outliers = try_fit(&made.join("ply_084_outliers_1pct.ply")).expect("a grain");
+    assert!(outliers.warnings[0].contains("stand apart"));
+    let half = try_fit(&made.join("ply_085_half_scan.ply")).expect("half a grain");
+    assert!(
+        half.warnings[0].contains("is a guess"),
+        "{:?}",
+        half.warnings
+    );
+    assert!(try_fit(&made.join("ply_078_two_bodies.ply")).is_err());
+}
