@@ -7,7 +7,7 @@
 //! is linear and the memory constant in the number of rows. Householder reflections throughout;
 //! never the normal equations.
 
-use super::householder::triangularise;
+use super::householder::{padded, triangularise};
 use super::samples::Sample;
 use crate::sphere::{Cap, CapBasis, Places, coefficient_count};
 use crate::vectorize::vectorize;
@@ -29,6 +29,7 @@ pub(crate) struct Factorization {
     matrix: Vec<f64>,
     used: usize,
     stride: usize,
+    reflector: Vec<f64>,
     places: Places,
 }
 
@@ -36,12 +37,13 @@ impl Factorization {
     /// Room for expansions up to `degree`.
     pub(crate) fn new(degree: usize) -> Self {
         let columns = coefficient_count(degree) + 1;
-        let stride = BLOCK_ROWS + columns;
+        let stride = padded(BLOCK_ROWS + columns);
         Self {
             columns,
             matrix: vec![0.0; stride * columns],
             used: 0,
             stride,
+            reflector: Vec::new(),
             places: Places::default(),
         }
     }
@@ -114,7 +116,13 @@ impl Factorization {
         if self.used == 0 {
             return;
         }
-        triangularise(&mut self.matrix, self.used, self.columns, self.stride);
+        triangularise(
+            &mut self.matrix,
+            self.used,
+            self.columns,
+            self.stride,
+            &mut self.reflector,
+        );
         self.used = self.used.min(self.columns);
     }
 

@@ -12,15 +12,36 @@
 
 use pulp::{Arch, Simd, WithSimd};
 
-/// Replaces the column-major matrix of `rows` x `columns` (column j starts at `j * stride`) by its
-/// triangle R in the first min(rows, columns) rows, zeros below the diagonal there. The rows further
-/// down are left undefined.
-pub(super) fn triangularise(matrix: &mut [f64], rows: usize, columns: usize, stride: usize) {
+/// The widest register in use holds this many numbers. Columns are worked on in whole blocks of as
+/// many rows: parts of registers are slow to load and store.
+const LANES: usize = 8;
+
+/// Rows that a matrix of `rows` rows takes up.
+pub(super) const fn padded(rows: usize) -> usize {
+    rows.next_multiple_of(LANES)
+}
+
+/// Replaces the column-major matrix of `rows` x `columns` (column j starts at `j * stride`, with
+/// room for [`padded`] rows) by its triangle R in the first min(rows, columns) rows, zeros below the
+/// diagonal there. The rows further down are left undefined. `reflector` is working memory.
+pub(super) fn triangularise(
+    matrix: &mut [f64],
+    rows: usize,
+    columns: usize,
+    stride: usize,
+    reflector: &mut Vec<f64>,
+) {
+    reflector.clear();
+    reflector.resize(padded(rows), 0.0);
+    for column in matrix.chunks_mut(stride).take(columns) {
+        column[rows..padded(rows)].fill(0.0);
+    }
     Arch::new().dispatch(Triangularise {
         matrix,
         rows,
         columns,
         stride,
+        reflector,
     });
 }
 
@@ -29,6 +50,7 @@ struct Triangularise<'a> {
     rows: usize,
     columns: usize,
     stride: usize,
+    reflector: &'a mut [f64],
 }
 
 impl WithSimd for Triangularise<'_> {
@@ -41,17 +63,33 @@ impl WithSimd for Triangularise<'_> {
             rows,
             columns,
             stride,
+            reflector,
         } = self;
+        let end = padded(rows);
         for j in 0..columns.min(rows) {
+            // The block of rows that j lies in: the reflector is zero above j.
+            let start = j / LANES * LANES;
             let (left, right) = matrix.split_at_mut((j + 1) * stride);
-            let v = &mut left[j * stride + j..j * stride + rows];
-            let Some((diagonal, scale)) = reflector(simd, v) else {
+            let x = &mut left[j * stride + j..j * stride + end];
+            let v = &mut reflector[start..end];
+            v[..j - start].fill(0.0);
+            v[j - start..].copy_from_slice(x);
+
+            let [squared] = products(simd, v, [v]);
+            let norm = squared.sqrt();
+            if norm == 0.0 {
                 continue;
-            };
+            }
+            let diagonal = if x[0] > 0.0 { -norm } else { norm };
+            let scale = 1.0 / (norm * (norm + x[0].abs()));
+            v[j - start] -= diagonal;
+            x.fill(0.0);
+            x[0] = diagonal;
+
             let mut rest = right
                 .chunks_mut(stride)
                 .take(columns - j - 1)
-                .map(|column| &mut column[j..rows]);
+                .map(|column| &mut column[start..end]);
             while let Some(a) = rest.next() {
                 match (rest.next(), rest.next(), rest.next()) {
                     (Some(b), Some(c), Some(d)) => reflect(simd, v, scale, [a, b, c, d]),
@@ -62,25 +100,8 @@ impl WithSimd for Triangularise<'_> {
                     }
                 }
             }
-            v.fill(0.0);
-            v[0] = diagonal;
         }
     }
-}
-
-/// Turns x into the reflector v that maps it to (diagonal, 0, ..., 0), and returns the diagonal and
-/// 2 / v.v; `None` where x is zero already.
-#[inline(always)]
-fn reflector<S: Simd>(simd: S, x: &mut [f64]) -> Option<(f64, f64)> {
-    let [squared] = products(simd, x, [x]);
-    let norm = squared.sqrt();
-    if norm == 0.0 {
-        return None;
-    }
-    let diagonal = if x[0] > 0.0 { -norm } else { norm };
-    let scale = 1.0 / (norm * (norm + x[0].abs()));
-    x[0] -= diagonal;
-    Some((diagonal, scale))
 }
 
 /// column -= scale (v.column) v for a few columns at once.
@@ -91,16 +112,13 @@ fn reflect<S: Simd, const N: usize>(simd: S, v: &[f64], scale: f64, columns: [&m
         *view = column;
     }
     let products = products(simd, v, views);
-    let (v_whole, v_rest) = S::as_simd_f64s(v);
-    let v_rest = simd.partial_load_f64s(v_rest);
+    let (v, _) = S::as_simd_f64s(v);
     for (column, product) in columns.into_iter().zip(products) {
         let factor = simd.splat_f64s(-scale * product);
-        let (whole, rest) = S::as_mut_simd_f64s(column);
-        for (x, v) in whole.iter_mut().zip(v_whole) {
+        let (column, _) = S::as_mut_simd_f64s(column);
+        for (x, v) in column.iter_mut().zip(v) {
             *x = simd.mul_add_e_f64s(factor, *v, *x);
         }
-        let x = simd.partial_load_f64s(rest);
-        simd.partial_store_f64s(rest, simd.mul_add_e_f64s(factor, v_rest, x));
     }
 }
 
@@ -108,18 +126,15 @@ fn reflect<S: Simd, const N: usize>(simd: S, v: &[f64], scale: f64, columns: [&m
 /// is not inlined would call every instruction as a function.)
 #[inline(always)]
 fn products<S: Simd, const N: usize>(simd: S, v: &[f64], columns: [&[f64]; N]) -> [f64; N] {
-    let (v_whole, v_rest) = S::as_simd_f64s(v);
-    let v_rest = simd.partial_load_f64s(v_rest);
+    let (v, _) = S::as_simd_f64s(v);
     let mut sums = [simd.splat_f64s(0.0); N];
-    let mut whole: [&[S::f64s]; N] = [&[]; N];
-    for ((sum, whole), column) in sums.iter_mut().zip(&mut whole).zip(columns) {
-        let (column_whole, rest) = S::as_simd_f64s(column);
-        *whole = &column_whole[..v_whole.len()];
-        *sum = simd.mul_f64s(v_rest, simd.partial_load_f64s(rest));
+    let mut blocks: [&[S::f64s]; N] = [&[]; N];
+    for (blocks, column) in blocks.iter_mut().zip(columns) {
+        *blocks = &S::as_simd_f64s(column).0[..v.len()];
     }
-    for (i, v) in v_whole.iter().enumerate() {
-        for (sum, whole) in sums.iter_mut().zip(&whole) {
-            *sum = simd.mul_add_e_f64s(*v, whole[i], *sum);
+    for (i, v) in v.iter().enumerate() {
+        for (sum, blocks) in sums.iter_mut().zip(&blocks) {
+            *sum = simd.mul_add_e_f64s(*v, blocks[i], *sum);
         }
     }
     let mut products = [0.0; N];
@@ -137,7 +152,7 @@ mod tests {
     #[test]
     fn the_triangle_is_that_of_a_library_up_to_the_signs_of_its_rows() {
         for (rows, columns) in [(5, 9), (17, 17), (61, 17), (190, 6), (8, 1)] {
-            let stride = rows + 3;
+            let stride = padded(rows) + 3;
             let entry =
                 |i: usize, j: usize| (((i + 3) * (j + 5) * (i + 2 * j)) as f64 * 0.37).sin();
             let mut matrix = vec![f64::NAN; stride * columns];
@@ -146,7 +161,7 @@ mod tests {
                     *x = entry(i, j);
                 }
             }
-            triangularise(&mut matrix, rows, columns, stride);
+            triangularise(&mut matrix, rows, columns, stride, &mut Vec::new());
             let library = Mat::from_fn(rows, columns, entry).qr();
             for i in 0..rows.min(columns) {
                 let sign = (matrix[i * stride + i] * library.R()[(i, i)]).signum();
@@ -164,11 +179,12 @@ mod tests {
 
     #[test]
     fn a_zero_column_gives_a_zero_diagonal_and_no_nan() {
-        let mut matrix = vec![0.0; 3 * 20];
+        let stride = padded(20);
+        let mut matrix = vec![0.0; 3 * stride];
         matrix[..20].fill(1.0);
-        matrix[40..].fill(2.0);
-        triangularise(&mut matrix, 20, 3, 20);
-        assert_eq!(matrix[21], 0.0);
+        matrix[2 * stride..].fill(2.0);
+        triangularise(&mut matrix, 20, 3, stride, &mut Vec::new());
+        assert_eq!(matrix[stride + 1], 0.0);
         assert!(matrix.iter().all(|x| x.is_finite()));
     }
 }
