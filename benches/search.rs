@@ -59,17 +59,15 @@ fn stages(points: usize, runs: usize, rate: f64) {
     let needed = FitOptions::default();
     let prepare = |options: &FitOptions| PreparedScan::new(&scan, options).expect("a grain");
     let prepared = prepare(&all);
-    let searched = median(runs, || {
-        black_box(prepared.search(&|_, _| ()));
-    });
+    let searched = median(runs, || prepared.search(&|_, _| ()));
     let lean = prepare(&needed);
-    let skipping = median(runs, || drop(black_box(lean.search(&|_, _| ()))));
-    let preparing = median(runs, || drop(black_box(prepare(&all))));
+    let skipping = median(runs, || lean.search(&|_, _| ()));
+    let preparing = median(runs, || prepare(&all));
     let found = lean.search(&|_, _| ());
     let started = Instant::now();
     let fitted = lean.finish(found);
     let finishing = started.elapsed().as_secs_f64();
-    let measuring = median(runs, || drop(black_box(grain_properties(&fitted.grain))));
+    let measuring = median(runs, || grain_properties(&fitted.grain));
     let levels = 10.0;
     let floor = levels * 2.0 * scan.points.len() as f64 * 17.0 * 17.0 / rate;
     println!(
@@ -86,11 +84,11 @@ fn stages(points: usize, runs: usize, rate: f64) {
 }
 
 /// Median time of a few runs, in seconds.
-fn median(runs: usize, mut work: impl FnMut()) -> f64 {
+fn median<T>(runs: usize, mut work: impl FnMut() -> T) -> f64 {
     let mut seconds: Vec<f64> = (0..runs)
         .map(|_| {
             let started = Instant::now();
-            work();
+            black_box(work());
             started.elapsed().as_secs_f64()
         })
         .collect();

@@ -31,6 +31,7 @@ pub use options::{FitError, FitOptions, MAX_DEGREE, MAX_PARTS, Tolerance};
 pub use prepare::PreparedScan;
 pub use reference::{Reference, ReferenceKind};
 pub use search::{Candidate, Rejection, Search, Work};
+pub use surface::{ScannedSurface, scanned_surface};
 
 use crate::model::Grain;
 use crate::scan::Scan;

@@ -10,7 +10,7 @@ use super::row::rows;
 use super::samples::{CellGrid, Samples};
 use super::search::{Found, search};
 use super::segment::Level;
-use super::surface::{Surface, scanned_surface};
+use super::surface::{ScannedSurface, scanned_surface};
 use crate::measure::mesh_properties;
 use crate::mesh::Mesh;
 use crate::model::{Frame, Grain};
@@ -58,7 +58,7 @@ impl PreparedScan {
     /// centre.
     pub fn new(scan: &Scan, options: &FitOptions) -> Result<Self, FitError> {
         let (degrees, parts) = options.candidates()?;
-        let Surface {
+        let ScannedSurface {
             mesh,
             kind,
             points,

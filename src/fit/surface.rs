@@ -21,22 +21,28 @@ const LARGEST_SHARE_OF_STRAYS: f64 = 0.2;
 /// mean spacing of the points.
 const WIDE_GAP: f64 = 0.2;
 
-/// The points to fit, and a closed mesh through them.
-pub(crate) struct Surface<'a> {
-    /// The mesh, through all points or, of large clouds, through representatives.
-    pub(crate) mesh: Mesh,
+/// The surface that a scan draws, and the points that lie on it.
+#[derive(Debug, Clone)]
+pub struct ScannedSurface<'a> {
+    /// A closed mesh through the points or, of large clouds, through representatives of them.
+    pub mesh: Mesh,
     /// What the mesh is made of.
-    pub(crate) kind: ReferenceKind,
+    pub kind: ReferenceKind,
     /// The points to fit: without strays and without vertices that no face uses.
     pub(crate) points: Cow<'a, [Point3<f64>]>,
     /// One point per small patch of directions, where the cloud is large.
     pub(crate) representatives: Option<Vec<Point3<f64>>>,
     /// What a user should know: whole sentences.
-    pub(crate) warnings: Vec<String>,
+    pub warnings: Vec<String>,
 }
 
-/// Finds the surface of a scan.
-pub(crate) fn scanned_surface(scan: &Scan) -> Result<Surface<'_>, FitError> {
+/// Finds the surface that a scan draws: its own faces if they enclose one body, else the
+/// triangulation of the directions of its points, without outliers, as seen from their mean.
+///
+/// # Errors
+/// [`FitError`] if a point is not finite, if the points enclose no volume, or if too many of them
+/// do not lie on one surface round a centre.
+pub fn scanned_surface(scan: &Scan) -> Result<ScannedSurface<'_>, FitError> {
     if let Some(index) = scan
         .points
         .iter()
@@ -59,7 +65,7 @@ pub(crate) fn scanned_surface(scan: &Scan) -> Result<Surface<'_>, FitError> {
     }
 }
 
-fn from_faces(scan: &Scan) -> Surface<'_> {
+fn from_faces(scan: &Scan) -> ScannedSurface<'_> {
     let mut used = vec![false; scan.points.len()];
     for &corner in scan.triangles.iter().flatten() {
         used[corner as usize] = true;
@@ -76,7 +82,7 @@ fn from_faces(scan: &Scan) -> Surface<'_> {
         } = thin(&points, &middle(&points), f64::INFINITY);
         select(&points, &representatives)
     });
-    Surface {
+    ScannedSurface {
         mesh: Mesh {
             vertices: scan.points.clone(),
             triangles: scan.triangles.clone(),
@@ -88,7 +94,7 @@ fn from_faces(scan: &Scan) -> Surface<'_> {
     }
 }
 
-fn from_directions(scan: &Scan) -> Result<Surface<'_>, FitError> {
+fn from_directions(scan: &Scan) -> Result<ScannedSurface<'_>, FitError> {
     let centre = middle(&scan.points);
     if scan.points.len() <= WHOLE_CLOUD {
         let mesh = mesh_of_directions(scan.points.clone(), &centre)?;
@@ -113,7 +119,7 @@ fn from_directions(scan: &Scan) -> Result<Surface<'_>, FitError> {
             (mesh_of_directions(kept.clone(), &centre)?, Cow::Owned(kept))
         };
         let warnings = warnings(&mesh, &centre, strays.indices.len(), scan.points.len());
-        return Ok(Surface {
+        return Ok(ScannedSurface {
             mesh,
             kind: ReferenceKind::Directions,
             points,
@@ -132,7 +138,7 @@ fn from_directions(scan: &Scan) -> Result<Surface<'_>, FitError> {
     if scatter > LARGEST_SCATTER {
         return Err(FitError::Scattered { scatter });
     }
-    Ok(Surface {
+    Ok(ScannedSurface {
         warnings: warnings(&mesh, &centre, strays.len(), scan.points.len()),
         mesh,
         kind: ReferenceKind::Directions,

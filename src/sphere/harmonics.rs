@@ -14,7 +14,7 @@ use std::f64::consts::PI;
 
 /// Index of the harmonic of degree l and order m in a list: j = l(l+1) + m.
 pub const fn harmonic_index(degree: usize, order: isize) -> usize {
-    (degree * (degree + 1)).strict_add_signed(order)
+    ((degree * (degree + 1)) as isize + order) as usize
 }
 
 /// All real orthonormal harmonics of degree <= `degree` in the direction of the unit vector `n`, at
