@@ -31,3 +31,8 @@ mod vectorize;
 pub use fit::{FitError, FitOptions, Fitted, Tolerance, fit};
 pub use mesh::Mesh;
 pub use model::{Grain, StarSurface};
+
+/// Compiles the examples of the README.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
