@@ -50,7 +50,7 @@ fn measure(args: &MeasureArgs) -> Result<MeasureReport> {
 /// The reference surface of a scan: its faces, or else its points triangulated by their directions
 /// from the centre that the fit finds.
 fn surface(scan: Scan) -> Result<(Mesh, Measured, Vec<String>)> {
-    let whole = FitOptions {
+    let sphere = FitOptions {
         degree: Some(0),
         segments: Some(1),
         ..FitOptions::default()
@@ -66,7 +66,7 @@ fn surface(scan: Scan) -> Result<(Mesh, Measured, Vec<String>)> {
         };
         return Ok((mesh, Measured::Faces, scan.warnings));
     }
-    let fitted = fit(&scan, &whole)?;
+    let fitted = fit(&scan, &sphere)?;
     let centre = fitted.grain.frame().centre;
     let directions: Vec<Vector3<f64>> = scan
         .points
@@ -77,9 +77,11 @@ fn surface(scan: Scan) -> Result<(Mesh, Measured, Vec<String>)> {
         triangles: triangulate_directions(&directions)?,
         vertices: scan.points,
     };
-    Ok((
-        mesh,
-        Measured::Directions,
-        [scan.warnings, fitted.warnings].concat(),
-    ))
+    let mut warnings = [scan.warnings, fitted.warnings].concat();
+    let of_the_sphere = fitted.search.warning();
+    warnings.retain(|warning| Some(warning) != of_the_sphere.as_ref());
+    if fitted.points < mesh.vertices.len() {
+        warnings.push("Points that a fit leaves out are part of this measurement.".into());
+    }
+    Ok((mesh, Measured::Directions, warnings))
 }

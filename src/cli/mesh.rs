@@ -21,8 +21,7 @@ pub(super) fn run(args: MeshArgs) -> Result<()> {
         args.output.display(),
         mesh.vertices.len(),
         mesh.triangles.len()
-    ))?;
-    Ok(())
+    ))
 }
 
 pub(super) fn read(path: &Path) -> Result<Vec<u8>> {

@@ -11,8 +11,10 @@ mod search;
 mod synth;
 mod values;
 
+use anyhow::{Context, Result};
 use args::{Cli, Command};
 use clap::Parser;
+use serde::Serialize;
 use std::fmt::Display;
 use std::io::{self, ErrorKind, Write};
 use std::process::ExitCode;
@@ -46,13 +48,13 @@ fn is_broken_pipe(error: &anyhow::Error) -> bool {
 }
 
 /// Prints a result to standard output.
-fn print(text: impl Display) -> io::Result<()> {
-    writeln!(io::stdout().lock(), "{text}")
+fn print(text: impl Display) -> Result<()> {
+    writeln!(io::stdout().lock(), "{text}").context("cannot write to standard output")
 }
 
 /// Prints a record to standard output as JSON.
-fn print_json(record: &impl serde::Serialize) -> anyhow::Result<()> {
-    Ok(print(serde_json::to_string_pretty(record)?)?)
+fn print_json(record: &impl Serialize) -> Result<()> {
+    print(serde_json::to_string_pretty(record)?)
 }
 
 /// Tells the user something on standard error; where that is closed there is nobody to tell.

@@ -34,5 +34,5 @@ pub(super) fn run(args: SynthArgs) -> Result<()> {
     if args.json {
         return print_json(&report);
     }
-    Ok(print(&report)?)
+    print(&report)
 }

@@ -45,6 +45,7 @@ fn dimensions_are_extents_along_the_principal_axes() {
     let folder = folder();
     succeed(&folder, &["synth", "maize", "-o", "s.ply"]);
     let report = json(&folder, &["measure", "s.ply"]);
+    assert_eq!(report["warnings"], serde_json::json!([]));
     for (name, size) in [("length", 11.5), ("width", 8.5), ("thickness", 5.0)] {
         let found = report["dimensions"][name].as_f64().unwrap();
         assert!((found - size).abs() < 0.25, "{name}: {found}");
