@@ -14,11 +14,15 @@
 //!   ever guessed.
 //! * **Density** is one: a moment of inertia is in the scan's unit to the fifth power.
 
+#[cfg(feature = "cli")]
+#[doc(hidden)]
+pub mod cli;
 pub mod export;
 pub mod fit;
 pub mod measure;
 pub mod mesh;
 pub mod model;
+pub mod report;
 pub mod scan;
 pub mod shapes;
 pub mod sphere;
@@ -27,3 +31,8 @@ mod vectorize;
 pub use fit::{FitError, FitOptions, Fitted, Tolerance, fit};
 pub use mesh::Mesh;
 pub use model::{Grain, StarSurface};
+
+/// Compiles the examples of the README.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -1,3 +1,7 @@
 //! The `grainform` command line.
 
-fn main() {}
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    grainform::cli::run()
+}

@@ -1,0 +1,69 @@
+//! How near fits come to the truth: prints the table of the README.
+//!
+//! `cargo run --release --example accuracy`
+
+use grainform::measure::grain_properties;
+use grainform::scan::Scan;
+use grainform::shapes::{Body, Sampling, SynthOptions, synthesize};
+use grainform::{FitOptions, Fitted, StarSurface, fit};
+use nalgebra::Vector3;
+
+/// Directions in which the fitted radius is compared with the true one.
+const PLACES: usize = 20_000;
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    println!("| body | points | sampling | noise | L | n_s | area | volume | RMS |");
+    println!("|---|---|---|---|---|---|---|---|---|");
+    for body in [Body::Bean, Body::Chickpea, Body::Maize] {
+        for sampling in Sampling::ALL {
+            for noise in [0.0, 0.005] {
+                let options = SynthOptions {
+                    sampling,
+                    noise,
+                    ..SynthOptions::clean(body)
+                };
+                println!("{}", row(&options)?);
+            }
+        }
+    }
+    Ok(())
+}
+
+/// One scan, fitted with the default options, against the closed form.
+fn row(options: &SynthOptions) -> Result<String, Box<dyn std::error::Error>> {
+    let synthetic = synthesize(options)?;
+    let scan = Scan {
+        points: synthetic.points,
+        ..Scan::default()
+    };
+    let fitted = fit(&scan, &FitOptions::default())?;
+    let (found, truth) = (
+        grain_properties(&fitted.grain).properties,
+        synthetic.truth.properties,
+    );
+    let choice = fitted.search.choice();
+    Ok(format!(
+        "| {} | {} | {} | {} % | {} | {} | {:+.3} % | {:+.3} % | {:.3} % |",
+        options.body,
+        scan.points.len(),
+        options.sampling,
+        100.0 * options.noise,
+        choice.degree,
+        choice.segments,
+        100.0 * (found.area / truth.area - 1.0),
+        100.0 * (found.volume / truth.volume - 1.0),
+        100.0 * distance(&fitted, options.body)? / synthetic.truth.mean_radius,
+    ))
+}
+
+/// Root mean square of the radial distance between the fit and the closed form.
+fn distance(fitted: &Fitted, body: Body) -> Result<f64, Box<dyn std::error::Error>> {
+    let surface = body.surface();
+    let directions = Sampling::Fibonacci.directions(PLACES, 0)?;
+    let squares = directions.iter().map(|n| {
+        let from_centre: Vector3<f64> = n * surface.radius(n) - fitted.grain.frame().centre.coords;
+        let radius = fitted.grain.radius(&from_centre.normalize());
+        (from_centre.norm() - radius).powi(2)
+    });
+    Ok((squares.sum::<f64>() / PLACES as f64).sqrt())
+}

@@ -1,0 +1,221 @@
+//! The arguments as they are typed.
+
+use super::values::{Auto, offset, tolerance};
+use crate::fit::{FitOptions, Tolerance};
+use crate::shapes::{Body, Sampling};
+use clap::{Args, Parser, Subcommand, value_parser};
+use nalgebra::Vector3;
+use std::path::PathBuf;
+
+const SEARCH: &str = "Search";
+const OUTPUT: &str = "Output";
+const RUN: &str = "Run";
+
+/// Cells per edge of the cube of directions.
+pub(super) const DEFAULT_RESOLUTION: u16 = 64;
+
+/// Most threads that can be asked for.
+const MAX_THREADS: u16 = 1024;
+
+/// Fits a small analytic surface, segmented spherical harmonics, to the 3D scan of a grain, and tells
+/// how good it is.
+///
+/// Scans are read from PLY, STL, OBJ and XYZ files. Lengths are in the scan's unit. Exit codes: 0 all
+/// done; 1 done, but some inputs of a batch failed (no command uses it yet); 2 bad usage or unusable
+/// input.
+#[derive(Parser)]
+#[command(name = "grainform", version, max_term_width = 100)]
+pub(super) struct Cli {
+    #[command(subcommand)]
+    pub(super) command: Command,
+}
+
+#[derive(Subcommand)]
+pub(super) enum Command {
+    Fit(FitArgs),
+    Search(SearchArgs),
+    Mesh(MeshArgs),
+    Measure(MeasureArgs),
+    Synth(SynthArgs),
+}
+
+/// Fit a scan and say how good the fit is; write files only where asked to
+#[derive(Args)]
+pub(super) struct FitArgs {
+    #[command(flatten)]
+    pub(super) fitting: FittingArgs,
+
+    /// Write the model here, as JSON
+    #[arg(short, long, value_name = "MODEL.json", help_heading = OUTPUT)]
+    pub(super) output: Option<PathBuf>,
+
+    /// Write a closed mesh of the fitted surface here: .stl, .ply or .obj
+    #[arg(long, value_name = "OUT", help_heading = OUTPUT)]
+    pub(super) mesh: Option<PathBuf>,
+
+    /// Write the published coefficients a_l^m of every segment here
+    #[arg(long, value_name = "OUT.csv", help_heading = OUTPUT)]
+    pub(super) harmonics: Option<PathBuf>,
+
+    #[command(flatten)]
+    pub(super) meshing: MeshingArgs,
+}
+
+/// Fit every candidate of the search and list them
+///
+/// Nothing is skipped, as with --exhaustive; the choice is the same as that of `fit`.
+#[derive(Args)]
+pub(super) struct SearchArgs {
+    #[command(flatten)]
+    pub(super) fitting: FittingArgs,
+
+    /// Write the candidates here, a row each
+    #[arg(long, value_name = "FILE.csv", help_heading = OUTPUT)]
+    pub(super) csv: Option<PathBuf>,
+}
+
+/// Mesh a model
+#[derive(Args)]
+pub(super) struct MeshArgs {
+    /// A model written by `fit`
+    #[arg(value_name = "MODEL.json")]
+    pub(super) model: PathBuf,
+
+    /// Write the mesh here: .stl, .ply or .obj
+    #[arg(short, long, value_name = "OUT")]
+    pub(super) output: PathBuf,
+
+    #[command(flatten)]
+    pub(super) meshing: MeshingArgs,
+}
+
+/// Measure a scan or a model: area, volume, centroid, inertia, dimensions
+///
+/// Of a scan, its own faces are measured if they are closed, else the points are triangulated by their
+/// directions.
+#[derive(Args)]
+pub(super) struct MeasureArgs {
+    /// A scan, or a model written by `fit`; the content decides
+    #[arg(value_name = "SCAN|MODEL.json")]
+    pub(super) input: PathBuf,
+
+    /// Print one JSON object
+    #[arg(long)]
+    pub(super) json: bool,
+}
+
+/// Make a synthetic scan of a body whose area, volume and inertia are known
+#[derive(Args)]
+pub(super) struct SynthArgs {
+    /// bean, chickpea, maize or sphere
+    pub(super) body: Body,
+
+    /// Number of points; met as nearly as the sampling can [default: the body's own]
+    #[arg(long, value_name = "N")]
+    pub(super) points: Option<usize>,
+
+    /// Layout of the directions: cube, fibonacci, rings or random
+    #[arg(long, default_value_t = Sampling::Cube)]
+    pub(super) sampling: Sampling,
+
+    /// Standard deviation of the radial noise, as a share of the mean radius (0.005 is 0.5 %)
+    #[arg(long, value_name = "S", default_value_t = 0.0)]
+    pub(super) noise: f64,
+
+    /// Share of the points that lie 20 % too far in or out
+    #[arg(long, value_name = "S", default_value_t = 0.0)]
+    pub(super) outliers: f64,
+
+    /// Half-opening angle, in degrees, of a cap around -z that was not seen
+    #[arg(long, value_name = "DEG", default_value_t = 0.0)]
+    pub(super) missing_cap: f64,
+
+    /// Where the body's origin lies
+    #[arg(long, value_name = "X,Y,Z", default_value = "0,0,0", value_parser = offset,
+          allow_hyphen_values = true)]
+    pub(super) offset: Vector3<f64>,
+
+    /// Seed of everything random
+    #[arg(long, value_name = "K", default_value_t = 0)]
+    pub(super) seed: u64,
+
+    /// Write the points here: .ply or .xyz
+    #[arg(short, long, value_name = "FILE")]
+    pub(super) output: Option<PathBuf>,
+
+    /// Print one JSON object
+    #[arg(long)]
+    pub(super) json: bool,
+}
+
+/// What `fit` and `search` share.
+#[derive(Args)]
+pub(super) struct FittingArgs {
+    /// The scan: PLY, STL, OBJ or XYZ
+    #[arg(value_name = "SCAN")]
+    pub(super) scan: PathBuf,
+
+    /// Degree of every segment's expansion, or auto to search
+    #[arg(long, value_name = "L|auto", default_value = "auto", help_heading = SEARCH)]
+    pub(super) degree: Auto,
+
+    /// Number of segments, a square, or auto to search
+    #[arg(long, value_name = "N|auto", default_value = "auto", help_heading = SEARCH)]
+    pub(super) segments: Auto,
+
+    /// Largest degree searched
+    #[arg(long, value_name = "L", default_value_t = FitOptions::default().max_degree,
+          help_heading = SEARCH)]
+    pub(super) max_degree: usize,
+
+    /// Largest number of segments searched
+    #[arg(long, value_name = "N", default_value_t = FitOptions::default().max_segments,
+          help_heading = SEARCH)]
+    pub(super) max_segments: usize,
+
+    /// Held-out RMS that is good enough: a length in the scan's unit, or 0.3% of the mean radius
+    #[arg(long, value_name = "T", default_value = "0.3%", value_parser = tolerance,
+          help_heading = SEARCH)]
+    pub(super) tolerance: Tolerance,
+
+    /// Fit every candidate, also those that cannot win; the choice is the same
+    #[arg(long, help_heading = SEARCH)]
+    pub(super) exhaustive: bool,
+
+    /// Threads, 0 for all cores; the result does not depend on it
+    #[arg(long, value_name = "N", default_value_t = 0, help_heading = RUN,
+          value_parser = value_parser!(u16).range(0..=i64::from(MAX_THREADS)))]
+    pub(super) threads: u16,
+
+    /// Print one JSON object, warnings included
+    #[arg(long, help_heading = OUTPUT)]
+    pub(super) json: bool,
+
+    /// Tell on standard error what was fitted and skipped, and how long it took
+    #[arg(long, help_heading = OUTPUT)]
+    pub(super) stats: bool,
+
+    /// Print errors only, and what --json and --stats ask for
+    #[arg(long, help_heading = OUTPUT)]
+    pub(super) quiet: bool,
+}
+
+/// How meshes are made.
+#[derive(Args)]
+pub(super) struct MeshingArgs {
+    /// Cells N along each edge of a cube of directions: 6 N^2 + 2 vertices, 12 N^2 triangles
+    #[arg(long, value_name = "N", default_value_t = DEFAULT_RESOLUTION, help_heading = OUTPUT,
+          value_parser = value_parser!(u16).range(1..=2048))]
+    pub(super) resolution: u16,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Cli;
+    use clap::CommandFactory;
+
+    #[test]
+    fn arguments_are_consistent() {
+        Cli::command().debug_assert();
+    }
+}

@@ -1,0 +1,76 @@
+//! `grainform fit`
+
+use super::args::FitArgs;
+use super::fitting::{ScanFit, fit_scan, say_stats};
+use super::progress::Progress;
+use super::{outputs, print, print_json, warn};
+use crate::export::{save_mesh, write_atomically};
+use crate::model::{Grain, save_grain};
+use crate::report::{FitReport, largest_loss, write_harmonics};
+use anyhow::Result;
+use std::io::Write;
+use std::time::Instant;
+
+pub(super) fn run(args: FitArgs) -> Result<()> {
+    let started = Instant::now();
+    let fitting = &args.fitting;
+    let options = fitting.settle()?;
+    outputs::check(
+        Some(&fitting.scan),
+        &[
+            (args.output.as_deref(), &["json"]),
+            (args.mesh.as_deref(), outputs::MESH),
+            (args.harmonics.as_deref(), &["csv"]),
+        ],
+    )?;
+
+    let progress = Progress::new(fitting.quiet);
+    let ScanFit {
+        fitted,
+        scan_warnings,
+        mut seconds,
+    } = fit_scan(&fitting.scan, &options, &progress)?;
+    let mut report = FitReport::new(fitting.name(), &fitted, &options, &scan_warnings);
+    let before = started.elapsed().as_secs_f64();
+    progress.stage("Writing");
+    report.harmonics_loss = write_files(&args, &fitted.grain)?;
+    drop(progress);
+    seconds.total = started.elapsed().as_secs_f64();
+    seconds.mesh = seconds.total - before;
+    report.seconds = seconds;
+
+    if fitting.json {
+        print_json(&report)?;
+    } else if !fitting.quiet {
+        print(&report)?;
+        for path in [&args.output, &args.mesh, &args.harmonics]
+            .into_iter()
+            .flatten()
+        {
+            print(format_args!("wrote {}", path.display()))?;
+        }
+        warn(&report.warnings);
+    }
+    if fitting.stats {
+        say_stats(&fitted.search.work, &seconds);
+    }
+    Ok(())
+}
+
+/// Writes the files asked for; gives what the conversion to published coefficients loses.
+fn write_files(args: &FitArgs, grain: &Grain) -> Result<Option<f64>> {
+    if let Some(path) = &args.mesh {
+        save_mesh(path, &grain.mesh(args.meshing.resolution.into()))?;
+    }
+    if let Some(path) = &args.output {
+        write_atomically(path, |file| Ok(writeln!(file, "{}", save_grain(grain))?))?;
+    }
+    let Some(path) = &args.harmonics else {
+        return Ok(None);
+    };
+    let published = grain.published();
+    write_atomically(path, |file| {
+        Ok(write_harmonics(grain.frame(), &published, file)?)
+    })?;
+    Ok(Some(largest_loss(&published)))
+}

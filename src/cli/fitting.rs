@@ -1,0 +1,83 @@
+//! What `fit` and `search` do first: settle the options, read the scan, fit it.
+
+use super::args::FittingArgs;
+use super::progress::Progress;
+use super::say;
+use crate::fit::{FitOptions, Fitted, PreparedScan, Work};
+use crate::report::Seconds;
+use crate::scan::read_scan;
+use anyhow::{Context, Result};
+use std::path::Path;
+use std::time::Instant;
+
+/// A fit, and what came with it.
+pub(super) struct ScanFit {
+    pub(super) fitted: Fitted,
+    pub(super) scan_warnings: Vec<String>,
+    pub(super) seconds: Seconds,
+}
+
+impl FittingArgs {
+    /// The options asked for, if they are in range; also sets the number of threads.
+    pub(super) fn settle(&self) -> Result<FitOptions> {
+        let options = FitOptions {
+            degree: self.degree.0,
+            segments: self.segments.0,
+            max_degree: self.max_degree,
+            max_segments: self.max_segments,
+            tolerance: self.tolerance,
+            exhaustive: self.exhaustive,
+        };
+        options.candidates()?;
+        rayon::ThreadPoolBuilder::new()
+            .num_threads(self.threads.into())
+            .build_global()
+            .context("cannot start the threads; ask for fewer with --threads")?;
+        Ok(options)
+    }
+
+    pub(super) fn name(&self) -> String {
+        self.scan.display().to_string()
+    }
+}
+
+/// Reads and fits a scan.
+pub(super) fn fit_scan(path: &Path, options: &FitOptions, progress: &Progress) -> Result<ScanFit> {
+    let started = Instant::now();
+    progress.stage(format_args!("Reading {}", path.display()));
+    let scan = read_scan(path)?;
+    let read = started.elapsed().as_secs_f64();
+
+    progress.stage("Finding the surface, the centre and the axes");
+    let prepared = PreparedScan::new(&scan, options)
+        .with_context(|| format!("cannot fit {}", path.display()))?;
+    let found = prepared.search(&|done, all| {
+        progress.stage(format_args!("Searching: {done} of {all} levels done"));
+    });
+    let fitted = prepared.finish(found);
+    Ok(ScanFit {
+        fitted,
+        scan_warnings: scan.warnings,
+        seconds: Seconds {
+            read,
+            search: started.elapsed().as_secs_f64() - read,
+            ..Seconds::default()
+        },
+    })
+}
+
+/// Tells what was fitted, what was skipped, and how long it took.
+pub(super) fn say_stats(work: &Work, seconds: &Seconds) {
+    say(format_args!(
+        "candidates  {} fitted, {} skipped",
+        work.candidates, work.candidates_skipped
+    ));
+    say(format_args!(
+        "segments    {} fitted, {} skipped",
+        work.segments, work.segments_skipped
+    ));
+    say(format_args!(
+        "seconds     read {:.3}, search {:.3}, mesh {:.3}, total {:.3}",
+        seconds.read, seconds.search, seconds.mesh, seconds.total
+    ));
+}

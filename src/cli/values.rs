@@ -1,0 +1,47 @@
+//! Values of arguments that have a notation of their own.
+
+use crate::fit::Tolerance;
+use nalgebra::Vector3;
+use std::str::FromStr;
+
+/// A number, or `auto` for a search.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Auto(pub(super) Option<usize>);
+
+impl FromStr for Auto {
+    type Err = &'static str;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        match text {
+            "auto" => Ok(Self(None)),
+            number => match number.parse() {
+                Ok(number) => Ok(Self(Some(number))),
+                Err(_) => Err("expected a whole number or auto"),
+            },
+        }
+    }
+}
+
+/// A length, or a percentage of the mean radius.
+pub(super) fn tolerance(text: &str) -> Result<Tolerance, String> {
+    let (number, of_radius) = match text.strip_suffix('%') {
+        Some(percentage) => (percentage.trim_end(), true),
+        None => (text, false),
+    };
+    match number.parse::<f64>() {
+        Ok(value) if value > 0.0 && value.is_finite() && of_radius => {
+            Ok(Tolerance::OfMeanRadius(value / 100.0))
+        }
+        Ok(value) if value > 0.0 && value.is_finite() => Ok(Tolerance::Length(value)),
+        _ => Err("expected a positive length such as 0.02, or a share such as 0.3%".into()),
+    }
+}
+
+/// Three coordinates, separated by commas.
+pub(super) fn offset(text: &str) -> Result<Vector3<f64>, String> {
+    let numbers: Result<Vec<f64>, _> = text.split(',').map(|part| part.trim().parse()).collect();
+    match numbers.as_deref() {
+        Ok(&[x, y, z]) => Ok(Vector3::new(x, y, z)),
+        _ => Err("expected three numbers such as 10,0,-2.5".into()),
+    }
+}

@@ -1,0 +1,21 @@
+//! What a person or another program reads of the results: summaries as text, records for JSON,
+//! tables for CSV.
+//!
+//! The records are the documented, stable JSON of the command line: `serde_json::to_string` of one
+//! is what `--json` prints. Numbers that are not known are `null`. Their `Display` is the summary for
+//! a person. Errors of area and volume are signed and relative; lengths are in the scan's unit.
+
+mod fit;
+mod harmonics;
+mod measure;
+mod number;
+mod rule;
+mod search;
+mod synth;
+
+pub use fit::{FitReport, ReferenceRecord, Seconds, Skipped};
+pub use harmonics::{largest_loss, write_harmonics};
+pub use measure::{Dimensions, MeasureReport, Measured, Principal};
+pub use number::{percent, short};
+pub use search::{CandidateRecord, SearchReport};
+pub use synth::SynthReport;

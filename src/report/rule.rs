@@ -1,0 +1,36 @@
+//! Why a candidate was chosen, in one sentence.
+
+use super::number::short;
+use crate::fit::{FitOptions, Fitted, Tolerance};
+
+/// The rule of [`crate::fit`] as it decided here.
+pub(super) fn rule(fitted: &Fitted, options: &FitOptions) -> String {
+    let search = &fitted.search;
+    let choice = search.choice();
+    if search.candidates.len() == 1 {
+        return "the only candidate asked for".into();
+    }
+    if choice.rejected.is_some() {
+        return "every candidate was rejected; this one has the least held-out RMS".into();
+    }
+    let is_tolerance = search.limit <= options.tolerance.length(fitted.mean_radius);
+    let source = match options.tolerance {
+        _ if !is_tolerance => "what the scan's noise allows".into(),
+        Tolerance::Length(_) => "the tolerance".into(),
+        Tolerance::OfMeanRadius(share) => {
+            format!("{} % of the mean radius", round(100.0 * share))
+        }
+    };
+    let limit = format!("the limit of {} ({source})", short(search.limit));
+    match choice.heldout_rms {
+        Some(rms) if rms <= search.limit => {
+            format!("the fewest coefficients whose held-out RMS is within {limit}")
+        }
+        _ => format!("no candidate is within {limit}; this one has the least held-out RMS"),
+    }
+}
+
+/// Without the last digits of a product: 0.3 and not 0.30000000000000004.
+fn round(value: f64) -> f64 {
+    (value * 1e9).round() / 1e9
+}

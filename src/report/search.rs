@@ -1,0 +1,129 @@
+//! What `grainform search` tells: every candidate.
+
+use super::rule::rule;
+use super::{ReferenceRecord, Seconds};
+use crate::fit::{Candidate, FitOptions, Fitted};
+use serde::Serialize;
+use std::io::{self, Write};
+
+/// The candidates of a search and the choice.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct SearchReport {
+    /// The scan.
+    pub input: String,
+    /// Distinct points that the fits rest on.
+    pub points: usize,
+    /// Every candidate, by segments and then by degree.
+    pub candidates: Vec<CandidateRecord>,
+    /// Index of the chosen one.
+    pub chosen: usize,
+    /// Why it was chosen: half a sentence.
+    pub rule: String,
+    /// The held-out RMS that was good enough.
+    pub limit: f64,
+    /// Standard deviation of the points round a local fit.
+    pub noise: f64,
+    /// Mean radius over all directions.
+    pub mean_radius: f64,
+    /// What the candidates are compared with.
+    pub reference: ReferenceRecord,
+    /// Wall-clock time.
+    pub seconds: Seconds,
+    /// What is odd about the scan or the fit: whole sentences.
+    pub warnings: Vec<String>,
+}
+
+/// One degree and number of segments. Errors are `null` where it could not be fitted.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct CandidateRecord {
+    /// Degree of the segments' expansions.
+    pub degree: usize,
+    /// Number of segments.
+    pub segments: usize,
+    /// (degree + 1)^2 per segment.
+    pub coefficients: usize,
+    /// Area against the reference.
+    pub area_error: Option<f64>,
+    /// Volume against the reference.
+    pub volume_error: Option<f64>,
+    /// Root mean square of the radial errors of points that were left out one by one.
+    pub heldout_rms: Option<f64>,
+    /// Segments fitted at a lower degree because they hold too few points.
+    pub reduced_segments: usize,
+    /// Why this candidate cannot be chosen, if so.
+    pub rejected: Option<String>,
+}
+
+impl SearchReport {
+    /// The report of a search, for the options it was made with; `scan_warnings` are the reader's.
+    pub fn new(
+        input: String,
+        fitted: &Fitted,
+        options: &FitOptions,
+        scan_warnings: &[String],
+    ) -> Self {
+        let search = &fitted.search;
+        Self {
+            input,
+            points: fitted.points,
+            candidates: search.candidates.iter().map(Into::into).collect(),
+            chosen: search.chosen,
+            rule: rule(fitted, options),
+            limit: search.limit,
+            noise: search.noise,
+            mean_radius: fitted.mean_radius,
+            reference: fitted.reference.into(),
+            seconds: Seconds::default(),
+            warnings: [scan_warnings, &fitted.warnings].concat(),
+        }
+    }
+
+    /// Writes the candidates as CSV: a line of names, then a row each; what is not known is empty.
+    ///
+    /// # Errors
+    /// Those of the writer.
+    pub fn write_csv(&self, writer: &mut impl Write) -> io::Result<()> {
+        writeln!(
+            writer,
+            "degree,segments,coefficients,area_error,volume_error,heldout_rms,reduced_segments,\
+             rejected"
+        )?;
+        let number = |value: Option<f64>| value.map_or(String::new(), |value| value.to_string());
+        for row in &self.candidates {
+            writeln!(
+                writer,
+                "{},{},{},{},{},{},{},{}",
+                row.degree,
+                row.segments,
+                row.coefficients,
+                number(row.area_error),
+                number(row.volume_error),
+                number(row.heldout_rms),
+                row.reduced_segments,
+                quoted(row.rejected.as_deref()),
+            )?;
+        }
+        Ok(())
+    }
+}
+
+fn quoted(text: Option<&str>) -> String {
+    text.map_or(String::new(), |text| {
+        format!("\"{}\"", text.replace('"', "\"\""))
+    })
+}
+
+impl From<&Candidate> for CandidateRecord {
+    fn from(candidate: &Candidate) -> Self {
+        Self {
+            degree: candidate.degree,
+            segments: candidate.segments,
+            coefficients: candidate.coefficients,
+            area_error: candidate.area_error,
+            volume_error: candidate.volume_error,
+            heldout_rms: candidate.heldout_rms,
+            reduced_segments: candidate.reduced_segments,
+            rejected: candidate.rejected.map(|reason| reason.to_string()),
+        }
+    }
+}

@@ -1,0 +1,93 @@
+//! What `grainform synth` tells: the scan it made and the truth behind it.
+
+use super::measure::rows;
+use super::number::{short, triple};
+use crate::shapes::{SynthOptions, SyntheticScan};
+use serde::Serialize;
+use std::fmt;
+
+/// A synthetic scan and the closed form it was taken from. Lengths are in millimetres.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct SynthReport {
+    /// Name of the body.
+    pub body: &'static str,
+    /// Points actually made.
+    pub points: usize,
+    /// Layout of the directions.
+    pub sampling: &'static str,
+    /// Standard deviation of the radial noise, as a share of the mean radius.
+    pub noise: f64,
+    /// Probability of a point to be an outlier.
+    pub outliers: f64,
+    /// Half-opening angle of the cap that was not seen, in degrees.
+    pub missing_cap: f64,
+    /// Where the body's origin lies.
+    pub offset: [f64; 3],
+    /// Seed of everything random.
+    pub seed: u64,
+    /// Mean radius over all directions from the body's origin.
+    pub mean_radius: f64,
+    /// Area of the closed form.
+    pub area: f64,
+    /// Volume of the closed form.
+    pub volume: f64,
+    /// Centroid of the closed form, with the offset.
+    pub centroid: [f64; 3],
+    /// Inertia of the closed form about its centroid.
+    pub inertia: [[f64; 3]; 3],
+    /// Estimated relative error of the quadrature behind these figures.
+    pub relative_error: f64,
+    /// The file written, if any.
+    pub output: Option<String>,
+}
+
+impl SynthReport {
+    /// The report of a scan made with these options.
+    pub fn new(options: &SynthOptions, scan: &SyntheticScan, output: Option<String>) -> Self {
+        let truth = &scan.truth;
+        Self {
+            body: options.body.name(),
+            points: scan.points.len(),
+            sampling: options.sampling.name(),
+            noise: options.noise,
+            outliers: options.outliers,
+            missing_cap: options.missing_cap,
+            offset: options.offset.into(),
+            seed: options.seed,
+            mean_radius: truth.mean_radius,
+            area: truth.properties.area,
+            volume: truth.properties.volume,
+            centroid: truth.properties.centroid.coords.into(),
+            inertia: rows(&truth.properties.inertia),
+            relative_error: truth.relative_error,
+            output,
+        }
+    }
+}
+
+impl fmt::Display for SynthReport {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "body         {}", self.body)?;
+        writeln!(
+            f,
+            "scan         {} points, sampling {}, noise {} of the mean radius, seed {}",
+            self.points, self.sampling, self.noise, self.seed
+        )?;
+        writeln!(f, "mean radius  {}", short(self.mean_radius))?;
+        writeln!(f, "area         {}", short(self.area))?;
+        writeln!(f, "volume       {}", short(self.volume))?;
+        writeln!(f, "centroid     {}", triple(self.centroid))?;
+        for (i, row) in self.inertia.into_iter().enumerate() {
+            let name = if i == 0 { "inertia" } else { "" };
+            writeln!(f, "{name:<13}{}", triple(row))?;
+        }
+        if let Some(output) = &self.output {
+            writeln!(f, "wrote        {output}")?;
+        }
+        write!(
+            f,
+            "Exact figures of the body in mm, to {:.0e}.",
+            self.relative_error
+        )
+    }
+}

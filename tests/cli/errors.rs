@@ -1,0 +1,148 @@
+use super::{errors, folder, grain, grainform, names};
+use grainform::Mesh;
+use nalgebra::point;
+use std::f64::consts::TAU;
+
+/// Runs `grainform`, which must refuse with exit code 2 and say these words, on one line.
+fn refuse(words: &[&str], expected: &[&str]) {
+    let folder = folder();
+    std::fs::write(folder.path().join("garbage.ply"), [0, 159, 3, 255, 7]).unwrap();
+    std::fs::write(folder.path().join("other.json"), "{\"a\": 1}").unwrap();
+    grainform::export::save_mesh(&folder.path().join("torus.obj"), &torus()).unwrap();
+    let before = names(folder.path());
+    let output = grainform(&folder, words);
+    let text = errors(&output);
+    assert_eq!(output.status.code(), Some(2), "{words:?}: {text}");
+    for part in expected {
+        assert!(text.contains(part), "{part:?} in {text}");
+    }
+    assert!(text.starts_with("error: ") && output.stdout.is_empty());
+    let is_usage = text.contains("--help");
+    assert!(is_usage || text.lines().count() == 1, "{text}");
+    assert_eq!(names(folder.path()), before, "{words:?}");
+}
+
+fn torus() -> Mesh {
+    let n = 24_u32;
+    let corner = |i: u32, j: u32| (i % n) * n + j % n;
+    let angle = |i: u32| TAU * f64::from(i) / f64::from(n);
+    let cells = || (0..n).flat_map(move |i| (0..n).map(move |j| (i, j)));
+    let vertex = |(i, j)| {
+        let r = 3.0 + angle(j).cos();
+        point![r * angle(i).cos(), r * angle(i).sin(), angle(j).sin()]
+    };
+    let triangles = cells().flat_map(|(i, j)| {
+        let (a, b) = (corner(i, j), corner(i + 1, j));
+        let (c, d) = (corner(i + 1, j + 1), corner(i, j + 1));
+        [[a, b, c], [a, c, d]]
+    });
+    Mesh {
+        vertices: cells().map(vertex).collect(),
+        triangles: triangles.collect(),
+    }
+}
+
+#[test]
+fn unusable_inputs_are_named() {
+    for command in ["fit", "search", "measure"] {
+        refuse(&[command, "no.ply"], &["cannot read the file no.ply"]);
+        refuse(&[command, "garbage.ply"], &["garbage.ply", "byte"]);
+    }
+    refuse(
+        &["measure", "other.json"],
+        &["cannot read a model from other.json"],
+    );
+    refuse(
+        &["mesh", "other.json", "-o", "a.stl"],
+        &["other.json", "grainform fit"],
+    );
+    refuse(
+        &["mesh", "garbage.ply", "-o", "a.stl"],
+        &["garbage.ply", "model"],
+    );
+}
+
+#[test]
+fn a_torus_is_refused_with_the_share_that_faces_away() {
+    let outputs = ["-o", "m.json", "--mesh", "m.stl", "--harmonics", "m.csv"];
+    let words = [&["fit", "torus.obj"], &outputs[..]].concat();
+    refuse(
+        &words,
+        &["torus.obj", "not star-shaped", "% of its area faces away"],
+    );
+}
+
+#[test]
+fn outputs_are_checked_before_work() {
+    let maize = &grain("maize.ply");
+    let must = "its extension must be";
+    refuse(
+        &["fit", maize, "--mesh", "a.vtk"],
+        &["a.vtk", must, "stl, ply or obj"],
+    );
+    refuse(&["fit", maize, "-o", "a.stl"], &["a.stl", must, "json"]);
+    refuse(&["fit", maize, "--harmonics", "a"], &[must, "csv"]);
+    refuse(&["search", maize, "--csv", "a.txt"], &[must, "csv"]);
+    refuse(&["synth", "bean", "-o", "a.stl"], &[must, "ply or xyz"]);
+    refuse(&["mesh", "no.json", "-o", "a.txt"], &["a.txt", must]);
+    refuse(
+        &["fit", "no.ply", "-o", "none/a.json"],
+        &["the folder none does not exist"],
+    );
+    refuse(
+        &["fit", maize, "--mesh", maize],
+        &["it is the input or another output"],
+    );
+    refuse(
+        &["synth", "bean", "--noise", "0.5", "-o", "a.ply"],
+        &["the noise must lie"],
+    );
+}
+
+#[test]
+fn settings_out_of_range_are_refused_before_work() {
+    let fit = |setting: &str, value: &str, expected: &str| {
+        refuse(&["fit", "no.ply", setting, value], &[expected]);
+    };
+    fit(
+        "--segments",
+        "7",
+        "7 segments cannot be made: both angles are cut in k equal parts",
+    );
+    fit("--segments", "7", "4 or 9");
+    fit("--segments", "0", "from 1 to");
+    fit("--segments", "many", "a whole number or auto");
+    fit("--degree", "99", "the degree is 99");
+    fit(
+        "--tolerance",
+        "0",
+        "a positive length such as 0.02, or a share such as 0.3%",
+    );
+    fit("--tolerance", "nan%", "a positive length");
+    fit("--resolution", "0", "1..=2048");
+    fit("--threads", "x", "--threads");
+    refuse(&["synth", "pea"], &["bean, chickpea, maize, sphere"]);
+    refuse(&["synth", "bean", "--offset", "1,2"], &["three numbers"]);
+    refuse(
+        &["synth", "bean", "--points", "3"],
+        &["cannot sample 3 directions"],
+    );
+}
+
+#[cfg(unix)]
+#[test]
+fn a_reader_that_leaves_early_is_no_error() {
+    use std::process::{Command, Stdio};
+    let mut child = Command::new(assert_cmd::cargo::cargo_bin!("grainform"))
+        .args(["search", &grain("maize.ply"), "--json"])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    drop(child.stdout.take());
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(
+        (output.status.code(), errors(&output)),
+        (Some(0), String::new())
+    );
+}

@@ -1,0 +1,75 @@
+//! The command line from end to end, through the built binary.
+
+mod errors;
+mod fit;
+mod measure;
+mod mesh;
+mod search;
+mod synth;
+
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+use tempfile::TempDir;
+
+/// Runs `grainform` with these words, in a folder.
+fn grainform(folder: &TempDir, words: &[&str]) -> Output {
+    Command::new(assert_cmd::cargo::cargo_bin!("grainform"))
+        .args(words)
+        .current_dir(folder.path())
+        .output()
+        .expect("the binary is built")
+}
+
+/// Runs `grainform`, which must succeed; gives its standard output.
+fn succeed(folder: &TempDir, words: &[&str]) -> String {
+    let output = grainform(folder, words);
+    assert!(output.status.success(), "{words:?}: {}", errors(&output));
+    String::from_utf8(output.stdout).expect("text")
+}
+
+/// Runs `grainform --json`, which must succeed.
+fn json(folder: &TempDir, words: &[&str]) -> Value {
+    let text = succeed(folder, &[words, &["--json"]].concat());
+    serde_json::from_str(&text).expect("one JSON object")
+}
+
+fn errors(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
+
+fn folder() -> TempDir {
+    tempfile::tempdir().expect("a temporary folder")
+}
+
+/// A scan of the repository.
+fn grain(name: &str) -> String {
+    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("grains");
+    path.join(name).to_str().expect("text").into()
+}
+
+fn names(folder: &Path) -> Vec<String> {
+    let entries = folder.read_dir().expect("a folder");
+    let mut names: Vec<String> = entries
+        .map(|entry| {
+            entry
+                .expect("an entry")
+                .file_name()
+                .into_string()
+                .expect("text")
+        })
+        .collect();
+    names.sort();
+    names
+}
+
+fn number(record: &Value, name: &str) -> f64 {
+    record[name]
+        .as_f64()
+        .unwrap_or_else(|| panic!("{name} in {record}"))
+}
+
+/// The relative difference of a named number from what it should be.
+fn deviation(record: &Value, truth: &Value, name: &str) -> f64 {
+    (number(record, name) / number(truth, name) - 1.0).abs()
+}

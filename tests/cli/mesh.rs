@@ -1,0 +1,56 @@
+use super::{deviation, folder, grain, json, succeed};
+use grainform::scan::read_scan;
+use grainform::{Mesh, model};
+
+#[test]
+fn meshes_of_all_formats_are_closed_and_of_the_size_asked_for() {
+    let folder = folder();
+    for name in ["m.stl", "m.ply", "m.obj"] {
+        let words = [
+            "fit",
+            &grain("bean.ply"),
+            "--mesh",
+            name,
+            "--resolution",
+            "12",
+        ];
+        let report = json(&folder, &words);
+        let scan = read_scan(&folder.path().join(name)).unwrap();
+        assert_eq!(scan.warnings, [""; 0], "{name}");
+        assert_eq!(scan.points.len(), 6 * 12 * 12 + 2, "{name}");
+        let mesh = Mesh {
+            vertices: scan.points,
+            triangles: scan.triangles,
+        };
+        mesh.check_closed().unwrap();
+        let measured = json(&folder, &["measure", name]);
+        assert_eq!(measured["of"], "faces");
+        assert!(deviation(&measured, &report, "volume") < 0.02, "{name}");
+    }
+}
+
+#[test]
+fn the_mesh_of_a_model_is_that_of_its_fit() {
+    let folder = folder();
+    let bean = grain("bean.ply");
+    succeed(
+        &folder,
+        &["fit", &bean, "-o", "m.json", "--mesh", "fit.ply"],
+    );
+    let text = succeed(&folder, &["mesh", "m.json", "-o", "model.ply"]);
+    assert_eq!(text, "wrote model.ply: 24578 vertices, 49152 triangles\n");
+    let bytes = |name: &str| std::fs::read(folder.path().join(name)).unwrap();
+    assert!(bytes("fit.ply") == bytes("model.ply"));
+}
+
+#[test]
+fn a_model_file_holds_what_was_fitted() {
+    let folder = folder();
+    let report = json(&folder, &["fit", &grain("bean.ply"), "-o", "m.json"]);
+    let text = std::fs::read_to_string(folder.path().join("m.json")).unwrap();
+    let grain = model::parse_grain(&text).unwrap();
+    assert_eq!(report["coefficients"], grain.coefficient_count());
+    assert_eq!(report["segments"], grain.partition().segments());
+    assert_eq!(report["degree"], grain.degree());
+    assert_eq!(model::save_grain(&grain) + "\n", text);
+}

@@ -1,0 +1,59 @@
+use super::{deviation, folder, grain, json, names, number, succeed};
+
+#[test]
+fn the_grains_of_the_repository_are_regenerated_byte_for_byte() {
+    let folder = folder();
+    for body in ["bean", "chickpea", "maize"] {
+        let name = format!("{body}.ply");
+        succeed(&folder, &["synth", body, "-o", &name]);
+        let made = std::fs::read(folder.path().join(&name)).unwrap();
+        assert!(made == std::fs::read(grain(&name)).unwrap(), "{name}");
+    }
+}
+
+#[test]
+fn prints_the_truth_and_writes_nothing_unless_asked_to() {
+    let folder = folder();
+    let report = json(&folder, &["synth", "sphere"]);
+    let sphere = 4.0 * std::f64::consts::PI * 25.0;
+    assert!((number(&report, "area") / sphere - 1.0).abs() < 1e-10);
+    assert!((number(&report, "volume") / (sphere * 5.0 / 3.0) - 1.0).abs() < 1e-10);
+    assert_eq!(report["points"], 1538);
+    assert!(report["output"].is_null());
+    let text = succeed(&folder, &["synth", "sphere"]);
+    assert!(
+        text.contains("1538 points") && text.contains("314.159"),
+        "{text}"
+    );
+    assert!(names(folder.path()).is_empty());
+}
+
+#[test]
+fn the_same_seed_gives_the_same_scan_in_both_formats() {
+    let folder = folder();
+    let make = |seed: &str, name: &str| {
+        let words = ["--sampling", "random", "--noise", "0.01", "--points", "500"];
+        let words = [&["synth", "bean", "--seed", seed, "-o", name], &words[..]].concat();
+        let report = json(&folder, &words);
+        assert_eq!(report["points"], 500);
+        let path = folder.path().join(name);
+        grainform::scan::read_scan(&path).unwrap().points
+    };
+    let first = make("1", "a.ply");
+    assert_eq!(first, make("1", "b.xyz"));
+    assert_ne!(first, make("2", "c.ply"));
+}
+
+#[test]
+fn the_offset_moves_the_centroid_and_nothing_else() {
+    let folder = folder();
+    let here = json(&folder, &["synth", "bean"]);
+    let there = json(&folder, &["synth", "bean", "--offset=-10,0,2.5"]);
+    let moved =
+        |i: usize| there["centroid"][i].as_f64().unwrap() - here["centroid"][i].as_f64().unwrap();
+    assert_eq!(
+        [0, 1, 2].map(|i| (moved(i) * 1e9).round() / 1e9),
+        [-10.0, 0.0, 2.5]
+    );
+    assert_eq!(deviation(&here, &there, "volume"), 0.0);
+}

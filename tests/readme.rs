@@ -1,0 +1,84 @@
+//! The README keeps its word: its commands run, its summary and its library example are what they say.
+
+use std::path::Path;
+use std::process::Command;
+
+const README: &str = include_str!("../README.md");
+
+/// The content of the fenced blocks of a language.
+fn blocks(language: &str) -> impl Iterator<Item = &'static str> {
+    let fence = format!("```{language}\n");
+    let blocks: Vec<&str> = README.split(&fence).skip(1).collect();
+    blocks
+        .into_iter()
+        .map(|rest| rest.split("```").next().expect("a part"))
+}
+
+/// Runs a line `grainform ...` in a folder; gives its standard output.
+fn run(line: &str, folder: &Path) -> String {
+    let words = line
+        .strip_prefix("grainform ")
+        .expect("a grainform command");
+    let output = Command::new(assert_cmd::cargo::cargo_bin!("grainform"))
+        .args(words.split_whitespace())
+        .current_dir(folder)
+        .output()
+        .expect("the binary is built");
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{line}: {errors}");
+    String::from_utf8(output.stdout).expect("text")
+}
+
+/// A folder with the grains of the repository.
+fn folder() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let grains = folder.path().join("grains");
+    std::fs::create_dir(&grains).expect("a new folder");
+    for entry in Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("grains")
+        .read_dir()
+        .expect("grains")
+    {
+        let path = entry.expect("a file").path();
+        std::fs::copy(&path, grains.join(path.file_name().expect("a name"))).expect("a copy");
+    }
+    folder
+}
+
+#[test]
+fn every_command_of_the_readme_runs() {
+    let folder = folder();
+    let commands: Vec<&str> = blocks("sh")
+        .flat_map(str::lines)
+        .filter(|line| line.starts_with("grainform "))
+        .collect();
+    for command in ["fit", "search", "mesh", "measure", "synth"] {
+        let start = format!("grainform {command} ");
+        assert!(
+            commands.iter().any(|line| line.starts_with(&start)),
+            "{command}"
+        );
+    }
+    for line in commands {
+        run(line, folder.path());
+    }
+}
+
+#[test]
+fn the_main_job_of_the_readme_runs() {
+    let folder = folder();
+    let start = "cargo run --release -- ";
+    let job = README
+        .lines()
+        .find_map(|line| line.strip_prefix(start))
+        .expect("the main job");
+    run(&format!("grainform {job}"), folder.path());
+    assert!(folder.path().join("maize.json").is_file());
+    assert!(folder.path().join("maize.stl").is_file());
+}
+
+#[test]
+fn the_summary_of_the_readme_is_what_fit_prints() {
+    let printed = run("grainform fit grains/maize.ply", folder().path());
+    assert_eq!(blocks("text").next(), Some(printed.as_str()));
+}
