@@ -2,6 +2,7 @@
 
 use super::number::{short, triple};
 use crate::Mesh;
+use crate::fit::ReferenceKind;
 use crate::measure::{MassProperties, PrincipalInertia};
 use nalgebra::{Matrix3, Vector3};
 use serde::Serialize;
@@ -17,6 +18,15 @@ pub enum Measured {
     Directions,
     /// A fitted model.
     Model,
+}
+
+impl From<ReferenceKind> for Measured {
+    fn from(kind: ReferenceKind) -> Self {
+        match kind {
+            ReferenceKind::Faces => Self::Faces,
+            ReferenceKind::Directions => Self::Directions,
+        }
+    }
 }
 
 /// Area, volume, centroid, inertia and size of a solid of density one.

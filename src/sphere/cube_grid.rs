@@ -5,29 +5,26 @@ use nalgebra::Vector3;
 /// Directions and triangles of a cube whose edges are cut in `n` >= 1 equal angles: 6 n^2 + 2 unit
 /// vectors and 12 n^2 triangles, closed and counter-clockwise from outside.
 pub fn cube_grid(n: usize) -> (Vec<Vector3<f64>>, Vec<[u32; 3]>) {
-    let n = n.max(1);
+    let lattice = Lattice { n: n.max(1) };
+    let n = lattice.n;
     let place: Vec<f64> = (0..=n)
         .map(|i| {
             let angle = std::f64::consts::FRAC_PI_4 * (2.0 * i as f64 / n as f64 - 1.0);
             angle.tan()
         })
         .collect();
-    let mut directions = Vec::with_capacity(6 * n * n + 2);
+    let directions = lattice
+        .points()
+        .map(|point| Vector3::from(point.map(|i| place[i])).normalize())
+        .collect();
     let mut triangles = Vec::with_capacity(12 * n * n);
-    let mut known = std::collections::HashMap::new();
-    let mut index_of = |lattice: [usize; 3]| {
-        *known.entry(lattice).or_insert_with(|| {
-            directions.push(Vector3::from(lattice.map(|i| place[i])).normalize());
-            (directions.len() - 1) as u32
-        })
-    };
     for axis in 0..3 {
         for side in [0, n] {
-            let mut corner = |u: usize, v: usize| {
-                let mut lattice = [side; 3];
-                lattice[(axis + 1) % 3] = u;
-                lattice[(axis + 2) % 3] = v;
-                index_of(lattice)
+            let corner = |u: usize, v: usize| {
+                let mut point = [side; 3];
+                point[(axis + 1) % 3] = u;
+                point[(axis + 2) % 3] = v;
+                lattice.index(point) as u32
             };
             for (u, v) in (0..n).flat_map(|u| (0..n).map(move |v| (u, v))) {
                 let (a, b) = (corner(u, v), corner(u + 1, v));
@@ -43,11 +40,66 @@ pub fn cube_grid(n: usize) -> (Vec<Vector3<f64>>, Vec<[u32; 3]>) {
     (directions, triangles)
 }
 
+/// The points with coordinates 0..=n on the surface of a cube, numbered: the floor row by row, the
+/// rings between, the ceiling row by row.
+#[derive(Clone, Copy)]
+struct Lattice {
+    n: usize,
+}
+
+impl Lattice {
+    /// All points in the order of their numbers.
+    fn points(self) -> impl Iterator<Item = [usize; 3]> {
+        let n = self.n;
+        let layer = move |z: usize| (0..=n).flat_map(move |y| (0..=n).map(move |x| [x, y, z]));
+        let ring = move |z: usize| {
+            (0..4 * n).map(move |i| match (i / n, i % n) {
+                (0, along) => [along, 0, z],
+                (1, along) => [n, along, z],
+                (2, along) => [n - along, n, z],
+                (_, along) => [0, n - along, z],
+            })
+        };
+        layer(0).chain((1..n).flat_map(ring)).chain(layer(n))
+    }
+
+    /// The number of a point.
+    fn index(self, [x, y, z]: [usize; 3]) -> usize {
+        let n = self.n;
+        let floor = (n + 1) * (n + 1);
+        let in_layer = y * (n + 1) + x;
+        if z == 0 {
+            return in_layer;
+        }
+        let below = floor + (z - 1) * 4 * n;
+        if z == n {
+            return below + in_layer;
+        }
+        let along = match (x, y) {
+            (x, 0) if x < n => x,
+            (x, y) if x == n && y < n => n + y,
+            (x, y) if y == n && x > 0 => 2 * n + (n - x),
+            (_, y) => 3 * n + (n - y),
+        };
+        below + along
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::mesh::Mesh;
     use nalgebra::Point3;
+
+    #[test]
+    fn points_are_numbered_in_their_order() {
+        for n in [1, 2, 5] {
+            let lattice = Lattice { n };
+            for (number, point) in lattice.points().enumerate() {
+                assert_eq!(lattice.index(point), number);
+            }
+        }
+    }
 
     #[test]
     fn the_grid_is_closed_and_faces_outwards_at_every_size() {
