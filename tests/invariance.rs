@@ -170,3 +170,15 @@ fn a_dense_cloud_is_fitted_alike_in_any_order() {
     let backward = fitted(made.into_iter().rev().collect());
     assert_same(&backward, &forward, 1.0);
 }
+
+#[test]
+fn sizes_whose_moments_cannot_be_written_are_refused() {
+    for scale in [1e-90, 1e75] {
+        let scan = Scan {
+            points: points().iter().map(|p| p * scale).collect(),
+            ..Scan::default()
+        };
+        let error = fit(&scan, &FitOptions::default()).expect_err("out of scale");
+        assert!(error.to_string().contains("scale the scan"), "{error}");
+    }
+}

@@ -37,7 +37,8 @@ impl Factorization {
     /// Room for expansions up to `degree`.
     pub(crate) fn new(degree: usize) -> Self {
         let columns = coefficient_count(degree) + 1;
-        let stride = padded(BLOCK_ROWS + columns);
+        // Of a wide matrix, enough rows that the triangle carried along is a small part.
+        let stride = padded(columns + BLOCK_ROWS.max(4 * columns));
         Self {
             columns,
             matrix: vec![0.0; stride * columns],

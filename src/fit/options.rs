@@ -100,6 +100,15 @@ pub enum FitError {
         /// Number of points.
         points: usize,
     },
+    /// The numbers of the scan are too large or too small to compute with.
+    #[error(
+        "the scan is {size:e} of its units across; moments of inertia of such a size cannot be \
+         written as numbers: scale the scan to another unit"
+    )]
+    Scale {
+        /// Cube root of the volume.
+        size: f64,
+    },
     /// A coordinate is not finite.
     #[error("point {index} is not finite; remove it from the scan")]
     NotFinite {

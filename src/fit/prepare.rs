@@ -71,6 +71,13 @@ impl PreparedScan {
             .ok_or(FitError::NoVolume {
                 points: scan.points.len(),
             })?;
+        // Moments go with the fifth power of the size: that is what over- or underflows first.
+        let moment = properties.inertia.trace();
+        if !(moment.is_normal() && properties.centroid.iter().all(|x| x.is_finite())) {
+            return Err(FitError::Scale {
+                size: properties.volume.cbrt(),
+            });
+        }
         let centre = star_centre(&mesh, properties.centroid, &mut warnings)?;
         let frame = Frame {
             centre,
@@ -135,7 +142,7 @@ impl PreparedScan {
         warnings.extend(search.warning());
         Fitted {
             grain: Grain::new(self.frame, partition, coefficients)
-                .expect("a finite scan gives finite coefficients, (L + 1)^2 per segment"),
+                .expect("finite samples give finite coefficients, (L + 1)^2 per segment"),
             reference: self.reference,
             points: self.samples.rows().len(),
             mean_radius: self.mean_radius,

@@ -122,13 +122,20 @@ impl Search {
     /// What is wrong with the choice, if anything: a whole sentence.
     pub(crate) fn warning(&self) -> Option<String> {
         let reason = self.choice().rejected?;
-        Some(format!(
-            "Every candidate fitted misses a point or tears at a seam by more than {:.0} % of the \
-             radius; the one with the least held-out error was taken, and it {reason}. Its area, \
-             volume and inertia are as good as their deviations say, but look at the mesh before \
-             relying on details of the surface.",
-            100.0 * LARGEST_MISS
-        ))
+        let advice = "Its area, volume and inertia are as good as their deviations say, but look at \
+                      the mesh before relying on details of the surface.";
+        Some(match reason {
+            Rejection::Unsupported { degree } => format!(
+                "No segment holds the points that degree {degree} needs; each was fitted at the \
+                 largest degree that its points support."
+            ),
+            _ if self.candidates.len() == 1 => format!("This fit {reason}. {advice}"),
+            _ => format!(
+                "Every candidate misses a point or tears at a seam by more than {:.0} % of the \
+                 radius; the one with the least held-out error was taken, and it {reason}. {advice}",
+                100.0 * LARGEST_MISS
+            ),
+        })
     }
 }
 

@@ -18,7 +18,8 @@ pub struct FitReport {
     pub degree: usize,
     /// Number of segments.
     pub segments: usize,
-    /// Coefficients: (degree + 1)^2 per segment.
+    /// Coefficients that the model holds: (degree + 1)^2 per segment, fewer where a segment was
+    /// reduced.
     pub coefficients: usize,
     /// Area of the fitted surface, integrated exactly.
     pub area: f64,
@@ -108,7 +109,7 @@ impl FitReport {
             points: fitted.points,
             degree: choice.degree,
             segments: choice.segments,
-            coefficients: choice.coefficients,
+            coefficients: fitted.grain.coefficient_count(),
             area: properties.area,
             volume: properties.volume,
             area_error: properties.area / fitted.reference.area - 1.0,

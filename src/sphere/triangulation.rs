@@ -9,7 +9,7 @@
 //! the origin, and the fan bridges the gap.
 
 use nalgebra::Vector3;
-use spade::{DelaunayTriangulation, HasPosition, Point2, Triangulation};
+use spade::{DelaunayTriangulation, HasPosition, Point2, Triangulation, mitigate_underflow};
 
 /// Why directions cannot be triangulated.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -62,7 +62,7 @@ pub fn triangulate_directions(
         .filter_map(|(index, q)| {
             let k = (w - q).norm_squared() / 2.0;
             (k > RESOLUTION * RESOLUTION).then(|| Projected {
-                position: Point2::new(u.dot(q) / k, v.dot(q) / k),
+                position: mitigate_underflow(Point2::new(u.dot(q) / k, v.dot(q) / k)),
                 index: index as u32,
             })
         })
