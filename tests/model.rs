@@ -1,10 +1,10 @@
 //! The fitted grain: evaluation, mesh, file, published coefficients.
 
-use grainform::measure::{grain_properties, integrate, mesh_properties};
+use grainform::measure::{Moments, grain_properties, integrate, mesh_properties};
 use grainform::model::{Grain, StarSurface, parse_grain, save_grain};
 use grainform::scan::Scan;
 use grainform::shapes::{Body, SynthOptions, synthesize};
-use grainform::sphere::{cube_grid, harmonics};
+use grainform::sphere::{GaussLegendre, cube_grid, harmonics};
 use grainform::{FitOptions, fit};
 use nalgebra::Vector3;
 
@@ -62,6 +62,33 @@ fn piecewise_integrals_agree_with_those_that_know_nothing_of_segments() {
     );
     let inertia = (pieces.properties.inertia - whole.properties.inertia).norm();
     assert!(inertia < 1e-10 * pieces.properties.inertia.norm());
+}
+
+#[test]
+fn volume_and_inertia_are_exact_and_the_area_meets_its_tolerance() {
+    for (degree, parts) in [(3, 1), (3, 4), (2, 7)] {
+        let grain = grain(degree, parts);
+        let found = grain_properties(&grain).properties;
+        // Forty nodes per side of each segment: far beyond what polynomials of degree 17 need.
+        let rule = GaussLegendre::new(40);
+        let mut moments = Moments::default();
+        for segment in 0..parts * parts {
+            let rectangle = grain.partition().rectangle(segment);
+            for (theta, polar) in rule.on(rectangle.theta[0], rectangle.theta[1]) {
+                for (phi, azimuthal) in rule.on(rectangle.phi[0], rectangle.phi[1]) {
+                    let (st, ct) = theta.sin_cos();
+                    let local = Vector3::new(st * phi.cos(), st * phi.sin(), ct);
+                    let n = grain.frame().axes * local;
+                    let (r, g) = grain.radius_and_gradient(&n);
+                    moments.add_ray(&n, r, &g, polar * azimuthal * st);
+                }
+            }
+        }
+        let exact = moments.about_centroid(&grain.frame().centre);
+        assert!((found.volume / exact.volume - 1.0).abs() < 1e-13);
+        assert!((found.inertia - exact.inertia).norm() < 1e-12 * exact.inertia.norm());
+        assert!((found.area / exact.area - 1.0).abs() < 1e-9);
+    }
 }
 
 #[test]

@@ -322,6 +322,7 @@ fn jacobi_step(m: usize, j: usize, scale: impl Fn(usize) -> f64) -> Step {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::sphere::{AngularPartition, harmonics};
 
     fn direction(theta: f64, phi: f64) -> Vector3<f64> {
         Cap::new(theta, phi, 1.0).centre
@@ -370,5 +371,67 @@ mod tests {
                 assert!((gradient.dot(&tangent) - difference).abs() < 1e-8);
             }
         }
+    }
+
+    /// Condition number of a design matrix whose columns are scaled to unit length.
+    fn condition(mut design: nalgebra::DMatrix<f64>) -> f64 {
+        for mut column in design.column_iter_mut() {
+            column.normalize_mut();
+        }
+        let values = design.singular_values();
+        values.max() / values.min()
+    }
+
+    #[test]
+    fn the_basis_stays_well_conditioned_where_the_harmonics_do_not() {
+        let degree = 3;
+        let basis = CapBasis::new(degree);
+        for k in [1, 2, 4, 8, 10, 16, 64] {
+            let partition = AngularPartition::new(k);
+            // A wedge at the pole and a segment at the equator.
+            for segment in [0, k / 2 * k] {
+                let rectangle = partition.rectangle(segment);
+                let directions: Vec<[f64; 4]> = (0..400)
+                    .map(|i| rectangle.direction((i / 20) as f64 / 19.0, (i % 20) as f64 / 19.0))
+                    .map(|n| [n.x, n.y, n.z, 0.0])
+                    .collect();
+                let mut places = Places::default();
+                rectangle.cap().locate(&directions, &mut places);
+                let mut values = vec![0.0; 16 * 400];
+                basis.evaluate(&places, &mut values, 400);
+                let ours = condition(nalgebra::DMatrix::from_vec(400, 16, values));
+                assert!(ours < 500.0, "k = {k}: {ours}");
+                if k >= 10 {
+                    let rows: Vec<f64> = directions
+                        .iter()
+                        .flat_map(|n| harmonics(degree, &Vector3::new(n[0], n[1], n[2])))
+                        .collect();
+                    let plain = condition(nalgebra::DMatrix::from_row_slice(400, 16, &rows));
+                    assert!(plain > 1e6, "k = {k}: {plain}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_basis_spans_the_harmonics() {
+        let degree = 3;
+        let rectangle = AngularPartition::new(5).rectangle(7);
+        let cap = rectangle.cap();
+        let basis = CapBasis::new(degree);
+        let directions: Vec<Vector3<f64>> = (0..64)
+            .map(|i| rectangle.direction((i / 8) as f64 / 7.0, (i % 8) as f64 / 7.0))
+            .collect();
+        let unit = |j: usize| (0..16).map(|i| f64::from(i == j)).collect::<Vec<f64>>();
+        let design =
+            nalgebra::DMatrix::from_fn(64, 16, |i, j| basis.value(&cap, &unit(j), &directions[i]));
+        let target =
+            nalgebra::DMatrix::from_fn(64, 16, |i, j| harmonics(degree, &directions[i])[j]);
+        let solution = design
+            .clone()
+            .svd(true, true)
+            .solve(&target, 1e-14)
+            .expect("solved");
+        assert!((design * solution - target).amax() < 1e-13);
     }
 }
