@@ -7,10 +7,12 @@
 //! is linear and the memory constant in the number of rows. Householder reflections throughout;
 //! never the normal equations.
 
-use super::householder::{padded, triangularise};
+use super::householder::{WIDE, padded, triangularise};
 use super::samples::Sample;
 use crate::sphere::{Cap, CapBasis, Places, coefficient_count};
 use crate::vectorize::vectorize;
+use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
+use faer::{MatMut, MatRef, Par};
 /// Rows factored at once: with 17 columns they fit in the nearest cache.
 const BLOCK_ROWS: usize = 192;
 
@@ -208,6 +210,9 @@ impl Triangle<'_> {
     /// stride) by z = R^-T b, for the first `count` functions: the squared sum of the first (d+1)^2
     /// entries is the leverage of a sample in the fit of degree d.
     pub(crate) fn whiten(&self, b: &mut [f64], rows: usize, stride: usize, count: usize) {
+        if count > WIDE {
+            return self.whiten_by_library(b, rows, stride, count);
+        }
         vectorize(
             #[inline(always)]
             || {
@@ -239,5 +244,12 @@ impl Triangle<'_> {
                 }
             },
         );
+    }
+
+    fn whiten_by_library(&self, b: &mut [f64], rows: usize, stride: usize, count: usize) {
+        let b = MatMut::from_column_major_slice_with_stride_mut(b, rows, count, stride);
+        let triangle =
+            MatRef::from_column_major_slice_with_stride(self.matrix, count, count, self.stride);
+        solve_lower_triangular_in_place(triangle.transpose(), b.transpose_mut(), Par::Seq);
     }
 }

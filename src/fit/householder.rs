@@ -4,13 +4,18 @@
 //! applied to four columns at a time so that each pass over a reflector is used four times. Only R
 //! is kept. Why not a library's QR: at 60 to 200 rows by 17 columns, of which a search makes 500,
 //! the blocked algorithm of `faer` needs eight times the instructions of these loops, in packing
-//! and recursion, and half of a search's time. `faer` is the reference in the tests.
+//! and recursion, and half of a search's time. For wide matrices it is the faster one and is used;
+//! in the tests it is the reference.
 //!
 //! The order of summation follows the width of the processor's registers, so the last digits of R
 //! may differ between kinds of processors; between runs, threads and orders of the points they do
 //! not.
 
+use faer::MatMut;
 use pulp::{Arch, Simd, WithSimd};
+
+/// Columns beyond which blocking pays.
+pub(super) const WIDE: usize = 64;
 
 /// The widest register in use holds this many numbers. Columns are worked on in whole blocks of as
 /// many rows: parts of registers are slow to load and store.
@@ -31,6 +36,9 @@ pub(super) fn triangularise(
     stride: usize,
     reflector: &mut Vec<f64>,
 ) {
+    if columns > WIDE {
+        return by_library(matrix, rows, columns, stride);
+    }
     reflector.clear();
     reflector.resize(padded(rows), 0.0);
     for column in matrix.chunks_mut(stride).take(columns) {
@@ -43,6 +51,22 @@ pub(super) fn triangularise(
         stride,
         reflector,
     });
+}
+
+/// The same by the blocked algorithm of `faer`.
+fn by_library(matrix: &mut [f64], rows: usize, columns: usize, stride: usize) {
+    let mut matrix = MatMut::from_column_major_slice_with_stride_mut(matrix, rows, columns, stride);
+    let factored = matrix.as_ref().to_owned().qr();
+    let triangle = factored.R();
+    for column in 0..columns {
+        for row in 0..rows.min(columns) {
+            matrix[(row, column)] = if row <= column {
+                triangle[(row, column)]
+            } else {
+                0.0
+            };
+        }
+    }
 }
 
 struct Triangularise<'a> {
@@ -151,7 +175,15 @@ mod tests {
 
     #[test]
     fn the_triangle_is_that_of_a_library_up_to_the_signs_of_its_rows() {
-        for (rows, columns) in [(5, 9), (17, 17), (61, 17), (190, 6), (8, 1)] {
+        for (rows, columns) in [
+            (5, 9),
+            (17, 17),
+            (61, 17),
+            (190, 6),
+            (8, 1),
+            (150, 82),
+            (40, 82),
+        ] {
             let stride = padded(rows) + 3;
             let entry =
                 |i: usize, j: usize| (((i + 3) * (j + 5) * (i + 2 * j)) as f64 * 0.37).sin();

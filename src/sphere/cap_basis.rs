@@ -178,36 +178,46 @@ impl CapBasis {
         let rows = places.len();
         let columns = coefficient_count(self.degree);
         let mut out = [(); 3].map(|()| vec![0.0; columns * rows]);
-        let mut unit = vec![0.0; columns];
         let (per_tangent, per_height) = (1.0 / cap.tangent_length(), 2.0 / cap.height);
         vectorize(
             #[inline(always)]
             || {
-                for column in 0..columns {
-                    unit[column] = 1.0;
-                    for block in 0..rows.div_ceil(LANES) {
-                        let e = self.expand_block(&unit, places, block);
-                        let [u, v, x]: [[f64; LANES]; 3] = places.block(block);
-                        let at = column * rows + block * LANES;
-                        for i in 0..LANES.min(rows - block * LANES) {
-                            let n = [
-                                u[i] / per_tangent,
-                                v[i] / per_tangent,
-                                1.0 - (x[i] + 1.0) / per_height,
-                            ];
-                            let in_space = [
-                                e.du[i] * per_tangent,
-                                e.dv[i] * per_tangent,
-                                -e.dx[i] * per_height,
-                            ];
-                            let radial =
-                                in_space[0] * n[0] + in_space[1] * n[1] + in_space[2] * n[2];
-                            for axis in 0..3 {
-                                out[axis][at + i] = in_space[axis] - radial * n[axis];
+                for i in 0..rows {
+                    let (u, v, x) = (places.u[i], places.v[i], places.x[i]);
+                    let n = [
+                        u / per_tangent,
+                        v / per_tangent,
+                        1.0 - (x + 1.0) / per_height,
+                    ];
+                    let mut store = |column: usize, du: f64, dv: f64, dx: f64| {
+                        let in_space = [du * per_tangent, dv * per_tangent, -dx * per_height];
+                        let radial = in_space[0] * n[0] + in_space[1] * n[1] + in_space[2] * n[2];
+                        for axis in 0..3 {
+                            out[axis][column * rows + i] = in_space[axis] - radial * n[axis];
+                        }
+                    };
+                    let (mut re, mut im, mut re_below, mut im_below) = (1.0, 0.0, 0.0, 0.0);
+                    for (m, (first, steps)) in self.orders.iter().enumerate() {
+                        if m > 0 {
+                            (re_below, im_below) = (re, im);
+                            (re, im) = (re * u - im * v, re * v + im * u);
+                        }
+                        let order = m as f64;
+                        let (mut p0, mut p, mut d0, mut d) = (0.0, *first, 0.0, 0.0);
+                        for j in 0..=steps.len() {
+                            let at = column(m + j, m);
+                            let power = order * p;
+                            store(at, power * re_below, -power * im_below, d * re);
+                            if m > 0 {
+                                store(at + 1, power * im_below, power * re_below, d * im);
+                            }
+                            if let Some(s) = steps.get(j) {
+                                let factor = s.a * x + s.b;
+                                (d0, d) = (d, s.a * p + factor * d - s.c * d0);
+                                (p0, p) = (p, factor * p - s.c * p0);
                             }
                         }
                     }
-                    unit[column] = 0.0;
                 }
             },
         );
@@ -347,6 +357,31 @@ mod tests {
             for (i, n) in directions.iter().enumerate() {
                 let value = basis.value(&cap, &unit, &Vector3::new(n[0], n[1], n[2]));
                 assert!((value - out[j * directions.len() + i]).abs() < 1e-13);
+            }
+        }
+    }
+
+    #[test]
+    fn gradients_of_all_functions_are_those_of_each() {
+        let basis = CapBasis::new(5);
+        let cap = Cap::new(1.3, 0.2, 0.7);
+        let directions: Vec<[f64; 4]> = (0..11)
+            .map(|i| direction(0.8 + 0.1 * i as f64, 0.05 * i as f64))
+            .map(|n| [n.x, n.y, n.z, 0.0])
+            .collect();
+        let mut places = Places::default();
+        cap.locate(&directions, &mut places);
+        let gradients = basis.evaluate_gradients(&cap, &places);
+        let frame = [cap.tangents[0], cap.tangents[1], cap.centre];
+        for j in 0..36 {
+            let mut unit = vec![0.0; 36];
+            unit[j] = 1.0;
+            for (i, n) in directions.iter().enumerate() {
+                let n = Vector3::new(n[0], n[1], n[2]);
+                let (_, gradient) = basis.value_and_gradient(&cap, &unit, &n);
+                for (axis, table) in frame.iter().zip(&gradients) {
+                    assert!((axis.dot(&gradient) - table[j * 11 + i]).abs() < 1e-12);
+                }
             }
         }
     }
