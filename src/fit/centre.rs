@@ -44,7 +44,7 @@ pub(crate) fn deepest_centre(mesh: &Mesh, start: &Point3<f64>) -> Option<Point3<
         .iter()
         .map(|p| (p - start).norm())
         .fold(0.0, f64::max);
-    let planes = planes(mesh, start, 1.0 / size);
+    let planes: Vec<Plane> = planes(mesh, start, 1.0 / size).collect();
     let mut used = vec![false; planes.len()];
     let mut subset: Vec<usize> = Vec::new();
     let (mut centre, mut depth) = (Vector3::zeros(), 1.0);
@@ -98,37 +98,30 @@ fn solve<'a>(planes: impl Iterator<Item = &'a Plane>) -> Option<(Vector3<f64>, f
     Some((Vector3::from(value), solution.var_value(t)))
 }
 
-fn planes(mesh: &Mesh, from: &Point3<f64>, scale: f64) -> Vec<Plane> {
-    mesh.triangles
-        .iter()
-        .filter_map(|corners| {
-            let [a, b, c] = corners.map(|i| (mesh.vertices[i as usize] - from) * scale);
-            let cross = (b - a).cross(&(c - a));
-            let twice_area = cross.norm();
-            (twice_area > 0.0).then(|| Plane {
-                normal: cross / twice_area,
-                distance: cross.dot(&a) / twice_area,
-                area: 0.5 * twice_area,
-            })
+fn planes(mesh: &Mesh, from: &Point3<f64>, scale: f64) -> impl Iterator<Item = Plane> {
+    mesh.triangles.iter().filter_map(move |corners| {
+        let [a, b, c] = corners.map(|i| (mesh.vertices[i as usize] - from) * scale);
+        let cross = (b - a).cross(&(c - a));
+        let twice_area = cross.norm();
+        (twice_area > 0.0).then(|| Plane {
+            normal: cross / twice_area,
+            distance: cross.dot(&a) / twice_area,
+            area: 0.5 * twice_area,
         })
-        .collect()
+    })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::shapes::Sampling;
     use crate::sphere::triangulate_directions;
 
     /// A ball of unit radius whose triangulation is pushed out on one side, seen from far off centre.
     fn cup(dent: f64) -> Mesh {
-        let directions: Vec<Vector3<f64>> = (0..400)
-            .map(|i| {
-                let z = 1.0 - (2 * i + 1) as f64 / 400.0;
-                let phi = 2.399_963_229_728_653 * i as f64;
-                let s = (1.0 - z * z).sqrt();
-                Vector3::new(s * phi.cos(), s * phi.sin(), z)
-            })
-            .collect();
+        let directions = Sampling::Fibonacci
+            .directions(400, 0)
+            .expect("enough directions");
         Mesh {
             triangles: triangulate_directions(&directions).expect("400 directions"),
             vertices: directions

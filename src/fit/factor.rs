@@ -13,6 +13,8 @@ use crate::sphere::{Cap, CapBasis, Places, coefficient_count};
 use crate::vectorize::vectorize;
 use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
 use faer::{MatMut, MatRef, Par};
+use std::ops::Range;
+
 /// Rows factored at once: with 17 columns they fit in the nearest cache.
 const BLOCK_ROWS: usize = 192;
 
@@ -56,15 +58,10 @@ impl Factorization {
         self.used = 0;
     }
 
-    /// Rows that can be added before the next factorization.
-    pub(crate) fn room(&self) -> usize {
-        self.stride - self.used
-    }
-
     /// Space for `rows` more rows: a column-major matrix of the returned stride whose last column
     /// is the radius. Factors what is there first if it has to.
     pub(crate) fn append(&mut self, rows: usize) -> (&mut [f64], usize) {
-        if self.room() < rows {
+        if self.stride - self.used < rows {
             self.compress();
         }
         let start = self.used;
@@ -74,39 +71,41 @@ impl Factorization {
 
     /// Adds samples of the radius, with the functions of `basis` on `cap` as columns.
     pub(crate) fn add_samples(&mut self, basis: &CapBasis, cap: &Cap, samples: &[Sample]) {
-        let mut rest = samples;
-        while !rest.is_empty() {
-            if self.room() == 0 {
-                self.compress();
-            }
-            let (block, tail) = rest.split_at(self.room().min(rest.len()));
-            cap.locate(block, &mut self.places);
-            let start = self.used;
-            self.used += block.len();
-            let radius_column = (self.columns - 1) * self.stride;
-            let (design, radius) = self.matrix.split_at_mut(radius_column);
-            basis.evaluate(&self.places, &mut design[start..], self.stride);
-            for (out, sample) in radius[start..].iter_mut().zip(block) {
-                *out = sample[3];
-            }
-            rest = tail;
-        }
+        let mut places = std::mem::take(&mut self.places);
+        self.add_blocks(samples, |block, design, stride| {
+            cap.locate(&samples[block], &mut places);
+            basis.evaluate(&places, design, stride);
+        });
+        self.places = places;
     }
 
     /// Adds samples at which the basis has been evaluated: one column of `values` per function.
     pub(crate) fn add_evaluated(&mut self, values: &[f64], samples: &[Sample]) {
-        let rows = samples.len();
+        self.add_blocks(samples, |block, design, stride| {
+            for (column, from) in values.chunks(samples.len()).enumerate() {
+                design[column * stride..][..block.len()].copy_from_slice(&from[block.clone()]);
+            }
+        });
+    }
+
+    /// Adds samples as many at a time as there is room for; `evaluate` writes the functions at the
+    /// samples of a block into the columns of a matrix of the given stride.
+    fn add_blocks(
+        &mut self,
+        samples: &[Sample],
+        mut evaluate: impl FnMut(Range<usize>, &mut [f64], usize),
+    ) {
+        let functions = self.columns - 1;
         let mut done = 0;
-        while done < rows {
-            if self.room() == 0 {
+        while done < samples.len() {
+            if self.used == self.stride {
                 self.compress();
             }
-            let block = done..rows.min(done + self.room());
+            let room = self.stride - self.used;
+            let block = done..samples.len().min(done + room);
             let (matrix, stride) = self.append(block.len());
-            for (column, from) in values.chunks(rows).enumerate() {
-                matrix[column * stride..][..block.len()].copy_from_slice(&from[block.clone()]);
-            }
-            let radius = &mut matrix[values.len() / rows * stride..];
+            let (design, radius) = matrix.split_at_mut(functions * stride);
+            evaluate(block.clone(), design, stride);
             for (out, sample) in radius.iter_mut().zip(&samples[block.clone()]) {
                 *out = sample[3];
             }
@@ -115,7 +114,7 @@ impl Factorization {
     }
 
     /// Replaces the rows by their triangle.
-    pub(crate) fn compress(&mut self) {
+    fn compress(&mut self) {
         if self.used == 0 {
             return;
         }
@@ -206,20 +205,20 @@ impl Triangle<'_> {
         x
     }
 
-    /// Replaces the basis values b of many samples (columns of `b`, `rows` long, at the given
-    /// stride) by z = R^-T b, for the first `count` functions: the squared sum of the first (d+1)^2
-    /// entries is the leverage of a sample in the fit of degree d.
-    pub(crate) fn whiten(&self, b: &mut [f64], rows: usize, stride: usize, count: usize) {
+    /// Replaces the basis values b of many samples (columns of `b`, `rows` long) by z = R^-T b, for
+    /// the first `count` functions: the squared sum of the first (d+1)^2 entries is the leverage of
+    /// a sample in the fit of degree d.
+    pub(crate) fn whiten(&self, b: &mut [f64], rows: usize, count: usize) {
         if count > WIDE {
-            return self.whiten_by_library(b, rows, stride, count);
+            return self.whiten_by_library(b, rows, count);
         }
         vectorize(
             #[inline(always)]
             || {
                 for j in 0..count {
-                    let (known, rest) = b.split_at_mut(j * stride);
+                    let (known, rest) = b.split_at_mut(j * rows);
                     let column = &mut rest[..rows];
-                    let z = |i: usize| &known[i * stride..][..rows];
+                    let z = |i: usize| &known[i * rows..][..rows];
                     let mut i = 0;
                     // Four at a time: the column is loaded and stored a quarter as often.
                     while i + 4 <= j {
@@ -246,8 +245,8 @@ impl Triangle<'_> {
         );
     }
 
-    fn whiten_by_library(&self, b: &mut [f64], rows: usize, stride: usize, count: usize) {
-        let b = MatMut::from_column_major_slice_with_stride_mut(b, rows, count, stride);
+    fn whiten_by_library(&self, b: &mut [f64], rows: usize, count: usize) {
+        let b = MatMut::from_column_major_slice_mut(&mut b[..rows * count], rows, count);
         let triangle =
             MatRef::from_column_major_slice_with_stride(self.matrix, count, count, self.stride);
         solve_lower_triangular_in_place(triangle.transpose(), b.transpose_mut(), Par::Seq);

@@ -50,7 +50,7 @@ pub(crate) fn leave_one_out(
     if rows == 0 {
         return out;
     }
-    triangle.whiten(basis, rows, rows, coefficient_count(top));
+    triangle.whiten(basis, rows, coefficient_count(top));
     let mut residual: Vec<f64> = probes.iter().map(|sample| sample[3]).collect();
     let per_radius: Vec<f64> = residual.iter().map(|radius| 1.0 / radius).collect();
     let mut spare = vec![1.0; rows];

@@ -2,6 +2,7 @@
 
 use super::held_out::HeldOut;
 use super::reference::Reference;
+use super::row::rows;
 use super::search::{Candidate, Rejection};
 use super::segment::{DegreeFit, Level, SegmentFit, Workspace};
 use crate::sphere::coefficient_count;
@@ -22,11 +23,12 @@ pub(crate) struct FittedLevel {
 impl FittedLevel {
     /// Fits every segment of a level.
     pub(crate) fn new(level: &Level<'_>) -> Self {
+        let rows = rows(level.partition, level.basis);
         let segments = (0..level.partition.segments())
             .into_par_iter()
             .map_init(
                 || Workspace::new(level.basis.degree()),
-                |workspace, segment| level.fit(segment, workspace),
+                |workspace, segment| level.fit(segment, &rows, workspace),
             )
             .collect();
         Self { segments }

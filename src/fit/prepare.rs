@@ -6,7 +6,6 @@ use super::centre::{deepest_centre, facing_away_share};
 use super::options::{FitError, FitOptions};
 use super::reduce::{ReducedCell, reduce_cells};
 use super::reference::Reference;
-use super::row::rows;
 use super::samples::{CellGrid, Samples};
 use super::search::{Found, search};
 use super::segment::Level;
@@ -128,9 +127,8 @@ impl PreparedScan {
         let choice = search.choice();
         let degree = choice.degree;
         let partition = AngularPartition::new(choice.segments.isqrt());
-        let residuals = self.level(partition.per_angle(), degree, |level| {
-            level.residuals(&segments)
-        });
+        let level = self.level(partition.per_angle(), degree);
+        let residuals = level.residuals(&segments);
         let coefficients = segments
             .into_iter()
             .map(|mut segment| {
@@ -152,27 +150,16 @@ impl PreparedScan {
         }
     }
 
-    /// Hands the level with `k` parts per angle, up to `degree`, to `work`.
-    pub(crate) fn level<T>(
-        &self,
-        k: usize,
-        degree: usize,
-        work: impl FnOnce(&Level<'_>) -> T,
-    ) -> T {
-        work(&Level {
+    /// The level with `k` parts per angle, up to `degree`.
+    pub(crate) fn level(&self, k: usize, degree: usize) -> Level<'_> {
+        Level {
             partition: AngularPartition::new(k),
             basis: &self.bases[degree],
-            rows: rows(AngularPartition::new(k), &self.bases[degree]),
             grid: &self.grid,
             samples: &self.samples,
-            probes: self.probes(),
+            probes: self.probes.as_ref().unwrap_or(&self.samples),
             reduced: &self.reduced,
-        })
-    }
-
-    /// The samples that are predicted from all others.
-    fn probes(&self) -> &Samples {
-        self.probes.as_ref().unwrap_or(&self.samples)
+        }
     }
 }
 

@@ -197,8 +197,8 @@ const BEYOND_THE_RIM: f64 = 1.013;
 /// Samples that a cap should hold, else the nearest outside are taken too.
 const FEWEST_OF_CAP: usize = 12;
 
-/// An order of samples by value, in which equal samples stand together.
-fn order(a: &Sample, b: &Sample) -> Ordering {
+/// An order of samples by value, radius first, in which equal samples stand together.
+pub(crate) fn order(a: &Sample, b: &Sample) -> Ordering {
     let key = |s: &Sample| [s[3], s[0], s[1], s[2]].map(|x| x + 0.0);
     let (a, b) = (key(a), key(b));
     (0..4).fold(Ordering::Equal, |order, i| {

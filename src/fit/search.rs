@@ -156,7 +156,7 @@ pub(crate) fn search(prepared: &PreparedScan, progress: &dyn Fn(usize, usize)) -
     let mut work = Work::default();
     let mut fit = |k: usize, degree: usize| {
         work.segments += k * k;
-        prepared.level(k, degree, FittedLevel::new)
+        FittedLevel::new(&prepared.level(k, degree))
     };
 
     let only_one = degrees.len() * parts.len() == 1;

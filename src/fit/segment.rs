@@ -24,8 +24,6 @@ const MAX_LEVERAGE: f64 = 30.0;
 pub(crate) struct Level<'a> {
     pub(crate) partition: AngularPartition,
     pub(crate) basis: &'a CapBasis,
-    /// What the segments between two polar angles share, from north to south.
-    pub(crate) rows: Vec<Row>,
     pub(crate) grid: &'a CellGrid,
     pub(crate) samples: &'a Samples,
     /// The samples that are predicted from all others.
@@ -88,9 +86,15 @@ impl SegmentFit {
 
 impl Level<'_> {
     /// Fits one segment. Each degree is fitted to the segment's own samples where they determine it
-    /// everywhere, else to the samples of the whole cap round the segment, if those do.
-    pub(crate) fn fit(&self, segment: usize, workspace: &mut Workspace) -> SegmentFit {
-        let row = &self.rows[segment / self.partition.per_angle()];
+    /// everywhere, else to the samples of the whole cap round the segment, if those do. `rows` are
+    /// the tables of the level's rows.
+    pub(crate) fn fit(
+        &self,
+        segment: usize,
+        rows: &[Row],
+        workspace: &mut Workspace,
+    ) -> SegmentFit {
+        let row = &rows[segment / self.partition.per_angle()];
         let cap = self.partition.cap(segment);
         workspace.probes.clear();
         for run in self.runs(segment) {
@@ -254,7 +258,7 @@ impl Level<'_> {
             .min(triangle.full_rank_degree()?)
             .min(self.basis.degree());
         let mut values = row.lattice.clone();
-        triangle.whiten(&mut values, LATTICE, LATTICE, coefficient_count(top));
+        triangle.whiten(&mut values, LATTICE, coefficient_count(top));
         let mut leverage = [0.0; LATTICE];
         (0..=top)
             .take_while(|&degree| {

@@ -51,7 +51,9 @@ pub fn scanned_surface(scan: &Scan) -> Result<ScannedSurface<'_>, FitError> {
         return Err(FitError::NotFinite { index });
     }
     match &scan.topology {
-        Some(topology) if topology.closed && topology.bodies == 1 => Ok(from_faces(scan)),
+        Some(topology) if topology.closed && topology.bodies == 1 => {
+            Ok(from_faces(scan, &topology.unreferenced))
+        }
         Some(_) => {
             let mut surface = from_directions(scan)?;
             surface.warnings.push(
@@ -65,17 +67,8 @@ pub fn scanned_surface(scan: &Scan) -> Result<ScannedSurface<'_>, FitError> {
     }
 }
 
-fn from_faces(scan: &Scan) -> ScannedSurface<'_> {
-    let mut used = vec![false; scan.points.len()];
-    for &corner in scan.triangles.iter().flatten() {
-        used[corner as usize] = true;
-    }
-    let points = if used.iter().all(|&used| used) {
-        Cow::Borrowed(scan.points.as_slice())
-    } else {
-        let kept = scan.points.iter().zip(&used).filter(|(_, used)| **used);
-        Cow::Owned(kept.map(|(p, _)| *p).collect())
-    };
+fn from_faces<'a>(scan: &'a Scan, unreferenced: &[u32]) -> ScannedSurface<'a> {
+    let points = without(&scan.points, unreferenced);
     let representatives = (points.len() > WHOLE_CLOUD).then(|| {
         let Thinned {
             representatives, ..
@@ -142,11 +135,7 @@ fn from_directions(scan: &Scan) -> Result<ScannedSurface<'_>, FitError> {
         warnings: warnings(&mesh, &centre, strays.len(), scan.points.len()),
         mesh,
         kind: ReferenceKind::Directions,
-        points: if strays.is_empty() {
-            Cow::Borrowed(scan.points.as_slice())
-        } else {
-            Cow::Owned(without(&scan.points, &strays))
-        },
+        points: without(&scan.points, &strays),
         representatives: Some(representatives),
     })
 }
@@ -237,13 +226,19 @@ fn select(points: &[Point3<f64>], indices: &[u32]) -> Vec<Point3<f64>> {
 }
 
 /// All points but those at the given sorted indices.
-fn without(points: &[Point3<f64>], indices: &[u32]) -> Vec<Point3<f64>> {
-    let mut left_out = indices.iter().peekable();
-    let mut kept = Vec::with_capacity(points.len() - indices.len());
-    for (i, point) in points.iter().enumerate() {
-        if left_out.next_if(|&&stray| stray as usize == i).is_none() {
-            kept.push(*point);
-        }
+fn without<'a>(points: &'a [Point3<f64>], indices: &[u32]) -> Cow<'a, [Point3<f64>]> {
+    if indices.is_empty() {
+        return Cow::Borrowed(points);
     }
-    kept
+    let mut left_out = indices.iter().peekable();
+    let is_kept =
+        |&(i, _): &(usize, &Point3<f64>)| left_out.next_if(|&&index| index as usize == i).is_none();
+    Cow::Owned(
+        points
+            .iter()
+            .enumerate()
+            .filter(is_kept)
+            .map(|(_, point)| *point)
+            .collect(),
+    )
 }

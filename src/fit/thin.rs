@@ -5,6 +5,7 @@
 //! (so that no symmetry plane of a body runs along the bins), and each bin is represented by its
 //! point of median radius, which also drops outliers.
 
+use super::samples::{Sample, order};
 use nalgebra::{Point3, Rotation3, Vector3};
 
 /// Clouds up to this size are used whole.
@@ -42,34 +43,27 @@ pub(crate) fn thin(points: &[Point3<f64>], centre: &Point3<f64>, apart: f64) -> 
         members[next[b as usize]] = index as u32;
         next[b as usize] += 1;
     }
-    let radius = |index: u32| (points[index as usize] - centre).norm();
     let mut thinned = Thinned {
         representatives: Vec::new(),
         strays: Vec::new(),
     };
-    let mut keyed: Vec<(f64, [f64; 3], u32)> = Vec::new();
+    let mut keyed: Vec<(Sample, u32)> = Vec::new();
     for pair in starts.windows(2).filter(|pair| pair[0] < pair[1]) {
         keyed.clear();
-        keyed.extend(
-            members[pair[0]..pair[1]]
-                .iter()
-                .map(|&index| (radius(index), points[index as usize].coords.into(), index)),
-        );
+        keyed.extend(members[pair[0]..pair[1]].iter().map(|&index| {
+            let p = points[index as usize];
+            ([p.x, p.y, p.z, (p - centre).norm()], index)
+        }));
         // Ties in radius are broken by position, so that the order of the points does not matter.
         let middle = keyed.len() / 2;
-        let (_, &mut (median, _, index), _) = keyed.select_nth_unstable_by(middle, |a, b| {
-            a.0.total_cmp(&b.0).then_with(|| {
-                (0..3).fold(std::cmp::Ordering::Equal, |o, i| {
-                    o.then(a.1[i].total_cmp(&b.1[i]))
-                })
-            })
-        });
+        let (_, &mut ([.., median], index), _) =
+            keyed.select_nth_unstable_by(middle, |a, b| order(&a.0, &b.0));
         thinned.representatives.push(index);
         thinned.strays.extend(
             keyed
                 .iter()
-                .filter(|(r, ..)| (r - median).abs() > apart * median)
-                .map(|&(.., index)| index),
+                .filter(|([.., r], _)| (r - median).abs() > apart * median)
+                .map(|&(_, index)| index),
         );
     }
     thinned.strays.sort_unstable();

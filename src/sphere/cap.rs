@@ -56,8 +56,11 @@ impl Cap {
         for list in [&mut places.u, &mut places.v, &mut places.x] {
             list.resize(count, 0.0);
         }
-        let (u, v, x) = (&mut places.u[..], &mut places.v[..], &mut places.x[..]);
-        let (u, v, x) = (&mut u[..count], &mut v[..count], &mut x[..count]);
+        let (u, v, x) = (
+            &mut places.u[..count],
+            &mut places.v[..count],
+            &mut places.x[..count],
+        );
         vectorize(
             #[inline(always)]
             || {

@@ -35,7 +35,6 @@ fn level<'a>(
     Level {
         partition,
         basis,
-        rows: rows(partition, basis),
         grid,
         samples,
         probes: samples,
@@ -60,7 +59,11 @@ fn a_segment_is_the_least_squares_fit_in_the_harmonics_at_every_degree() {
     let samples = samples(2000, &grid);
     let level = level(&grid, &basis, &samples, &[]);
     let segment = 4;
-    let fit = level.fit(segment, &mut Workspace::new(3));
+    let fit = level.fit(
+        segment,
+        &rows(level.partition, level.basis),
+        &mut Workspace::new(3),
+    );
     let own: Vec<Sample> = level
         .runs(segment)
         .flat_map(|run| samples.run(run).to_vec())
@@ -83,7 +86,11 @@ fn the_held_out_error_is_that_of_fits_without_the_sample() {
     let samples = samples(900, &grid);
     let level = level(&grid, &basis, &samples, &[]);
     let segment = 4;
-    let fit = level.fit(segment, &mut Workspace::new(2));
+    let fit = level.fit(
+        segment,
+        &rows(level.partition, level.basis),
+        &mut Workspace::new(2),
+    );
     let own: Vec<Sample> = level
         .runs(segment)
         .flat_map(|run| samples.run(run).to_vec())
@@ -113,8 +120,16 @@ fn reduced_cells_give_the_fit_of_their_samples() {
     let direct = level(&grid, &basis, &samples, &[]);
     let by_cells = level(&grid, &basis, &samples, &reduced);
     for segment in 0..PARTS * PARTS {
-        let a = direct.fit(segment, &mut Workspace::new(3));
-        let b = by_cells.fit(segment, &mut Workspace::new(3));
+        let a = direct.fit(
+            segment,
+            &rows(direct.partition, direct.basis),
+            &mut Workspace::new(3),
+        );
+        let b = by_cells.fit(
+            segment,
+            &rows(by_cells.partition, by_cells.basis),
+            &mut Workspace::new(3),
+        );
         assert_eq!(a.degrees.len(), b.degrees.len());
         for (a, b) in a.degrees.iter().zip(&b.degrees) {
             for (x, y) in a.coefficients.iter().zip(&b.coefficients) {
