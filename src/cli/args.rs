@@ -1,6 +1,6 @@
 //! The arguments as they are typed.
 
-use super::values::{Auto, offset, tolerance};
+use super::values::{Auto, tolerance, vector};
 use crate::fit::{FitOptions, Tolerance};
 use crate::shapes::{Body, Sampling};
 use clap::{Args, Parser, Subcommand, value_parser};
@@ -107,8 +107,13 @@ pub(super) struct MeasureArgs {
 /// Make a synthetic scan of a body whose area, volume and inertia are known
 #[derive(Args)]
 pub(super) struct SynthArgs {
-    /// bean, chickpea, maize or sphere
+    /// bean, chickpea or maize, or a shape: sphere, ellipsoid, cylinder, bicone, octahedron, cuboid or
+    /// cube
     pub(super) body: Body,
+
+    /// Semi-axes of a shape, or half its extents, in x, y and z [default: the shape's own]
+    #[arg(long, value_name = "A,B,C", value_parser = vector, allow_hyphen_values = true)]
+    pub(super) axes: Option<Vector3<f64>>,
 
     /// Number of points; met as nearly as the sampling can [default: the body's own]
     #[arg(long, value_name = "N")]
@@ -131,7 +136,7 @@ pub(super) struct SynthArgs {
     pub(super) missing_cap: f64,
 
     /// Where the body's origin lies
-    #[arg(long, value_name = "X,Y,Z", default_value = "0,0,0", value_parser = offset,
+    #[arg(long, value_name = "X,Y,Z", default_value = "0,0,0", value_parser = vector,
           allow_hyphen_values = true)]
     pub(super) offset: Vector3<f64>,
 

@@ -11,6 +11,7 @@ pub(super) fn run(args: SynthArgs) -> Result<()> {
     outputs::check(None, &[(args.output.as_deref(), &["ply", "xyz"])])?;
     let options = SynthOptions {
         body: args.body,
+        axes: args.axes,
         points: args.points.unwrap_or(args.body.native_points()),
         sampling: args.sampling,
         noise: args.noise,

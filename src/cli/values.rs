@@ -37,8 +37,8 @@ pub(super) fn tolerance(text: &str) -> Result<Tolerance, String> {
     }
 }
 
-/// Three coordinates, separated by commas.
-pub(super) fn offset(text: &str) -> Result<Vector3<f64>, String> {
+/// Three components of a vector, separated by commas.
+pub(super) fn vector(text: &str) -> Result<Vector3<f64>, String> {
     let numbers: Result<Vec<f64>, _> = text.split(',').map(|part| part.trim().parse()).collect();
     match numbers.as_deref() {
         Ok(&[x, y, z]) => Ok(Vector3::new(x, y, z)),

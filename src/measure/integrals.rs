@@ -235,7 +235,7 @@ mod tests {
 
     #[test]
     fn tightening_the_tolerance_moves_the_result_by_less_than_the_error() {
-        for body in Body::ALL {
+        for body in Body::SMOOTH {
             let surface = body.surface();
             let exact = integrate(surface.as_ref(), 1e-12).properties;
             for tolerance in [1e-3, 1e-6, 1e-9] {

@@ -11,6 +11,8 @@ use std::fmt;
 pub struct SynthReport {
     /// Name of the body.
     pub body: &'static str,
+    /// Semi-axes of a shape, or half its extents, in x, y and z.
+    pub axes: Option<[f64; 3]>,
     /// Points actually made.
     pub points: usize,
     /// Layout of the directions.
@@ -35,7 +37,7 @@ pub struct SynthReport {
     pub centroid: [f64; 3],
     /// Inertia of the closed form about its centroid.
     pub inertia: [[f64; 3]; 3],
-    /// Estimated relative error of the quadrature behind these figures.
+    /// Relative error of these figures: estimated where they come from quadrature.
     pub relative_error: f64,
     /// The file written, if any.
     pub output: Option<String>,
@@ -47,6 +49,7 @@ impl SynthReport {
         let truth = &scan.truth;
         Self {
             body: options.body.name(),
+            axes: options.axes.or(options.body.native_axes()).map(Into::into),
             points: scan.points.len(),
             sampling: options.sampling.name(),
             noise: options.noise,
@@ -68,6 +71,9 @@ impl SynthReport {
 impl fmt::Display for SynthReport {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "body         {}", self.body)?;
+        if let Some(axes) = self.axes {
+            writeln!(f, "semi-axes    {}", triple(axes))?;
+        }
         writeln!(
             f,
             "scan         {} points, sampling {}, noise {} of the mean radius, seed {}",

@@ -1,12 +1,15 @@
 //! The closed-form bodies by name.
 
-use super::{Sphere, bean, chickpea, maize};
-use crate::model::StarSurface;
+use super::axes::{AxesError, check};
+use super::{
+    Bicone, Cuboid, Cylinder, Ellipsoid, Octahedron, Solid, Sphere, bean, chickpea, maize,
+};
+use nalgebra::Vector3;
 use std::fmt;
 use std::str::FromStr;
 use thiserror::Error;
 
-/// A closed-form body.
+/// A closed-form body: a grain, which has one size, or a shape, which can have any.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Body {
@@ -16,8 +19,20 @@ pub enum Body {
     Chickpea,
     /// [`maize`].
     Maize,
-    /// A [`Sphere`] of radius 5 mm.
+    /// A [`Sphere`].
     Sphere,
+    /// An [`Ellipsoid`].
+    Ellipsoid,
+    /// A [`Cylinder`].
+    Cylinder,
+    /// A [`Bicone`].
+    Bicone,
+    /// An [`Octahedron`].
+    Octahedron,
+    /// A [`Cuboid`].
+    Cuboid,
+    /// A [`Cuboid`] of equal edges.
+    Cube,
 }
 
 /// A name that no [`Body`] has.
@@ -30,7 +45,28 @@ pub struct UnknownBody {
 
 impl Body {
     /// All bodies.
-    pub const ALL: [Self; 4] = [Self::Bean, Self::Chickpea, Self::Maize, Self::Sphere];
+    pub const ALL: [Self; 10] = [
+        Self::Bean,
+        Self::Chickpea,
+        Self::Maize,
+        Self::Sphere,
+        Self::Ellipsoid,
+        Self::Cylinder,
+        Self::Bicone,
+        Self::Octahedron,
+        Self::Cuboid,
+        Self::Cube,
+    ];
+
+    /// The bodies without edges.
+    #[cfg(test)]
+    pub(crate) const SMOOTH: [Self; 5] = [
+        Self::Bean,
+        Self::Chickpea,
+        Self::Maize,
+        Self::Sphere,
+        Self::Ellipsoid,
+    ];
 
     /// The name, in lower case.
     pub const fn name(self) -> &'static str {
@@ -39,16 +75,62 @@ impl Body {
             Self::Chickpea => "chickpea",
             Self::Maize => "maize",
             Self::Sphere => "sphere",
+            Self::Ellipsoid => "ellipsoid",
+            Self::Cylinder => "cylinder",
+            Self::Bicone => "bicone",
+            Self::Octahedron => "octahedron",
+            Self::Cuboid => "cuboid",
+            Self::Cube => "cube",
         }
     }
 
-    /// The surface, in millimetres.
-    pub fn surface(self) -> Box<dyn StarSurface + Send + Sync> {
+    /// Semi-axes, or half-extents, in x, y and z that a shape has by default, in millimetres; none of
+    /// a grain.
+    pub fn native_axes(self) -> Option<Vector3<f64>> {
+        match self {
+            Self::Bean | Self::Chickpea | Self::Maize => None,
+            Self::Sphere => Some(Vector3::repeat(5.0)),
+            Self::Cube => Some(Vector3::repeat(1.0)),
+            Self::Ellipsoid | Self::Cylinder | Self::Bicone | Self::Octahedron | Self::Cuboid => {
+                Some(Vector3::new(2.0, 2.0, 1.0))
+            }
+        }
+    }
+
+    /// The body in its native size, in millimetres.
+    pub fn surface(self) -> Box<dyn Solid> {
+        self.of_size(self.native_axes().unwrap_or_default())
+    }
+
+    /// A shape with these semi-axes, or half-extents, in x, y and z, in millimetres.
+    ///
+    /// # Errors
+    ///
+    /// When the body is a grain, or cannot have these semi-axes.
+    pub fn with_axes(self, axes: Vector3<f64>) -> Result<Box<dyn Solid>, AxesError> {
+        check(self, &axes)?;
+        Ok(self.of_size(axes))
+    }
+
+    /// The body with these semi-axes, which mean nothing to a grain.
+    fn of_size(self, axes: Vector3<f64>) -> Box<dyn Solid> {
+        let (radius, half_height) = (axes.x, axes.z);
         match self {
             Self::Bean => Box::new(bean()),
             Self::Chickpea => Box::new(chickpea()),
             Self::Maize => Box::new(maize()),
-            Self::Sphere => Box::new(Sphere { radius: 5.0 }),
+            Self::Sphere => Box::new(Sphere { radius }),
+            Self::Ellipsoid => Box::new(Ellipsoid { semi_axes: axes }),
+            Self::Cylinder => Box::new(Cylinder {
+                radius,
+                half_height,
+            }),
+            Self::Bicone => Box::new(Bicone {
+                radius,
+                half_height,
+            }),
+            Self::Octahedron => Box::new(Octahedron { semi_axes: axes }),
+            Self::Cuboid | Self::Cube => Box::new(Cuboid { half_edges: axes }),
         }
     }
 
@@ -56,8 +138,8 @@ impl Body {
     /// Radvilaite 2016 have.
     pub const fn native_points(self) -> usize {
         match self {
-            Self::Bean | Self::Sphere => 1538,
             Self::Chickpea | Self::Maize => 6146,
+            _ => 1538,
         }
     }
 }
@@ -84,7 +166,6 @@ mod tests {
     use super::*;
     use crate::shapes::Sampling;
     use approx::assert_relative_eq;
-    use nalgebra::Vector3;
 
     /// Directions all over the sphere, the six axes among them.
     fn directions() -> Vec<Vector3<f64>> {
@@ -101,13 +182,13 @@ mod tests {
             assert_eq!(body.to_string().parse(), Ok(body));
         }
         let error = "pea".parse::<Body>().unwrap_err();
-        assert!(error.to_string().ends_with("bean, chickpea, maize, sphere"));
+        assert!(error.to_string().ends_with("octahedron, cuboid, cube"));
     }
 
     #[test]
     fn gradients_match_central_differences() {
         let step = 1e-5_f64;
-        for body in Body::ALL {
+        for body in Body::SMOOTH {
             let surface = body.surface();
             for n in directions() {
                 let (r, gradient) = surface.radius_and_gradient(&n);
@@ -127,7 +208,7 @@ mod tests {
 
     #[test]
     fn bodies_are_star_shaped_and_of_moderate_aspect() {
-        for body in Body::ALL {
+        for body in Body::SMOOTH {
             let surface = body.surface();
             let radii = directions().into_iter().map(|n| surface.radius(&n));
             let (least, most) = radii.fold((f64::INFINITY, 0.0_f64), |(least, most), r| {
@@ -147,6 +228,12 @@ mod tests {
             (Body::Chickpea, [9.0, 8.0, 8.0]),
             (Body::Maize, [11.5, 8.5, 5.0]),
             (Body::Sphere, [10.0, 10.0, 10.0]),
+            (Body::Ellipsoid, [4.0, 4.0, 2.0]),
+            (Body::Cylinder, [4.0, 4.0, 2.0]),
+            (Body::Bicone, [4.0, 4.0, 2.0]),
+            (Body::Octahedron, [4.0, 4.0, 2.0]),
+            (Body::Cuboid, [4.0, 4.0, 2.0]),
+            (Body::Cube, [2.0, 2.0, 2.0]),
         ];
         for (body, size) in sizes {
             let surface = body.surface();

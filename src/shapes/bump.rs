@@ -1,5 +1,6 @@
 //! Smooth local swellings and dents on a simple body.
 
+use super::Solid;
 use crate::model::StarSurface;
 use nalgebra::Vector3;
 
@@ -78,3 +79,5 @@ impl<B: StarSurface> StarSurface for Bumpy<B> {
         (radius * factor, gradient * factor + tangential * radius)
     }
 }
+
+impl<B: StarSurface + Send + Sync> Solid for Bumpy<B> {}

@@ -1,26 +1,42 @@
-//! Grains in closed form, and synthetic scans of them: surfaces whose truth is known.
+//! Grains and simple shapes in closed form, and synthetic scans of them: surfaces whose truth is
+//! known.
 //!
-//! All lengths are in millimetres. Every body is star-shaped about the origin of its own frame,
-//! which is near its centroid but not at it, with its length along x, its width along y and its
-//! thickness along z.
+//! All lengths are in millimetres. Every body is star-shaped about the origin of its own frame. That
+//! of a grain is near its centroid but not at it, with the grain's length along x, its width along y
+//! and its thickness along z. That of a shape is its centroid, with the shape's axes along x, y and z.
 
+mod axes;
 mod bean;
+mod bicone;
 mod body;
 mod bump;
+mod carlson;
 mod chickpea;
+mod cuboid;
+mod cylinder;
 mod ellipsoid;
+mod gauge;
 mod maize;
+mod octahedron;
 mod random;
 mod sampling;
+mod section;
+mod solid;
 mod sphere;
 mod synth;
 
+pub use axes::{AxesError, MAX_AXIS, MIN_AXIS};
 pub use bean::bean;
+pub use bicone::Bicone;
 pub use body::{Body, UnknownBody};
 pub use bump::{Bump, Bumpy};
 pub use chickpea::chickpea;
+pub use cuboid::Cuboid;
+pub use cylinder::Cylinder;
 pub use ellipsoid::Ellipsoid;
 pub use maize::{Wedge, maize};
+pub use octahedron::Octahedron;
 pub use sampling::{MAX_POINTS, MIN_POINTS, Sampling, SamplingError, UnknownSampling};
+pub use solid::Solid;
 pub use sphere::Sphere;
 pub use synth::{MAX_NOISE, SynthError, SynthOptions, SyntheticScan, Truth, synthesize};

@@ -121,8 +121,20 @@ fn settings_out_of_range_are_refused_before_work() {
     fit("--tolerance", "nan%", "a positive length");
     fit("--resolution", "0", "1..=2048");
     fit("--threads", "x", "--threads");
-    refuse(&["synth", "pea"], &["bean, chickpea, maize, sphere"]);
+    refuse(
+        &["synth", "pea"],
+        &["bean, chickpea, maize, sphere, ellipsoid"],
+    );
     refuse(&["synth", "bean", "--offset", "1,2"], &["three numbers"]);
+    let axes = |body: &str, axes: &str, expected: &str| {
+        refuse(&["synth", body, "--axes", axes], &[expected]);
+    };
+    axes("maize", "2,2,1", "the maize has one size");
+    axes("ellipsoid", "2,2", "three numbers");
+    axes("ellipsoid", "-2,2,1", "a semi-axis must be 0.000001 to");
+    axes("octahedron", "2,nan,1", "not NaN");
+    axes("cylinder", "2,1,1", "a cylinder is round");
+    axes("sphere", "2,2,1", "must all be equal, not 2, 2 and 1");
     refuse(
         &["synth", "bean", "--points", "3"],
         &["cannot sample 3 directions"],

@@ -57,3 +57,33 @@ fn the_offset_moves_the_centroid_and_nothing_else() {
     );
     assert_eq!(deviation(&here, &there, "volume"), 0.0);
 }
+
+#[test]
+fn a_shape_has_the_axes_asked_for_and_its_exact_figures() {
+    let folder = folder();
+    let words = ["synth", "cylinder", "--axes", "3,3,0.5", "-o", "c.ply"];
+    let report = json(&folder, &words);
+    let area = std::f64::consts::TAU * 3.0 * (3.0 + 1.0);
+    assert!((number(&report, "area") / area - 1.0).abs() < 1e-14);
+    assert_eq!(number(&report, "relative_error"), 1e-14);
+    assert_eq!(report["axes"], serde_json::json!([3.0, 3.0, 0.5]));
+    let path = folder.path().join("c.ply");
+    for p in grainform::scan::read_scan(&path).unwrap().points {
+        let place = (p.x.hypot(p.y) / 3.0).max(p.z.abs() / 0.5);
+        assert!((place - 1.0).abs() < 1e-12, "{p}");
+    }
+}
+
+#[test]
+fn shapes_have_axes_of_their_own_and_grains_have_none() {
+    let folder = folder();
+    let report = json(&folder, &["synth", "bicone"]);
+    assert_eq!(report["axes"], serde_json::json!([2.0, 2.0, 1.0]));
+    assert!(json(&folder, &["synth", "maize"])["axes"].is_null());
+    let text = succeed(&folder, &["synth", "cube"]);
+    assert!(
+        text.contains("semi-axes    1.00000  1.00000  1.00000"),
+        "{text}"
+    );
+    assert!(text.contains("to 1e-14"), "{text}");
+}
