@@ -119,7 +119,7 @@ impl Level<'_> {
         let mut degrees = Vec::new();
         self.add_degrees(&mut degrees, samples, row, workspace);
         if degrees.len() <= self.basis.degree() {
-            let widened = self.probes.of_cap(&cap, self.grid);
+            let widened = self.samples.of_cap(&cap, self.grid);
             self.evaluate_probes(workspace);
             workspace.factorization.clear();
             workspace

@@ -59,6 +59,11 @@ fn fits_meet_extended_precision_at_every_size_place_and_slenderness() {
     assert_promise(twice, 4, 3);
 }
 
+#[test]
+fn segments_of_dense_clouds_are_widened_to_all_samples_of_their_caps() {
+    assert_promise(even_in_angles(32, 3), 32, 3);
+}
+
 /// The largest distance from extended precision in any segment, relative to its largest radius;
 /// infinite if a factorization breaks down.
 fn error_of(basis: Basis, solver: Solver, k: usize, degree: usize) -> f64 {
