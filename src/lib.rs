@@ -15,6 +15,8 @@
 //! * **Density** is one: a moment of inertia is in the scan's unit to the fifth power.
 
 #[cfg(feature = "cli")]
+pub mod bench;
+#[cfg(feature = "cli")]
 #[doc(hidden)]
 pub mod cli;
 pub mod export;

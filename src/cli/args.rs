@@ -37,6 +37,7 @@ pub(super) enum Command {
     Mesh(MeshArgs),
     Measure(MeasureArgs),
     Synth(SynthArgs),
+    Bench(BenchArgs),
 }
 
 /// Fit a scan and say how good the fit is; write files only where asked to
@@ -151,6 +152,31 @@ pub(super) struct SynthArgs {
     /// Print one JSON object
     #[arg(long)]
     pub(super) json: bool,
+}
+
+/// Measure run time against error over many settings
+///
+/// Whole-surface fits of degree 1 to 20, and 1 x 1 to 16 x 16 segments of degree 0 to 6, on one thread.
+/// Seconds are those of the fit alone; what preparing the scan takes is a column of bench.csv.
+/// Printed are the settings with the least held-out RMS for their coefficients or their seconds.
+#[derive(Args)]
+pub(super) struct BenchArgs {
+    /// Scans [default: a synthetic bean, chickpea and maize kernel, clean and noisy, whose truth is
+    /// known]
+    #[arg(value_name = "SCAN")]
+    pub(super) scans: Vec<PathBuf>,
+
+    /// Write bench.csv and the plots into this folder
+    #[arg(short, long, value_name = "DIR", default_value = "bench", help_heading = OUTPUT)]
+    pub(super) output: PathBuf,
+
+    /// Print all rows as one JSON object
+    #[arg(long, help_heading = OUTPUT)]
+    pub(super) json: bool,
+
+    /// Print errors only, and what --json asks for
+    #[arg(long, help_heading = OUTPUT)]
+    pub(super) quiet: bool,
 }
 
 /// What `fit` and `search` share.

@@ -1,6 +1,7 @@
 //! The `grainform` command line: typed arguments are settled, outputs are checked, then work begins.
 
 mod args;
+mod bench;
 mod fit;
 mod fitting;
 mod measure;
@@ -30,6 +31,7 @@ pub fn run() -> ExitCode {
         Command::Mesh(args) => mesh::run(args),
         Command::Measure(args) => measure::run(args),
         Command::Synth(args) => synth::run(args),
+        Command::Bench(args) => bench::run(args),
     };
     match result {
         Err(error) if !is_broken_pipe(&error) => {

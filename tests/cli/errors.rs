@@ -44,7 +44,7 @@ fn torus() -> Mesh {
 
 #[test]
 fn unusable_inputs_are_named() {
-    for command in ["fit", "search", "measure"] {
+    for command in ["fit", "search", "measure", "bench"] {
         refuse(&[command, "no.ply"], &["cannot read the file no.ply"]);
         refuse(&[command, "garbage.ply"], &["garbage.ply", "byte"]);
     }
@@ -96,6 +96,20 @@ fn outputs_are_checked_before_work() {
     refuse(
         &["synth", "bean", "--noise", "0.5", "-o", "a.ply"],
         &["the noise must lie"],
+    );
+}
+
+#[test]
+fn a_bench_is_refused_before_it_begins() {
+    let maize = &grain("maize.ply");
+    refuse(
+        &["bench", maize, "torus.obj"],
+        &["cannot fit torus.obj", "not star-shaped"],
+    );
+    refuse(&["bench", maize, maize], &["two scans are named maize"]);
+    refuse(
+        &["bench", maize, "-o", "torus.obj"],
+        &["cannot make the folder torus.obj"],
     );
 }
 

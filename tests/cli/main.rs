@@ -1,5 +1,6 @@
 //! The command line from end to end, through the built binary.
 
+mod bench;
 mod errors;
 mod fit;
 mod measure;

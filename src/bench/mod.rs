@@ -1,0 +1,97 @@
+//! Run time against error: every family of models over a grid of settings, on the same scans.
+//!
+//! Times are wall-clock seconds of the stage named, made on as many threads as the caller's pool
+//! has: `grainform bench` takes one. A fit is [`PreparedScan::search`] of one setting: least squares,
+//! held-out errors, area and volume. Preparing (reference surface, centre, axes, sorting, and on
+//! dense clouds the factors of the cells) is timed apart, because it is done once for a whole search.
+//!
+//! [`PreparedScan::search`]: crate::fit::PreparedScan::search
+
+mod axis;
+mod csv;
+mod front;
+mod plot;
+mod run;
+mod setting;
+mod subject;
+
+pub use csv::write_csv;
+pub use front::{Cost, front};
+pub use plot::{PlotError, plot};
+pub use run::run;
+pub use setting::{Family, Setting, options};
+pub use subject::{NOISE, Subject, Truth, synthetic};
+
+use serde::Serialize;
+
+/// The rows of several scans.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct BenchReport {
+    /// One entry per scan.
+    pub scans: Vec<BenchScan>,
+}
+
+/// The settings fitted to one scan.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct BenchScan {
+    /// Name of the body, or the scan's file.
+    pub scan: String,
+    /// Points of the scan.
+    pub points: usize,
+    /// Standard deviation of the radial noise, as a share of the mean radius; `None` if unknown.
+    pub noise: Option<f64>,
+    /// What area and volume are compared with: "truth" (the closed form), "faces" (the scan's own)
+    /// or "directions" (the polyhedron through the points, which is itself off).
+    pub reference: &'static str,
+    /// Settings left out: more coefficients than half of the points.
+    pub skipped: usize,
+    /// The settings fitted, family by family.
+    pub rows: Vec<BenchRow>,
+}
+
+impl BenchScan {
+    /// What was fitted: `maize: 6146 points, noise 0.5 % of the mean radius`.
+    pub fn title(&self) -> String {
+        let noise = match self.noise {
+            None => String::new(),
+            Some(0.0) => ", clean".into(),
+            Some(noise) => format!(", noise {} % of the mean radius", 100.0 * noise),
+        };
+        format!("{}: {} points{noise}", self.scan, self.points)
+    }
+}
+
+/// One setting, fitted. Shares are of the mean radius.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct BenchRow {
+    /// The family of models.
+    pub family: Family,
+    /// Degree of the expansions, where the family fixes it.
+    pub degree: Option<usize>,
+    /// Segments of the model.
+    pub segments: usize,
+    /// Held-out RMS asked for, as a share, where the family asks for one.
+    pub tolerance: Option<f64>,
+    /// Coefficients that the model holds.
+    pub coefficients: usize,
+    /// Coefficients touched to evaluate one radius: the mean over all directions.
+    pub touched: f64,
+    /// Seconds of the fit alone: the median of three, or one that took long.
+    pub seconds: f64,
+    /// Seconds of preparing the scan for it.
+    pub seconds_prepare: f64,
+    /// Root mean square of the radial leave-one-out errors, in the scan's unit.
+    pub heldout_rms: Option<f64>,
+    /// `heldout_rms` as a share.
+    pub heldout_share: Option<f64>,
+    /// Area against the reference: signed, relative.
+    pub area_error: f64,
+    /// Volume against the reference: signed, relative.
+    pub volume_error: f64,
+    /// Root mean square of the radial distance to the closed form, as a share; `None` without one.
+    pub rms_error: Option<f64>,
+    /// The largest jump of the radius between neighbouring segments, as a share.
+    pub seam_jump: f64,
+    /// Why the search would not choose it, if so.
+    pub rejected: Option<String>,
+}

@@ -1,0 +1,286 @@
+//! Error against cost, both logarithmic, as an SVG picture.
+
+use super::axis::{LogAxis, label};
+use super::{BenchRow, BenchScan, Cost, Family};
+use plotters::coord::combinators::WithKeyPoints;
+use plotters::prelude::*;
+use std::io;
+
+/// Width and height, in pixels.
+const SIZE: (u32, u32) = (900, 600);
+
+const INK: RGBColor = RGBColor(51, 51, 51);
+const GRID: RGBColor = RGBColor(226, 226, 226);
+const FINE_GRID: RGBColor = RGBColor(244, 244, 244);
+
+type Axis = WithKeyPoints<LogCoord<f64>>;
+type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<Axis, Axis>>;
+type Drawn = Result<(), DrawingAreaErrorKind<io::Error>>;
+
+/// Why there is no picture.
+#[derive(Debug, thiserror::Error)]
+#[error("the plot could not be drawn")]
+pub struct PlotError(#[from] DrawingAreaErrorKind<io::Error>);
+
+/// Draws the held-out RMS of every setting against its cost, with the Pareto front as steps. The axes
+/// hold all settings but rejected ones, which are pale where they are in sight.
+///
+/// # Errors
+/// [`PlotError`] if the picture cannot be drawn, for which no cause is known.
+pub fn plot(scan: &BenchScan, cost: Cost) -> Result<String, PlotError> {
+    let mut svg = String::new();
+    let area = SVGBackend::with_string(&mut svg, SIZE).into_drawing_area();
+    area.fill(&WHITE)?;
+
+    let accepted = || scan.rows.iter().filter(|row| row.rejected.is_none());
+    let x = LogAxis::new(accepted().map(|row| cost.of(row)));
+    let y = LogAxis::new(accepted().map(error));
+    let is_in_sight =
+        |row: &BenchRow| x.range.contains(&cost.of(row)) && y.range.contains(&error(row));
+    let mut chart = ChartBuilder::on(&area)
+        .margin(16)
+        .caption(scan.title(), text(22))
+        .x_label_area_size(56)
+        .y_label_area_size(76)
+        .build_cartesian_2d(coordinate(&x), coordinate(&y))?;
+    draw_axes(&mut chart, cost)?;
+    draw_rows(&mut chart, scan, cost, &is_in_sight)?;
+    draw_legend(&mut chart)?;
+    area.present()?;
+    drop(chart);
+    drop(area);
+    Ok(svg)
+}
+
+/// The held-out RMS in % of the mean radius.
+fn error(row: &BenchRow) -> f64 {
+    100.0 * row.heldout_share.unwrap_or(f64::NAN)
+}
+
+fn text(size: i32) -> TextStyle<'static> {
+    ("sans-serif", size).into_font().color(&INK)
+}
+
+/// The axis as the library wants it.
+fn coordinate(axis: &LogAxis) -> Axis {
+    axis.range
+        .clone()
+        .log_scale()
+        .with_key_points(axis.labelled.clone())
+        .with_light_points(axis.fine.clone())
+}
+
+fn draw_axes<'a, 'b: 'a>(chart: &mut Chart<'a, 'b>, cost: Cost) -> Drawn {
+    chart
+        .configure_mesh()
+        .bold_line_style(GRID)
+        .light_line_style(FINE_GRID)
+        .axis_style(INK)
+        .label_style(text(18))
+        .axis_desc_style(text(20))
+        .x_label_formatter(&|mark| label(*mark))
+        .y_label_formatter(&|mark| label(*mark))
+        .x_desc(match cost {
+            Cost::Coefficients => "coefficients",
+            Cost::Seconds => "seconds of the fit, one thread",
+        })
+        .y_desc("held-out RMS, % of the mean radius")
+        .draw()
+}
+
+/// Draws the best last: rejected settings, those behind the front, the front.
+fn draw_rows<'a, 'b: 'a>(
+    chart: &mut Chart<'a, 'b>,
+    scan: &BenchScan,
+    cost: Cost,
+    is_in_sight: &dyn Fn(&BenchRow) -> bool,
+) -> Drawn {
+    let front = scan.front(cost);
+    let at = |row: &BenchRow| (cost.of(row), error(row));
+    let rows = |rank: Rank| {
+        let ranked = scan.rows.iter().enumerate();
+        let of_rank = ranked.filter(|&(i, row)| Rank::of(i, row, &front) == rank);
+        let rows = of_rank.map(|(_, row)| row).filter(|row| is_in_sight(row));
+        rows.collect::<Vec<_>>().into_iter()
+    };
+    for rank in [Rank::Rejected, Rank::Behind] {
+        let markers = rows(rank).map(|row| EmptyElement::at(at(row)) + marker(row.family, rank));
+        chart.draw_series(markers)?;
+    }
+    let line = INK.stroke_width(2);
+    let on_front = front.iter().map(|&i| &scan.rows[i]);
+    let corners: Vec<_> = on_front.filter(|row| is_in_sight(row)).map(at).collect();
+    chart
+        .draw_series(LineSeries::new(steps(&corners), line))?
+        .label("Pareto front")
+        .legend(move |(x, y)| PathElement::new([(x - 9, y), (x + 9, y)], line));
+    for family in Family::ALL {
+        let markers = rows(Rank::Front)
+            .filter(|row| row.family == family)
+            .map(|row| EmptyElement::at(at(row)) + marker(family, Rank::Front));
+        chart
+            .draw_series(markers)?
+            .label(legend(family))
+            .legend(move |at| EmptyElement::at(at) + marker(family, Rank::Front));
+    }
+    let nothing = std::iter::empty::<Pixel<(f64, f64)>>();
+    chart
+        .draw_series(nothing)?
+        .label("pale: rejected by the search")
+        .legend(|at| EmptyElement::at(at) + marker(Family::Uniform, Rank::Rejected));
+    Ok(())
+}
+
+fn draw_legend<'a, 'b: 'a>(chart: &mut Chart<'a, 'b>) -> Drawn {
+    chart
+        .configure_series_labels()
+        .position(SeriesLabelPosition::UpperRight)
+        .margin(14)
+        .legend_area_size(30)
+        .background_style(WHITE)
+        .border_style(GRID)
+        .label_font(text(18))
+        .draw()
+}
+
+/// The corners of the line below which no setting lies, from the points of the front.
+fn steps(front: &[(f64, f64)]) -> Vec<(f64, f64)> {
+    let mut line: Vec<_> = front.first().copied().into_iter().collect();
+    for pair in front.windows(2) {
+        line.extend([(pair[1].0, pair[0].1), pair[1]]);
+    }
+    line
+}
+
+/// How a setting does beside the others.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Rank {
+    Rejected,
+    Behind,
+    Front,
+}
+
+impl Rank {
+    fn of(index: usize, row: &BenchRow, front: &[usize]) -> Self {
+        match row.rejected {
+            Some(_) => Self::Rejected,
+            None if front.contains(&index) => Self::Front,
+            None => Self::Behind,
+        }
+    }
+
+    /// Half the width of its marker, in pixels.
+    fn size(self) -> i32 {
+        match self {
+            Self::Front => 6,
+            Self::Behind | Self::Rejected => 4,
+        }
+    }
+
+    fn opacity(self) -> f64 {
+        match self {
+            Self::Front => 1.0,
+            Self::Behind => 0.5,
+            Self::Rejected => 0.25,
+        }
+    }
+}
+
+fn legend(family: Family) -> &'static str {
+    match family {
+        Family::Whole => "whole surface",
+        Family::Uniform => "k x k segments",
+    }
+}
+
+fn colour(family: Family) -> RGBColor {
+    match family {
+        Family::Whole => RGBColor(33, 102, 172),
+        Family::Uniform => RGBColor(201, 122, 24),
+    }
+}
+
+/// A filled outline about the origin, in pixels.
+fn marker(family: Family, rank: Rank) -> Polygon<(i32, i32)> {
+    let outline = match (family, rank.size()) {
+        (Family::Whole, size) => {
+            let tip = size + 1;
+            vec![(0, -tip), (tip, 0), (0, tip), (-tip, 0)]
+        }
+        (Family::Uniform, size) => {
+            let half = size - 1;
+            vec![(-half, -half), (half, -half), (half, half), (-half, half)]
+        }
+    };
+    Polygon::new(outline, colour(family).mix(rank.opacity()).filled())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn row(family: Family, coefficients: usize, share: Option<f64>, is_rejected: bool) -> BenchRow {
+        BenchRow {
+            family,
+            degree: None,
+            segments: 1,
+            tolerance: None,
+            coefficients,
+            touched: 1.0,
+            seconds: 0.001,
+            seconds_prepare: 0.0,
+            heldout_rms: share,
+            heldout_share: share,
+            area_error: 0.0,
+            volume_error: 0.0,
+            rms_error: None,
+            seam_jump: 0.0,
+            rejected: is_rejected.then(|| "misses".into()),
+        }
+    }
+
+    fn svg(rows: Vec<BenchRow>) -> String {
+        let scan = BenchScan {
+            scan: "a <b> & c".into(),
+            points: 10,
+            noise: Some(0.005),
+            reference: "truth",
+            skipped: 0,
+            rows,
+        };
+        plot(&scan, Cost::Coefficients).unwrap()
+    }
+
+    #[test]
+    fn markers_are_as_many_as_settings_in_sight() {
+        let (whole, uniform) = (Family::Whole, Family::Uniform);
+        let markers = |rows| svg(rows).matches("<polygon").count();
+        let in_legend = markers(vec![]);
+        let rows = vec![
+            row(whole, 4, Some(0.1), false),
+            row(whole, 9, Some(0.01), false),
+            row(uniform, 9, Some(0.05), false),
+            row(uniform, 9, Some(0.05), true),
+            row(uniform, 9, Some(50.0), true),
+            row(uniform, 9, None, false),
+        ];
+        assert_eq!(markers(rows), in_legend + 4);
+    }
+
+    #[test]
+    fn a_perfect_fit_and_no_fit_at_all_still_give_a_picture() {
+        for rows in [vec![], vec![row(Family::Whole, 1, Some(0.0), false)]] {
+            let svg = svg(rows);
+            assert!(svg.starts_with("<svg ") && svg.trim_end().ends_with("</svg>"));
+            assert!(svg.contains("a &lt;b&gt; &amp; c: 10 points, noise 0.5 %"));
+        }
+    }
+
+    #[test]
+    fn steps_go_right_and_then_down() {
+        let front = [(1.0, 9.0), (2.0, 5.0), (4.0, 1.0)];
+        let line = [(1.0, 9.0), (2.0, 9.0), (2.0, 5.0), (4.0, 5.0), (4.0, 1.0)];
+        assert_eq!(steps(&front), line);
+        assert!(steps(&[]).is_empty());
+    }
+}

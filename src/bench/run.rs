@@ -1,0 +1,117 @@
+//! Fits every setting to a scan and takes the time.
+
+use super::{BenchRow, BenchScan, Family, Setting, Subject, Truth, options};
+use crate::fit::{FitError, Fitted, PreparedScan};
+use crate::measure::grain_properties;
+use crate::model::{Grain, StarSurface};
+use std::f64::consts::PI;
+use std::time::Instant;
+
+/// A fit that takes longer, in seconds, is timed once: the noise of the clock is far below.
+const LONG: f64 = 2.0;
+
+/// Fits all settings of all families that the scan's points can bear. `progress` is told each
+/// setting before it is fitted, and how many are done of how many.
+///
+/// # Errors
+/// [`FitError`] if the scan is not one closed surface round a centre.
+pub fn run(
+    subject: &Subject,
+    progress: &dyn Fn(&Setting, usize, usize),
+) -> Result<BenchScan, FitError> {
+    let points = subject.scan.points.len();
+    let mut settings: Vec<Setting> = Family::ALL.into_iter().flat_map(Family::settings).collect();
+    let all = settings.len();
+    settings.retain(|setting| setting.is_supported_by(points));
+
+    let mut reference = "truth";
+    let mut rows = Vec::with_capacity(settings.len());
+    for (done, setting) in settings.iter().enumerate() {
+        progress(setting, done, settings.len());
+        let (prepared, seconds_prepare) =
+            timed(|| PreparedScan::new(&subject.scan, &options(setting)));
+        let (fitted, seconds) = fit(prepared?);
+        if subject.truth.is_none() {
+            reference = fitted.reference.kind.name();
+        }
+        let truth = subject.truth.as_ref();
+        rows.push(row(setting, &fitted, truth, seconds, seconds_prepare));
+    }
+    Ok(BenchScan {
+        scan: subject.name.clone(),
+        points,
+        noise: subject.truth.as_ref().map(|truth| truth.noise),
+        reference,
+        skipped: all - settings.len(),
+        rows,
+    })
+}
+
+/// Fits, and gives the median seconds of three fits.
+fn fit(prepared: PreparedScan) -> (Fitted, f64) {
+    let fit = || timed(|| prepared.search(&|_, _| ()));
+    let (found, first) = fit();
+    let mut seconds = [first; 3];
+    if first <= LONG {
+        seconds = [first, fit().1, fit().1];
+        seconds.sort_by(f64::total_cmp);
+    }
+    (prepared.finish(found), seconds[1])
+}
+
+fn timed<T>(work: impl FnOnce() -> T) -> (T, f64) {
+    let started = Instant::now();
+    let result = work();
+    (result, started.elapsed().as_secs_f64())
+}
+
+fn row(
+    setting: &Setting,
+    fitted: &Fitted,
+    truth: Option<&Truth>,
+    seconds: f64,
+    seconds_prepare: f64,
+) -> BenchRow {
+    let choice = fitted.search.choice();
+    let grain = &fitted.grain;
+    let found = grain_properties(grain).properties;
+    let (area, volume) = truth.map_or((fitted.reference.area, fitted.reference.volume), |truth| {
+        (truth.area, truth.volume)
+    });
+    BenchRow {
+        family: setting.family(),
+        degree: setting.degree(),
+        segments: choice.segments,
+        tolerance: setting.tolerance(),
+        coefficients: grain.coefficient_count(),
+        touched: touched(grain),
+        seconds,
+        seconds_prepare,
+        heldout_rms: choice.heldout_rms,
+        heldout_share: choice.heldout_rms.map(|rms| rms / fitted.mean_radius),
+        area_error: found.area / area - 1.0,
+        volume_error: found.volume / volume - 1.0,
+        rms_error: truth.map(|truth| distance(grain, truth) / truth.mean_radius),
+        seam_jump: grain.seam_jump() / fitted.mean_radius,
+        rejected: choice.rejected.map(|reason| reason.to_string()),
+    }
+}
+
+/// Coefficients that one radius takes: the mean over all directions.
+fn touched(grain: &Grain) -> f64 {
+    let partition = grain.partition();
+    let of = |segment| {
+        partition.rectangle(segment).solid_angle() * grain.coefficients(segment).len() as f64
+    };
+    (0..partition.segments()).map(of).sum::<f64>() / (4.0 * PI)
+}
+
+/// Root mean square of the radial distance from the fit to the closed form.
+fn distance(grain: &Grain, truth: &Truth) -> f64 {
+    let centre = grain.frame().centre;
+    let squares = truth.places.iter().map(|place| {
+        let from_centre = place - centre;
+        (from_centre.norm() - grain.radius(&from_centre.normalize())).powi(2)
+    });
+    (squares.sum::<f64>() / truth.places.len() as f64).sqrt()
+}

@@ -1,0 +1,75 @@
+//! What is fitted: scans, and the truth behind those that are synthetic.
+
+use crate::scan::Scan;
+use crate::shapes::{Body, Sampling, SynthError, SynthOptions, synthesize};
+use nalgebra::Point3;
+
+/// Noise of the noisy synthetic scans: its standard deviation as a share of the mean radius.
+pub const NOISE: f64 = 0.005;
+
+/// Places in which the fitted radius is compared with the true one.
+const PLACES: usize = 2000;
+
+/// A scan, and what is known of it.
+#[derive(Debug, Clone)]
+pub struct Subject {
+    /// Name of the body, or the scan's file.
+    pub name: String,
+    /// The scan.
+    pub scan: Scan,
+    /// The closed form that it was taken from, if any.
+    pub truth: Option<Truth>,
+}
+
+/// A closed form and how it was scanned. Lengths are in the scan's unit.
+#[derive(Debug, Clone)]
+pub struct Truth {
+    /// Standard deviation of the radial noise, as a share of the mean radius.
+    pub noise: f64,
+    /// Area.
+    pub area: f64,
+    /// Volume.
+    pub volume: f64,
+    /// Mean radius over all directions from the body's origin.
+    pub mean_radius: f64,
+    /// Points of the surface, evenly distributed in direction.
+    pub places: Vec<Point3<f64>>,
+}
+
+/// The bean, the chickpea and the maize kernel of [`crate::shapes`], clean and with noise of
+/// [`NOISE`].
+///
+/// # Errors
+/// None in practice: those of [`synthesize`], whose options are in range here.
+pub fn synthetic() -> Result<Vec<Subject>, SynthError> {
+    let bodies = [Body::Bean, Body::Chickpea, Body::Maize];
+    let scans = bodies.map(|body| [0.0, NOISE].map(|noise| scan(body, noise)));
+    scans.into_iter().flatten().collect()
+}
+
+fn scan(body: Body, noise: f64) -> Result<Subject, SynthError> {
+    let synthetic = synthesize(&SynthOptions {
+        noise,
+        ..SynthOptions::clean(body)
+    })?;
+    let surface = body.surface();
+    let directions = Sampling::Fibonacci.directions(PLACES, 0)?;
+    let truth = synthetic.truth;
+    Ok(Subject {
+        name: body.name().into(),
+        scan: Scan {
+            points: synthetic.points,
+            ..Scan::default()
+        },
+        truth: Some(Truth {
+            noise,
+            area: truth.properties.area,
+            volume: truth.properties.volume,
+            mean_radius: truth.mean_radius,
+            places: directions
+                .iter()
+                .map(|n| Point3::from(n * surface.radius(n)))
+                .collect(),
+        }),
+    })
+}

@@ -1,0 +1,182 @@
+//! `grainform bench`
+
+use super::args::BenchArgs;
+use super::progress::Progress;
+use super::{print, print_json};
+use crate::bench::{
+    self, BenchReport, BenchRow, BenchScan, Cost, Subject, plot, synthetic, write_csv,
+};
+use crate::export::write_atomically;
+use crate::fit::{FitOptions, PreparedScan};
+use crate::report::percent;
+use crate::scan::read_scan;
+use anyhow::{Context, Result, bail};
+use comfy_table::{CellAlignment, Table, presets::NOTHING};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+pub(super) fn run(args: BenchArgs) -> Result<()> {
+    rayon::ThreadPoolBuilder::new()
+        .num_threads(1)
+        .build_global()
+        .context("cannot start a thread")?;
+    let subjects = match args.scans.as_slice() {
+        [] => synthetic()?,
+        paths => read(paths)?,
+    };
+    let stems = stems(&subjects)?;
+    std::fs::create_dir_all(&args.output)
+        .with_context(|| format!("cannot make the folder {}", args.output.display()))?;
+
+    let progress = Progress::new(args.quiet);
+    let scans = subjects.iter().zip(&stems).map(|(subject, stem)| {
+        bench::run(subject, &|setting, done, all| {
+            progress.stage(format_args!("{stem}: {setting} ({done} of {all} done)"));
+        })
+        .with_context(|| format!("cannot fit {}", subject.name))
+    });
+    let report = BenchReport {
+        scans: scans.collect::<Result<_>>()?,
+    };
+    let written = write_files(&args.output, &report, &stems)?;
+    drop(progress);
+
+    if args.json {
+        return print_json(&report);
+    }
+    if !args.quiet {
+        for scan in &report.scans {
+            print(heading(scan))?;
+            print(format_args!("{}\n", table(scan).trim_fmt()))?;
+        }
+        for path in written {
+            print(format_args!("wrote {}", path.display()))?;
+        }
+    }
+    Ok(())
+}
+
+/// The scans of these files, each of which can be fitted: better said now than after minutes.
+fn read(paths: &[PathBuf]) -> Result<Vec<Subject>> {
+    let subject = |path: &PathBuf| {
+        let scan = read_scan(path)?;
+        let name = path.display().to_string();
+        PreparedScan::new(&scan, &FitOptions::default())
+            .with_context(|| format!("cannot fit {name}"))?;
+        Ok(Subject {
+            name,
+            scan,
+            truth: None,
+        })
+    };
+    paths.iter().map(subject).collect()
+}
+
+/// What the names of a scan's plots begin with: the name of its file without folder and extension.
+fn stems(subjects: &[Subject]) -> Result<Vec<String>> {
+    let mut stems: Vec<String> = Vec::with_capacity(subjects.len());
+    for subject in subjects {
+        let name = Path::new(&subject.name).file_stem().unwrap_or_default();
+        let is_noisy = subject
+            .truth
+            .as_ref()
+            .is_some_and(|truth| truth.noise > 0.0);
+        let noisy = if is_noisy { "-noisy" } else { "" };
+        let stem = format!("{}{noisy}", name.to_string_lossy());
+        if stems.contains(&stem) {
+            bail!(
+                "two scans are named {stem}, and so would be their plots; give one of them another \
+                 name"
+            );
+        }
+        stems.push(stem);
+    }
+    Ok(stems)
+}
+
+/// Writes the table and the plots; gives their names.
+fn write_files(folder: &Path, report: &BenchReport, stems: &[String]) -> Result<Vec<PathBuf>> {
+    let csv = folder.join("bench.csv");
+    write_atomically(&csv, |file| Ok(write_csv(report, file)?))?;
+    let mut written = vec![csv];
+    for (scan, stem) in report.scans.iter().zip(stems) {
+        for cost in Cost::ALL {
+            let path = folder.join(format!("{stem}-{}.svg", cost.name()));
+            let svg = plot(scan, cost)?;
+            write_atomically(&path, |file| Ok(file.write_all(svg.as_bytes())?))?;
+            written.push(path);
+        }
+    }
+    Ok(written)
+}
+
+fn heading(scan: &BenchScan) -> String {
+    let reference = match scan.reference {
+        "truth" => "the closed form",
+        "faces" => "the scan's own faces",
+        _ => "the points, triangulated by direction",
+    };
+    let skipped = match scan.skipped {
+        0 => String::new(),
+        count => format!("; {count} settings have more coefficients than half of the points"),
+    };
+    format!("{}; errors against {reference}{skipped}", scan.title())
+}
+
+/// The rows on a Pareto front, by coefficients. Shares are of the mean radius.
+fn table(scan: &BenchScan) -> Table {
+    let fronts = Cost::ALL.map(|cost| scan.front(cost));
+    let mut rows: Vec<usize> = fronts.iter().flatten().copied().collect();
+    rows.sort_by_key(|&i| (scan.rows[i].coefficients, i));
+    rows.dedup();
+
+    let mut table = Table::new();
+    table.load_style(NOTHING).set_header([
+        "family",
+        "segments",
+        "degree",
+        "coefficients",
+        "touched",
+        "seconds",
+        "held-out RMS",
+        "area",
+        "volume",
+        "true RMS",
+        "seam jump",
+        "least for",
+    ]);
+    for i in rows {
+        let costs = Cost::ALL.into_iter().zip(&fronts);
+        let least_for: Vec<_> = costs
+            .filter(|(_, front)| front.contains(&i))
+            .map(|(cost, _)| cost.name())
+            .collect();
+        table.add_row(
+            cells(&scan.rows[i])
+                .into_iter()
+                .chain([least_for.join(", ")]),
+        );
+    }
+    for column in table.column_iter_mut().skip(1).take(10) {
+        column.set_cell_alignment(CellAlignment::Right);
+    }
+    table
+}
+
+fn cells(row: &BenchRow) -> [String; 11] {
+    let share =
+        |share: Option<f64>| share.map_or("-".into(), |share| format!("{:.3} %", 100.0 * share));
+    [
+        row.family.name().into(),
+        row.segments.to_string(),
+        row.degree.map_or("-".into(), |degree| degree.to_string()),
+        row.coefficients.to_string(),
+        format!("{:.0}", row.touched),
+        format!("{:.5}", row.seconds),
+        share(row.heldout_share),
+        percent(row.area_error),
+        percent(row.volume_error),
+        share(row.rms_error),
+        share(Some(row.seam_jump)),
+    ]
+}

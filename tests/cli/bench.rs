@@ -1,0 +1,78 @@
+use super::{errors, folder, grainform, json, names, succeed};
+use serde_json::Value;
+
+/// A folder with two small scans.
+fn scans() -> tempfile::TempDir {
+    let folder = folder();
+    succeed(
+        &folder,
+        &["synth", "bean", "--points", "218", "-o", "small.ply"],
+    );
+    std::fs::create_dir(folder.path().join("other")).unwrap();
+    std::fs::copy(
+        folder.path().join("small.ply"),
+        folder.path().join("other/small.xyz.ply"),
+    )
+    .unwrap();
+    folder
+}
+
+#[test]
+fn writes_a_table_and_plots_and_nothing_else() {
+    let folder = scans();
+    let report = json(&folder, &["bench", "small.ply", "-o", "a/b"]);
+    assert_eq!(
+        names(&folder.path().join("a/b")),
+        ["bench.csv", "small-coefficients.svg", "small-seconds.svg"]
+    );
+    let scan = &report["scans"][0];
+    assert_eq!(scan["points"], 218);
+    assert_eq!(scan["reference"], "directions");
+    assert!(scan["noise"].is_null());
+    let rows = scan["rows"].as_array().unwrap();
+    let skipped = scan["skipped"].as_u64().unwrap() as usize;
+    assert_eq!(rows.len() + skipped, 20 + 16 * 7);
+    assert!(rows.len() > 30 && skipped > 30);
+
+    let text = std::fs::read_to_string(folder.path().join("a/b/bench.csv")).unwrap();
+    let mut lines = text.lines();
+    let columns: Vec<&str> = lines.next().unwrap().split(',').collect();
+    assert_eq!(lines.clone().count(), rows.len());
+    for (line, row) in lines.zip(rows) {
+        let cells: Vec<&str> = line.splitn(columns.len(), ',').collect();
+        assert_eq!(cells.len(), columns.len(), "{line}");
+        for (cell, column) in cells.iter().zip(&columns) {
+            match row.get(*column).unwrap_or(&scan[*column]) {
+                Value::Null => assert_eq!(*cell, ""),
+                Value::String(text) => assert_eq!(cell.trim_matches('"'), text),
+                value => assert_eq!(cell.parse::<f64>().ok(), value.as_f64()),
+            }
+        }
+    }
+    let fields =
+        rows[0].as_object().unwrap().len() + ["scan", "points", "noise", "reference"].len();
+    assert_eq!(columns.len(), fields, "a field without a column");
+}
+
+#[test]
+fn the_table_lists_the_front_of_every_scan() {
+    let folder = scans();
+    let text = succeed(&folder, &["bench", "small.ply", "other/small.xyz.ply"]);
+    for heading in ["small.ply: 218 points", "other/small.xyz.ply: 218 points"] {
+        assert!(text.contains(heading), "{text}");
+    }
+    assert!(text.contains("settings have more coefficients than half of the points"));
+    assert_eq!(text.matches("wrote ").count(), 5);
+    assert_eq!(names(&folder.path().join("bench")).len(), 5);
+    // Which rows are least for seconds is up to the clock.
+    let is_least = |line: &&str| line.trim_start().starts_with("whole") && line.contains("coeff");
+    assert!(text.lines().filter(is_least).count() >= 4, "{text}");
+}
+
+#[test]
+fn quiet_says_nothing() {
+    let folder = scans();
+    let output = grainform(&folder, &["bench", "small.ply", "--quiet"]);
+    assert!(output.status.success());
+    assert!(output.stdout.is_empty() && errors(&output).is_empty());
+}
