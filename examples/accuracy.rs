@@ -12,7 +12,7 @@ use nalgebra::Vector3;
 const PLACES: usize = 20_000;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    println!("| body | points | sampling | noise | L | n_s | area | volume | RMS |");
+    println!("| body | points | sampling | noise | cells | coefficients | area | volume | RMS |");
     println!("|---|---|---|---|---|---|---|---|---|");
     for body in [Body::Bean, Body::Chickpea, Body::Maize] {
         for sampling in Sampling::ALL {
@@ -41,15 +41,14 @@ fn row(options: &SynthOptions) -> Result<String, Box<dyn std::error::Error>> {
         grain_properties(&fitted.grain).properties,
         synthetic.truth.properties,
     );
-    let choice = fitted.search.choice();
     Ok(format!(
         "| {} | {} | {} | {} % | {} | {} | {:+.3} % | {:+.3} % | {:.3} % |",
         options.body,
         scan.points.len(),
         options.sampling,
         100.0 * options.noise,
-        choice.degree,
-        choice.segments,
+        fitted.grain.segments(),
+        fitted.grain.coefficient_count(),
         100.0 * (found.area / truth.area - 1.0),
         100.0 * (found.volume / truth.volume - 1.0),
         100.0 * distance(&fitted, options.body)? / synthetic.truth.mean_radius,

@@ -30,7 +30,7 @@ pub mod shapes;
 pub mod sphere;
 mod vectorize;
 
-pub use fit::{FitError, FitOptions, Fitted, Tolerance, fit};
+pub use fit::{FitError, FitOptions, Fitted, Seams, Tolerance, fit};
 pub use mesh::Mesh;
 pub use model::{Grain, StarSurface};
 

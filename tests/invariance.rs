@@ -3,7 +3,7 @@
 use grainform::measure::grain_properties;
 use grainform::scan::Scan;
 use grainform::shapes::{Body, Sampling, SynthOptions, synthesize};
-use grainform::{FitOptions, Fitted, fit};
+use grainform::{FitOptions, Fitted, Seams, Tolerance, fit};
 use nalgebra::{Point3, Rotation3, Vector3};
 use proptest::prelude::*;
 use std::sync::OnceLock;
@@ -21,17 +21,28 @@ fn points() -> &'static [Point3<f64>] {
     })
 }
 
-fn fitted(points: Vec<Point3<f64>>) -> Fitted {
+/// Blended by default, and the independent segments.
+const BOTH: [Seams; 2] = [Seams::Blended, Seams::None];
+
+fn fitted(seams: Seams, points: Vec<Point3<f64>>) -> Fitted {
+    let options = match seams {
+        Seams::Blended => FitOptions::default(),
+        Seams::None => FitOptions {
+            seams,
+            tolerance: Tolerance::OfMeanRadius(0.003),
+            ..FitOptions::default()
+        },
+    };
     let scan = Scan {
         points,
         ..Scan::default()
     };
-    fit(&scan, &FitOptions::default()).expect("a grain")
+    fit(&scan, &options).expect("a grain")
 }
 
-fn original() -> &'static Fitted {
-    static FITTED: OnceLock<Fitted> = OnceLock::new();
-    FITTED.get_or_init(|| fitted(points().to_vec()))
+fn original(seams: Seams) -> &'static Fitted {
+    static FITTED: [OnceLock<Fitted>; 2] = [OnceLock::new(), OnceLock::new()];
+    FITTED[seams as usize].get_or_init(|| fitted(seams, points().to_vec()))
 }
 
 /// Compares everything that has no direction and no position.
@@ -56,14 +67,11 @@ fn assert_same(a: &Fitted, b: &Fitted, scale: f64) {
             close(a, b * scale);
         }
     }
-    for segment in 0..a.grain.partition().segments() {
-        let largest = a.grain.coefficients(segment)[0].abs();
-        for (a, b) in a
-            .grain
-            .coefficients(segment)
-            .iter()
-            .zip(b.grain.coefficients(segment))
-        {
+    assert_eq!(a.grain.segments(), b.grain.segments());
+    for (a, b) in a.grain.coefficients().iter().zip(b.grain.coefficients()) {
+        assert_eq!(a.len(), b.len());
+        let largest = a[0].abs();
+        for (a, b) in a.iter().zip(b) {
             assert!((a - b * scale).abs() < 1e-9 * largest, "{a} {b}");
         }
     }
@@ -78,10 +86,13 @@ proptest! {
     ) {
         // Ten thousand millimetres off, the coordinates themselves keep 1e-12 of a millimetre.
         let offset = Vector3::new(x, y, z);
-        let moved = fitted(points().iter().map(|p| p + offset).collect());
-        assert_same(&moved, original(), 1.0);
-        let n = Vector3::new(0.6, 0.0, 0.8);
-        prop_assert!((moved.grain.point(&n) - original().grain.point(&n) - offset).norm() < 1e-8);
+        for seams in BOTH {
+            let moved = fitted(seams, points().iter().map(|p| p + offset).collect());
+            let original = original(seams);
+            assert_same(&moved, original, 1.0);
+            let n = Vector3::new(0.6, 0.0, 0.8);
+            prop_assert!((moved.grain.point(&n) - original.grain.point(&n) - offset).norm() < 1e-8);
+        }
     }
 
     #[test]
@@ -89,11 +100,14 @@ proptest! {
         a in -3.0..3.0_f64, b in -3.0..3.0_f64, c in -3.0..3.0_f64,
     ) {
         let turn = Rotation3::new(Vector3::new(a, b, c));
-        let turned = fitted(points().iter().map(|p| turn * p).collect());
-        assert_same(&turned, original(), 1.0);
-        let n = Vector3::new(0.6, 0.0, 0.8);
-        let (have, want) = (turned.grain.point(&(turn * n)), turn * original().grain.point(&n));
-        prop_assert!((have - want).norm() < 1e-8);
+        for seams in BOTH {
+            let turned = fitted(seams, points().iter().map(|p| turn * p).collect());
+            let original = original(seams);
+            assert_same(&turned, original, 1.0);
+            let n = Vector3::new(0.6, 0.0, 0.8);
+            let (have, want) = (turned.grain.point(&(turn * n)), turn * original.grain.point(&n));
+            prop_assert!((have - want).norm() < 1e-8);
+        }
     }
 
     #[test]
@@ -104,52 +118,59 @@ proptest! {
             state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
             shuffled.swap(i, (state >> 33) as usize % (i + 1));
         }
-        assert_same(&fitted(shuffled), original(), 1.0);
+        for seams in BOTH {
+            assert_same(&fitted(seams, shuffled.clone()), original(seams), 1.0);
+        }
     }
 
     #[test]
     fn a_fit_scales_with_the_unit(exponent in -9.0..9.0_f64) {
         let scale = 10.0_f64.powf(exponent);
-        let scaled = fitted(points().iter().map(|p| p * scale).collect());
-        assert_same(&scaled, original(), scale);
+        for seams in BOTH {
+            let scaled = fitted(seams, points().iter().map(|p| p * scale).collect());
+            assert_same(&scaled, original(seams), scale);
+        }
     }
 }
 
 #[test]
 fn points_given_twice_count_once() {
-    let twice = points().iter().chain(points()).copied().collect();
-    assert_same(&fitted(twice), original(), 1.0);
+    let twice: Vec<_> = points().iter().chain(points()).copied().collect();
+    for seams in BOTH {
+        assert_same(&fitted(seams, twice.clone()), original(seams), 1.0);
+    }
 }
 
 #[test]
 fn the_number_of_threads_does_not_change_a_bit() {
-    let on = |threads: usize| {
+    let on = |threads: usize, seams: Seams| {
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(threads)
             .build()
             .expect("a pool");
-        pool.install(|| fitted(points().to_vec()))
+        pool.install(|| fitted(seams, points().to_vec()))
     };
-    let (one, four) = (on(1), on(4));
-    assert_eq!(one.search, four.search);
-    assert_eq!(one.residuals, four.residuals);
-    for segment in 0..one.grain.partition().segments() {
-        assert_eq!(
-            one.grain.coefficients(segment),
-            four.grain.coefficients(segment)
-        );
+    for seams in BOTH {
+        let (one, four) = (on(1, seams), on(4, seams));
+        assert_eq!(one.search, four.search);
+        assert_eq!(one.residuals, four.residuals);
+        assert_eq!(one.grain.coefficients(), four.grain.coefficients());
     }
 }
 
 #[test]
 fn a_symmetric_body_is_fitted_alike_wherever_it_lies() {
     // Points on the symmetry planes lie on the borders of segments, up to rounding.
-    for body in [Body::Bean, Body::Sphere] {
+    for (body, seams) in [Body::Bean, Body::Sphere]
+        .into_iter()
+        .flat_map(|body| BOTH.map(|seams| (body, seams)))
+    {
         let made = synthesize(&SynthOptions::clean(body))
             .expect("valid options")
             .points;
-        let still = fitted(made.clone());
+        let still = fitted(seams, made.clone());
         let moved = fitted(
+            seams,
             made.iter()
                 .map(|p| p + Vector3::new(3.3, -7.7, 1.1))
                 .collect(),
@@ -166,9 +187,11 @@ fn a_dense_cloud_is_fitted_alike_in_any_order() {
         ..SynthOptions::clean(Body::Bean)
     };
     let made = synthesize(&options).expect("valid options").points;
-    let forward = fitted(made.clone());
-    let backward = fitted(made.into_iter().rev().collect());
-    assert_same(&backward, &forward, 1.0);
+    for seams in BOTH {
+        let forward = fitted(seams, made.clone());
+        let backward = fitted(seams, made.iter().rev().copied().collect());
+        assert_same(&backward, &forward, 1.0);
+    }
 }
 
 #[test]

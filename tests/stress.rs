@@ -1,11 +1,11 @@
 //! Clouds that no scanner should make: a fit ends in a sound grain or in a plain refusal.
 
-use grainform::fit::{FitError, Fitted};
+use grainform::fit::{FitError, Fitted, Seams};
 use grainform::measure::grain_properties;
 use grainform::scan::Scan;
 use grainform::shapes::{Body, Sampling, SynthOptions, synthesize};
 use grainform::sphere::cube_grid;
-use grainform::{FitOptions, StarSurface, fit};
+use grainform::{FitOptions, StarSurface, Tolerance, fit};
 use nalgebra::{Point3, Vector3};
 use proptest::prelude::*;
 
@@ -47,6 +47,9 @@ fn assert_sound(fitted: &Fitted) {
     fitted.grain.mesh(5).check_closed().expect("closed");
 }
 
+/// Coefficients of the largest blended fits tried.
+const MOST_COEFFICIENTS: usize = 6144;
+
 fn cloud(body: Body, points: usize, sampling: Sampling) -> Vec<Point3<f64>> {
     let options = SynthOptions {
         points,
@@ -62,12 +65,56 @@ fn every_partition_and_degree_gives_a_sound_grain() {
     for parts in [1, 2, 3, 5, 8, 13, 21, 34, 64] {
         for degree in [0, 1, 3, 6, 12] {
             let options = FitOptions {
+                seams: Seams::None,
                 degree: Some(degree),
                 segments: Some(parts * parts),
                 ..FitOptions::default()
             };
             assert_sound(&try_fit(points.clone(), &options).expect("a grain"));
         }
+    }
+}
+
+#[test]
+fn every_blended_cover_and_degree_gives_a_sound_grain() {
+    for (body, points, sampling) in [
+        (Body::Sphere, 40, Sampling::Fibonacci),
+        (Body::Chickpea, 200, Sampling::Random),
+        (Body::Bean, 1538, Sampling::Cube),
+        (Body::Maize, 20_000, Sampling::Rings),
+    ] {
+        let points = cloud(body, points, sampling);
+        for segments in [1, 6, 24, 54, 96, 384, 1536] {
+            for degree in [0, 1, 3, 6] {
+                // Beyond some ten thousand coefficients a fit takes minutes.
+                if segments * (degree + 1_usize).pow(2) > MOST_COEFFICIENTS {
+                    continue;
+                }
+                let options = FitOptions {
+                    degree: Some(degree),
+                    segments: Some(segments),
+                    ..FitOptions::default()
+                };
+                assert_sound(&try_fit(points.clone(), &options).expect("a grain"));
+            }
+        }
+    }
+}
+
+#[test]
+fn adaptive_covers_keep_to_the_bounds_asked_for() {
+    let points = cloud(Body::Maize, 6146, Sampling::Fibonacci);
+    for (max_segments, max_degree) in [(6, 0), (6, 6), (9, 3), (30, 1), (100, 2), (600, 8)] {
+        let options = FitOptions {
+            max_segments: Some(max_segments),
+            max_degree,
+            tolerance: Tolerance::OfMeanRadius(1e-4),
+            ..FitOptions::default()
+        };
+        let fitted = try_fit(points.clone(), &options).expect("a grain");
+        assert_sound(&fitted);
+        assert!(fitted.grain.segments() <= max_segments);
+        assert!(fitted.grain.degree() <= max_degree);
     }
 }
 
@@ -133,6 +180,15 @@ fn flat_and_straight_clouds_are_refused() {
         try_fit(broken, &FitOptions::default()).map(|_| ()),
         Err(FitError::NotFinite { index: 7 })
     );
+}
+
+#[test]
+fn a_thin_disc_is_sound() {
+    let disc = cloud(Body::Sphere, 3000, Sampling::Fibonacci)
+        .into_iter()
+        .map(|p| Point3::new(19.637068106241824 * p.x, 51.318728450810646 * p.y, p.z))
+        .collect();
+    assert_sound(&try_fit(disc, &FitOptions::default()).expect("a grain"));
 }
 
 proptest! {

@@ -38,7 +38,7 @@ use grainform::fit;
 use grainform::scan::Scan;
 use grainform::shapes::Sampling;
 use grainform::sphere::coefficient_count;
-use judge::{Verdict, judge, options, samples_by_segment};
+use judge::{Verdict, judge, options, samples_by_segment, segmented};
 use nalgebra::Point3;
 use segments::Study;
 use std::time::Instant;
@@ -108,7 +108,7 @@ fn row(name: &str, points: Vec<Point3<f64>>, k: usize, degree: usize) {
         }
     };
     let samples = samples_by_segment(&fitted, &scan.points);
-    let study = Study::of(fitted.grain.partition(), degree, &samples);
+    let study = Study::of(segmented(&fitted.grain).partition(), degree, &samples);
     let Verdict {
         error,
         widened,

@@ -8,10 +8,13 @@ const MARGIN: f64 = 0.04;
 /// The multiples of powers of ten that are marked.
 const FINE: &[f64] = &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0];
 
+/// Those of a short axis, where 1 and 2 are far apart.
+const FINEST: &[f64] = &[1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0];
+
 /// Those that are labelled on an axis of so many decades, so that labels are neither few nor dense.
 fn labelled(decades: f64) -> &'static [f64] {
     match decades {
-        ..1.0 => FINE,
+        ..1.0 => FINEST,
         ..3.0 => &[1.0, 2.0, 5.0],
         _ => &[1.0],
     }
@@ -57,13 +60,14 @@ impl LogAxis {
     }
 }
 
-/// The number of a mark, of one digit: `0.002`, `50`, `1e-6`.
+/// The number of a mark, of at most two digits: `0.002`, `15`, `1e-6`.
 pub(super) fn label(mark: f64) -> String {
-    if !(1e-4..1e5).contains(&(mark * 1.001)) {
-        return format!("{mark:.0e}");
+    let decimals = (1.0 - (mark * 1.001).log10().floor()).max(0.0) as usize;
+    let digits = format!("{mark:.decimals$}").parse().unwrap_or(mark);
+    match (1e-4..1e5).contains(&(mark * 1.001)) {
+        true => format!("{digits}"),
+        false => format!("{digits:e}"),
     }
-    let decimals = (-(mark * 1.001).log10().floor()).max(0.0) as usize;
-    format!("{mark:.decimals$}")
 }
 
 #[cfg(test)]
@@ -79,9 +83,12 @@ mod tests {
             axis.labelled.into_iter().map(label).collect()
         };
         assert_eq!(labels([4.0, 60.0]), ["5", "10", "20", "50"]);
-        assert_eq!(labels([0.65, 2.4]), ["0.7", "0.8", "0.9", "1", "2"]);
+        assert_eq!(labels([0.65, 2.4]), ["0.7", "0.8", "0.9", "1", "1.5", "2"]);
         assert_eq!(labels([0.03, 72.0]), ["0.1", "1", "10"]);
         assert_eq!(label(1e-7), "1e-7");
+        assert_eq!(label(1.5 * 10_f64.powi(-3)), "0.0015");
+        assert_eq!(label(3.0 * 10_f64.powi(-6)), "3e-6");
+        assert_eq!(label(2e5), "2e5");
         assert_eq!(label(0.001), "0.001");
     }
 

@@ -10,6 +10,7 @@
 mod axis;
 mod csv;
 mod front;
+mod marker;
 mod plot;
 mod run;
 mod setting;
@@ -18,7 +19,7 @@ mod subject;
 pub use csv::write_csv;
 pub use front::{Cost, front};
 pub use plot::{PlotError, plot};
-pub use run::run;
+pub use run::{measure, run};
 pub use setting::{Family, Setting, options};
 pub use subject::{NOISE, Subject, Truth, synthetic};
 
@@ -70,7 +71,7 @@ pub struct BenchRow {
     pub degree: Option<usize>,
     /// Segments of the model.
     pub segments: usize,
-    /// Held-out RMS asked for, as a share, where the family asks for one.
+    /// RMS error asked for, as a share, where the family asks for one.
     pub tolerance: Option<f64>,
     /// Coefficients that the model holds.
     pub coefficients: usize,

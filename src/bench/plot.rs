@@ -1,13 +1,23 @@
 //! Error against cost, both logarithmic, as an SVG picture.
 
 use super::axis::{LogAxis, label};
+use super::marker::{Rank, legend, marker};
 use super::{BenchRow, BenchScan, Cost, Family};
-use plotters::coord::combinators::WithKeyPoints;
+use plotters::coord::{Shift, combinators::WithKeyPoints};
 use plotters::prelude::*;
 use std::io;
 
 /// Width and height, in pixels.
-const SIZE: (u32, u32) = (900, 600);
+const SIZE: (u32, u32) = (1000, 600);
+
+/// Width of the legend, in pixels.
+const LEGEND: u32 = 250;
+
+/// Height of a line of the legend, in pixels.
+const LINE: u32 = 28;
+
+/// Parts of a pixel to which everything is placed: the backend counts in whole numbers.
+const FINENESS: u32 = 10;
 
 const INK: RGBColor = RGBColor(51, 51, 51);
 const GRID: RGBColor = RGBColor(226, 226, 226);
@@ -29,7 +39,8 @@ pub struct PlotError(#[from] DrawingAreaErrorKind<io::Error>);
 /// [`PlotError`] if the picture cannot be drawn, for which no cause is known.
 pub fn plot(scan: &BenchScan, cost: Cost) -> Result<String, PlotError> {
     let mut svg = String::new();
-    let area = SVGBackend::with_string(&mut svg, SIZE).into_drawing_area();
+    let size = (fine(SIZE.0), fine(SIZE.1));
+    let area = SVGBackend::with_string(&mut svg, size).into_drawing_area();
     area.fill(&WHITE)?;
 
     let accepted = || scan.rows.iter().filter(|row| row.rejected.is_none());
@@ -37,19 +48,25 @@ pub fn plot(scan: &BenchScan, cost: Cost) -> Result<String, PlotError> {
     let y = LogAxis::new(accepted().map(error));
     let is_in_sight =
         |row: &BenchRow| x.range.contains(&cost.of(row)) && y.range.contains(&error(row));
-    let mut chart = ChartBuilder::on(&area)
-        .margin(16)
+    let (left, right) = area.split_horizontally(fine(SIZE.0 - LEGEND));
+    let mut chart = ChartBuilder::on(&left)
+        .margin(fine(16))
         .caption(scan.title(), text(22))
-        .x_label_area_size(56)
-        .y_label_area_size(76)
+        .x_label_area_size(fine(56))
+        .y_label_area_size(fine(76))
         .build_cartesian_2d(coordinate(&x), coordinate(&y))?;
     draw_axes(&mut chart, cost)?;
     draw_rows(&mut chart, scan, cost, &is_in_sight)?;
-    draw_legend(&mut chart)?;
+    draw_legend(&right)?;
     area.present()?;
-    drop(chart);
-    drop(area);
-    Ok(svg)
+    drop((chart, left, right, area));
+    let dimensions = |(width, height)| format!(r#"width="{width}" height="{height}" "#);
+    Ok(svg.replacen(&dimensions(size), &dimensions(SIZE), 1))
+}
+
+/// So many pixels in the backend's unit.
+const fn fine(pixels: u32) -> u32 {
+    FINENESS * pixels
 }
 
 /// The held-out RMS in % of the mean radius.
@@ -57,8 +74,8 @@ fn error(row: &BenchRow) -> f64 {
     100.0 * row.heldout_share.unwrap_or(f64::NAN)
 }
 
-fn text(size: i32) -> TextStyle<'static> {
-    ("sans-serif", size).into_font().color(&INK)
+fn text(size: u32) -> TextStyle<'static> {
+    ("sans-serif", fine(size)).into_font().color(&INK)
 }
 
 /// The axis as the library wants it.
@@ -73,9 +90,10 @@ fn coordinate(axis: &LogAxis) -> Axis {
 fn draw_axes<'a, 'b: 'a>(chart: &mut Chart<'a, 'b>, cost: Cost) -> Drawn {
     chart
         .configure_mesh()
-        .bold_line_style(GRID)
-        .light_line_style(FINE_GRID)
-        .axis_style(INK)
+        .bold_line_style(GRID.stroke_width(fine(1)))
+        .light_line_style(FINE_GRID.stroke_width(fine(1)))
+        .axis_style(INK.stroke_width(fine(1)))
+        .set_all_tick_mark_size(fine(5))
         .label_style(text(18))
         .axis_desc_style(text(20))
         .x_label_formatter(&|mark| label(*mark))
@@ -104,43 +122,47 @@ fn draw_rows<'a, 'b: 'a>(
         rows.collect::<Vec<_>>().into_iter()
     };
     for rank in [Rank::Rejected, Rank::Behind] {
-        let markers = rows(rank).map(|row| EmptyElement::at(at(row)) + marker(row.family, rank));
+        let markers =
+            rows(rank).map(|row| EmptyElement::at(at(row)) + marker(row.family, rank, FINENESS));
         chart.draw_series(markers)?;
     }
-    let line = INK.stroke_width(2);
     let on_front = front.iter().map(|&i| &scan.rows[i]);
     let corners: Vec<_> = on_front.filter(|row| is_in_sight(row)).map(at).collect();
-    chart
-        .draw_series(LineSeries::new(steps(&corners), line))?
-        .label("Pareto front")
-        .legend(move |(x, y)| PathElement::new([(x - 9, y), (x + 9, y)], line));
-    for family in Family::ALL {
-        let markers = rows(Rank::Front)
-            .filter(|row| row.family == family)
-            .map(|row| EmptyElement::at(at(row)) + marker(family, Rank::Front));
-        chart
-            .draw_series(markers)?
-            .label(legend(family))
-            .legend(move |at| EmptyElement::at(at) + marker(family, Rank::Front));
-    }
-    let nothing = std::iter::empty::<Pixel<(f64, f64)>>();
-    chart
-        .draw_series(nothing)?
-        .label("pale: rejected by the search")
-        .legend(|at| EmptyElement::at(at) + marker(Family::Uniform, Rank::Rejected));
+    chart.draw_series(LineSeries::new(steps(&corners), front_line()))?;
+    let best = rows(Rank::Front)
+        .map(|row| EmptyElement::at(at(row)) + marker(row.family, Rank::Front, FINENESS));
+    chart.draw_series(best)?;
     Ok(())
 }
 
-fn draw_legend<'a, 'b: 'a>(chart: &mut Chart<'a, 'b>) -> Drawn {
-    chart
-        .configure_series_labels()
-        .position(SeriesLabelPosition::UpperRight)
-        .margin(14)
-        .legend_area_size(30)
-        .background_style(WHITE)
-        .border_style(GRID)
-        .label_font(text(18))
-        .draw()
+fn front_line() -> ShapeStyle {
+    INK.stroke_width(fine(3) / 2)
+}
+
+/// The families, one below the other, then what is not a family.
+fn draw_legend(area: &DrawingArea<SVGBackend<'_>, Shift>) -> Drawn {
+    let at = |line: usize| {
+        (
+            fine(16) as i32,
+            (fine(70) + line as u32 * fine(LINE)) as i32,
+        )
+    };
+    let write = |line: usize, words: &str| {
+        let beside = (fine(20) as i32, -(fine(7) as i32));
+        area.draw(&(EmptyElement::at(at(line)) + Text::new(words.to_owned(), beside, text(18))))
+    };
+    for (line, family) in Family::ALL.into_iter().enumerate() {
+        area.draw(&(EmptyElement::at(at(line)) + marker(family, Rank::Front, FINENESS)))?;
+        write(line, legend(family))?;
+    }
+    let line = Family::ALL.len();
+    let half = fine(9) as i32;
+    let path = PathElement::new([(-half, 0), (half, 0)], front_line());
+    area.draw(&(EmptyElement::at(at(line)) + path))?;
+    write(line, "Pareto front")?;
+    let pale = marker(Family::Uniform, Rank::Rejected, FINENESS);
+    area.draw(&(EmptyElement::at(at(line + 1)) + pale))?;
+    write(line + 1, "pale: rejected")
 }
 
 /// The corners of the line below which no setting lies, from the points of the front.
@@ -150,69 +172,6 @@ fn steps(front: &[(f64, f64)]) -> Vec<(f64, f64)> {
         line.extend([(pair[1].0, pair[0].1), pair[1]]);
     }
     line
-}
-
-/// How a setting does beside the others.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Rank {
-    Rejected,
-    Behind,
-    Front,
-}
-
-impl Rank {
-    fn of(index: usize, row: &BenchRow, front: &[usize]) -> Self {
-        match row.rejected {
-            Some(_) => Self::Rejected,
-            None if front.contains(&index) => Self::Front,
-            None => Self::Behind,
-        }
-    }
-
-    /// Half the width of its marker, in pixels.
-    fn size(self) -> i32 {
-        match self {
-            Self::Front => 6,
-            Self::Behind | Self::Rejected => 4,
-        }
-    }
-
-    fn opacity(self) -> f64 {
-        match self {
-            Self::Front => 1.0,
-            Self::Behind => 0.5,
-            Self::Rejected => 0.25,
-        }
-    }
-}
-
-fn legend(family: Family) -> &'static str {
-    match family {
-        Family::Whole => "whole surface",
-        Family::Uniform => "k x k segments",
-    }
-}
-
-fn colour(family: Family) -> RGBColor {
-    match family {
-        Family::Whole => RGBColor(33, 102, 172),
-        Family::Uniform => RGBColor(201, 122, 24),
-    }
-}
-
-/// A filled outline about the origin, in pixels.
-fn marker(family: Family, rank: Rank) -> Polygon<(i32, i32)> {
-    let outline = match (family, rank.size()) {
-        (Family::Whole, size) => {
-            let tip = size + 1;
-            vec![(0, -tip), (tip, 0), (0, tip), (-tip, 0)]
-        }
-        (Family::Uniform, size) => {
-            let half = size - 1;
-            vec![(-half, -half), (half, -half), (half, half), (-half, half)]
-        }
-    };
-    Polygon::new(outline, colour(family).mix(rank.opacity()).filled())
 }
 
 #[cfg(test)]

@@ -1,14 +1,13 @@
 //! Fits every setting to a scan and takes the time.
 
 use super::{BenchRow, BenchScan, Family, Setting, Subject, Truth, options};
-use crate::fit::{FitError, Fitted, PreparedScan};
+use crate::fit::{FitError, Fitted, PreparedScan, Reference};
 use crate::measure::grain_properties;
 use crate::model::{Grain, StarSurface};
-use std::f64::consts::PI;
 use std::time::Instant;
 
 /// A fit that takes longer, in seconds, is timed once: the noise of the clock is far below.
-const LONG: f64 = 2.0;
+const LONG: f64 = 0.5;
 
 /// Fits all settings of all families that the scan's points can bear. `progress` is told each
 /// setting before it is fitted, and how many are done of how many.
@@ -28,14 +27,11 @@ pub fn run(
     let mut rows = Vec::with_capacity(settings.len());
     for (done, setting) in settings.iter().enumerate() {
         progress(setting, done, settings.len());
-        let (prepared, seconds_prepare) =
-            timed(|| PreparedScan::new(&subject.scan, &options(setting)));
-        let (fitted, seconds) = fit(prepared?);
+        let (row, found) = measure(subject, setting)?;
         if subject.truth.is_none() {
-            reference = fitted.reference.kind.name();
+            reference = found.kind.name();
         }
-        let truth = subject.truth.as_ref();
-        rows.push(row(setting, &fitted, truth, seconds, seconds_prepare));
+        rows.push(row);
     }
     Ok(BenchScan {
         scan: subject.name.clone(),
@@ -47,9 +43,22 @@ pub fn run(
     })
 }
 
+/// Fits one setting to a scan. Area and volume are compared with the truth, where it is known, else
+/// with the reference given back.
+///
+/// # Errors
+/// [`FitError`] if the scan is not one closed surface round a centre.
+pub fn measure(subject: &Subject, setting: &Setting) -> Result<(BenchRow, Reference), FitError> {
+    let (prepared, seconds_prepare) = timed(|| PreparedScan::new(&subject.scan, &options(setting)));
+    let (fitted, seconds) = fit(prepared?);
+    let truth = subject.truth.as_ref();
+    let row = row(setting, &fitted, truth, seconds, seconds_prepare);
+    Ok((row, fitted.reference))
+}
+
 /// Fits, and gives the median seconds of three fits.
 fn fit(prepared: PreparedScan) -> (Fitted, f64) {
-    let fit = || timed(|| prepared.search(&|_, _| ()));
+    let fit = || timed(|| prepared.search(&|_| ()));
     let (found, first) = fit();
     let mut seconds = [first; 3];
     if first <= LONG {
@@ -84,7 +93,7 @@ fn row(
         segments: choice.segments,
         tolerance: setting.tolerance(),
         coefficients: grain.coefficient_count(),
-        touched: touched(grain),
+        touched: grain.coefficients_touched(),
         seconds,
         seconds_prepare,
         heldout_rms: choice.heldout_rms,
@@ -95,15 +104,6 @@ fn row(
         seam_jump: grain.seam_jump() / fitted.mean_radius,
         rejected: choice.rejected.map(|reason| reason.to_string()),
     }
-}
-
-/// Coefficients that one radius takes: the mean over all directions.
-fn touched(grain: &Grain) -> f64 {
-    let partition = grain.partition();
-    let of = |segment| {
-        partition.rectangle(segment).solid_angle() * grain.coefficients(segment).len() as f64
-    };
-    (0..partition.segments()).map(of).sum::<f64>() / (4.0 * PI)
 }
 
 /// Root mean square of the radial distance from the fit to the closed form.

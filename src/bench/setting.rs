@@ -1,6 +1,6 @@
 //! What is compared: families of models and their settings.
 
-use crate::fit::FitOptions;
+use crate::fit::{FitOptions, MAX_DEGREE, Seams, Tolerance};
 use crate::sphere::coefficient_count;
 use serde::Serialize;
 use std::fmt;
@@ -15,14 +15,32 @@ const UNIFORM_PARTS: RangeInclusive<usize> = 1..=16;
 /// Degrees in uniform segments.
 const UNIFORM_DEGREES: RangeInclusive<usize> = 0..=6;
 
+/// Parts per edge of the cube's faces of uniform blended cells.
+const BLENDED_PARTS: RangeInclusive<usize> = 1..=5;
+
+/// Degrees in uniform blended cells.
+const BLENDED_DEGREES: RangeInclusive<usize> = 1..=5;
+
+/// Tolerances of adaptive cells, as shares of the mean radius.
+const TOLERANCES: [f64; 7] = [0.01, 0.005, 0.003, 0.002, 0.001, 0.0005, 0.0002];
+
+/// Largest degree of adaptive cells that are bound to few coefficients each.
+const LOW_DEGREE: usize = 3;
+
 /// A family of models.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
+#[serde(rename_all = "kebab-case")]
 pub enum Family {
     /// One expansion for the whole surface.
     Whole,
     /// k x k segments, equal in angle and of one degree, fitted independently.
     Uniform,
+    /// n x n overlapping cells on each face of a cube, of one degree, fitted together.
+    Blended,
+    /// Overlapping cells of degree 3 or less, split where the scan asks for it.
+    Adaptive,
+    /// The same with every degree allowed; its root is the whole surface.
+    AdaptiveFree,
 }
 
 /// One model of a family.
@@ -40,30 +58,66 @@ pub enum Setting {
         /// Degree of the segments' expansions.
         degree: usize,
     },
+    /// Of [`Family::Blended`].
+    Blended {
+        /// Parts per edge of the cube's faces, n.
+        parts: usize,
+        /// Degree of the cells' expansions.
+        degree: usize,
+    },
+    /// Of [`Family::Adaptive`].
+    Adaptive {
+        /// RMS error that is good enough, as a share of the mean radius.
+        tolerance: f64,
+    },
+    /// Of [`Family::AdaptiveFree`].
+    AdaptiveFree {
+        /// RMS error that is good enough, as a share of the mean radius.
+        tolerance: f64,
+    },
 }
 
 /// The options by which a setting is fitted.
 pub fn options(setting: &Setting) -> FitOptions {
-    let (degree, segments) = match *setting {
-        Setting::Whole { degree } => (degree, 1),
-        Setting::Uniform { parts, degree } => (degree, parts * parts),
-    };
-    FitOptions {
+    let uniform = |seams, segments, degree| FitOptions {
+        seams,
         degree: Some(degree),
         segments: Some(segments),
         ..FitOptions::default()
+    };
+    let adaptive = |tolerance, max_degree| FitOptions {
+        seams: Seams::Blended,
+        tolerance: Tolerance::OfMeanRadius(tolerance),
+        max_degree,
+        ..FitOptions::default()
+    };
+    match *setting {
+        Setting::Whole { degree } => uniform(Seams::None, 1, degree),
+        Setting::Uniform { parts, degree } => uniform(Seams::None, parts * parts, degree),
+        Setting::Blended { parts, degree } => uniform(Seams::Blended, 6 * parts * parts, degree),
+        Setting::Adaptive { tolerance } => adaptive(tolerance, LOW_DEGREE),
+        Setting::AdaptiveFree { tolerance } => adaptive(tolerance, MAX_DEGREE),
     }
 }
 
 impl Family {
     /// All families.
-    pub const ALL: [Self; 2] = [Self::Whole, Self::Uniform];
+    pub const ALL: [Self; 5] = [
+        Self::Whole,
+        Self::Uniform,
+        Self::Blended,
+        Self::Adaptive,
+        Self::AdaptiveFree,
+    ];
 
     /// The name, in lower case.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Whole => "whole",
             Self::Uniform => "uniform",
+            Self::Blended => "blended",
+            Self::Adaptive => "adaptive",
+            Self::AdaptiveFree => "adaptive-free",
         }
     }
 
@@ -73,13 +127,28 @@ impl Family {
             Self::Whole => WHOLE_DEGREES
                 .map(|degree| Setting::Whole { degree })
                 .collect(),
-            Self::Uniform => UNIFORM_PARTS
-                .flat_map(|parts| {
-                    UNIFORM_DEGREES.map(move |degree| Setting::Uniform { parts, degree })
-                })
+            Self::Uniform => grid(UNIFORM_PARTS, UNIFORM_DEGREES)
+                .map(|(parts, degree)| Setting::Uniform { parts, degree })
                 .collect(),
+            Self::Blended => grid(BLENDED_PARTS, BLENDED_DEGREES)
+                .map(|(parts, degree)| Setting::Blended { parts, degree })
+                .collect(),
+            Self::Adaptive => TOLERANCES
+                .map(|tolerance| Setting::Adaptive { tolerance })
+                .into(),
+            Self::AdaptiveFree => TOLERANCES
+                .map(|tolerance| Setting::AdaptiveFree { tolerance })
+                .into(),
         }
     }
+}
+
+/// All pairs, the second of them running first.
+fn grid(
+    parts: RangeInclusive<usize>,
+    degrees: RangeInclusive<usize>,
+) -> impl Iterator<Item = (usize, usize)> {
+    parts.flat_map(move |parts| degrees.clone().map(move |degree| (parts, degree)))
 }
 
 impl Setting {
@@ -88,28 +157,38 @@ impl Setting {
         match self {
             Self::Whole { .. } => Family::Whole,
             Self::Uniform { .. } => Family::Uniform,
+            Self::Blended { .. } => Family::Blended,
+            Self::Adaptive { .. } => Family::Adaptive,
+            Self::AdaptiveFree { .. } => Family::AdaptiveFree,
         }
     }
 
     /// The degree, where the setting fixes it.
     pub fn degree(&self) -> Option<usize> {
         match *self {
-            Self::Whole { degree } | Self::Uniform { degree, .. } => Some(degree),
+            Self::Whole { degree }
+            | Self::Uniform { degree, .. }
+            | Self::Blended { degree, .. } => Some(degree),
+            Self::Adaptive { .. } | Self::AdaptiveFree { .. } => None,
         }
     }
 
-    /// The held-out RMS asked for, as a share of the mean radius, where the setting asks for one.
+    /// The RMS error asked for, as a share of the mean radius, where the setting asks for one.
     pub fn tolerance(&self) -> Option<f64> {
-        match self {
-            Self::Whole { .. } | Self::Uniform { .. } => None,
+        match *self {
+            Self::Whole { .. } | Self::Uniform { .. } | Self::Blended { .. } => None,
+            Self::Adaptive { tolerance } | Self::AdaptiveFree { tolerance } => Some(tolerance),
         }
     }
 
-    /// Whether so many points can bear it: at least two for each coefficient.
+    /// Whether so many points can bear it: at least two for each coefficient. Adaptive fits see to
+    /// that themselves.
     pub fn is_supported_by(&self, points: usize) -> bool {
         let coefficients = match *self {
             Self::Whole { degree } => coefficient_count(degree),
             Self::Uniform { parts, degree } => parts * parts * coefficient_count(degree),
+            Self::Blended { parts, degree } => 6 * parts * parts * coefficient_count(degree),
+            Self::Adaptive { .. } | Self::AdaptiveFree { .. } => 0,
         };
         2 * coefficients <= points
     }
@@ -122,6 +201,15 @@ impl fmt::Display for Setting {
             Self::Uniform { parts, degree } => {
                 write!(f, "{parts} x {parts} segments, degree {degree}")
             }
+            Self::Blended { parts, degree } => {
+                write!(f, "6 x {parts} x {parts} blended cells, degree {degree}")
+            }
+            Self::Adaptive { tolerance } => {
+                write!(f, "adaptive within {} %", 100.0 * tolerance)
+            }
+            Self::AdaptiveFree { tolerance } => {
+                write!(f, "adaptive, free degree, within {} %", 100.0 * tolerance)
+            }
         }
     }
 }
@@ -133,13 +221,23 @@ mod tests {
     #[test]
     fn every_setting_asks_for_one_fit() {
         let count = |family: Family| family.settings().len();
-        assert_eq!(Family::ALL.map(count), [20, 16 * 7]);
+        assert_eq!(Family::ALL.map(count), [20, 16 * 7, 5 * 5, 7, 7]);
         for family in Family::ALL {
             for setting in family.settings() {
                 assert_eq!(setting.family(), family);
                 let (degrees, parts) = options(&setting).candidates().unwrap();
-                assert_eq!((degrees.len(), parts.len()), (1, 1), "{setting}");
+                match setting.degree() {
+                    Some(degree) => assert_eq!((degrees, parts.len()), (vec![degree], 1)),
+                    None => assert!(degrees.len() > 1 && parts.is_empty(), "{setting}"),
+                }
             }
+        }
+    }
+
+    #[test]
+    fn names_are_those_of_the_json() {
+        for family in Family::ALL {
+            assert_eq!(serde_json::to_value(family).unwrap(), family.name());
         }
     }
 }

@@ -36,6 +36,41 @@ pub struct Truth {
     pub places: Vec<Point3<f64>>,
 }
 
+impl Subject {
+    /// A body in its native size, scanned at about so many points with the cube's layout, with
+    /// noise of a standard deviation given as a share of the mean radius.
+    ///
+    /// # Errors
+    /// Those of [`synthesize`].
+    pub fn synthetic(body: Body, points: usize, noise: f64) -> Result<Self, SynthError> {
+        let synthetic = synthesize(&SynthOptions {
+            points,
+            noise,
+            ..SynthOptions::clean(body)
+        })?;
+        let surface = body.surface();
+        let directions = Sampling::Fibonacci.directions(PLACES, 0)?;
+        let truth = synthetic.truth;
+        Ok(Self {
+            name: body.name().into(),
+            scan: Scan {
+                points: synthetic.points,
+                ..Scan::default()
+            },
+            truth: Some(Truth {
+                noise,
+                area: truth.properties.area,
+                volume: truth.properties.volume,
+                mean_radius: truth.mean_radius,
+                places: directions
+                    .iter()
+                    .map(|n| Point3::from(n * surface.radius(n)))
+                    .collect(),
+            }),
+        })
+    }
+}
+
 /// The bean, the chickpea and the maize kernel of [`crate::shapes`], clean and with noise of
 /// [`NOISE`].
 ///
@@ -43,33 +78,8 @@ pub struct Truth {
 /// None in practice: those of [`synthesize`], whose options are in range here.
 pub fn synthetic() -> Result<Vec<Subject>, SynthError> {
     let bodies = [Body::Bean, Body::Chickpea, Body::Maize];
-    let scans = bodies.map(|body| [0.0, NOISE].map(|noise| scan(body, noise)));
+    let scans = bodies.map(|body| {
+        [0.0, NOISE].map(|noise| Subject::synthetic(body, body.native_points(), noise))
+    });
     scans.into_iter().flatten().collect()
-}
-
-fn scan(body: Body, noise: f64) -> Result<Subject, SynthError> {
-    let synthetic = synthesize(&SynthOptions {
-        noise,
-        ..SynthOptions::clean(body)
-    })?;
-    let surface = body.surface();
-    let directions = Sampling::Fibonacci.directions(PLACES, 0)?;
-    let truth = synthetic.truth;
-    Ok(Subject {
-        name: body.name().into(),
-        scan: Scan {
-            points: synthetic.points,
-            ..Scan::default()
-        },
-        truth: Some(Truth {
-            noise,
-            area: truth.properties.area,
-            volume: truth.properties.volume,
-            mean_radius: truth.mean_radius,
-            places: directions
-                .iter()
-                .map(|n| Point3::from(n * surface.radius(n)))
-                .collect(),
-        }),
-    })
 }

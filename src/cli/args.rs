@@ -1,6 +1,6 @@
 //! The arguments as they are typed.
 
-use super::values::{Auto, tolerance, vector};
+use super::values::{Auto, SeamsArg, tolerance, vector};
 use crate::fit::{FitOptions, Tolerance};
 use crate::shapes::{Body, Sampling};
 use clap::{Args, Parser, Subcommand, value_parser};
@@ -156,8 +156,9 @@ pub(super) struct SynthArgs {
 
 /// Measure run time against error over many settings
 ///
-/// Whole-surface fits of degree 1 to 20, and 1 x 1 to 16 x 16 segments of degree 0 to 6, on one thread.
-/// Seconds are those of the fit alone; what preparing the scan takes is a column of bench.csv.
+/// Families, on one thread: whole-surface fits of degree 1 to 20; 1 x 1 to 16 x 16 independent segments
+/// of degree 0 to 6; 6 to 150 blended cells of degree 1 to 5; and adaptive cells within 1 % to 0.02 % of
+/// the mean radius, of degree 3 or less and of any degree. Seconds are those of the fit alone; what preparing the scan takes is a column of bench.csv.
 /// Printed are the settings with the least held-out RMS for their coefficients or their seconds.
 #[derive(Args)]
 pub(super) struct BenchArgs {
@@ -186,26 +187,32 @@ pub(super) struct FittingArgs {
     #[arg(value_name = "SCAN")]
     pub(super) scan: PathBuf,
 
+    /// How segments are joined: blended (overlapping cells, fitted together) or none (k x k
+    /// independent segments of the angle domain, with steps between them)
+    #[arg(long, value_name = "blended|none", default_value = "blended", help_heading = SEARCH)]
+    pub(super) seams: SeamsArg,
+
     /// Degree of every segment's expansion, or auto to search
     #[arg(long, value_name = "L|auto", default_value = "auto", help_heading = SEARCH)]
     pub(super) degree: Auto,
 
-    /// Number of segments, a square, or auto to search
-    #[arg(long, value_name = "N|auto", default_value = "auto", help_heading = SEARCH)]
+    /// Number of segments: 1 or 6 n^2 blended cells, or k^2 independent segments; adaptive (or auto)
+    /// splits cells where the scan asks for it, or searches all k
+    #[arg(long, value_name = "N|adaptive", default_value = "adaptive", help_heading = SEARCH)]
     pub(super) segments: Auto,
 
-    /// Largest degree searched
+    /// Largest degree searched: bounds the cost of an evaluation
     #[arg(long, value_name = "L", default_value_t = FitOptions::default().max_degree,
           help_heading = SEARCH)]
     pub(super) max_degree: usize,
 
-    /// Largest number of segments searched
-    #[arg(long, value_name = "N", default_value_t = FitOptions::default().max_segments,
-          help_heading = SEARCH)]
-    pub(super) max_segments: usize,
+    /// Largest number of segments searched [default: 600 blended, 100 independent]
+    #[arg(long, value_name = "N", help_heading = SEARCH)]
+    pub(super) max_segments: Option<usize>,
 
-    /// Held-out RMS that is good enough: a length in the scan's unit, or 0.3% of the mean radius
-    #[arg(long, value_name = "T", default_value = "0.3%", value_parser = tolerance,
+    /// RMS error that is good enough: a length in the scan's unit, a share of the mean radius such as
+    /// 0.3%, or auto (0.1%); the scan's noise is allowed on top
+    #[arg(long, value_name = "T|auto", default_value = "auto", value_parser = tolerance,
           help_heading = SEARCH)]
     pub(super) tolerance: Tolerance,
 

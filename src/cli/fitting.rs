@@ -21,6 +21,7 @@ impl FittingArgs {
     /// The options asked for, if they are in range; also sets the number of threads.
     pub(super) fn settle(&self) -> Result<FitOptions> {
         let options = FitOptions {
+            seams: self.seams.0,
             degree: self.degree.0,
             segments: self.segments.0,
             max_degree: self.max_degree,
@@ -51,8 +52,8 @@ pub(super) fn fit_scan(path: &Path, options: &FitOptions, progress: &Progress) -
     progress.stage("Finding the surface, the centre and the axes");
     let prepared = PreparedScan::new(&scan, options)
         .with_context(|| format!("cannot fit {}", path.display()))?;
-    let found = prepared.search(&|done, all| {
-        progress.stage(format_args!("Searching: {done} of {all} levels done"));
+    let found = prepared.search(&|done| {
+        progress.stage(format_args!("Fitting: {done} numbers of segments done"));
     });
     let fitted = prepared.finish(found);
     Ok(ScanFit {

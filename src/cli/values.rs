@@ -1,8 +1,24 @@
 //! Values of arguments that have a notation of their own.
 
-use crate::fit::Tolerance;
+use crate::fit::{Seams, Tolerance};
 use nalgebra::Vector3;
 use std::str::FromStr;
+
+/// `blended` or `none`.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct SeamsArg(pub(super) Seams);
+
+impl FromStr for SeamsArg {
+    type Err = &'static str;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        match text {
+            "blended" => Ok(Self(Seams::Blended)),
+            "none" => Ok(Self(Seams::None)),
+            _ => Err("expected blended or none"),
+        }
+    }
+}
 
 /// A number, or `auto` for a search.
 #[derive(Debug, Clone, Copy)]
@@ -13,7 +29,7 @@ impl FromStr for Auto {
 
     fn from_str(text: &str) -> Result<Self, Self::Err> {
         match text {
-            "auto" => Ok(Self(None)),
+            "auto" | "adaptive" => Ok(Self(None)),
             number => match number.parse() {
                 Ok(number) => Ok(Self(Some(number))),
                 Err(_) => Err("expected a whole number or auto"),
@@ -22,8 +38,11 @@ impl FromStr for Auto {
     }
 }
 
-/// A length, or a percentage of the mean radius.
+/// A length, a percentage of the mean radius, or `auto`.
 pub(super) fn tolerance(text: &str) -> Result<Tolerance, String> {
+    if text == "auto" {
+        return Ok(Tolerance::Auto);
+    }
     let (number, of_radius) = match text.strip_suffix('%') {
         Some(percentage) => (percentage.trim_end(), true),
         None => (text, false),
@@ -33,7 +52,7 @@ pub(super) fn tolerance(text: &str) -> Result<Tolerance, String> {
             Ok(Tolerance::OfMeanRadius(value / 100.0))
         }
         Ok(value) if value > 0.0 && value.is_finite() => Ok(Tolerance::Length(value)),
-        _ => Err("expected a positive length such as 0.02, or a share such as 0.3%".into()),
+        _ => Err("expected a positive length such as 0.02, a share such as 0.3%, or auto".into()),
     }
 }
 

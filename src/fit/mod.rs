@@ -1,4 +1,4 @@
-//! From a scan to a fitted grain: centre and axes, least squares per segment, search.
+//! From a scan to a fitted grain: centre and axes, least squares, search.
 //!
 //! ```no_run
 //! use grainform::{FitOptions, fit, scan::read_scan};
@@ -14,6 +14,7 @@ mod centre;
 mod factor;
 mod held_out;
 mod householder;
+mod joint;
 mod level;
 mod options;
 mod prepare;
@@ -23,18 +24,23 @@ mod row;
 mod samples;
 mod search;
 mod segment;
+mod spread;
 mod strays;
 mod surface;
 mod thin;
 
-pub use options::{FitError, FitOptions, MAX_DEGREE, MAX_PARTS, Tolerance};
+pub use options::{
+    FitError, FitOptions, MAX_CELLS, MAX_COEFFICIENTS, MAX_DEGREE, MAX_PARTS, Seams, Tolerance,
+};
 pub use prepare::PreparedScan;
 pub use reference::{Reference, ReferenceKind};
 pub use search::{Candidate, Rejection, Search, Work};
+pub use spread::StandardErrors;
 pub use surface::{ScannedSurface, scanned_surface};
 
 use crate::model::Grain;
 use crate::scan::Scan;
+use spread::Spread;
 
 /// A fitted grain and what is known of it.
 #[derive(Debug, Clone)]
@@ -53,6 +59,17 @@ pub struct Fitted {
     pub residuals: Residuals,
     /// What a user should know of the scan: whole sentences.
     pub warnings: Vec<String>,
+    spread: Option<Spread>,
+}
+
+impl Fitted {
+    /// Standard errors of the grain's area, volume, inertia and dimensions, from the covariance of
+    /// its coefficients. Drawn when asked for: some milliseconds. `None` of independent segments,
+    /// whose seams no covariance describes.
+    pub fn standard_errors(&self) -> Option<StandardErrors> {
+        let surface = self.grain.surface().blended()?;
+        self.spread.as_ref()?.standard_errors(surface)
+    }
 }
 
 /// Radial residuals: radius of the point minus radius of the grain in its direction.
@@ -72,6 +89,6 @@ pub struct Residuals {
 /// centre.
 pub fn fit(scan: &Scan, options: &FitOptions) -> Result<Fitted, FitError> {
     let prepared = PreparedScan::new(scan, options)?;
-    let found = prepared.search(&|_, _| ());
+    let found = prepared.search(&|_| ());
     Ok(prepared.finish(found))
 }

@@ -1,17 +1,22 @@
 //! What a user may ask of a fit.
 
+use crate::sphere::{MAX_FACE_PARTS, coefficient_count};
+
 /// Settings of a fit; the default asks for nothing and searches.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FitOptions {
-    /// Degree of every segment's expansion; `None` searches 0..=`max_degree`.
+    /// How expansions are joined.
+    pub seams: Seams,
+    /// Degree of every segment's expansion; `None` searches up to `max_degree`.
     pub degree: Option<usize>,
-    /// Number of segments n_s = k^2; `None` searches all squares up to `max_segments`.
+    /// Number of segments. Blended: 1, or 6 n^2 cells; `None` refines adaptively. Independent: k^2;
+    /// `None` searches all squares up to `max_segments`.
     pub segments: Option<usize>,
     /// Largest degree searched.
     pub max_degree: usize,
-    /// Largest number of segments searched.
-    pub max_segments: usize,
-    /// Held-out RMS that is good enough.
+    /// Largest number of segments searched; `None` for [`Seams::most_segments`].
+    pub max_segments: Option<usize>,
+    /// Error that is good enough.
     pub tolerance: Tolerance,
     /// Fit every candidate, also those that cannot win any more. The choice is the same.
     pub exhaustive: bool,
@@ -20,12 +25,34 @@ pub struct FitOptions {
 impl Default for FitOptions {
     fn default() -> Self {
         Self {
+            seams: Seams::Blended,
             degree: None,
             segments: None,
             max_degree: 3,
-            max_segments: 100,
-            tolerance: Tolerance::OfMeanRadius(0.003),
+            max_segments: None,
+            tolerance: Tolerance::Auto,
             exhaustive: false,
+        }
+    }
+}
+
+/// How the expansions of neighbouring segments are joined.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Seams {
+    /// Overlapping cells on the faces of a cube, blended by smooth weights and fitted together: the
+    /// surface is continuous, and so are its normals and curvatures.
+    Blended,
+    /// k x k segments of the angle domain, each fitted alone (dissertation, 4.1 and 4.2): the
+    /// surface has steps where they meet.
+    None,
+}
+
+impl Seams {
+    /// The largest number of segments searched where nothing else is asked for.
+    pub const fn most_segments(self) -> usize {
+        match self {
+            Self::Blended => 600,
+            Self::None => 100,
         }
     }
 }
@@ -33,6 +60,8 @@ impl Default for FitOptions {
 /// A radial RMS error.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Tolerance {
+    /// 0.1 % of the mean radius. In every case the scan's own noise is allowed on top.
+    Auto,
     /// In the scan's unit.
     Length(f64),
     /// As a fraction of the mean radius.
@@ -43,11 +72,15 @@ impl Tolerance {
     /// The tolerance in the unit of the mean radius.
     pub fn length(&self, mean_radius: f64) -> f64 {
         match *self {
+            Self::Auto => AUTO_TOLERANCE * mean_radius,
             Self::Length(length) => length,
             Self::OfMeanRadius(fraction) => fraction * mean_radius,
         }
     }
 }
+
+/// The tolerance of [`Tolerance::Auto`] as a share of the mean radius.
+const AUTO_TOLERANCE: f64 = 0.001;
 
 /// Largest degree that can be asked for: beyond it one segment holds more coefficients than most
 /// scans have points to give.
@@ -55,6 +88,12 @@ pub const MAX_DEGREE: usize = 20;
 
 /// Largest number of parts per angle that can be asked for.
 pub const MAX_PARTS: usize = 64;
+
+/// Largest number of blended cells that can be asked for: 6 x 64^2.
+pub const MAX_CELLS: usize = 6 * (MAX_FACE_PARTS as usize) * (MAX_FACE_PARTS as usize);
+
+/// Largest number of coefficients of blended cells that can be asked for: a minute of work.
+pub const MAX_COEFFICIENTS: usize = 20_000;
 
 /// Why a fit cannot be made.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -71,6 +110,19 @@ pub enum FitError {
         /// The nearest square below.
         below: usize,
         /// The nearest square above.
+        above: usize,
+    },
+    /// No uniform cover of the cube's faces has this number of cells.
+    #[error(
+        "{segments} segments cannot be blended: ask for 1, or for 6 n^2 cells on the faces of a cube \
+         such as {below} or {above}, or for independent segments"
+    )]
+    SegmentsNotOfCube {
+        /// The number asked for.
+        segments: usize,
+        /// The nearest possible number below.
+        below: usize,
+        /// The nearest possible number above.
         above: usize,
     },
     /// A setting is outside of its range.
@@ -151,33 +203,15 @@ pub enum FitError {
 }
 
 impl FitOptions {
-    /// The degrees and the parts per angle of the candidates.
+    /// The degrees and the numbers of parts (per angle, or per edge of the cube) of the candidates;
+    /// no parts where the cover is to be found adaptively.
     pub(crate) fn candidates(&self) -> Result<(Vec<usize>, Vec<usize>), FitError> {
-        let within = |setting, value, most| {
-            if value > most {
-                return Err(FitError::OutOfRange {
-                    setting,
-                    value,
-                    least: 0,
-                    most,
-                });
-            }
-            Ok(())
-        };
         within(
             "the degree",
             self.degree.unwrap_or(self.max_degree),
+            0,
             MAX_DEGREE,
         )?;
-        let most = self.segments.unwrap_or(self.max_segments);
-        if most == 0 || most > MAX_PARTS * MAX_PARTS {
-            return Err(FitError::OutOfRange {
-                setting: "the number of segments",
-                value: most,
-                least: 1,
-                most: MAX_PARTS * MAX_PARTS,
-            });
-        }
         if let Tolerance::Length(value) | Tolerance::OfMeanRadius(value) = self.tolerance
             && !(value > 0.0 && value.is_finite())
         {
@@ -186,18 +220,70 @@ impl FitOptions {
         let degrees = self
             .degree
             .map_or_else(|| (0..=self.max_degree).collect(), |degree| vec![degree]);
-        let root = most.isqrt();
-        let parts = match self.segments {
-            None => (1..=root).collect(),
-            Some(segments) if root * root == segments => vec![root],
-            Some(segments) => {
-                return Err(FitError::SegmentsNotSquare {
-                    segments,
-                    below: root * root,
-                    above: (root + 1) * (root + 1),
-                });
-            }
+        let parts = match self.seams {
+            Seams::Blended => self.parts_of_faces()?,
+            Seams::None => self.parts_of_angles()?,
         };
         Ok((degrees, parts))
     }
+
+    /// The largest number of segments searched.
+    pub(crate) fn most_segments(&self) -> usize {
+        self.max_segments.unwrap_or(self.seams.most_segments())
+    }
+
+    fn parts_of_angles(&self) -> Result<Vec<usize>, FitError> {
+        let most = self.segments.unwrap_or(self.most_segments());
+        within("the number of segments", most, 1, MAX_PARTS * MAX_PARTS)?;
+        let root = most.isqrt();
+        match self.segments {
+            None => Ok((1..=root).collect()),
+            Some(segments) if root * root == segments => Ok(vec![root]),
+            Some(segments) => Err(FitError::SegmentsNotSquare {
+                segments,
+                below: root * root,
+                above: (root + 1) * (root + 1),
+            }),
+        }
+    }
+
+    /// Parts per edge of the cube's faces, 0 for the whole sphere.
+    fn parts_of_faces(&self) -> Result<Vec<usize>, FitError> {
+        let most = self.segments.unwrap_or(self.most_segments());
+        within("the number of segments", most, 1, MAX_CELLS)?;
+        let parts = (most / 6).isqrt();
+        match self.segments {
+            None => Ok(Vec::new()),
+            Some(1) => Ok(vec![0]),
+            Some(segments)
+                if segments * coefficient_count(self.degree.unwrap_or(self.max_degree))
+                    > MAX_COEFFICIENTS =>
+            {
+                Err(FitError::OutOfRange {
+                    setting: "the number of coefficients",
+                    value: segments * coefficient_count(self.degree.unwrap_or(self.max_degree)),
+                    least: 1,
+                    most: MAX_COEFFICIENTS,
+                })
+            }
+            Some(segments) if parts > 0 && 6 * parts * parts == segments => Ok(vec![parts]),
+            Some(segments) => Err(FitError::SegmentsNotOfCube {
+                segments,
+                below: (6 * parts * parts).max(1),
+                above: 6 * (parts + 1) * (parts + 1),
+            }),
+        }
+    }
+}
+
+fn within(setting: &'static str, value: usize, least: usize, most: usize) -> Result<(), FitError> {
+    if (least..=most).contains(&value) {
+        return Ok(());
+    }
+    Err(FitError::OutOfRange {
+        setting,
+        value,
+        least,
+        most,
+    })
 }

@@ -1,21 +1,23 @@
 //! From the points of a scan to samples of the radius: reference surface, centre, axes, cells.
 
-use super::Fitted;
 use super::axes::principal_axes;
 use super::centre::{deepest_centre, facing_away_share};
-use super::options::{FitError, FitOptions};
+use super::joint;
+use super::options::{FitError, FitOptions, Seams};
 use super::reduce::{ReducedCell, reduce_cells};
 use super::reference::Reference;
 use super::samples::{CellGrid, Samples};
-use super::search::{Found, search};
-use super::segment::Level;
+use super::search::{Found, FoundFit, Search, search};
+use super::segment::{Level, SegmentFit};
 use super::surface::{ScannedSurface, scanned_surface};
+use super::{Fitted, Residuals};
 use crate::measure::mesh_properties;
 use crate::mesh::Mesh;
-use crate::model::{Frame, Grain};
+use crate::model::{Blended, Frame, Grain, Segmented, Surface};
 use crate::scan::Scan;
 use crate::sphere::{AngularPartition, CapBasis};
 use nalgebra::Point3;
+use std::collections::HashSet;
 
 /// Share of the area that may face away from the centre. The folds of real kernels (the crease of
 /// barley, knapped stone) stay below 2 %; the inner side of a ring is 20 % or more.
@@ -35,13 +37,17 @@ const FINEST_NOISE_LEVEL: usize = 10;
 pub struct PreparedScan {
     frame: Frame,
     pub(crate) reference: Reference,
-    mean_radius: f64,
+    pub(crate) mean_radius: f64,
     pub(crate) tolerance: f64,
     samples: Samples,
     pub(crate) degrees: Vec<usize>,
     pub(crate) parts: Vec<usize>,
     pub(crate) noise_parts: usize,
     pub(crate) exhaustive: bool,
+    /// The degree asked for, if one is.
+    pub(crate) degree: Option<usize>,
+    pub(crate) most_segments: usize,
+    seams: Seams,
     warnings: Vec<String>,
     grid: CellGrid,
     probes: Option<Samples>,
@@ -84,10 +90,12 @@ impl PreparedScan {
         };
         let mean_radius = mean_radius(&mesh, &centre);
 
-        let noise_parts = (points.len() / SAMPLES_PER_NOISE_SEGMENT)
-            .isqrt()
-            .clamp(1, FINEST_NOISE_LEVEL);
-        let grid = CellGrid::new(parts.iter().copied().chain([noise_parts]));
+        let noise_parts = noise_parts(&points);
+        let levels: &[usize] = match options.seams {
+            Seams::Blended => &[1],
+            Seams::None => &parts,
+        };
+        let grid = CellGrid::new(levels.iter().copied().chain([noise_parts]));
         let samples = Samples::new(&points, &frame, &grid);
         let probes = representatives.map(|points| Samples::new(&points, &frame, &grid));
         let bases: Vec<CapBasis> = (0..=degrees[degrees.len() - 1])
@@ -108,6 +116,9 @@ impl PreparedScan {
             parts,
             noise_parts,
             exhaustive: options.exhaustive,
+            degree: options.degree,
+            most_segments: options.most_segments(),
+            seams: options.seams,
             warnings,
             grid,
             probes,
@@ -116,19 +127,50 @@ impl PreparedScan {
         })
     }
 
-    /// Searches the candidates and tells `progress` how many of how many levels are done.
-    pub fn search(&self, progress: &dyn Fn(usize, usize)) -> Found {
-        search(self, progress)
+    /// Searches the candidates and tells `progress` how many of them, by number of segments, are
+    /// done.
+    pub fn search(&self, progress: &dyn Fn(usize)) -> Found {
+        match self.seams {
+            Seams::Blended => joint::search(self, progress),
+            Seams::None => search(self, progress),
+        }
     }
 
     /// The grain of the chosen candidate, and what is known of it.
     pub fn finish(self, found: Found) -> Fitted {
-        let Found { search, segments } = found;
+        let Found { search, fit } = found;
+        let mut spread = None;
+        let (surface, residuals) = match fit {
+            FoundFit::Segments(segments) => self.segmented(&search, segments),
+            FoundFit::Joined(joined) => {
+                let surface = Blended::new(joined.cover, joined.coefficients)
+                    .expect("finite samples give finite coefficients, (L + 1)^2 per cell");
+                spread = Some(joined.spread);
+                (Surface::Blended(surface), joined.residuals)
+            }
+        };
+        let mut warnings = self.warnings;
+        warnings.extend(search.warnings());
+        Fitted {
+            grain: Grain::new(self.frame, surface).expect("the frame is made of principal axes"),
+            reference: self.reference,
+            points: self.samples.rows().len() - search.outliers,
+            mean_radius: self.mean_radius,
+            residuals,
+            warnings,
+            search,
+            spread,
+        }
+    }
+
+    /// The independent segments of the chosen candidate.
+    fn segmented(&self, search: &Search, segments: Vec<SegmentFit>) -> (Surface, Residuals) {
         let choice = search.choice();
         let degree = choice.degree;
         let partition = AngularPartition::new(choice.segments.isqrt());
-        let level = self.level(partition.per_angle(), degree);
-        let residuals = level.residuals(&segments);
+        let residuals = self
+            .level(partition.per_angle(), degree)
+            .residuals(&segments);
         let coefficients = segments
             .into_iter()
             .map(|mut segment| {
@@ -136,18 +178,29 @@ impl PreparedScan {
                 segment.degrees.swap_remove(fitted).coefficients
             })
             .collect();
-        let mut warnings = self.warnings;
-        warnings.extend(search.warning());
-        Fitted {
-            grain: Grain::new(self.frame, partition, coefficients)
-                .expect("finite samples give finite coefficients, (L + 1)^2 per segment"),
-            reference: self.reference,
-            points: self.samples.rows().len(),
-            mean_radius: self.mean_radius,
-            residuals,
-            warnings,
-            search,
-        }
+        let surface = Segmented::new(partition, coefficients)
+            .expect("finite samples give finite coefficients, (L + 1)^2 per segment");
+        (Surface::Segmented(surface), residuals)
+    }
+
+    /// All samples.
+    pub(crate) fn samples(&self) -> &Samples {
+        &self.samples
+    }
+
+    /// Of a large cloud, one sample per patch of directions.
+    pub(crate) fn thinned(&self) -> Option<&Samples> {
+        self.probes.as_ref()
+    }
+
+    /// The largest degree that may be fitted.
+    pub(crate) fn top_degree(&self) -> usize {
+        self.bases.len() - 1
+    }
+
+    /// The bases of the degrees up to the given one.
+    pub(crate) fn bases(&self, degree: usize) -> &[CapBasis] {
+        &self.bases[..=degree]
     }
 
     /// The level with `k` parts per angle, up to `degree`.
@@ -161,6 +214,21 @@ impl PreparedScan {
             reduced: &self.reduced,
         }
     }
+}
+
+/// Parts per angle of the level that tells of the noise; points that coincide count once.
+fn noise_parts(points: &[Point3<f64>]) -> usize {
+    let enough = SAMPLES_PER_NOISE_SEGMENT * FINEST_NOISE_LEVEL.pow(2);
+    let mut distinct = HashSet::with_capacity(enough);
+    for point in points {
+        distinct.insert([point.x, point.y, point.z].map(|x| (x + 0.0).to_bits()));
+        if distinct.len() >= enough {
+            break;
+        }
+    }
+    (distinct.len() / SAMPLES_PER_NOISE_SEGMENT)
+        .isqrt()
+        .clamp(1, FINEST_NOISE_LEVEL)
 }
 
 /// The centroid if it sees the whole surface, else the centre that sees most of it.

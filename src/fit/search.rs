@@ -18,7 +18,9 @@
 //! with more coefficients cannot win and are not fitted; a level is factored only up to the largest
 //! degree that still can.
 
+use super::joint::Joined;
 use super::level::{FittedLevel, LARGEST_MISS};
+use super::options::Seams;
 use super::prepare::PreparedScan;
 use super::segment::SegmentFit;
 use crate::sphere::coefficient_count;
@@ -88,7 +90,10 @@ impl fmt::Display for Rejection {
 /// What a search found.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Search {
-    /// Every candidate, by segments and then by degree.
+    /// How segments are joined.
+    pub seams: Seams,
+    /// Every candidate: by segments and then by degree, or the whole sphere by degree and then the
+    /// rounds of the refinement.
     pub candidates: Vec<Candidate>,
     /// Index of the chosen one.
     pub chosen: usize,
@@ -96,6 +101,8 @@ pub struct Search {
     pub limit: f64,
     /// Standard deviation of the samples round a local fit, in the scan's unit.
     pub noise: f64,
+    /// Points that stand apart from the fitted surface and were left out.
+    pub outliers: usize,
     /// What the search did and what it could leave out.
     pub work: Work,
 }
@@ -119,8 +126,25 @@ impl Search {
         &self.candidates[self.chosen]
     }
 
+    /// Whether the candidates are rounds of one refinement.
+    pub(crate) fn is_blended(&self) -> bool {
+        self.seams == Seams::Blended
+    }
+
+    /// What a user should know of the choice: whole sentences.
+    pub(crate) fn warnings(&self) -> impl Iterator<Item = String> {
+        let outliers = (self.outliers > 0).then(|| {
+            format!(
+                "{} points stand apart from the fitted surface and from their neighbours, and were \
+                 left out.",
+                self.outliers
+            )
+        });
+        outliers.into_iter().chain(self.warning())
+    }
+
     /// What is wrong with the choice, if anything: a whole sentence.
-    pub(crate) fn warning(&self) -> Option<String> {
+    fn warning(&self) -> Option<String> {
         let reason = self.choice().rejected?;
         let advice = "Its area, volume and inertia are as good as their deviations say, but look at \
                       the mesh before relying on details of the surface.";
@@ -129,7 +153,9 @@ impl Search {
                 "No segment holds the points that degree {degree} needs; each was fitted at the \
                  largest degree that its points support."
             ),
-            _ if self.candidates.len() == 1 => format!("This fit {reason}. {advice}"),
+            _ if self.is_blended() || self.candidates.len() == 1 => {
+                format!("This fit {reason}. {advice}")
+            }
             _ => format!(
                 "Every candidate misses a point or tears at a seam by more than {:.0} % of the \
                  radius; the one with the least held-out error was taken, and it {reason}. {advice}",
@@ -139,18 +165,27 @@ impl Search {
     }
 }
 
-/// The findings of a search, and the segments of the chosen candidate's level.
+/// The findings of a search, and the fit of the chosen candidate.
 pub struct Found {
     /// The findings.
     pub search: Search,
-    pub(crate) segments: Vec<SegmentFit>,
+    pub(crate) fit: FoundFit,
+}
+
+/// The fit of a candidate.
+#[expect(clippy::large_enum_variant, reason = "there is one per search")]
+pub(crate) enum FoundFit {
+    /// Independent segments, each at every degree.
+    Segments(Vec<SegmentFit>),
+    /// A jointly fitted surface.
+    Joined(Joined),
 }
 
 /// A local fit adds noise / sqrt(samples per coefficient); the limit leaves room for that.
 const NOISE_MARGIN: f64 = 1.1;
 
-/// Searches the prepared scan; tells `progress` how many of how many levels are done.
-pub(crate) fn search(prepared: &PreparedScan, progress: &dyn Fn(usize, usize)) -> Found {
+/// Searches the prepared scan; tells `progress` how many levels are done.
+pub(crate) fn search(prepared: &PreparedScan, progress: &dyn Fn(usize)) -> Found {
     let (degrees, parts) = (&prepared.degrees, &prepared.parts);
     let top = degrees[degrees.len() - 1];
     let mut work = Work::default();
@@ -160,10 +195,7 @@ pub(crate) fn search(prepared: &PreparedScan, progress: &dyn Fn(usize, usize)) -
     };
 
     let only_one = degrees.len() * parts.len() == 1;
-    let noise_level = (!only_one).then(|| {
-        let k = prepared.noise_parts;
-        (k, fit(k, top))
-    });
+    let noise_level = (!only_one).then(|| (prepared.noise_parts, fit(prepared.noise_parts, top)));
     let noise = noise_level
         .as_ref()
         .map_or(0.0, |(_, level)| level.residual_variance().sqrt());
@@ -173,7 +205,7 @@ pub(crate) fn search(prepared: &PreparedScan, progress: &dyn Fn(usize, usize)) -
     let mut levels = Vec::with_capacity(parts.len());
     let mut enough = usize::MAX;
     for (done, &k) in parts.iter().enumerate() {
-        progress(done, parts.len());
+        progress(done);
         let within_reach =
             |degree: usize| prepared.exhaustive || k * k * coefficient_count(degree) <= enough;
         let reachable = degrees.iter().copied().filter(|&d| within_reach(d)).max();
@@ -195,7 +227,6 @@ pub(crate) fn search(prepared: &PreparedScan, progress: &dyn Fn(usize, usize)) -
         }
         levels.push(level);
     }
-    progress(parts.len(), parts.len());
 
     let chosen = choose(&candidates, limit);
     let fitted = |c: &&Candidate| c.rejected != Some(Rejection::Skipped);
@@ -211,13 +242,18 @@ pub(crate) fn search(prepared: &PreparedScan, progress: &dyn Fn(usize, usize)) -
         .swap_remove(chosen / degrees.len())
         .map_or_else(Vec::new, |level| level.segments);
     let search = Search {
+        seams: Seams::None,
         candidates,
         chosen,
         limit,
         noise,
+        outliers: 0,
         work,
     };
-    Found { search, segments }
+    Found {
+        search,
+        fit: FoundFit::Segments(segments),
+    }
 }
 
 fn skipped(degree: usize, k: usize) -> Candidate {

@@ -1,29 +1,33 @@
 //! Area, volume and inertia of a fitted grain.
 
-use super::integrals::integrate_pieces;
+use super::integrals::{ORDERS, Piece, integrate_pieces};
 use super::{Integrals, MassProperties};
-use crate::model::Grain;
+use crate::model::{Blended, Grain, Segmented, Surface};
+use crate::sphere::{AngleRectangle, FaceRectangle, GaussLegendre};
+use nalgebra::Vector3;
 
-/// Relative tolerance of the integrals of a fitted grain.
-const TOLERANCE: f64 = 1e-9;
+/// Relative tolerance of the integrals over independent segments.
+const SEGMENTED_TOLERANCE: f64 = 1e-9;
+
+/// Relative tolerance of the integrals over a blended surface, whose third derivatives jump where the
+/// margins of cells end.
+const BLENDED_TOLERANCE: f64 = 3e-6;
+
+/// Gauss nodes per side of a zone of a blended surface: a zone is a tenth of a cell.
+const BLENDED_ORDERS: [usize; 2] = [6, 5];
 
 /// Area, volume, centroid and inertia of a fitted grain, in the scan's frame.
 ///
-/// Segment by segment, so the steps between segments do no harm: volume and moments are those of
-/// the solid below the expansions, and the area is that of the expansions, without the walls of the
-/// steps. The radius cubed and to the fifth power are polynomials in the direction, so volume,
-/// centroid and inertia are exact to rounding (1e-13); the area is adaptive, to 1e-9.
+/// Of a blended surface: of the joined surface itself, to 1e-7. Of independent segments: segment by
+/// segment, so the steps between them do no harm; volume and moments are those of the solid below the
+/// expansions, and the area is that of the expansions, without the walls of the steps. There the
+/// radius cubed and to the fifth power are polynomials in the direction, so volume, centroid and
+/// inertia are exact to rounding (1e-13); the area is adaptive, to 1e-9.
 pub fn grain_properties(grain: &Grain) -> Integrals {
-    let pieces = (0..grain.partition().segments()).flat_map(|segment| {
-        let rectangle = grain.partition().rectangle(segment);
-        let pieces = match grain.partition().per_angle() {
-            1 => rectangle.quarters().to_vec(),
-            _ => vec![rectangle],
-        };
-        let surface = move |n: &_| grain.segment_radius_and_gradient(segment, n);
-        pieces.into_iter().map(move |piece| (piece, surface))
-    });
-    let local = integrate_pieces(pieces, TOLERANCE);
+    let local = match grain.surface() {
+        Surface::Blended(surface) => blended_properties(surface),
+        Surface::Segmented(surface) => segmented(surface),
+    };
     let frame = grain.frame();
     Integrals {
         properties: MassProperties {
@@ -33,4 +37,70 @@ pub fn grain_properties(grain: &Grain) -> Integrals {
         },
         ..local
     }
+}
+
+/// Those of a blended surface in the grain's own frame.
+pub(crate) fn blended_properties(surface: &Blended) -> Integrals {
+    let cells = surface.cover().cells().iter();
+    let zones = cells.flat_map(|cell| cell.zones()).collect();
+    integrate_pieces(zones, BLENDED_ORDERS, BLENDED_TOLERANCE, |_, directions| {
+        surface.radii_and_gradients(directions)
+    })
+}
+
+impl Piece for FaceRectangle {
+    fn nodes(&self, rule: &GaussLegendre) -> Vec<(Vector3<f64>, f64)> {
+        self.nodes(rule)
+    }
+
+    fn solid_angle(&self) -> f64 {
+        self.solid_angle()
+    }
+
+    fn quarters(&self) -> [Self; 4] {
+        self.quarters()
+    }
+}
+
+/// A part of a segment.
+struct SegmentPart {
+    segment: usize,
+    rectangle: AngleRectangle,
+}
+
+impl Piece for SegmentPart {
+    fn nodes(&self, rule: &GaussLegendre) -> Vec<(Vector3<f64>, f64)> {
+        self.rectangle.nodes(rule, rule)
+    }
+
+    fn solid_angle(&self) -> f64 {
+        self.rectangle.solid_angle()
+    }
+
+    fn quarters(&self) -> [Self; 4] {
+        self.rectangle.quarters().map(|rectangle| Self {
+            segment: self.segment,
+            rectangle,
+        })
+    }
+}
+
+fn segmented(surface: &Segmented) -> Integrals {
+    let partition = surface.partition();
+    let whole = |segment: usize| SegmentPart {
+        segment,
+        rectangle: partition.rectangle(segment),
+    };
+    let parts = match partition.per_angle() {
+        1 => whole(0).quarters().into(),
+        _ => (0..partition.segments()).map(whole).collect(),
+    };
+    integrate_pieces(parts, ORDERS, SEGMENTED_TOLERANCE, |parts, directions| {
+        let per_part = directions.len() / parts.len();
+        let nodes = parts.iter().zip(directions.chunks(per_part));
+        nodes
+            .flat_map(|(part, directions)| directions.iter().map(|n| (part.segment, n)))
+            .map(|(segment, n)| surface.segment_radius_and_gradient(segment, n))
+            .collect()
+    })
 }

@@ -10,17 +10,13 @@ use super::{MassProperties, Moments};
 use crate::model::StarSurface;
 use crate::sphere::{AngleRectangle, GaussLegendre};
 use nalgebra::{Point3, Vector3};
-use std::collections::VecDeque;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Surface evaluations after which [`integrate`] stops and returns what it has.
 pub const MAX_EVALUATIONS: usize = 4_000_000;
 
 /// Gauss nodes per side of a rectangle: of the rule, and of the one that it is checked with.
-const ORDERS: [usize; 2] = [12, 10];
-
-/// Evaluations that a rectangle costs.
-const PER_CELL: usize = ORDERS[0] * ORDERS[0] + ORDERS[1] * ORDERS[1];
+pub(super) const ORDERS: [usize; 2] = [12, 10];
 
 /// What [`integrate`] found, and how well.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -45,45 +41,79 @@ pub struct Integrals {
 pub fn integrate(surface: &(impl StarSurface + ?Sized), tolerance: f64) -> Integrals {
     let octants = (0..8).map(|i| {
         let (polar, azimuth) = ((i / 4) as f64 * FRAC_PI_2, (i % 4) as f64 * FRAC_PI_2);
-        let octant = AngleRectangle {
+        AngleRectangle {
             theta: [polar, polar + FRAC_PI_2],
             phi: [azimuth, azimuth + FRAC_PI_2],
-        };
-        (octant, |n: &Vector3<f64>| surface.radius_and_gradient(n))
+        }
     });
-    integrate_pieces(octants, tolerance)
+    integrate_pieces(octants.collect(), ORDERS, tolerance, |_, directions| {
+        directions
+            .iter()
+            .map(|n| surface.radius_and_gradient(n))
+            .collect()
+    })
 }
 
-/// Integrates a surface made of pieces: rectangles that tile the sphere, each with its own radius
-/// and surface gradient, which need not meet. As [`integrate`].
-pub(crate) fn integrate_pieces<S>(
-    pieces: impl Iterator<Item = (AngleRectangle, S)>,
-    tolerance: f64,
-) -> Integrals
-where
-    S: Fn(&Vector3<f64>) -> (f64, Vector3<f64>) + Clone,
-{
-    let rules = ORDERS.map(GaussLegendre::new);
-    let mut pending: VecDeque<Cell<S>> = pieces
-        .map(|(rectangle, surface)| Cell::new(surface, rectangle, &rules))
-        .collect();
-    let mut evaluations = pending.len() * PER_CELL;
-    let scale = pending
-        .iter()
-        .fold(Sums::default(), |all, cell| all + cell.sums);
+/// A part of the sphere that can be integrated over and cut in four.
+pub(crate) trait Piece: Sized {
+    /// The nodes of a product of two Gauss rules: unit vectors, and their weights in solid angle.
+    fn nodes(&self, rule: &GaussLegendre) -> Vec<(Vector3<f64>, f64)>;
+    /// Solid angle.
+    fn solid_angle(&self) -> f64;
+    /// Four pieces that make it.
+    fn quarters(&self) -> [Self; 4];
+}
 
+impl Piece for AngleRectangle {
+    fn nodes(&self, rule: &GaussLegendre) -> Vec<(Vector3<f64>, f64)> {
+        self.nodes(rule, rule)
+    }
+
+    fn solid_angle(&self) -> f64 {
+        self.solid_angle()
+    }
+
+    fn quarters(&self) -> [Self; 4] {
+        self.quarters()
+    }
+}
+
+/// Integrates a surface over pieces that tile the sphere, with Gauss rules of the given two orders; as
+/// [`integrate`]. `evaluate` gives radius and surface gradient in many directions at once: as many,
+/// piece by piece, for each of the pieces given to it.
+pub(crate) fn integrate_pieces<P: Piece>(
+    pieces: Vec<P>,
+    orders: [usize; 2],
+    tolerance: f64,
+    evaluate: impl Fn(&[P], &[Vector3<f64>]) -> Vec<(f64, Vector3<f64>)>,
+) -> Integrals {
+    let rules = orders.map(GaussLegendre::new);
+    let per_piece = orders[0] * orders[0] + orders[1] * orders[1];
     let mut total = Sums::default();
+    let mut scale = None;
     let mut relative_error = 0.0;
-    while let Some(cell) = pending.pop_front() {
-        let error = cell.sums.difference(&cell.check, &scale);
-        let is_settled = error <= tolerance * cell.share() || error.is_nan();
-        if is_settled || evaluations + 4 * PER_CELL > MAX_EVALUATIONS {
-            total = total + cell.sums;
-            relative_error += error;
-        } else {
-            pending.extend(cell.quarters(&rules));
-            evaluations += 4 * PER_CELL;
+    let mut evaluations = 0;
+    let mut generation = pieces;
+    while !generation.is_empty() {
+        evaluations += generation.len() * per_piece;
+        let sums = sums(&generation, &rules, &evaluate);
+        let scale = scale.get_or_insert_with(|| {
+            let all = |all, [sums, _]: &[Sums; 2]| all + *sums;
+            sums.iter().fold(Sums::default(), all)
+        });
+        let mut next = Vec::new();
+        for (piece, [sums, check]) in generation.into_iter().zip(sums) {
+            let error = sums.difference(&check, scale);
+            let share = piece.solid_angle() / (4.0 * PI);
+            let is_settled = error <= tolerance * share || error.is_nan();
+            if is_settled || evaluations + (next.len() + 4) * per_piece > MAX_EVALUATIONS {
+                total = total + sums;
+                relative_error += error;
+            } else {
+                next.extend(piece.quarters());
+            }
         }
+        generation = next;
     }
     Integrals {
         properties: total.moments.about_centroid(&Point3::origin()),
@@ -93,44 +123,37 @@ where
     }
 }
 
-/// A rectangle of directions and the integrals over it.
-struct Cell<S> {
-    surface: S,
-    rectangle: AngleRectangle,
-    sums: Sums,
-    /// The same integrals by the coarser rule.
-    check: Sums,
-}
-
-impl<S: Fn(&Vector3<f64>) -> (f64, Vector3<f64>) + Clone> Cell<S> {
-    fn new(surface: S, rectangle: AngleRectangle, rules: &[GaussLegendre; 2]) -> Self {
-        let [sums, check] = [&rules[0], &rules[1]].map(|rule| {
-            let mut sums = Sums::default();
-            for (n, solid_angle) in rectangle.nodes(rule, rule) {
-                let (r, g) = surface(&n);
-                sums.radius += r * solid_angle;
-                sums.moments.add_ray(&n, r, &g, solid_angle);
+/// The integrals over each piece by both rules.
+fn sums<P: Piece>(
+    pieces: &[P],
+    rules: &[GaussLegendre; 2],
+    evaluate: impl Fn(&[P], &[Vector3<f64>]) -> Vec<(f64, Vector3<f64>)>,
+) -> Vec<[Sums; 2]> {
+    let (mut directions, mut weights) = (Vec::new(), Vec::new());
+    for piece in pieces {
+        for rule in rules {
+            for (direction, weight) in piece.nodes(rule) {
+                directions.push(direction);
+                weights.push(weight);
             }
-            sums
-        });
-        Self {
-            surface,
-            rectangle,
-            sums,
-            check,
         }
     }
-
-    /// Solid angle over 4 pi.
-    fn share(&self) -> f64 {
-        self.rectangle.solid_angle() / (4.0 * PI)
-    }
-
-    fn quarters(&self, rules: &[GaussLegendre; 2]) -> [Self; 4] {
-        self.rectangle
-            .quarters()
-            .map(|quarter| Self::new(self.surface.clone(), quarter, rules))
-    }
+    let values = evaluate(pieces, &directions);
+    let mut nodes = directions.iter().zip(weights).zip(values);
+    let orders = [0, 1].map(|i| rules[i].nodes().len());
+    pieces
+        .iter()
+        .map(|_| {
+            orders.map(|order| {
+                let mut sums = Sums::default();
+                for ((n, solid_angle), (r, g)) in nodes.by_ref().take(order * order) {
+                    sums.radius += r * solid_angle;
+                    sums.moments.add_ray(n, r, &g, solid_angle);
+                }
+                sums
+            })
+        })
+        .collect()
 }
 
 /// The integrals over a part of the sphere.

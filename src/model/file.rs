@@ -1,12 +1,15 @@
 //! A grain as JSON: versioned, exact to the last bit, and refused where it is not sound.
+//!
+//! Version 2 holds either `cells` (blended) or `segments` (independent). Version 1, which knew
+//! segments only, is still read.
 
-use super::{Frame, Grain, InvalidGrain};
-use crate::sphere::AngularPartition;
+use super::{Blended, Frame, Grain, InvalidGrain, Segmented, Surface};
+use crate::sphere::{AngularPartition, Cover, CoverError, CubeCell};
 use nalgebra::{Matrix3, Point3, Vector3};
 use serde::{Deserialize, Serialize};
 
-/// The version of the file format that this library writes and reads.
-const VERSION: u32 = 1;
+/// The version of the file format that this library writes.
+const VERSION: u32 = 2;
 
 /// The text that tells a model file from any other JSON.
 const FORMAT: &str = "grainform model";
@@ -24,10 +27,26 @@ struct GrainFile {
     centre: [f64; 3],
     /// The grain's x, y and z axes in the scan.
     axes: [[f64; 3]; 3],
-    /// Parts per angle: n_s is its square.
-    parts_per_angle: usize,
+    /// Overlapping cells of the faces of a cube, blended.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    cells: Option<Vec<CellRecord>>,
+    /// Parts per angle of independent segments: n_s is its square.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    parts_per_angle: Option<usize>,
     /// Per segment, row by row from the +z pole: coefficients of the cap basis by degree.
-    segments: Vec<Vec<f64>>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    segments: Option<Vec<Vec<f64>>>,
+}
+
+/// A cell, numbered as in [`CubeCell`], and the coefficients of its cap basis by degree.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct CellRecord {
+    face: u8,
+    parts: u16,
+    row: u16,
+    column: u16,
+    coefficients: Vec<f64>,
 }
 
 /// Why a model file cannot be read.
@@ -44,7 +63,9 @@ pub enum LoadError {
         found: String,
     },
     /// A version that this library does not know.
-    #[error("version {found} of the model format; this program reads version {VERSION}: update it")]
+    #[error(
+        "version {found} of the model format; this program reads up to version {VERSION}: update it"
+    )]
     Version {
         /// The version named in the file.
         found: u32,
@@ -55,6 +76,14 @@ pub enum LoadError {
         /// Parts per angle named in the file.
         found: usize,
     },
+    /// No surface, or two.
+    #[error(
+        "the model is not sound: it must hold either `cells`, or `parts_per_angle` and `segments`"
+    )]
+    Surface,
+    /// The cells do not tile the sphere.
+    #[error("the model is not sound: {0}")]
+    Cover(#[from] CoverError),
     /// The parts do not make a grain.
     #[error("the model is not sound: {0}")]
     Invalid(#[from] InvalidGrain),
@@ -63,42 +92,74 @@ pub enum LoadError {
 /// The JSON text of a grain.
 pub fn save_grain(grain: &Grain) -> String {
     let Frame { centre, axes } = grain.frame();
-    let file = GrainFile {
+    let mut file = GrainFile {
         format: FORMAT.into(),
         version: VERSION,
         centre: centre.coords.into(),
         axes: [0, 1, 2].map(|i| axes.column(i).into_owned().into()),
-        parts_per_angle: grain.partition().per_angle(),
-        segments: (0..grain.partition().segments())
-            .map(|segment| grain.coefficients(segment).to_vec())
-            .collect(),
+        cells: None,
+        parts_per_angle: None,
+        segments: None,
     };
+    match grain.surface() {
+        Surface::Blended(surface) => {
+            let cells = surface.cover().cells().iter().zip(surface.coefficients());
+            let record = |(cell, coefficients): (&CubeCell, &Vec<f64>)| CellRecord {
+                face: cell.face,
+                parts: cell.parts,
+                row: cell.row,
+                column: cell.column,
+                coefficients: coefficients.clone(),
+            };
+            file.cells = Some(cells.map(record).collect());
+        }
+        Surface::Segmented(surface) => {
+            file.parts_per_angle = Some(surface.partition().per_angle());
+            file.segments = Some(surface.coefficients().to_vec());
+        }
+    }
     serde_json::to_string_pretty(&file).expect("a record of numbers and strings is valid JSON")
 }
 
 /// The grain that a JSON text describes.
 ///
 /// # Errors
-/// [`LoadError`] if the text is not a model of this version, or is not sound.
+/// [`LoadError`] if the text is not a model of a known version, or is not sound.
 pub fn parse_grain(text: &str) -> Result<Grain, LoadError> {
     let file: GrainFile = serde_json::from_str(text)?;
     if file.format != FORMAT {
         return Err(LoadError::Format { found: file.format });
     }
-    if file.version != VERSION {
+    if !(1..=VERSION).contains(&file.version) {
         return Err(LoadError::Version {
             found: file.version,
         });
     }
-    if file.parts_per_angle > LARGEST_PARTITION {
-        return Err(LoadError::Partition {
-            found: file.parts_per_angle,
-        });
-    }
+    let surface = match (file.cells, file.parts_per_angle, file.segments) {
+        (Some(cells), None, None) => {
+            let place = |record: CellRecord| {
+                let cell = CubeCell {
+                    face: record.face,
+                    parts: record.parts,
+                    row: record.row,
+                    column: record.column,
+                };
+                (cell, record.coefficients)
+            };
+            let (cells, coefficients) = cells.into_iter().map(place).unzip();
+            Surface::Blended(Blended::new(Cover::new(cells)?, coefficients)?)
+        }
+        (None, Some(found), Some(segments)) => {
+            if found > LARGEST_PARTITION {
+                return Err(LoadError::Partition { found });
+            }
+            Surface::Segmented(Segmented::new(AngularPartition::new(found), segments)?)
+        }
+        _ => return Err(LoadError::Surface),
+    };
     let frame = Frame {
         centre: Point3::from(file.centre),
         axes: Matrix3::from_columns(&file.axes.map(Vector3::from)),
     };
-    let partition = AngularPartition::new(file.parts_per_angle);
-    Ok(Grain::new(frame, partition, file.segments)?)
+    Ok(Grain::new(frame, surface)?)
 }

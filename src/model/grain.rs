@@ -1,28 +1,57 @@
-//! The fitted grain: a radius over all directions, segment by segment.
+//! The fitted grain: a star-shaped surface and where it lies in the scan.
 
-use super::{Frame, StarSurface};
-use crate::sphere::{AngularPartition, Cap, CapBasis};
-use nalgebra::{Point3, Vector3};
+use super::{Blended, Frame, Segmented, StarSurface};
+use nalgebra::{Matrix3, Point3, Vector3};
+use rayon::prelude::*;
 
-/// A star-shaped surface whose radius is, in each segment of the angle domain, an expansion in
-/// spherical harmonics of low degree; the indicator-weighted sum of the dissertation's (4.1).
+/// A star-shaped surface whose radius is made of expansions in spherical harmonics of low degree.
 ///
-/// Directions and positions are those of the scan. The radius is measured from
-/// [`Frame::centre`]. The expansions are independent: the radius may jump at the borders of the
-/// segments ([`Grain::seam_jump`] says by how much).
+/// Directions and positions are those of the scan. The radius is measured from [`Frame::centre`].
 #[derive(Debug, Clone)]
 pub struct Grain {
     frame: Frame,
-    partition: AngularPartition,
-    segments: Vec<Segment>,
-    basis: CapBasis,
+    surface: Surface,
 }
 
-/// One segment's expansion in the cap basis.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Segment {
-    pub(crate) cap: Cap,
-    pub(crate) coefficients: Vec<f64>,
+/// How expansions make a surface.
+#[derive(Debug, Clone)]
+pub enum Surface {
+    /// Overlapping expansions, blended: continuous with two derivatives.
+    Blended(Blended),
+    /// Independent expansions, one per segment: the radius may jump where they meet
+    /// ([`Grain::seam_jump`] says by how much).
+    Segmented(Segmented),
+}
+
+impl Surface {
+    /// The blended surface, if it is one.
+    pub fn blended(&self) -> Option<&Blended> {
+        match self {
+            Self::Blended(surface) => Some(surface),
+            Self::Segmented(_) => None,
+        }
+    }
+
+    /// The surface of independent segments, if it is one.
+    pub fn segmented(&self) -> Option<&Segmented> {
+        match self {
+            Self::Blended(_) => None,
+            Self::Segmented(surface) => Some(surface),
+        }
+    }
+}
+
+/// A radius and its derivatives on the unit sphere, in the scan's frame.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Derivatives {
+    /// Radius.
+    pub radius: f64,
+    /// Surface gradient: length per radian, orthogonal to the direction.
+    pub gradient: Vector3<f64>,
+    /// Second covariant derivatives on the sphere: length per square radian, symmetric, with the
+    /// direction in its kernel. Along a great circle of unit tangent t the radius has the second
+    /// derivative t.H t.
+    pub hessian: Matrix3<f64>,
 }
 
 /// Why parts do not make a grain.
@@ -60,62 +89,22 @@ pub enum InvalidGrain {
 const AXES_TOLERANCE: f64 = 1e-9;
 
 impl Grain {
-    /// A grain from its parts: one list of cap-basis coefficients per segment, in the order of the
-    /// partition.
+    /// A grain from its parts.
     ///
     /// # Errors
-    /// [`InvalidGrain`] if the parts do not fit together or hold a number that is not finite.
-    pub fn new(
-        frame: Frame,
-        partition: AngularPartition,
-        coefficients: Vec<Vec<f64>>,
-    ) -> Result<Self, InvalidGrain> {
-        if coefficients.len() != partition.segments() {
-            return Err(InvalidGrain::SegmentCount {
-                found: coefficients.len(),
-                expected: partition.segments(),
-            });
-        }
+    /// [`InvalidGrain`] if the frame is not orthonormal or not finite.
+    pub fn new(frame: Frame, surface: Surface) -> Result<Self, InvalidGrain> {
         if !frame.centre.iter().all(|x| x.is_finite()) {
             return Err(InvalidGrain::NotFinite {
                 what: "the centre".into(),
             });
         }
-        let deviation = frame.axes.tr_mul(&frame.axes) - nalgebra::Matrix3::identity();
+        let deviation = frame.axes.tr_mul(&frame.axes) - Matrix3::identity();
         // Written so that NaN fails.
         if !(deviation.amax() < AXES_TOLERANCE && frame.axes.determinant() > 0.0) {
             return Err(InvalidGrain::Axes);
         }
-        let mut degree = 0;
-        for (segment, list) in coefficients.iter().enumerate() {
-            let root = list.len().isqrt();
-            if root == 0 || root * root != list.len() {
-                return Err(InvalidGrain::CoefficientCount {
-                    segment,
-                    found: list.len(),
-                });
-            }
-            if !list.iter().all(|x| x.is_finite()) {
-                return Err(InvalidGrain::NotFinite {
-                    what: format!("a coefficient of segment {segment}"),
-                });
-            }
-            degree = degree.max(root - 1);
-        }
-        let segments = coefficients
-            .into_iter()
-            .enumerate()
-            .map(|(segment, coefficients)| Segment {
-                cap: partition.cap(segment),
-                coefficients,
-            })
-            .collect();
-        Ok(Self {
-            frame,
-            partition,
-            segments,
-            basis: CapBasis::new(degree),
-        })
+        Ok(Self { frame, surface })
     }
 
     /// Centre and axes in the scan.
@@ -123,27 +112,50 @@ impl Grain {
         &self.frame
     }
 
-    /// The partition of the angle domain, in the grain's own frame.
-    pub fn partition(&self) -> AngularPartition {
-        self.partition
+    /// The surface, in the grain's own frame.
+    pub fn surface(&self) -> &Surface {
+        &self.surface
+    }
+
+    /// Cap-basis coefficients per segment: (L+1)^2 numbers in the scan's unit.
+    pub fn coefficients(&self) -> &[Vec<f64>] {
+        match &self.surface {
+            Surface::Blended(surface) => surface.coefficients(),
+            Surface::Segmented(surface) => surface.coefficients(),
+        }
+    }
+
+    /// The number of segments, that is of expansions.
+    pub fn segments(&self) -> usize {
+        self.coefficients().len()
     }
 
     /// The largest degree of any segment.
     pub fn degree(&self) -> usize {
-        self.basis.degree()
+        match &self.surface {
+            Surface::Blended(surface) => surface.degree(),
+            Surface::Segmented(surface) => surface.degree(),
+        }
     }
 
     /// The number of coefficients of all segments together.
     pub fn coefficient_count(&self) -> usize {
-        self.segments.iter().map(|s| s.coefficients.len()).sum()
+        self.coefficients().iter().map(Vec::len).sum()
     }
 
-    /// The cap-basis coefficients of a segment: (L+1)^2 numbers in the scan's unit.
-    ///
-    /// # Panics
-    /// If there is no such segment.
-    pub fn coefficients(&self, segment: usize) -> &[f64] {
-        &self.segments[segment].coefficients
+    /// The number of coefficients that one evaluation touches, as a mean over all directions.
+    pub fn coefficients_touched(&self) -> f64 {
+        match &self.surface {
+            Surface::Blended(surface) => surface.coefficients_touched(),
+            Surface::Segmented(surface) => {
+                let partition = surface.partition();
+                let counts = surface.coefficients().iter().enumerate();
+                counts
+                    .map(|(i, own)| partition.rectangle(i).solid_angle() * own.len() as f64)
+                    .sum::<f64>()
+                    / (4.0 * std::f64::consts::PI)
+            }
+        }
     }
 
     /// The surface point in the direction of the unit vector `n`, in the scan's frame.
@@ -157,35 +169,85 @@ impl Grain {
         (n * radius - gradient).normalize()
     }
 
-    /// Radius and surface gradient of a segment's expansion in a direction of the grain's own
-    /// frame, also beyond the segment.
-    pub(crate) fn segment_radius_and_gradient(
-        &self,
-        segment: usize,
-        n: &Vector3<f64>,
-    ) -> (f64, Vector3<f64>) {
-        let Segment { cap, coefficients } = &self.segments[segment];
-        self.basis.value_and_gradient(cap, coefficients, n)
+    /// The radius in the direction of the unit vector `n` with its first and second derivatives,
+    /// from the formulas of the model.
+    pub fn derivatives(&self, n: &Vector3<f64>) -> Derivatives {
+        let local = self.frame.axes.tr_mul(n);
+        let jet = match &self.surface {
+            Surface::Blended(surface) => surface.jet(&local),
+            Surface::Segmented(surface) => surface.jet(&local),
+        };
+        let axes = self.frame.axes;
+        let across = Matrix3::identity() - n * n.transpose();
+        let gradient = axes * jet.gradient;
+        Derivatives {
+            radius: jet.value,
+            gradient: across * gradient,
+            hessian: across * (axes * jet.hessian * axes.transpose()) * across
+                - across * gradient.dot(n),
+        }
     }
 
-    /// Radius of a segment's expansion in a direction of the grain's own frame, also beyond the
-    /// segment.
-    pub(crate) fn segment_radius(&self, segment: usize, n: &Vector3<f64>) -> f64 {
-        let Segment { cap, coefficients } = &self.segments[segment];
-        self.basis.value(cap, coefficients, n)
+    /// The radii in the directions of many unit vectors, in the scan's frame: as
+    /// [`StarSurface::radius`], and faster.
+    pub fn radii(&self, directions: &[Vector3<f64>]) -> Vec<f64> {
+        let axes = self.frame.axes;
+        let local: Vec<_> = directions.par_iter().map(|n| axes.tr_mul(n)).collect();
+        self.local_radii(&local)
     }
+
+    /// Radii in many directions of the grain's own frame.
+    pub(crate) fn local_radii(&self, directions: &[Vector3<f64>]) -> Vec<f64> {
+        match &self.surface {
+            Surface::Blended(surface) => surface
+                .radii_and_gradients(directions)
+                .into_iter()
+                .map(|(radius, _)| radius)
+                .collect(),
+            Surface::Segmented(surface) => {
+                let tasks = directions.par_iter().with_min_len(1024);
+                tasks.map(|n| surface.radius(n)).collect()
+            }
+        }
+    }
+
+    /// Radius in a direction of the grain's own frame.
+    fn local_radius(&self, n: &Vector3<f64>) -> f64 {
+        match &self.surface {
+            Surface::Blended(surface) => surface.radius(n),
+            Surface::Segmented(surface) => surface.radius(n),
+        }
+    }
+}
+
+/// The degree of an expansion of a segment, if it is one.
+pub(super) fn check_expansion(segment: usize, coefficients: &[f64]) -> Result<usize, InvalidGrain> {
+    let root = coefficients.len().isqrt();
+    if root == 0 || root * root != coefficients.len() {
+        return Err(InvalidGrain::CoefficientCount {
+            segment,
+            found: coefficients.len(),
+        });
+    }
+    if !coefficients.iter().all(|x| x.is_finite()) {
+        return Err(InvalidGrain::NotFinite {
+            what: format!("a coefficient of segment {segment}"),
+        });
+    }
+    Ok(root - 1)
 }
 
 impl StarSurface for Grain {
     fn radius(&self, n: &Vector3<f64>) -> f64 {
-        let local = self.frame.axes.tr_mul(n);
-        self.segment_radius(self.partition.segment_of(&local), &local)
+        self.local_radius(&self.frame.axes.tr_mul(n))
     }
 
     fn radius_and_gradient(&self, n: &Vector3<f64>) -> (f64, Vector3<f64>) {
         let local = self.frame.axes.tr_mul(n);
-        let segment = self.partition.segment_of(&local);
-        let (radius, gradient) = self.segment_radius_and_gradient(segment, &local);
+        let (radius, gradient) = match &self.surface {
+            Surface::Blended(surface) => surface.radius_and_gradient(&local),
+            Surface::Segmented(surface) => surface.radius_and_gradient(&local),
+        };
         (radius, self.frame.axes * gradient)
     }
 }

@@ -1,15 +1,19 @@
 //! What a fitted grain is: evaluate, differentiate, mesh, save, load.
 
+mod blended;
 mod file;
 mod frame;
 mod grain;
 mod meshing;
 mod published;
 mod seams;
+mod segmented;
 mod surface;
 
+pub use blended::Blended;
 pub use file::{LoadError, parse_grain, save_grain};
 pub use frame::Frame;
-pub use grain::{Grain, InvalidGrain};
-pub use published::PublishedSegment;
+pub use grain::{Derivatives, Grain, InvalidGrain, Surface};
+pub use published::{PublishedExpansion, Region};
+pub use segmented::Segmented;
 pub use surface::StarSurface;

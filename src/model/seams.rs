@@ -1,6 +1,6 @@
 //! How far independent expansions are apart where their segments meet.
 
-use super::Grain;
+use super::{Grain, Segmented, Surface};
 use nalgebra::Vector3;
 
 /// Places looked at along the border of two segments.
@@ -8,8 +8,18 @@ const PLACES: usize = 9;
 
 impl Grain {
     /// The largest jump of the radius across a border of two segments, or between the segments that
-    /// meet at a pole, in the scan's unit. Looked for at 9 places per border.
+    /// meet at a pole, in the scan's unit. Looked for at 9 places per border; 0 where the expansions
+    /// are blended.
     pub fn seam_jump(&self) -> f64 {
+        match self.surface() {
+            Surface::Blended(_) => 0.0,
+            Surface::Segmented(surface) => surface.seam_jump(),
+        }
+    }
+}
+
+impl Segmented {
+    fn seam_jump(&self) -> f64 {
         let partition = self.partition();
         let k = partition.per_angle();
         let mut largest = 0.0_f64;

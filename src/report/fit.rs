@@ -1,9 +1,11 @@
 //! What `grainform fit` tells.
 
-use super::number::{percent, short};
+use super::measure::{Dimensions, Principal, rows};
+use super::number::{percent, short, with_error};
 use super::rule::rule;
-use crate::fit::{FitOptions, Fitted, Reference, ReferenceKind};
-use crate::measure::grain_properties;
+use crate::fit::{FitOptions, Fitted, Reference, ReferenceKind, StandardErrors};
+use crate::measure::{extents, grain_properties};
+use nalgebra::Vector3;
 use serde::Serialize;
 use std::fmt;
 
@@ -25,6 +27,15 @@ pub struct FitReport {
     pub area: f64,
     /// Volume of the fitted surface, integrated exactly.
     pub volume: f64,
+    /// Principal moments of inertia and their axes; `null` where the inertia is not finite.
+    pub principal: Option<Principal>,
+    /// Extents of the fitted surface along the principal axes, less what noise adds to them; `null`
+    /// without these.
+    pub dimensions: Option<Dimensions>,
+    /// Standard errors of the figures above; `null` for independent segments.
+    pub standard_errors: Option<StandardErrorsRecord>,
+    /// Coefficients that one evaluation of the surface touches, as a mean over all directions.
+    pub coefficients_touched: f64,
     /// What the fit is compared with.
     pub reference: ReferenceRecord,
     /// `area` against the reference.
@@ -58,6 +69,23 @@ pub struct FitReport {
     pub skipped: Skipped,
     /// What is odd about the scan or the fit: whole sentences.
     pub warnings: Vec<String>,
+}
+
+/// Standard errors (one standard deviation) of a fitted grain's figures.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct StandardErrorsRecord {
+    /// Of the area.
+    pub area: f64,
+    /// Of the volume.
+    pub volume: f64,
+    /// Of the principal moments.
+    pub moments: [f64; 3],
+    /// Of the dimensions.
+    pub dimensions: Dimensions,
+    /// Of the centroid's coordinates along the grain's axes.
+    pub centroid: [f64; 3],
+    /// Of the inertia tensor about the centroid, along the grain's axes.
+    pub inertia: [[f64; 3]; 3],
 }
 
 /// The surface that a fit is compared with.
@@ -104,6 +132,10 @@ impl FitReport {
         let search = &fitted.search;
         let choice = search.choice();
         let properties = grain_properties(&fitted.grain).properties;
+        let principal = properties.principal();
+        let mesh = fitted.grain.mesh(MESH_RESOLUTION);
+        let standard_errors = fitted.standard_errors();
+        let excess = standard_errors.map_or(Vector3::zeros(), |errors| errors.dimensions_excess);
         Self {
             input,
             points: fitted.points,
@@ -112,6 +144,11 @@ impl FitReport {
             coefficients: fitted.grain.coefficient_count(),
             area: properties.area,
             volume: properties.volume,
+            principal: principal.map(|principal| Principal::new(&principal)),
+            dimensions: principal
+                .map(|principal| Dimensions::new(extents(&mesh, &principal.axes) - excess)),
+            standard_errors: standard_errors.map(Into::into),
+            coefficients_touched: fitted.grain.coefficients_touched(),
             area_error: properties.area / fitted.reference.area - 1.0,
             volume_error: properties.volume / fitted.reference.volume - 1.0,
             reference: fitted.reference.into(),
@@ -131,6 +168,22 @@ impl FitReport {
                 segments: search.work.segments_skipped,
             },
             warnings: [scan_warnings, &fitted.warnings].concat(),
+        }
+    }
+}
+
+/// Cells per edge of the cube of directions by which the grain's dimensions are found.
+const MESH_RESOLUTION: usize = 64;
+
+impl From<StandardErrors> for StandardErrorsRecord {
+    fn from(errors: StandardErrors) -> Self {
+        Self {
+            area: errors.area,
+            volume: errors.volume,
+            moments: errors.moments.into(),
+            dimensions: Dimensions::new(errors.dimensions),
+            centroid: errors.centroid.into(),
+            inertia: rows(&errors.inertia),
         }
     }
 }
@@ -168,37 +221,64 @@ impl fmt::Display for FitReport {
         writeln!(f, "scan          {}, {} points", self.input, self.points)?;
         writeln!(
             f,
-            "model         degree {}, {} segments, {} coefficients",
-            self.degree, self.segments, self.coefficients
+            "model         degree {}, {} segments, {} coefficients, {:.0} per evaluation",
+            self.degree, self.segments, self.coefficients, self.coefficients_touched
         )?;
         writeln!(f, "chosen for    {}", self.rule)?;
         writeln!(f, "reference     {}", self.reference.description())?;
         writeln!(
             f,
             "area          {}, {}",
-            short(self.area),
+            with_error(
+                self.area,
+                self.standard_errors.as_ref().map(|errors| errors.area)
+            ),
             against(self.area_error, self.reference.area)
         )?;
         writeln!(
             f,
             "volume        {}, {}",
-            short(self.volume),
+            with_error(
+                self.volume,
+                self.standard_errors.as_ref().map(|errors| errors.volume)
+            ),
             against(self.volume_error, self.reference.volume)
         )?;
+        if let Some(dimensions) = &self.dimensions {
+            let errors = self
+                .standard_errors
+                .as_ref()
+                .map(|errors| &errors.dimensions);
+            writeln!(
+                f,
+                "size          {} x {} x {}",
+                with_error(dimensions.length, errors.map(|errors| errors.length)),
+                with_error(dimensions.width, errors.map(|errors| errors.width)),
+                with_error(dimensions.thickness, errors.map(|errors| errors.thickness)),
+            )?;
+        }
         writeln!(f, "held-out RMS  {heldout}")?;
         writeln!(f, "residuals     RMS {}", of_radius(self.rms))?;
         writeln!(f, "              largest {}", of_radius(self.max))?;
-        writeln!(f, "seam jump     largest {}", of_radius(self.seam_jump))?;
+        if self.seam_jump > 0.0 {
+            writeln!(f, "seam jump     largest {}", of_radius(self.seam_jump))?;
+        }
+        if self.noise > 0.0 {
+            writeln!(f, "noise         {}", of_radius(self.noise))?;
+        }
         writeln!(f, "mean radius   {}", short(self.mean_radius))?;
         if self.reduced_segments > 0 {
             writeln!(
                 f,
-                "reduced       {} segments hold too few points and have a lower degree",
+                "reduced       {} segments need no higher degree, or hold too few points for it",
                 self.reduced_segments
             )?;
         }
         if let Some(loss) = self.harmonics_loss {
             writeln!(f, "harmonics     converted with a loss of {loss:.1e}")?;
+        }
+        if self.standard_errors.is_some() {
+            writeln!(f, "Figures after ± are standard errors.")?;
         }
         write!(f, "Lengths are in the scan's unit.")
     }

@@ -1,10 +1,11 @@
 //! The published coefficients a_l^m as CSV.
 
-use crate::model::{Frame, PublishedSegment};
+use crate::model::{Frame, PublishedExpansion, Region};
+use crate::sphere::MARGIN;
 use std::io::{self, Write};
 
 /// The largest loss of the conversion over all segments, in the scan's unit.
-pub fn largest_loss(segments: &[PublishedSegment]) -> f64 {
+pub fn largest_loss(segments: &[PublishedExpansion]) -> f64 {
     segments.iter().fold(0.0, |most, s| most.max(s.loss))
 }
 
@@ -15,14 +16,23 @@ pub fn largest_loss(segments: &[PublishedSegment]) -> f64 {
 /// Those of the writer.
 pub fn write_harmonics(
     frame: &Frame,
-    segments: &[PublishedSegment],
+    segments: &[PublishedExpansion],
     writer: &mut impl Write,
 ) -> io::Result<()> {
     let row = |v: [f64; 3]| v.map(|x| x.to_string()).join(" ");
     let [x, y, z] = [0, 1, 2].map(|i| row(frame.axes.column(i).into_owned().into()));
+    let joined = matches!(segments.first().map(|s| s.region), Some(Region::Cell(_)));
+    let (how, columns) = if joined {
+        (blending(), "face,parts,row,column")
+    } else {
+        (
+            "in each segment".into(),
+            "theta_min,theta_max,phi_min,phi_max",
+        )
+    };
     write!(
         writer,
-        "# radius r(theta, phi) = sum over l, m of a_l^m Y_l^m(theta, phi) in each segment\n\
+        "# radius r(theta, phi) = sum over l, m of a_l^m Y_l^m(theta, phi) {how}\n\
          # Y_l^m: real and orthonormal on the unit sphere, without the Condon-Shortley phase;\n\
          #   m > 0: sqrt(2) N P_l^m(cos theta) cos(m phi), m < 0: sqrt(2) N P_l^|m|(cos theta) \
          sin(|m| phi)\n\
@@ -33,17 +43,36 @@ pub fn write_harmonics(
          # z axis of the grain in the scan: {z}\n\
          # a and the centre are in the scan's unit\n\
          # largest loss of the conversion: {:e} in the scan's unit\n\
-         segment,theta_min,theta_max,phi_min,phi_max,l,m,a\n",
+         segment,{columns},l,m,a\n",
         row(frame.centre.coords.into()),
         largest_loss(segments),
     )?;
     for (number, segment) in segments.iter().enumerate() {
-        let ([top, bottom], [west, east]) = (segment.rectangle.theta, segment.rectangle.phi);
+        let region = match segment.region {
+            Region::Rectangle(r) => {
+                format!("{},{},{},{}", r.theta[0], r.theta[1], r.phi[0], r.phi[1])
+            }
+            Region::Cell(c) => format!("{},{},{},{}", c.face, c.parts, c.row, c.column),
+        };
         for (index, a) in segment.coefficients.iter().enumerate() {
             let l = index.isqrt();
             let m = index as i64 - (l * (l + 1)) as i64;
-            writeln!(writer, "{number},{top},{bottom},{west},{east},{l},{m},{a}")?;
+            writeln!(writer, "{number},{region},{l},{m},{a}")?;
         }
     }
     Ok(())
+}
+
+/// How the expansions of cells make a radius.
+fn blending() -> String {
+    format!(
+        "f of all cells, blended:\n\
+         #   r = sum of w f / sum of w over the cells, w = S(beta) S(gamma) on the half sphere of \
+         the cell's face and 0 elsewhere;\n\
+         #   face 2a + s: axis a (0: x, 1: y, 2: z), side s (0: +, 1: -); tan(beta) = n_b / |n_a|, \
+         tan(gamma) = n_c / |n_a| with b, c the axes after a;\n\
+         #   the cell spans beta = (row + 0..1) pi / (2 parts) - pi/4 and gamma likewise by column; \
+         S rises from 0 to 1 and falls again over h = {MARGIN} widths on both sides of its borders,\n\
+         #   as s^3 (10 - 15 s + 6 s^2), s linear in tan(beta / 2)"
+    )
 }

@@ -3,7 +3,7 @@
 use super::number::{short, triple};
 use crate::Mesh;
 use crate::fit::ReferenceKind;
-use crate::measure::{MassProperties, PrincipalInertia};
+use crate::measure::{MassProperties, PrincipalInertia, extents};
 use nalgebra::{Matrix3, Vector3};
 use serde::Serialize;
 use std::fmt;
@@ -89,29 +89,30 @@ impl MeasureReport {
             volume: properties.volume,
             centroid: properties.centroid.coords.into(),
             inertia: rows(&properties.inertia),
-            principal: principal.map(|principal| Principal {
-                moments: principal.moments.into(),
-                axes: rows(&principal.axes.transpose()),
-            }),
-            dimensions: principal.map(|principal| Dimensions::new(&principal, mesh)),
+            principal: principal.map(|principal| Principal::new(&principal)),
+            dimensions: principal.map(|principal| Dimensions::new(extents(mesh, &principal.axes))),
             warnings,
         }
     }
 }
 
 impl Dimensions {
-    fn new(principal: &PrincipalInertia, mesh: &Mesh) -> Self {
-        let (mut low, mut high) = (Vector3::repeat(f64::MAX), Vector3::repeat(f64::MIN));
-        for vertex in &mesh.vertices {
-            let place = principal.axes.tr_mul(&vertex.coords);
-            low = low.inf(&place);
-            high = high.sup(&place);
-        }
-        let [length, width, thickness] = (high - low).into();
+    /// Length, width and thickness, in this order.
+    pub(super) fn new(extents: Vector3<f64>) -> Self {
+        let [length, width, thickness] = extents.into();
         Self {
             length,
             width,
             thickness,
+        }
+    }
+}
+
+impl Principal {
+    pub(super) fn new(principal: &PrincipalInertia) -> Self {
+        Self {
+            moments: principal.moments.into(),
+            axes: rows(&principal.axes.transpose()),
         }
     }
 }

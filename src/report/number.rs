@@ -16,6 +16,18 @@ pub fn short(value: f64) -> String {
     format!("{value:.decimals$}")
 }
 
+/// A figure and its standard error, both to the error's second digit: `256.313 ± 0.012`.
+pub(super) fn with_error(value: f64, error: Option<f64>) -> String {
+    let Some(error) = error.filter(|error| *error > 0.0 && error.is_finite()) else {
+        return short(value);
+    };
+    let decimals = (1 - error.log10().floor() as i32).clamp(0, 12) as usize;
+    if !(1e-4..1e7).contains(&value.abs()) || decimals > 9 {
+        return format!("{} ± {error:.1e}", short(value));
+    }
+    format!("{value:.decimals$} ± {error:.decimals$}")
+}
+
 /// The components of a vector; those that are nothing but rounding beside the others as zero.
 pub(super) fn triple(components: [f64; 3]) -> String {
     let largest = components
@@ -51,6 +63,10 @@ mod tests {
             assert_eq!(short(value), text);
         }
         assert_eq!(triple([3.0, 1e-16, -0.25]), "3.00000  0  -0.250000");
+        assert_eq!(with_error(256.312_77, Some(0.012_3)), "256.313 ± 0.012");
+        assert_eq!(with_error(25_243.51, Some(31.4)), "25244 ± 31");
+        assert_eq!(with_error(8.45e-5, Some(3.2e-8)), "8.45000e-5 ± 3.2e-8");
+        assert_eq!(with_error(2.0, None), "2.00000");
         assert_eq!(percent(-0.001_234), "-0.123 %");
     }
 }

@@ -1,7 +1,7 @@
 //! Why a candidate was chosen, in one sentence.
 
 use super::number::short;
-use crate::fit::{FitOptions, Fitted, Tolerance};
+use crate::fit::{FitOptions, Fitted, Seams, Tolerance};
 
 /// The rule of [`crate::fit`] as it decided here.
 pub(super) fn rule(fitted: &Fitted, options: &FitOptions) -> String {
@@ -10,21 +10,31 @@ pub(super) fn rule(fitted: &Fitted, options: &FitOptions) -> String {
     if search.candidates.len() == 1 {
         return "the only candidate asked for".into();
     }
-    if choice.rejected.is_some() {
+    if choice.rejected.is_some() && options.seams == Seams::None {
         return "every candidate was rejected; this one has the least held-out RMS".into();
     }
-    let is_tolerance = search.limit <= options.tolerance.length(fitted.mean_radius);
+    let tolerance = options.tolerance.length(fitted.mean_radius);
     let source = match options.tolerance {
-        _ if !is_tolerance => "what the scan's noise allows".into(),
         Tolerance::Length(_) => "the tolerance".into(),
-        Tolerance::OfMeanRadius(share) => {
-            format!("{} % of the mean radius", round(100.0 * share))
+        Tolerance::Auto | Tolerance::OfMeanRadius(_) => {
+            let share = round(100.0 * tolerance / fitted.mean_radius);
+            format!("{share} % of the mean radius")
         }
+    };
+    let source = match options.seams {
+        _ if search.limit <= tolerance => source,
+        Seams::Blended => format!("{source} and the scan's noise of {}", short(search.noise)),
+        Seams::None => "what the scan's noise allows".into(),
     };
     let limit = format!("the limit of {} ({source})", short(search.limit));
     match choice.heldout_rms {
         Some(rms) if rms <= search.limit => {
             format!("the fewest coefficients whose held-out RMS is within {limit}")
+        }
+        _ if options.seams == Seams::Blended => {
+            format!(
+                "splitting segments further does not lower the held-out RMS; {limit} is not met"
+            )
         }
         _ => format!("no candidate is within {limit}; this one has the least held-out RMS"),
     }

@@ -22,8 +22,9 @@
 //! function is called, and 1 - n.c is taken as |n - c|^2 / 2, which does not cancel.
 
 use super::cap::{Cap, Places};
+use super::jet::Jet;
 use crate::vectorize::vectorize;
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 
 /// Number of coefficients of an expansion of degree `degree`: (L+1)^2.
 pub const fn coefficient_count(degree: usize) -> usize {
@@ -149,12 +150,81 @@ impl CapBasis {
         coefficients: &[f64],
         n: &Vector3<f64>,
     ) -> (f64, Vector3<f64>) {
+        let components = [[n.x], [n.y], [n.z]];
+        let (value, gradient) = self.values_and_gradients(cap, coefficients, &components);
+        let in_space = Vector3::from(gradient.map(|[component]| component));
+        (value[0], in_space - n * in_space.dot(n))
+    }
+
+    /// Values of an expansion in N directions, given component by component, and their gradients
+    /// with respect to the components of n.
+    #[inline(always)]
+    pub(crate) fn values_and_gradients<const N: usize>(
+        &self,
+        cap: &Cap,
+        coefficients: &[f64],
+        n: &[[f64; N]; 3],
+    ) -> ([f64; N], [[f64; N]; 3]) {
+        let (mut u, mut v, mut x) = ([0.0; N], [0.0; N], [0.0; N]);
+        for i in 0..N {
+            [u[i], v[i], x[i]] = cap.coordinates([n[0][i], n[1][i], n[2][i]]);
+        }
+        let e = self.expand(coefficients, u, v, x);
+        let (per_tangent, per_height) = (1.0 / cap.tangent_length(), 2.0 / cap.height);
+        let mut gradients = [[0.0; N]; 3];
+        for (axis, gradient) in gradients.iter_mut().enumerate() {
+            let (e1, e2) = (
+                cap.tangents[0][axis] * per_tangent,
+                cap.tangents[1][axis] * per_tangent,
+            );
+            let c = cap.centre[axis] * per_height;
+            for (i, component) in gradient.iter_mut().enumerate() {
+                *component = e1 * e.du[i] + e2 * e.dv[i] - c * e.dx[i];
+            }
+        }
+        (e.value, gradients)
+    }
+
+    /// An expansion with its derivatives with respect to the components of `n`.
+    pub(crate) fn jet(&self, cap: &Cap, coefficients: &[f64], n: &Vector3<f64>) -> Jet {
         let [u, v, x] = cap.coordinates((*n).into());
-        let e = self.expand(coefficients, [u], [v], [x]);
-        let [e1, e2] = cap.tangents;
-        let in_space = (e1 * e.du[0] + e2 * e.dv[0]) / cap.tangent_length()
-            - cap.centre * (2.0 * e.dx[0] / cap.height);
-        (e.value[0], in_space - n * in_space.dot(n))
+        let place = |value: f64, gradient: Vector3<f64>| Jet {
+            value,
+            gradient,
+            hessian: Matrix3::zeros(),
+        };
+        let per_tangent = 1.0 / cap.tangent_length();
+        let u = place(u, cap.tangents[0] * per_tangent);
+        let v = place(v, cap.tangents[1] * per_tangent);
+        let x = place(x, cap.centre * (-2.0 / cap.height));
+        let degree = (coefficients.len().isqrt().saturating_sub(1)).min(self.degree);
+        let mut sum = Jet::default();
+        let (mut re, mut im) = (Jet::constant(1.0), Jet::default());
+        for (m, (first, steps)) in self.orders.iter().enumerate().take(degree + 1) {
+            if m > 0 {
+                (re, im) = (
+                    re.times(&u).plus(&im.times(&v).scaled(-1.0)),
+                    re.times(&v).plus(&im.times(&u)),
+                );
+            }
+            let (mut below, mut current) = (Jet::default(), Jet::constant(*first));
+            for j in 0..=degree - m {
+                let at = column(m + j, m);
+                sum = sum.plus(&current.times(&re).scaled(coefficients[at]));
+                if m > 0 {
+                    sum = sum.plus(&current.times(&im).scaled(coefficients[at + 1]));
+                }
+                if let Some(s) = steps.get(j) {
+                    let factor = Jet {
+                        value: s.a * x.value + s.b,
+                        ..x.scaled(s.a)
+                    };
+                    let next = factor.times(&current).plus(&below.scaled(-s.c));
+                    (below, current) = (current, next);
+                }
+            }
+        }
+        sum
     }
 
     /// Values of an expansion at many places.

@@ -3,16 +3,26 @@
 
 mod cap;
 mod cap_basis;
+mod cell_weight;
+mod cover;
+mod cube_cell;
 mod cube_grid;
+mod face_rectangle;
 mod harmonics;
+mod jet;
 mod partition;
 mod quadrature;
 mod triangulation;
 
 pub use cap::{Cap, Places};
 pub use cap_basis::{CapBasis, coefficient_count};
+pub use cell_weight::MARGIN;
+pub use cover::{Cover, CoverError, MAX_FACE_PARTS};
+pub use cube_cell::CubeCell;
 pub use cube_grid::cube_grid;
+pub(crate) use face_rectangle::FaceRectangle;
 pub use harmonics::{harmonic_index, harmonics};
+pub(crate) use jet::Jet;
 pub use partition::{AngleRectangle, AngularPartition};
 pub(crate) use partition::{azimuth_fraction, polar_fraction};
 pub use quadrature::GaussLegendre;

@@ -118,19 +118,27 @@ fn settings_out_of_range_are_refused_before_work() {
     let fit = |setting: &str, value: &str, expected: &str| {
         refuse(&["fit", "no.ply", setting, value], &[expected]);
     };
-    fit(
-        "--segments",
-        "7",
+    fit("--segments", "7", "7 segments cannot be blended");
+    fit("--segments", "7", "6 n^2 cells on the faces of a cube");
+    fit("--segments", "7", "such as 6 or 24");
+    fit("--segments", "5", "such as 1 or 6");
+    for expected in [
         "7 segments cannot be made: both angles are cut in k equal parts",
-    );
-    fit("--segments", "7", "4 or 9");
+        "4 or 9",
+    ] {
+        refuse(
+            &["fit", "no.ply", "--seams", "none", "--segments", "7"],
+            &[expected],
+        );
+    }
+    fit("--seams", "some", "blended");
     fit("--segments", "0", "from 1 to");
     fit("--segments", "many", "a whole number or auto");
     fit("--degree", "99", "the degree is 99");
     fit(
         "--tolerance",
         "0",
-        "a positive length such as 0.02, or a share such as 0.3%",
+        "a positive length such as 0.02, a share such as 0.3%, or auto",
     );
     fit("--tolerance", "nan%", "a positive length");
     fit("--resolution", "0", "1..=2048");

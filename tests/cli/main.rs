@@ -3,6 +3,7 @@
 mod bench;
 mod errors;
 mod fit;
+mod harmonics;
 mod measure;
 mod mesh;
 mod search;
@@ -42,6 +43,9 @@ fn errors(output: &Output) -> String {
 fn folder() -> TempDir {
     tempfile::tempdir().expect("a temporary folder")
 }
+
+/// Asks for independent segments, to the tolerance that suits them.
+const INDEPENDENT: [&str; 4] = ["--seams", "none", "--tolerance", "0.3%"];
 
 /// A scan of the repository.
 fn grain(name: &str) -> String {

@@ -16,7 +16,7 @@ fn scan_mesh_and_model_agree_with_the_closed_form() {
             // A polyhedron inscribed in 1538 points of the bean has 0.66 % too little volume.
             ("s.ply", "directions", 0.008),
             ("m.stl", "faces", 0.002),
-            ("m.json", "model", 0.002),
+            ("m.json", "model", 0.001),
         ] {
             let report = json(&folder, &["measure", input]);
             assert_eq!(report["of"], of);

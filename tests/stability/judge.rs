@@ -1,14 +1,16 @@
 //! A fitted grain against the same fits in extended precision, segment by segment.
 
 use crate::extended::{Sample, fitted_radii, largest_radius};
+use grainform::model::Segmented;
 use grainform::sphere::{Cap, CapBasis, coefficient_count};
-use grainform::{FitOptions, Fitted, Grain};
+use grainform::{FitOptions, Fitted, Grain, Seams};
 use nalgebra::Point3;
 use rayon::prelude::*;
 
 /// Asks for the segments' own, independent expansions: k x k of them, all of one degree.
 pub(crate) fn options(k: usize, degree: usize) -> FitOptions {
     FitOptions {
+        seams: Seams::None,
         degree: Some(degree),
         segments: Some(k * k),
         ..FitOptions::default()
@@ -42,12 +44,18 @@ pub(crate) fn samples_by_segment(fitted: &Fitted, points: &[Point3<f64>]) -> Vec
     points.sort_unstable_by(|a, b| a.partial_cmp(b).expect("finite points"));
     points.dedup();
     assert_eq!(points.len(), fitted.points);
-    let mut segments = vec![Vec::new(); grain.partition().segments()];
+    let partition = segmented(grain).partition();
+    let mut segments = vec![Vec::new(); partition.segments()];
     for point in points {
         let sample = Sample::new(&point.into(), grain.frame());
-        segments[grain.partition().segment_of(&sample.direction)].push(sample);
+        segments[partition.segment_of(&sample.direction)].push(sample);
     }
     segments
+}
+
+/// The surface of a grain, made of independent segments.
+pub(crate) fn segmented(grain: &Grain) -> &Segmented {
+    grain.surface().segmented().expect("independent segments")
 }
 
 /// Fits every segment again, at the degree and to the samples that the library took.
@@ -57,8 +65,8 @@ pub(crate) fn samples_by_segment(fitted: &Fitted, points: &[Point3<f64>]) -> Vec
 pub(crate) fn judge(grain: &Grain, degree: usize, segments: &[Vec<Sample>]) -> Verdict {
     let all: Vec<&Sample> = segments.iter().flatten().collect();
     let verdict = |(segment, own): (usize, &Vec<Sample>)| {
-        let cap = grain.partition().cap(segment);
-        let coefficients = grain.coefficients(segment);
+        let cap = segmented(grain).partition().cap(segment);
+        let coefficients = &grain.coefficients()[segment];
         let own = error(coefficients, &cap, own);
         let (error, widened) = if own <= PROMISE {
             (own, 0)

@@ -11,7 +11,7 @@ use extended::largest_radius;
 use grainform::fit;
 use grainform::scan::Scan;
 use grainform::shapes::Sampling;
-use judge::{PROMISE, judge, options, samples_by_segment};
+use judge::{PROMISE, judge, options, samples_by_segment, segmented};
 use nalgebra::{Point3, Vector3};
 use solvers::{Basis, Solver, design};
 
@@ -74,7 +74,7 @@ fn error_of(basis: Basis, solver: Solver, k: usize, degree: usize) -> f64 {
     let fitted = fit(&scan, &options(k, degree)).expect("a grain");
     let segments = samples_by_segment(&fitted, &scan.points);
     let errors = segments.iter().enumerate().map(|(segment, samples)| {
-        let cap = fitted.grain.partition().cap(segment);
+        let cap = segmented(&fitted.grain).partition().cap(segment);
         let exact = extended::fitted_radii(degree, &cap, samples);
         let design = design(basis, degree, &cap, samples);
         solvers::fitted_radii(solver, &design, samples).map_or(f64::INFINITY, |fitted| {

@@ -1,0 +1,95 @@
+//! A radius made of independent expansions, one per segment of the angle domain.
+
+use super::InvalidGrain;
+use super::grain::check_expansion;
+use crate::sphere::{AngularPartition, Cap, CapBasis, Jet};
+use nalgebra::Vector3;
+
+/// The indicator-weighted sum of the dissertation's (4.1): in each segment, an expansion in spherical
+/// harmonics of its own. The radius may jump at the borders of the segments.
+#[derive(Debug, Clone)]
+pub struct Segmented {
+    partition: AngularPartition,
+    caps: Vec<Cap>,
+    coefficients: Vec<Vec<f64>>,
+    basis: CapBasis,
+}
+
+impl Segmented {
+    /// One list of cap-basis coefficients per segment, in the order of the partition.
+    ///
+    /// # Errors
+    /// [`InvalidGrain`] if the lists do not fit the partition or hold a number that is not finite.
+    pub fn new(
+        partition: AngularPartition,
+        coefficients: Vec<Vec<f64>>,
+    ) -> Result<Self, InvalidGrain> {
+        if coefficients.len() != partition.segments() {
+            return Err(InvalidGrain::SegmentCount {
+                found: coefficients.len(),
+                expected: partition.segments(),
+            });
+        }
+        let mut degree = 0;
+        for (segment, list) in coefficients.iter().enumerate() {
+            degree = degree.max(check_expansion(segment, list)?);
+        }
+        Ok(Self {
+            caps: (0..partition.segments())
+                .map(|segment| partition.cap(segment))
+                .collect(),
+            partition,
+            coefficients,
+            basis: CapBasis::new(degree),
+        })
+    }
+
+    /// The partition of the angle domain, in the grain's own frame.
+    pub fn partition(&self) -> AngularPartition {
+        self.partition
+    }
+
+    /// The cap-basis coefficients of every segment: (L+1)^2 numbers each, in the scan's unit.
+    pub fn coefficients(&self) -> &[Vec<f64>] {
+        &self.coefficients
+    }
+
+    /// The largest degree of any segment.
+    pub fn degree(&self) -> usize {
+        self.basis.degree()
+    }
+
+    /// Radius of a segment's expansion in a direction of the grain's own frame, also beyond the
+    /// segment.
+    pub(crate) fn segment_radius(&self, segment: usize, n: &Vector3<f64>) -> f64 {
+        self.basis
+            .value(&self.caps[segment], &self.coefficients[segment], n)
+    }
+
+    /// Radius and surface gradient of a segment's expansion, likewise.
+    pub(crate) fn segment_radius_and_gradient(
+        &self,
+        segment: usize,
+        n: &Vector3<f64>,
+    ) -> (f64, Vector3<f64>) {
+        self.basis
+            .value_and_gradient(&self.caps[segment], &self.coefficients[segment], n)
+    }
+
+    /// Radius in a direction of the grain's own frame.
+    pub(crate) fn radius(&self, n: &Vector3<f64>) -> f64 {
+        self.segment_radius(self.partition.segment_of(n), n)
+    }
+
+    /// Radius and surface gradient in a direction of the grain's own frame.
+    pub(crate) fn radius_and_gradient(&self, n: &Vector3<f64>) -> (f64, Vector3<f64>) {
+        self.segment_radius_and_gradient(self.partition.segment_of(n), n)
+    }
+
+    /// Radius and its derivatives with respect to the components of `n`.
+    pub(crate) fn jet(&self, n: &Vector3<f64>) -> Jet {
+        let segment = self.partition.segment_of(n);
+        self.basis
+            .jet(&self.caps[segment], &self.coefficients[segment], n)
+    }
+}

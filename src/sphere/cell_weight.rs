@@ -1,0 +1,233 @@
+//! The smooth weight of a cell on a cube's face.
+//!
+//! The weight is 1 in the middle of a cell and falls to 0 over a margin on both sides of its border, as
+//! the product of two quintic smoothsteps 1 - 10 s^3 + 15 s^4 - 6 s^5, so it has two continuous
+//! derivatives. The smoothsteps run along the half-angle tangents q = tan(alpha / 2), with
+//! tan(alpha) = n_b / |n_a| and likewise for c: nearly proportional to the angle, so that a border is
+//! halfway for the cells on both sides of it, and found without a trigonometric function.
+
+use super::CubeCell;
+use super::jet::Jet;
+use nalgebra::Vector3;
+
+/// Half the width of the strip along a border in which neighbouring expansions blend, as a share of
+/// the cell's own angular width.
+///
+/// Held-out RMS of jointly fitted clean grains (54 cells, degree 3; bean, chickpea and maize, in % of
+/// the mean radius): 0.020, 0.050, 0.118 at 0.2; 0.023, 0.047, 0.105 at 0.3; 0.023, 0.044, 0.067 at
+/// 0.4; 0.019, 0.033, 0.036 at 0.49. An evaluation touches 1.9, 2.5, 3.1 and 3.7 cells.
+pub const MARGIN: f64 = 0.4;
+
+/// The half-angle tangents of a direction on a face; beyond all cells if it lies behind the face.
+#[inline(always)]
+pub(crate) fn place(face: u8, n: &[f64; 3]) -> [f64; 2] {
+    let axis = usize::from(face / 2);
+    let depth = if face.is_multiple_of(2) {
+        n[axis]
+    } else {
+        -n[axis]
+    };
+    if depth <= 0.0 {
+        return [f64::INFINITY; 2];
+    }
+    across(axis).map(|axis| n[axis] / (depth + (depth * depth + n[axis] * n[axis]).sqrt()))
+}
+
+/// The axes along which the face of an axis is cut.
+#[inline(always)]
+fn across(axis: usize) -> [usize; 2] {
+    [[1, 2], [2, 0], [0, 1]][axis]
+}
+
+/// The weight of a cell, ready to be evaluated.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct CellWeight {
+    axis: usize,
+    side: f64,
+    along: [Profile; 2],
+}
+
+/// 0 below a first and beyond a last half-angle tangent, 1 between two in the middle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Profile {
+    rises: f64,
+    falls: f64,
+    per_rise: f64,
+    per_fall: f64,
+}
+
+impl CellWeight {
+    pub(crate) fn new(cell: &CubeCell) -> Self {
+        let (axis, side) = cell.axis();
+        let reach = MARGIN * cell.width();
+        let along = cell.angles().map(|[low, high]| {
+            let q = |angle: f64| (0.5 * angle).tan();
+            Profile {
+                rises: q(low - reach),
+                falls: q(high + reach),
+                per_rise: 1.0 / (q(low + reach) - q(low - reach)),
+                per_fall: 1.0 / (q(high + reach) - q(high - reach)),
+            }
+        });
+        Self { axis, side, along }
+    }
+
+    /// Whether the weight may be above zero in a convex part of a face with the given corners. (The
+    /// tangents of directions are quotients of linear functions there, largest and least at corners.)
+    pub(crate) fn may_touch(&self, corners: &[Vector3<f64>; 4]) -> bool {
+        let depths = corners.map(|n| self.side * n[self.axis]);
+        if depths.iter().any(|&depth| depth <= 0.0) {
+            return depths.iter().any(|&depth| depth > 0.0);
+        }
+        across(self.axis)
+            .iter()
+            .zip(&self.along)
+            .all(|(&axis, profile)| {
+                let places = [0, 1, 2, 3].map(|i| {
+                    let (depth, height) = (depths[i], corners[i][axis]);
+                    height / (depth + (depth * depth + height * height).sqrt())
+                });
+                let least = places.into_iter().fold(f64::INFINITY, f64::min);
+                let most = places.into_iter().fold(f64::NEG_INFINITY, f64::max);
+                most >= profile.rises && least <= profile.falls
+            })
+    }
+
+    /// The weight at the given place on the face.
+    #[inline(always)]
+    pub(crate) fn value(&self, place: &[f64; 2]) -> f64 {
+        let first = self.along[0].value(place[0]);
+        if first == 0.0 {
+            return 0.0;
+        }
+        first * self.along[1].value(place[1])
+    }
+
+    /// The weights in N directions, given component by component, and the gradients with respect to
+    /// the components of n.
+    #[inline(always)]
+    pub(crate) fn values_and_gradients<const N: usize>(
+        &self,
+        n: &[[f64; N]; 3],
+    ) -> ([f64; N], [[f64; N]; 3]) {
+        let [b, c] = across(self.axis);
+        let (mut depth, mut front) = (n[self.axis], [0.0; N]);
+        for i in 0..N {
+            depth[i] *= self.side;
+            front[i] = if depth[i] > 0.0 { 1.0 } else { 0.0 };
+            // Behind the face the weight is 0 whatever the profiles say.
+            depth[i] = if depth[i] > 1e-3 { depth[i] } else { 1e-3 };
+        }
+        let (value_b, slope_b) = self.along[0].values_and_slopes(&depth, &n[b]);
+        let (value_c, slope_c) = self.along[1].values_and_slopes(&depth, &n[c]);
+        let mut values = [0.0; N];
+        let (mut along_a, mut along_b, mut along_c) = ([0.0; N], [0.0; N], [0.0; N]);
+        for i in 0..N {
+            // d(angle) = (depth d(height) - height d(depth)) / (depth^2 + height^2)
+            let (to_b, to_c) = (
+                value_c[i] * slope_b[i] * front[i],
+                value_b[i] * slope_c[i] * front[i],
+            );
+            values[i] = front[i] * value_b[i] * value_c[i];
+            along_b[i] = to_b * depth[i];
+            along_c[i] = to_c * depth[i];
+            along_a[i] = -self.side * (to_b * n[b][i] + to_c * n[c][i]);
+        }
+        let mut gradients = [[0.0; N]; 3];
+        gradients[self.axis] = along_a;
+        gradients[b] = along_b;
+        gradients[c] = along_c;
+        (values, gradients)
+    }
+
+    /// The weight and its derivatives.
+    pub(crate) fn jet(&self, n: &Vector3<f64>) -> Jet {
+        let depth = self.side * n[self.axis];
+        if depth <= 0.0 {
+            return Jet::default();
+        }
+        let out = Vector3::ith(self.axis, self.side);
+        let [b, c] = across(self.axis);
+        self.along[0]
+            .jet(depth, n[b], &out, &Vector3::ith(b, 1.0))
+            .times(&self.along[1].jet(depth, n[c], &out, &Vector3::ith(c, 1.0)))
+    }
+}
+
+impl Profile {
+    #[inline(always)]
+    fn value(&self, q: f64) -> f64 {
+        let rise = (q - self.rises) * self.per_rise;
+        let fall = (self.falls - q) * self.per_fall;
+        let s = rise.min(fall).clamp(0.0, 1.0);
+        s * s * s * (10.0 - s * (15.0 - 6.0 * s))
+    }
+
+    /// The profile, and its slope per angle over depth^2 + height^2, at N places.
+    #[inline(always)]
+    fn values_and_slopes<const N: usize>(
+        &self,
+        depth: &[f64; N],
+        height: &[f64; N],
+    ) -> ([f64; N], [f64; N]) {
+        let (mut values, mut slopes) = ([0.0; N], [0.0; N]);
+        for i in 0..N {
+            let squared = depth[i] * depth[i] + height[i] * height[i];
+            let q = height[i] / (depth[i] + squared.sqrt());
+            let rise = (q - self.rises) * self.per_rise;
+            let fall = (self.falls - q) * self.per_fall;
+            let slope = if rise < fall {
+                self.per_rise
+            } else {
+                -self.per_fall
+            };
+            let s = if rise < fall { rise } else { fall };
+            let s = if s > 0.0 { s } else { 0.0 };
+            let s = if s < 1.0 { s } else { 1.0 };
+            values[i] = s * s * s * (10.0 - s * (15.0 - 6.0 * s));
+            let per_s = 30.0 * s * s * (1.0 - s) * (1.0 - s);
+            slopes[i] = per_s * slope * 0.5 * (1.0 + q * q) / squared;
+        }
+        (values, slopes)
+    }
+
+    /// The profile as a function of space, at a `depth` along `out` and a `height` along `across`.
+    fn jet(&self, depth: f64, height: f64, out: &Vector3<f64>, across: &Vector3<f64>) -> Jet {
+        let squared = depth * depth + height * height;
+        let q = height / (depth + squared.sqrt());
+        let rise = (q - self.rises) * self.per_rise;
+        let fall = (self.falls - q) * self.per_fall;
+        let (s, slope) = if rise < fall {
+            (rise, self.per_rise)
+        } else {
+            (fall, -self.per_fall)
+        };
+        if s <= 0.0 {
+            return Jet::default();
+        }
+        if s >= 1.0 {
+            return Jet::constant(1.0);
+        }
+        let rest = 1.0 - s;
+        let value = s * s * s * (10.0 - s * (15.0 - 6.0 * s));
+        let first = 30.0 * s * s * rest * rest * slope;
+        let second = 60.0 * s * rest * (1.0 - 2.0 * s) * slope * slope;
+        // q = tan(alpha / 2) with tan(alpha) = height / depth.
+        let angle = Jet {
+            value: 0.0,
+            gradient: (across * depth - out * height) / squared,
+            hessian: {
+                let mixed = out * across.transpose();
+                ((out * out.transpose() - across * across.transpose()) * (2.0 * depth * height)
+                    + (mixed + mixed.transpose()) * (height * height - depth * depth))
+                    / (squared * squared)
+            },
+        };
+        let per_angle = 0.5 * (1.0 + q * q);
+        angle.composed(
+            value,
+            first * per_angle,
+            second * per_angle * per_angle + first * q * per_angle,
+        )
+    }
+}

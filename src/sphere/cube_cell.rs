@@ -1,0 +1,166 @@
+//! Square cells on the faces of a cube.
+//!
+//! A direction n lies on the face of its largest component; its place there is told by the tangents
+//! (n_b, n_c) / |n_a|, with a the face's axis and b, c the next two. Cells are cut at equal angles,
+//! which makes them nearly equal, without slivers at any pole.
+
+use super::face_rectangle::FaceRectangle;
+use super::{Cap, MARGIN};
+use nalgebra::Vector3;
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
+
+/// A cell on one of the six faces of the cube.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct CubeCell {
+    /// Face 2a + s: a the axis (0: x, 1: y, 2: z), s = 0 on the positive side and 1 on the negative.
+    pub face: u8,
+    /// Equal angles in which each edge of the face is cut.
+    pub parts: u16,
+    /// Number of the cell along the axis b = a + 1, from the negative side.
+    pub row: u16,
+    /// Number of the cell along the axis c = a + 2, from the negative side.
+    pub column: u16,
+}
+
+impl CubeCell {
+    /// The 6 n^2 cells of faces cut in n x n.
+    pub fn uniform(parts: u16) -> Vec<Self> {
+        let parts = parts.max(1);
+        (0..6)
+            .flat_map(|face| (0..parts).map(move |row| (face, row)))
+            .flat_map(|(face, row)| {
+                (0..parts).map(move |column| Self {
+                    face,
+                    parts,
+                    row,
+                    column,
+                })
+            })
+            .collect()
+    }
+
+    /// The four cells of half the width that make this one.
+    pub fn quarters(&self) -> [Self; 4] {
+        [(0, 0), (0, 1), (1, 0), (1, 1)].map(|(i, j)| Self {
+            face: self.face,
+            parts: 2 * self.parts,
+            row: 2 * self.row + i,
+            column: 2 * self.column + j,
+        })
+    }
+
+    /// The cell of twice the width that this one is a quarter of, if the face is cut so.
+    pub fn parent(&self) -> Option<Self> {
+        self.parts.is_multiple_of(2).then_some(Self {
+            face: self.face,
+            parts: self.parts / 2,
+            row: self.row / 2,
+            column: self.column / 2,
+        })
+    }
+
+    /// Angles atan t of the cell's borders: along b, along c.
+    pub(super) fn angles(&self) -> [[f64; 2]; 2] {
+        [self.row, self.column].map(|at| {
+            [at, at + 1].map(|i| FRAC_PI_2 * f64::from(i) / f64::from(self.parts) - FRAC_PI_4)
+        })
+    }
+
+    /// Width of the cell, in radians.
+    pub fn width(&self) -> f64 {
+        FRAC_PI_2 / f64::from(self.parts)
+    }
+
+    /// Solid angle of the cell, without its margin.
+    pub fn solid_angle(&self) -> f64 {
+        let [b, c] = self.angles();
+        FaceRectangle { cell: *self, b, c }.solid_angle()
+    }
+
+    /// Axis of the face, and its side.
+    pub(super) fn axis(&self) -> (usize, f64) {
+        let side = if self.face.is_multiple_of(2) {
+            1.0
+        } else {
+            -1.0
+        };
+        (usize::from(self.face / 2), side)
+    }
+
+    /// The direction at the given angles on the face.
+    pub(super) fn direction(&self, angles: [f64; 2]) -> Vector3<f64> {
+        self.on_face(angles.map(f64::tan)).normalize()
+    }
+
+    /// The point of the face with the given tangents, at distance 1 along the face's axis.
+    pub(super) fn on_face(&self, [b, c]: [f64; 2]) -> Vector3<f64> {
+        let (axis, side) = self.axis();
+        let mut point = Vector3::zeros();
+        point[axis] = side;
+        point[(axis + 1) % 3] = b;
+        point[(axis + 2) % 3] = c;
+        point
+    }
+
+    /// The direction at the fractions `s` of the angles along b and `t` of those along c.
+    pub fn at(&self, s: f64, t: f64) -> Vector3<f64> {
+        let [[b, b_end], [c, c_end]] = self.angles();
+        self.direction([b + s * (b_end - b), c + t * (c_end - c)])
+    }
+
+    /// Which of `parts` x `parts` patches of the cell a direction lies in, or is nearest to: row times
+    /// `parts` plus column.
+    pub(crate) fn patch(&self, n: &[f64; 3], parts: usize) -> usize {
+        let (axis, side) = self.axis();
+        let place = |at: usize, [low, high]: [f64; 2]| {
+            let angle = n[(axis + at) % 3].atan2(side * n[axis]);
+            let share = (angle - low) / (high - low) * parts as f64;
+            (share.max(0.0) as usize).min(parts - 1)
+        };
+        let [b, c] = self.angles();
+        place(1, b) * parts + place(2, c)
+    }
+
+    /// The direction of the middle.
+    pub fn middle(&self) -> Vector3<f64> {
+        self.at(0.5, 0.5)
+    }
+
+    /// The cap round the middle that holds the cell and its margin.
+    pub fn cap(&self) -> Cap {
+        let centre = self.middle();
+        let (a, _) = self.axis();
+        let along = Vector3::ith((a + 1) % 3, 1.0);
+        let first = (along - centre * centre.dot(&along)).normalize();
+        let reach = MARGIN * self.width();
+        let [b, c] = self.angles();
+        let height = [(0, 0), (0, 1), (1, 0), (1, 1)]
+            .map(|(i, j)| {
+                let beyond = |bounds: [f64; 2], i: usize| bounds[i] + [-reach, reach][i];
+                let corner = self.direction([beyond(b, i), beyond(c, j)]);
+                0.5 * (corner - centre).norm_squared()
+            })
+            .into_iter()
+            .fold(0.0, f64::max);
+        Cap {
+            centre,
+            tangents: [first, centre.cross(&first)],
+            height,
+        }
+    }
+
+    /// The cell in 3 x 3 rectangles, cut where the margins of neighbours of its size end: within
+    /// each of them, weights are smooth functions (but for neighbours of other sizes or faces).
+    pub(crate) fn zones(&self) -> impl Iterator<Item = FaceRectangle> {
+        let cell = *self;
+        let cuts = self.angles().map(|[low, high]| {
+            let margin = MARGIN * (high - low);
+            [low, low + margin, high - margin, high]
+        });
+        (0..9).map(move |i| FaceRectangle {
+            cell,
+            b: [cuts[0][i / 3], cuts[0][i / 3 + 1]],
+            c: [cuts[1][i % 3], cuts[1][i % 3 + 1]],
+        })
+    }
+}

@@ -1,0 +1,85 @@
+//! Functions of a direction with two derivatives.
+
+use nalgebra::{Matrix3, Vector3};
+
+/// A function of a direction with its first two derivatives with respect to the components of n, as
+/// if it were a function of space.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Jet {
+    pub(crate) value: f64,
+    pub(crate) gradient: Vector3<f64>,
+    pub(crate) hessian: Matrix3<f64>,
+}
+
+impl Default for Jet {
+    fn default() -> Self {
+        Self {
+            value: 0.0,
+            gradient: Vector3::zeros(),
+            hessian: Matrix3::zeros(),
+        }
+    }
+}
+
+impl Jet {
+    /// A constant.
+    pub(crate) fn constant(value: f64) -> Self {
+        Self {
+            value,
+            ..Self::default()
+        }
+    }
+
+    /// A function of this one, given by its value and its first two derivatives here.
+    pub(crate) fn composed(&self, value: f64, first: f64, second: f64) -> Self {
+        Self {
+            value,
+            gradient: self.gradient * first,
+            hessian: self.hessian * first + self.gradient * self.gradient.transpose() * second,
+        }
+    }
+
+    /// A multiple of this function.
+    pub(crate) fn scaled(&self, factor: f64) -> Self {
+        Self {
+            value: self.value * factor,
+            gradient: self.gradient * factor,
+            hessian: self.hessian * factor,
+        }
+    }
+
+    /// The product of two functions.
+    pub(crate) fn times(&self, other: &Self) -> Self {
+        let mixed = self.gradient * other.gradient.transpose();
+        Self {
+            value: self.value * other.value,
+            gradient: self.gradient * other.value + other.gradient * self.value,
+            hessian: self.hessian * other.value
+                + other.hessian * self.value
+                + mixed
+                + mixed.transpose(),
+        }
+    }
+
+    /// The sum of two functions.
+    pub(crate) fn plus(&self, other: &Self) -> Self {
+        Self {
+            value: self.value + other.value,
+            gradient: self.gradient + other.gradient,
+            hessian: self.hessian + other.hessian,
+        }
+    }
+
+    /// The quotient of two functions.
+    pub(crate) fn over(&self, divisor: &Self) -> Self {
+        let per = 1.0 / divisor.value;
+        let value = self.value * per;
+        let gradient = (self.gradient - divisor.gradient * value) * per;
+        let mixed = gradient * divisor.gradient.transpose();
+        Self {
+            value,
+            gradient,
+            hessian: (self.hessian - mixed - mixed.transpose() - divisor.hessian * value) * per,
+        }
+    }
+}

@@ -1,0 +1,170 @@
+//! Blended grains as JSON.
+
+use crate::grains::{all, blended, plain, ragged, segmented, turned};
+use grainform::model::{LoadError, parse_grain, save_grain};
+use grainform::sphere::CubeCell;
+use grainform::{Grain, StarSurface};
+use serde_json::{Value, json};
+
+fn cells(grain: &Grain) -> Option<&[CubeCell]> {
+    grain
+        .surface()
+        .blended()
+        .map(|surface| surface.cover().cells())
+}
+
+#[test]
+fn grains_of_both_kinds_are_the_same_to_the_last_bit_once_saved() {
+    let mut grains = all(turned());
+    grains.push(segmented(1, turned()));
+    grains.push(segmented(4, turned()));
+    for grain in grains {
+        let text = save_grain(&grain);
+        assert!(text.contains("\"version\": 2"));
+        let loaded = parse_grain(&text).expect("a model");
+        assert_eq!(loaded.frame(), grain.frame());
+        assert_eq!(loaded.coefficients(), grain.coefficients());
+        assert_eq!(cells(&loaded), cells(&grain));
+        assert_eq!(save_grain(&loaded), text);
+        let n = nalgebra::Vector3::new(0.36, -0.48, 0.8);
+        assert_eq!(loaded.radius(&n).to_bits(), grain.radius(&n).to_bits());
+    }
+}
+
+#[test]
+fn a_file_of_the_first_version_is_still_read() {
+    let text = r#"{
+        "format": "grainform model",
+        "version": 1,
+        "centre": [1.0, 2.0, 3.0],
+        "axes": [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+        "parts_per_angle": 2,
+        "segments": [[5.0], [6.0], [7.0], [8.0, 0.1, 0.2, 0.3]]
+    }"#;
+    let grain = parse_grain(text).expect("a model");
+    assert_eq!(grain.segments(), 4);
+    assert!(grain.surface().segmented().is_some());
+    assert_eq!(grain.coefficients()[3], [8.0, 0.1, 0.2, 0.3]);
+    let n = nalgebra::Vector3::new(0.0, 0.6, 0.8);
+    assert!((grain.radius(&n) - 5.0).abs() < 1e-15);
+    let again = save_grain(&grain);
+    assert!(again.contains("\"version\": 2"));
+    assert_eq!(
+        parse_grain(&again).expect("a model").coefficients(),
+        grain.coefficients()
+    );
+}
+
+/// The text of a grain with something changed.
+fn spoilt(grain: &Grain, spoil: impl Fn(&mut Value)) -> Result<Grain, LoadError> {
+    let mut value: Value = serde_json::from_str(&save_grain(grain)).expect("JSON");
+    spoil(&mut value);
+    parse_grain(&value.to_string())
+}
+
+#[test]
+fn cells_that_do_not_tile_are_refused() {
+    for grain in [
+        blended(CubeCell::uniform(1), plain()),
+        blended(ragged(1, 9, 2), plain()),
+    ] {
+        let list = |value: &mut Value| value["cells"].as_array().cloned().expect("cells");
+        let refused = |spoil: &dyn Fn(&mut Vec<Value>)| {
+            let found = spoilt(&grain, |value| {
+                let mut cells = list(value);
+                spoil(&mut cells);
+                value["cells"] = json!(cells);
+            });
+            assert!(matches!(found, Err(LoadError::Cover(_))), "{found:?}");
+        };
+        refused(&|cells| drop(cells.pop()));
+        refused(&|cells| cells.clear());
+        refused(&|cells| cells.push(cells[0].clone()));
+        refused(&|cells| cells[1] = cells[0].clone());
+        refused(&|cells| cells[0]["face"] = json!(6));
+        refused(&|cells| cells[0]["parts"] = json!(0));
+        refused(&|cells| cells[0]["parts"] = json!(65));
+        refused(&|cells| cells[0]["row"] = json!(60_000));
+        refused(&|cells| *cells = vec![cells[0].clone(); 70_000]);
+        let faulty = [
+            json!(-1),
+            json!(1.5),
+            json!(70_000),
+            json!("0"),
+            Value::Null,
+        ];
+        for number in faulty {
+            for name in ["face", "parts", "row", "column"] {
+                let found = spoilt(&grain, |value| value["cells"][0][name] = number.clone());
+                assert!(matches!(found, Err(LoadError::Form(_))), "{found:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn coefficients_that_make_no_expansion_are_refused() {
+    let grain = blended(CubeCell::uniform(1), plain());
+    for own in [
+        json!([]),
+        json!([1.0, 2.0]),
+        json!([1.0, 2.0, 3.0, 4.0, 5.0]),
+    ] {
+        let found = spoilt(&grain, |value| {
+            value["cells"][3]["coefficients"] = own.clone()
+        });
+        assert!(matches!(found, Err(LoadError::Invalid(_))), "{found:?}");
+    }
+    let text = save_grain(&grain);
+    for broken in ["1e999", "null", "\"NaN\"", "NaN"] {
+        let start = text.find("\"coefficients\": [").expect("coefficients") + 17;
+        let end = start + text[start..].find(',').expect("numbers");
+        let mutilated = format!("{}{broken}{}", &text[..start], &text[end..]);
+        assert!(parse_grain(&mutilated).is_err(), "{broken}");
+    }
+    assert!(parse_grain(&text[..text.len() / 2]).is_err());
+}
+
+#[test]
+fn a_file_with_both_kinds_of_surface_or_none_is_refused() {
+    let (joined, parted) = (
+        blended(CubeCell::uniform(1), plain()),
+        segmented(2, plain()),
+    );
+    let parts: Value = serde_json::from_str(&save_grain(&parted)).expect("JSON");
+    for names in [
+        &["segments"][..],
+        &["parts_per_angle"],
+        &["segments", "parts_per_angle"],
+    ] {
+        let both = spoilt(&joined, |value| {
+            for name in names {
+                value[*name] = parts[*name].clone();
+            }
+        });
+        assert!(matches!(both, Err(LoadError::Surface)), "{both:?}");
+        let neither = spoilt(&parted, |value| {
+            for name in names {
+                value.as_object_mut().expect("an object").remove(*name);
+            }
+        });
+        assert!(matches!(neither, Err(LoadError::Surface)), "{neither:?}");
+    }
+    let nothing = spoilt(&joined, |value| {
+        value.as_object_mut().expect("an object").remove("cells");
+    });
+    assert!(matches!(nothing, Err(LoadError::Surface)), "{nothing:?}");
+}
+
+#[test]
+fn other_versions_and_unknown_fields_are_refused() {
+    let grain = blended(CubeCell::uniform(1), plain());
+    for version in [0, 3, 99] {
+        let found = spoilt(&grain, |value| value["version"] = json!(version));
+        assert!(matches!(found, Err(LoadError::Version { .. })), "{found:?}");
+    }
+    assert!(spoilt(&grain, |value| value["colour"] = json!("brown")).is_err());
+    assert!(spoilt(&grain, |value| value["cells"][0]["colour"] = json!("brown")).is_err());
+    let skewed = spoilt(&grain, |value| value["axes"][0] = json!([0.6, 0.0, 0.8]));
+    assert!(matches!(skewed, Err(LoadError::Invalid(_))), "{skewed:?}");
+}

@@ -1,0 +1,174 @@
+//! The published coefficients of a blended grain: the CSV and the formula in its header are enough to
+//! rebuild the radius. Nothing of the library's weights or bases is used here.
+
+use super::{folder, grain, json, number, succeed};
+use grainform::{Grain, StarSurface, model};
+use nalgebra::{Matrix3, Vector3};
+use std::collections::BTreeMap;
+use std::f64::consts::PI;
+
+/// A cell as the CSV tells of it: face, parts, row, column and a_l^m by l and m.
+#[derive(Default)]
+struct Cell {
+    place: [usize; 4],
+    coefficients: Vec<(usize, i64, f64)>,
+}
+
+/// What the CSV says.
+struct Published {
+    /// Rows: the grain's axes in the scan.
+    axes: Matrix3<f64>,
+    /// h: share of a cell's width.
+    margin: f64,
+    loss: f64,
+    cells: Vec<Cell>,
+}
+
+fn numbers(text: &str) -> Vec<f64> {
+    let words = text.split_whitespace();
+    words.filter_map(|word| word.parse().ok()).collect()
+}
+
+/// What follows some words of the header.
+fn after<'a>(text: &'a str, words: &str) -> &'a str {
+    let (_, rest) = text.split_once(words).unwrap_or_else(|| panic!("{words}"));
+    rest.lines().next().expect("a line")
+}
+
+fn read(text: &str) -> Published {
+    let axis = |name: &str| {
+        let line = after(text, &format!("{name} axis of the grain in the scan: "));
+        Vector3::from_vec(numbers(line)).transpose()
+    };
+    let mut cells: BTreeMap<usize, Cell> = BTreeMap::new();
+    let rows = text.lines().filter(|line| !line.starts_with('#')).skip(1);
+    for row in rows {
+        let columns: Vec<&str> = row.split(',').collect();
+        let whole = |i: usize| columns[i].parse::<usize>().expect("a whole number");
+        let cell = cells.entry(whole(0)).or_default();
+        cell.place = [whole(1), whole(2), whole(3), whole(4)];
+        let m = columns[6].parse().expect("an order");
+        let a = columns[7].parse().expect("a coefficient");
+        cell.coefficients.push((whole(5), m, a));
+    }
+    Published {
+        axes: Matrix3::from_rows(&[axis("x"), axis("y"), axis("z")]),
+        margin: numbers(after(text, "over h = "))[0],
+        loss: numbers(after(text, "largest loss of the conversion: "))[0],
+        cells: cells.into_values().collect(),
+    }
+}
+
+/// P_l^m(z) without the Condon-Shortley phase.
+fn legendre(l: usize, m: usize, z: f64) -> f64 {
+    let mut sectoral = 1.0;
+    for i in 1..=m {
+        sectoral *= (2 * i - 1) as f64 * (1.0 - z * z).max(0.0).sqrt();
+    }
+    let (mut before, mut now) = (0.0, sectoral);
+    for i in m + 1..=l {
+        let next = ((2 * i - 1) as f64 * z * now - (i + m - 1) as f64 * before) / (i - m) as f64;
+        (before, now) = (now, next);
+    }
+    now
+}
+
+/// Y_l^m, real and orthonormal.
+fn harmonic(l: usize, m: i64, n: &Vector3<f64>) -> f64 {
+    let order = m.unsigned_abs() as usize;
+    let ratio: f64 = (l - order + 1..=l + order).map(|i| i as f64).product();
+    let scale = ((2 * l + 1) as f64 / (4.0 * PI * ratio)).sqrt();
+    let azimuth = n.y.atan2(n.x);
+    let turn = match m {
+        0 => 1.0,
+        1.. => 2.0_f64.sqrt() * (m as f64 * azimuth).cos(),
+        _ => 2.0_f64.sqrt() * (order as f64 * azimuth).sin(),
+    };
+    scale * legendre(l, order, n.z) * turn
+}
+
+/// S: from 0 to 1 and back to 0 about the borders `low` and `high`.
+fn profile(angle: f64, low: f64, high: f64, reach: f64) -> f64 {
+    let half = |angle: f64| (0.5 * angle).tan();
+    let step = |border: f64| {
+        let (from, to) = (half(border - reach), half(border + reach));
+        let s = ((half(angle) - from) / (to - from)).clamp(0.0, 1.0);
+        s.powi(3) * (10.0 - 15.0 * s + 6.0 * s * s)
+    };
+    step(low) * (1.0 - step(high))
+}
+
+impl Published {
+    /// The radius in a direction of the scan.
+    fn radius(&self, n: &Vector3<f64>) -> f64 {
+        let local = self.axes * n;
+        let (mut sum, mut weights) = (0.0, 0.0);
+        for cell in &self.cells {
+            let [face, parts, row, column] = cell.place;
+            let axis = face / 2;
+            let side = if face % 2 == 0 { 1.0 } else { -1.0 };
+            if side * local[axis] <= 0.0 {
+                continue;
+            }
+            let width = PI / (2 * parts) as f64;
+            let along = |axis_across: usize, at: usize| {
+                let angle = (local[axis_across] / local[axis].abs()).atan();
+                let low = at as f64 * width - PI / 4.0;
+                profile(angle, low, low + width, self.margin * width)
+            };
+            let weight = along((axis + 1) % 3, row) * along((axis + 2) % 3, column);
+            if weight > 0.0 {
+                let terms = cell.coefficients.iter();
+                let value: f64 = terms.map(|&(l, m, a)| a * harmonic(l, m, &local)).sum();
+                sum += weight * value;
+                weights += weight;
+            }
+        }
+        sum / weights
+    }
+}
+
+/// Fits a grain of the repository; gives what was published and the model itself.
+fn publish(name: &str, options: &[&str]) -> (Published, Grain, f64) {
+    let folder = folder();
+    let scan = grain(name);
+    let words = ["fit", &scan, "--harmonics", "a.csv", "-o", "m.json"];
+    let report = json(&folder, &[&words, options].concat());
+    let text = |name: &str| std::fs::read_to_string(folder.path().join(name)).unwrap();
+    let published = read(&text("a.csv"));
+    // The header has fewer digits than the report.
+    assert!((published.loss / number(&report, "harmonics_loss") - 1.0).abs() < 0.1);
+    let grain = model::parse_grain(&text("m.json")).unwrap();
+    (published, grain, number(&report, "mean_radius"))
+}
+
+#[test]
+fn the_formula_in_the_header_gives_back_the_radius_of_a_blended_grain() {
+    for (name, options) in [
+        ("bean.ply", &[][..]),
+        ("maize.ply", &[]),
+        ("chickpea.ply", &["--segments", "6", "--degree", "6"]),
+        ("maize.ply", &["--segments", "54", "--degree", "2"]),
+    ] {
+        let (published, grain, radius) = publish(name, options);
+        assert_eq!(published.cells.len(), grain.segments());
+        for n in grainform::sphere::cube_grid(21).0 {
+            let off = (published.radius(&n) - grain.radius(&n)).abs();
+            assert!(
+                off <= 2.0 * published.loss + 1e-13 * radius,
+                "{name} {options:?} {n}: {off} where {} is stated",
+                published.loss
+            );
+        }
+    }
+}
+
+#[test]
+fn the_harmonics_of_a_blended_grain_lose_next_to_nothing() {
+    let folder = folder();
+    let words = ["fit", &grain("maize.ply"), "--harmonics", "a.csv"];
+    let text = succeed(&folder, &words);
+    assert!(text.contains("converted with a loss of"), "{text}");
+    let (published, _, radius) = publish("maize.ply", &[]);
+    assert!(published.loss < 1e-9 * radius);
+}

@@ -1,0 +1,171 @@
+//! Faults of real scans: outliers, holes, uneven density.
+
+use grainform::measure::grain_properties;
+use grainform::scan::Scan;
+use grainform::shapes::{Body, Sampling, SynthOptions, synthesize};
+use grainform::{FitOptions, Fitted, StarSurface, fit};
+use nalgebra::{Point3, Vector3};
+
+const GRAINS: [Body; 3] = [Body::Bean, Body::Chickpea, Body::Maize];
+
+fn fitted(points: Vec<Point3<f64>>) -> Fitted {
+    let scan = Scan {
+        points,
+        ..Scan::default()
+    };
+    fit(&scan, &FitOptions::default()).expect("a grain")
+}
+
+fn cloud(body: Body, noise: f64, outliers: f64) -> Vec<Point3<f64>> {
+    let options = SynthOptions {
+        noise,
+        outliers,
+        ..SynthOptions::clean(body)
+    };
+    synthesize(&options).expect("valid options").points
+}
+
+#[test]
+fn one_percent_of_outliers_changes_the_volume_by_less_than_a_tenth_of_a_percent() {
+    for body in GRAINS {
+        for noise in [0.0, 0.005] {
+            let volume = |outliers: f64| {
+                let grain = fitted(cloud(body, noise, outliers)).grain;
+                grain_properties(&grain).properties.volume
+            };
+            let change = volume(0.01) / volume(0.0) - 1.0;
+            println!(
+                "outliers: {body}, noise {noise}: V {:+.4} %",
+                100.0 * change
+            );
+            assert!(change.abs() < 0.001, "{body} {noise}: {change}");
+        }
+    }
+}
+
+/// Half-opening angle of the holes.
+const HOLE: f64 = 20.0;
+
+/// What a fit makes of a hole, in mean radii.
+struct Bridge {
+    /// Largest distance from the truth within the hole.
+    miss: f64,
+    /// How far the radius within the hole leaves the range of those on its rim and of the truth.
+    overshoot: f64,
+}
+
+/// Fits a body of which a scan did not see a cap round the direction `towards`.
+fn bridge(body: Body, towards: &Vector3<f64>, noise: f64) -> Bridge {
+    let surface = body.surface();
+    let angle = |p: &Vector3<f64>| p.angle(towards).to_degrees();
+    let kept = cloud(body, noise, 0.0)
+        .into_iter()
+        .filter(|p| angle(&p.coords) > HOLE);
+    let fitted = fitted(kept.collect());
+    let centre = fitted.grain.frame().centre.coords;
+    let directions = Sampling::Fibonacci.directions(20_000, 0).expect("enough");
+    let radii = |from: f64, to: f64| {
+        let within = directions
+            .iter()
+            .filter(move |n| (from..to).contains(&angle(n)));
+        let pair = |n: &Vector3<f64>| {
+            let point = n * surface.radius(n) - centre;
+            (point.norm(), fitted.grain.radius(&point.normalize()))
+        };
+        within.map(pair).collect::<Vec<(f64, f64)>>()
+    };
+    let (hole, rim) = (radii(0.0, HOLE), radii(HOLE, HOLE + 5.0));
+    let (mut least, mut most) = (f64::INFINITY, 0.0_f64);
+    for (truth, _) in rim.iter().chain(&hole) {
+        least = least.min(*truth);
+        most = most.max(*truth);
+    }
+    let mut bridge = Bridge {
+        miss: 0.0,
+        overshoot: 0.0,
+    };
+    for (truth, found) in hole {
+        let beyond = (found - most).max(least - found) / fitted.mean_radius;
+        bridge.miss = bridge.miss.max((found - truth).abs() / fitted.mean_radius);
+        bridge.overshoot = bridge.overshoot.max(beyond);
+    }
+    bridge
+}
+
+/// Bridges the holes in all grains; tells of those that are off, or leave the range of radii, by
+/// more than 3 % of the mean radius.
+fn failures(directions: &[Vector3<f64>], noises: &[f64]) -> Vec<String> {
+    let mut failures = Vec::new();
+    for body in GRAINS {
+        for &noise in noises {
+            for towards in directions {
+                let Bridge { miss, overshoot } = bridge(body, &towards.normalize(), noise);
+                let what = format!(
+                    "hole: {body}, noise {noise}, towards ({} {} {}): {:.2} % off, {:.2} % beyond",
+                    towards.x,
+                    towards.y,
+                    towards.z,
+                    100.0 * miss,
+                    100.0 * overshoot
+                );
+                println!("{what}");
+                if miss > 0.03 || overshoot > 0.03 {
+                    failures.push(what);
+                }
+            }
+        }
+    }
+    failures
+}
+
+#[test]
+fn holes_at_the_poles_of_clean_scans_are_bridged_without_overshoot() {
+    let failures = failures(&[-Vector3::z(), Vector3::z()], &[0.0]);
+    assert!(failures.is_empty(), "{failures:#?}");
+}
+
+#[test]
+#[ignore = "not met yet: holes over a beak or a tip hide it, and one in the maize overshoots"]
+fn holes_are_bridged_without_overshoot() {
+    let mut directions = [Vector3::x(), Vector3::y(), Vector3::z()]
+        .map(|axis| [axis, -axis])
+        .concat();
+    directions.push(Vector3::new(1.0, 1.0, 1.0));
+    directions.push(Vector3::new(-1.0, 0.3, 0.6));
+    directions.push(Vector3::new(0.2, -1.0, 0.9));
+    let failures = failures(&directions, &[0.0, 0.005]);
+    assert!(failures.is_empty(), "{failures:#?}");
+}
+
+#[test]
+fn a_half_twenty_times_denser_does_not_bias_area_or_volume() {
+    for body in GRAINS {
+        let surface = body.surface();
+        let truth = surface.integrals().properties;
+        let sparse = body.native_points();
+        for towards in [Vector3::z(), -Vector3::x(), Vector3::new(0.5, 0.7, -0.4)] {
+            let half = |count: usize, side: f64| {
+                let directions = Sampling::Fibonacci.directions(count, 0).expect("enough");
+                directions
+                    .into_iter()
+                    .filter(|n| n.dot(&towards) * side > 0.0)
+                    .map(|n| Point3::from(n * surface.radius(&n)))
+                    .collect::<Vec<_>>()
+            };
+            let points = [half(sparse, 1.0), half(20 * sparse, -1.0)].concat();
+            let found = grain_properties(&fitted(points).grain).properties;
+            let area = found.area / truth.area - 1.0;
+            let volume = found.volume / truth.volume - 1.0;
+            println!(
+                "density: {body}, towards ({} {} {}): S {:+.4} %, V {:+.4} %",
+                towards.x,
+                towards.y,
+                towards.z,
+                100.0 * area,
+                100.0 * volume
+            );
+            assert!(area.abs() < 0.002, "{body}: area {area}");
+            assert!(volume.abs() < 0.0005, "{body}: volume {volume}");
+        }
+    }
+}
