@@ -30,19 +30,25 @@ pub(super) fn run(args: FitArgs) -> Result<()> {
         scan_warnings,
         mut seconds,
     } = fit_scan(&fitting.scan, &options, &progress)?;
-    let mut report = FitReport::new(fitting.name(), &fitted, &options, &scan_warnings);
+    let is_told = fitting.json || !fitting.quiet;
+    progress.stage("Measuring");
+    let mut report =
+        is_told.then(|| FitReport::new(fitting.name(), &fitted, &options, &scan_warnings));
     let before = started.elapsed().as_secs_f64();
     progress.stage("Writing");
-    report.harmonics_loss = write_files(&args, &fitted.grain)?;
+    let loss = write_files(&args, &fitted.grain)?;
     drop(progress);
     seconds.total = started.elapsed().as_secs_f64();
     seconds.mesh = seconds.total - before;
-    report.seconds = seconds;
+    if let Some(report) = &mut report {
+        report.harmonics_loss = loss;
+        report.seconds = seconds;
+    }
 
     if fitting.json {
         print_json(&report)?;
-    } else if !fitting.quiet {
-        print(&report)?;
+    } else if let Some(report) = &report {
+        print(report)?;
         for path in [&args.output, &args.mesh, &args.harmonics]
             .into_iter()
             .flatten()

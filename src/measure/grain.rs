@@ -10,7 +10,7 @@ use nalgebra::Vector3;
 const SEGMENTED_TOLERANCE: f64 = 1e-9;
 
 /// Relative tolerance of the integrals over a blended surface, whose third derivatives jump where the
-/// margins of cells end.
+/// margins of cells end. The estimate is pessimistic: at 1e-5 the error is 5e-8 on the maize kernel.
 const BLENDED_TOLERANCE: f64 = 3e-6;
 
 /// Gauss nodes per side of a zone of a blended surface: a zone is a tenth of a cell.
@@ -18,11 +18,13 @@ const BLENDED_ORDERS: [usize; 2] = [6, 5];
 
 /// Area, volume, centroid and inertia of a fitted grain, in the scan's frame.
 ///
-/// Of a blended surface: of the joined surface itself, to 1e-7. Of independent segments: segment by
-/// segment, so the steps between them do no harm; volume and moments are those of the solid below the
-/// expansions, and the area is that of the expansions, without the walls of the steps. There the
-/// radius cubed and to the fifth power are polynomials in the direction, so volume, centroid and
-/// inertia are exact to rounding (1e-13); the area is adaptive, to 1e-9.
+/// Of a blended surface: of the joined surface itself, to 3e-6 at worst and 1e-7 as a rule.
+///
+/// Of independent segments: segment by segment, so the steps between them do no harm; volume and
+/// moments are those of the solid below the expansions, and the area is that of the expansions, without
+/// the walls of the steps. There the radius cubed and to the fifth power are polynomials in the
+/// direction, so volume, centroid and inertia are exact to rounding (1e-13); the area is adaptive, to
+/// 1e-9.
 pub fn grain_properties(grain: &Grain) -> Integrals {
     let local = match grain.surface() {
         Surface::Blended(surface) => blended_properties(surface),

@@ -14,8 +14,9 @@ use nalgebra::Vector3;
 /// the cell's own angular width.
 ///
 /// Held-out RMS of jointly fitted clean grains (54 cells, degree 3; bean, chickpea and maize, in % of
-/// the mean radius): 0.020, 0.050, 0.118 at 0.2; 0.023, 0.047, 0.105 at 0.3; 0.023, 0.044, 0.067 at
-/// 0.4; 0.019, 0.033, 0.036 at 0.49. An evaluation touches 1.9, 2.5, 3.1 and 3.7 cells.
+/// the mean radius): 0.021, 0.042, 0.084 at 0.35; 0.021, 0.039, 0.065 at 0.4; 0.020, 0.035, 0.045 at
+/// 0.45. An evaluation touches 2.8, 3.1 and 3.5 cells. At 0.5 cells of a whole face would reach to the
+/// rim of the half sphere, where the weight is not defined.
 pub const MARGIN: f64 = 0.4;
 
 /// The half-angle tangents of a direction on a face; beyond all cells if it lies behind the face.

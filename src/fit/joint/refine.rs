@@ -117,7 +117,8 @@ impl<'a> Refinement<'a> {
         self.bases.len() - 1
     }
 
-    /// Refines from one cell per face, of the given degree if one is asked for; gives every round, the last one being the best.
+    /// Refines from one cell per face, of the given degree if one is asked for; gives every round,
+    /// the last one being the best.
     pub(crate) fn run(
         &mut self,
         parent: &Parent,
