@@ -6,7 +6,7 @@ use super::prior::Parent;
 use super::prune::prune;
 use super::refine::{Refinement, Round};
 use super::system::System;
-use super::{Cloud, Joined, root, within};
+use super::{Cloud, Joined, least_error, root, within};
 use crate::fit::level::FittedLevel;
 use crate::fit::options::Seams;
 use crate::fit::prepare::PreparedScan;
@@ -83,14 +83,6 @@ pub(super) fn search(prepared: &PreparedScan, progress: &dyn Fn(usize)) -> Found
     Found { search, fit }
 }
 
-/// The candidate with the least held-out error.
-fn least_error(candidates: &[Candidate]) -> usize {
-    let error = |at: &usize| candidates[*at].heldout_rms.unwrap_or(f64::INFINITY);
-    (0..candidates.len())
-        .min_by(|a, b| error(a).total_cmp(&error(b)))
-        .unwrap_or(0)
-}
-
 /// Where the refined surface is rejected, the whole sphere that predicts the samples better, if one
 /// does.
 fn best_root(roots: &[Candidate], refined: &Candidate) -> Option<usize> {
@@ -126,7 +118,7 @@ fn refine<'a>(
     };
     rounds.iter().for_each(|round| count(&round.system));
     let noise = refinement.noise;
-    let last = rounds.last().expect("there is a first round");
+    let (last, before) = rounds.split_last().expect("there is a first round");
     let degrees = prune(&refinement, last);
     let pruned = (degrees != last.system.degrees).then(|| {
         let (system, normal, prior) = refinement.lowered(&parent, last, degrees);
@@ -141,25 +133,19 @@ fn refine<'a>(
     let pruned = pruned.filter(|(fewer, _)| refinement.excess(fewer.spread.variance) <= 0.0);
     let measured =
         |round: &Round<'_>| finish(prepared, cloud, round.problem(), prepared.exhaustive);
-    let mut candidates: Vec<Candidate> = rounds
-        .iter()
-        .map(|round| match prepared.exhaustive {
-            true => measured(round).1,
-            false => round.candidate(),
-        })
-        .collect();
-    let joined = match pruned {
-        Some((fewer, candidate)) => {
-            candidates.push(candidate);
-            fewer
-        }
-        None => {
-            let (joined, candidate) = measured(last);
-            candidates.pop();
-            candidates.push(candidate);
-            joined
-        }
+    let told = |round: &Round<'_>| match prepared.exhaustive {
+        true => measured(round).1,
+        false => round.candidate(),
     };
+    let mut candidates: Vec<Candidate> = before.iter().map(told).collect();
+    let (joined, candidate) = match pruned {
+        Some(pruned) => {
+            candidates.push(told(last));
+            pruned
+        }
+        None => measured(last),
+    };
+    candidates.push(candidate);
     // Of large clouds, the thinned samples are free of outliers, and all others outvote them.
     let outliers = match cloud.thinned {
         None => outliers(last, &cloud.samples, noise, prepared.mean_radius),

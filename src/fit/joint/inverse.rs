@@ -76,35 +76,36 @@ impl BlockFactor {
     }
 }
 
-/// The symmetric matrix of the known blocks at some positions.
+/// The symmetric matrix of the known blocks at some positions, in any order.
 fn gather<'a>(
-    rows: &[usize],
+    positions: &[usize],
     starts: &[usize],
     height: usize,
     column: impl Fn(usize) -> &'a Column,
 ) -> Mat<f64> {
     let mut all = Mat::zeros(height, height);
-    for (k, &row) in rows.iter().enumerate() {
-        let from = column(row);
+    for (&position, &at) in positions.iter().zip(starts) {
+        let from = column(position);
         let size = from.diagonal.nrows();
         copy(
-            all.as_mut().submatrix_mut(starts[k], starts[k], size, size),
+            all.as_mut().submatrix_mut(at, at, size, size),
             from.diagonal.as_ref(),
         );
-        for (l, &lower) in rows.iter().enumerate().skip(k + 1) {
+        for (&lower, &lower_at) in positions.iter().zip(starts) {
+            if lower <= position {
+                continue;
+            }
             let Some(start) = from.start_of(lower) else {
                 continue;
             };
             let lower_size = column(lower).diagonal.nrows();
             let part = from.below.subrows(start, lower_size);
             copy(
-                all.as_mut()
-                    .submatrix_mut(starts[l], starts[k], lower_size, size),
+                all.as_mut().submatrix_mut(lower_at, at, lower_size, size),
                 part,
             );
             copy(
-                all.as_mut()
-                    .submatrix_mut(starts[k], starts[l], size, lower_size),
+                all.as_mut().submatrix_mut(at, lower_at, size, lower_size),
                 part.transpose(),
             );
         }
@@ -133,37 +134,12 @@ impl BlockInverse {
             starts.push(height);
             height += self.sizes[usize::from(cell)];
         }
-        let mut all = Mat::zeros(height, height);
-        for (a, &cell_a) in cells.iter().enumerate() {
-            let at = self.position[usize::from(cell_a)];
-            let size_a = self.sizes[usize::from(cell_a)];
-            copy(
-                all.as_mut()
-                    .submatrix_mut(starts[a], starts[a], size_a, size_a),
-                self.columns[at].diagonal.as_ref(),
-            );
-            for (b, &cell_b) in cells.iter().enumerate() {
-                let lower = self.position[usize::from(cell_b)];
-                if lower <= at {
-                    continue;
-                }
-                let size_b = self.sizes[usize::from(cell_b)];
-                let Some(start) = self.columns[at].start_of(lower) else {
-                    continue;
-                };
-                let part = self.columns[at].below.subrows(start, size_b);
-                copy(
-                    all.as_mut()
-                        .submatrix_mut(starts[b], starts[a], size_b, size_a),
-                    part,
-                );
-                copy(
-                    all.as_mut()
-                        .submatrix_mut(starts[a], starts[b], size_a, size_b),
-                    part.transpose(),
-                );
-            }
-        }
-        all
+        let positions: Vec<usize> = cells
+            .iter()
+            .map(|&cell| self.position[usize::from(cell)])
+            .collect();
+        gather(&positions, &starts, height, |position| {
+            &self.columns[position]
+        })
     }
 }

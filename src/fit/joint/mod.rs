@@ -113,3 +113,11 @@ fn within(candidates: &[Candidate], limit: f64) -> Option<usize> {
         .iter()
         .position(|c| c.rejected.is_none() && c.heldout_rms.is_some_and(|rms| rms <= limit))
 }
+
+/// The candidate with the least held-out error.
+fn least_error(candidates: &[Candidate]) -> usize {
+    let error = |at: &usize| candidates[*at].heldout_rms.unwrap_or(f64::INFINITY);
+    (0..candidates.len())
+        .min_by(|a, b| error(a).total_cmp(&error(b)))
+        .unwrap_or(0)
+}

@@ -322,7 +322,7 @@ impl<'a> Refinement<'a> {
 pub(super) fn patches(system: &System<'_>, samples: &[Sample]) -> Vec<Vec<Vec<u32>>> {
     let cells = system.cover.cells();
     let mut patches = vec![vec![Vec::new(); PATCHES * PATCHES]; cells.len()];
-    for ((number, &[x, y, z, _]), &cell) in (0..).zip(samples).zip(&system.nearest) {
+    for ((number, &[x, y, z, _]), cell) in (0..).zip(samples).zip(system.nearest()) {
         let cell = usize::from(cell);
         patches[cell][cells[cell].patch(&[x, y, z], PATCHES)].push(number);
     }

@@ -31,8 +31,6 @@ pub(crate) struct System<'a> {
     pub(super) groups: Vec<Group>,
     /// Weight of every sample: solid angle per sample, relative to the mean.
     pub(super) weights: Vec<f64>,
-    /// The cell with the largest share at every sample.
-    pub(crate) nearest: Vec<u16>,
     /// Sum of the shares of every cell: how many samples it holds.
     pub(crate) held: Vec<f64>,
 }
@@ -59,19 +57,6 @@ impl<'a> System<'a> {
                 held[usize::from(cell)] += group.shares(at).iter().sum::<f64>();
             }
         }
-        let mut nearest = vec![0; samples.len()];
-        for group in &groups {
-            for (row, &member) in group.members.iter().enumerate() {
-                let shares = (0..group.cells.len()).map(|at| (group.shares(at)[row], at));
-                let largest = shares.fold(
-                    (0.0, 0),
-                    |most, share| {
-                        if share.0 > most.0 { share } else { most }
-                    },
-                );
-                nearest[member as usize] = group.cells[largest.1];
-            }
-        }
         let mut system = Self {
             cover,
             bases,
@@ -79,7 +64,6 @@ impl<'a> System<'a> {
             samples,
             groups,
             weights: Vec::new(),
-            nearest,
             held,
         };
         system.weights = system.sample_weights();
@@ -132,6 +116,24 @@ impl<'a> System<'a> {
             }
         }
         weights
+    }
+
+    /// The cell with the largest share at every sample.
+    pub(super) fn nearest(&self) -> Vec<u16> {
+        let mut nearest = vec![0; self.samples.len()];
+        for group in &self.groups {
+            for (row, &member) in group.members.iter().enumerate() {
+                let shares = (0..group.cells.len()).map(|at| (group.shares(at)[row], at));
+                let largest = shares.fold(
+                    (0.0, 0),
+                    |most, share| {
+                        if share.0 > most.0 { share } else { most }
+                    },
+                );
+                nearest[member as usize] = group.cells[largest.1];
+            }
+        }
+        nearest
     }
 
     /// The cells that overlap with each cell where there are samples.

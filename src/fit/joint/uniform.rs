@@ -3,7 +3,7 @@
 use super::finish::finish;
 use super::prior::Parent;
 use super::refine::Refinement;
-use super::{Cloud, Joined, root, within};
+use super::{Cloud, Joined, least_error, root, within};
 use crate::fit::options::Seams;
 use crate::fit::prepare::PreparedScan;
 use crate::fit::search::{Candidate, Found, FoundFit, Search, Work};
@@ -18,20 +18,18 @@ pub(super) fn search(prepared: &PreparedScan, parts: usize) -> Found {
         (candidates, chosen, FoundFit::Segments(level.segments))
     } else {
         let cells = CubeCell::uniform(parts as u16);
-        let mut fits: Vec<(Joined, Candidate)> = prepared
-            .degrees
-            .iter()
-            .map(|&degree| fit(prepared, &cells, degree))
-            .collect();
+        let degrees = prepared.degrees.iter();
+        let (mut fits, candidates): (Vec<Joined>, Vec<Candidate>) =
+            degrees.map(|&degree| fit(prepared, &cells, degree)).unzip();
         work.candidates = fits.len();
         work.segments = fits.len() * cells.len();
-        let candidates: Vec<Candidate> = fits.iter().map(|(_, found)| found.clone()).collect();
-        let error = |at: &usize| candidates[*at].heldout_rms.unwrap_or(f64::INFINITY);
-        let chosen = within(&candidates, prepared.tolerance)
-            .or_else(|| (0..fits.len()).min_by(|a, b| error(a).total_cmp(&error(b))))
-            .unwrap_or(0);
-        let (joined, _) = fits.swap_remove(chosen);
-        (candidates, chosen, FoundFit::Joined(joined))
+        let chosen =
+            within(&candidates, prepared.tolerance).unwrap_or_else(|| least_error(&candidates));
+        (
+            candidates,
+            chosen,
+            FoundFit::Joined(fits.swap_remove(chosen)),
+        )
     };
     let search = Search {
         seams: Seams::Blended,
