@@ -205,6 +205,7 @@ impl std::ops::Add for Sums {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::model::Derivatives;
     use crate::shapes::{Body, Ellipsoid, Sphere};
     use approx::{assert_abs_diff_eq, assert_relative_eq};
     use nalgebra::Matrix3;
@@ -285,6 +286,13 @@ mod tests {
 
         fn radius_and_gradient(&self, n: &Vector3<f64>) -> (f64, Vector3<f64>) {
             (self.radius(n), Vector3::zeros())
+        }
+
+        fn derivatives(&self, n: &Vector3<f64>) -> Derivatives {
+            Sphere {
+                radius: self.radius(n),
+            }
+            .derivatives(n)
         }
     }
 

@@ -1,11 +1,13 @@
 //! Area, volume, centroid and inertia of star-shaped surfaces and of meshes.
 
+mod curvature;
 mod extents;
 mod grain;
 mod integrals;
 mod mass;
 mod mesh;
 
+pub use curvature::Curvature;
 pub use extents::extents;
 pub(crate) use grain::blended_properties;
 pub use grain::grain_properties;

@@ -1,6 +1,6 @@
 //! The fitted grain: a star-shaped surface and where it lies in the scan.
 
-use super::{Blended, Frame, Segmented, StarSurface};
+use super::{Blended, Derivatives, Frame, Segmented, StarSurface};
 use nalgebra::{Matrix3, Point3, Vector3};
 use rayon::prelude::*;
 
@@ -39,19 +39,6 @@ impl Surface {
             Self::Segmented(surface) => Some(surface),
         }
     }
-}
-
-/// A radius and its derivatives on the unit sphere, in the scan's frame.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Derivatives {
-    /// Radius.
-    pub radius: f64,
-    /// Surface gradient: length per radian, orthogonal to the direction.
-    pub gradient: Vector3<f64>,
-    /// Second covariant derivatives on the sphere: length per square radian, symmetric, with the
-    /// direction in its kernel. Along a great circle of unit tangent t the radius has the second
-    /// derivative t.H t.
-    pub hessian: Matrix3<f64>,
 }
 
 /// Why parts do not make a grain.
@@ -169,25 +156,6 @@ impl Grain {
         (n * radius - gradient).normalize()
     }
 
-    /// The radius in the direction of the unit vector `n` with its first and second derivatives,
-    /// from the formulas of the model.
-    pub fn derivatives(&self, n: &Vector3<f64>) -> Derivatives {
-        let local = self.frame.axes.tr_mul(n);
-        let jet = match &self.surface {
-            Surface::Blended(surface) => surface.jet(&local),
-            Surface::Segmented(surface) => surface.jet(&local),
-        };
-        let axes = self.frame.axes;
-        let across = Matrix3::identity() - n * n.transpose();
-        let gradient = axes * jet.gradient;
-        Derivatives {
-            radius: jet.value,
-            gradient: across * gradient,
-            hessian: across * (axes * jet.hessian * axes.transpose()) * across
-                - across * gradient.dot(n),
-        }
-    }
-
     /// The radii in the directions of many unit vectors, in the scan's frame: as
     /// [`StarSurface::radius`], and faster.
     pub fn radii(&self, directions: &[Vector3<f64>]) -> Vec<f64> {
@@ -249,5 +217,13 @@ impl StarSurface for Grain {
             Surface::Segmented(surface) => surface.radius_and_gradient(&local),
         };
         (radius, self.frame.axes * gradient)
+    }
+    fn derivatives(&self, n: &Vector3<f64>) -> Derivatives {
+        let local = self.frame.axes.tr_mul(n);
+        let jet = match &self.surface {
+            Surface::Blended(surface) => surface.jet(&local),
+            Surface::Segmented(surface) => surface.jet(&local),
+        };
+        Derivatives::on_sphere(&local, &jet).turned(&self.frame.axes)
     }
 }

@@ -1,9 +1,10 @@
 //! A bicone.
 
-use super::gauge::{from_axis, radius_and_gradient};
+use super::gauge::{derivatives, distance_from_axis, from_axis, radius_and_gradient};
 use super::solid::{Solid, closed_form};
 use crate::measure::Integrals;
-use crate::model::StarSurface;
+use crate::model::{Derivatives, StarSurface};
+use crate::sphere::Jet;
 use nalgebra::Vector3;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -35,6 +36,12 @@ impl StarSurface for Bicone {
         let (_, outwards) = from_axis(n);
         let along = Vector3::z() * (n.z.signum() / self.half_height);
         radius_and_gradient(n, &(outwards / self.radius + along))
+    }
+
+    fn derivatives(&self, n: &Vector3<f64>) -> Derivatives {
+        let along = Vector3::z() * (n.z.signum() / self.half_height);
+        let across = distance_from_axis(n).scaled(1.0 / self.radius);
+        derivatives(n, &across.plus(&Jet::linear(n, along)))
     }
 }
 

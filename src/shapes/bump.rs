@@ -1,7 +1,8 @@
 //! Smooth local swellings and dents on a simple body.
 
 use super::Solid;
-use crate::model::StarSurface;
+use crate::model::{Derivatives, StarSurface};
+use crate::sphere::Jet;
 use nalgebra::Vector3;
 
 /// A smooth local change of radius, as a share of it: A exp(kappa (n . d - 1) - (n . p)²).
@@ -42,11 +43,36 @@ impl Bump {
         self.amplitude * (self.sharpness * (n.dot(&self.direction) - 1.0) - across * across).exp()
     }
 
+    /// The value and its derivatives in space.
+    fn jet(&self, n: &Vector3<f64>) -> Jet {
+        let away = Jet::linear(n, self.direction).plus(&Jet::constant(-1.0));
+        let across = Jet::linear(n, self.pinch);
+        let exponent = away
+            .scaled(self.sharpness)
+            .plus(&across.times(&across).scaled(-1.0));
+        exponent.exp().scaled(self.amplitude)
+    }
+
     /// The value and its derivative in space, of which only the tangential part has a meaning.
     fn value_and_slope(&self, n: &Vector3<f64>) -> (f64, Vector3<f64>) {
         let value = self.value(n);
         let slope = self.direction * self.sharpness - self.pinch * (2.0 * n.dot(&self.pinch));
         (value, slope * value)
+    }
+}
+
+/// The derivatives of a product of functions on the sphere, from those of its factors.
+fn product(one: &Derivatives, other: &Derivatives) -> Derivatives {
+    let jet = |factor: &Derivatives| Jet {
+        value: factor.radius,
+        gradient: factor.gradient,
+        hessian: factor.hessian,
+    };
+    let product = jet(one).times(&jet(other));
+    Derivatives {
+        radius: product.value,
+        gradient: product.gradient,
+        hessian: product.hessian,
     }
 }
 
@@ -77,6 +103,17 @@ impl<B: StarSurface> StarSurface for Bumpy<B> {
         }
         let tangential = slope - n * n.dot(&slope);
         (radius * factor, gradient * factor + tangential * radius)
+    }
+
+    fn derivatives(&self, n: &Vector3<f64>) -> Derivatives {
+        let factor = self
+            .bumps
+            .iter()
+            .fold(Jet::constant(1.0), |sum, bump| sum.plus(&bump.jet(n)));
+        product(
+            &self.base.derivatives(n),
+            &Derivatives::on_sphere(n, &factor),
+        )
     }
 }
 

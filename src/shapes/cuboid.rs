@@ -1,11 +1,12 @@
 //! A rectangular parallelepiped.
 
 use super::Cylinder;
-use super::gauge::radius_and_gradient;
+use super::gauge::{derivatives, radius_and_gradient};
 use super::section::along_side;
 use super::solid::{Solid, closed_form};
 use crate::measure::Integrals;
-use crate::model::StarSurface;
+use crate::model::{Derivatives, StarSurface};
+use crate::sphere::Jet;
 use nalgebra::Vector3;
 use std::f64::consts::FRAC_2_PI;
 
@@ -18,6 +19,12 @@ pub struct Cuboid {
 }
 
 impl Cuboid {
+    /// The slope of the gauge |x_i| / a_i of the face that `n` meets.
+    fn slope(&self, n: &Vector3<f64>) -> Vector3<f64> {
+        let axis = n.component_div(&self.half_edges).iamax();
+        Vector3::ith(axis, n[axis].signum() / self.half_edges[axis])
+    }
+
     /// Mean radius: that of cylinders over the two sides of the rectangle in a quadrant of z = 0.
     fn mean_radius(&self) -> f64 {
         let [a, b, half_height]: [f64; 3] = self.half_edges.into();
@@ -38,9 +45,11 @@ impl StarSurface for Cuboid {
     }
 
     fn radius_and_gradient(&self, n: &Vector3<f64>) -> (f64, Vector3<f64>) {
-        let axis = n.component_div(&self.half_edges).iamax();
-        let slope = Vector3::ith(axis, n[axis].signum() / self.half_edges[axis]);
-        radius_and_gradient(n, &slope)
+        radius_and_gradient(n, &self.slope(n))
+    }
+
+    fn derivatives(&self, n: &Vector3<f64>) -> Derivatives {
+        derivatives(n, &Jet::linear(n, self.slope(n)))
     }
 }
 

@@ -1,9 +1,10 @@
 //! A circular cylinder.
 
-use super::gauge::{from_axis, radius_and_gradient};
+use super::gauge::{derivatives, distance_from_axis, from_axis, radius_and_gradient};
 use super::solid::{Solid, closed_form};
 use crate::measure::Integrals;
-use crate::model::StarSurface;
+use crate::model::{Derivatives, StarSurface};
+use crate::sphere::Jet;
 use nalgebra::Vector3;
 use std::f64::consts::TAU;
 
@@ -17,6 +18,16 @@ pub struct Cylinder {
 }
 
 impl Cylinder {
+    /// Whether `n`, at this distance from the axis, meets the side and not an end.
+    fn is_side(&self, n: &Vector3<f64>, distance: f64) -> bool {
+        distance / self.radius > n.z.abs() / self.half_height
+    }
+
+    /// The slope of the gauge |z| / h of the end that `n` meets.
+    fn end_slope(&self, n: &Vector3<f64>) -> Vector3<f64> {
+        Vector3::z() * (n.z.signum() / self.half_height)
+    }
+
     /// Mean radius h/2 ln(1 + R²/h²) + R atan(h/R): that of the two ends and that of the side.
     pub(super) fn mean_radius(&self) -> f64 {
         let (r, h) = (self.radius, self.half_height);
@@ -32,12 +43,20 @@ impl StarSurface for Cylinder {
 
     fn radius_and_gradient(&self, n: &Vector3<f64>) -> (f64, Vector3<f64>) {
         let (distance, outwards) = from_axis(n);
-        let is_side = distance / self.radius > n.z.abs() / self.half_height;
-        let slope = match is_side {
+        let slope = match self.is_side(n, distance) {
             true => outwards / self.radius,
-            false => Vector3::z() * (n.z.signum() / self.half_height),
+            false => self.end_slope(n),
         };
         radius_and_gradient(n, &slope)
+    }
+
+    fn derivatives(&self, n: &Vector3<f64>) -> Derivatives {
+        let distance = distance_from_axis(n);
+        let gauge = match self.is_side(n, distance.value) {
+            true => distance.scaled(1.0 / self.radius),
+            false => Jet::linear(n, self.end_slope(n)),
+        };
+        derivatives(n, &gauge)
     }
 }
 

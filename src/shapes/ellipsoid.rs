@@ -3,8 +3,9 @@
 use super::carlson::{rf, rg};
 use super::solid::{Solid, closed_form};
 use crate::measure::Integrals;
-use crate::model::StarSurface;
-use nalgebra::Vector3;
+use crate::model::{Derivatives, StarSurface};
+use crate::sphere::Jet;
+use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::PI;
 
 /// The ellipsoid r(n) = (n_x²/a² + n_y²/b² + n_z²/c²)^(-1/2), centred at the origin.
@@ -26,6 +27,17 @@ impl StarSurface for Ellipsoid {
         let r = 1.0 / scaled.norm();
         let slope = scaled.component_div(&self.semi_axes) * -r.powi(3);
         (r, slope - n * n.dot(&slope))
+    }
+
+    fn derivatives(&self, n: &Vector3<f64>) -> Derivatives {
+        let weights = self.semi_axes.map(|axis| axis.powi(-2));
+        let weighted = n.component_mul(&weights);
+        let square = Jet {
+            value: n.dot(&weighted),
+            gradient: weighted * 2.0,
+            hessian: Matrix3::from_diagonal(&weights) * 2.0,
+        };
+        Derivatives::on_sphere(n, &square.powf(-0.5))
     }
 }
 

@@ -1,7 +1,8 @@
 //! A maize kernel.
 
 use super::{Bump, Bumpy};
-use crate::model::StarSurface;
+use crate::model::{Derivatives, StarSurface};
+use crate::sphere::Jet;
 use nalgebra::Vector3;
 
 /// A maize kernel, some 11.5 x 8.5 x 5 mm: a flat wedge, its tip cap towards -x and a concave crown
@@ -51,6 +52,18 @@ impl StarSurface for Wedge {
         slope.x -= scaled.map(|s| s.powi(4)).dot(&self.taper);
         let slope = slope * (-r / h);
         (r, slope - n * n.dot(&slope))
+    }
+
+    fn derivatives(&self, n: &Vector3<f64>) -> Derivatives {
+        let along = |axis: usize, rate: f64| Jet::linear(n, Vector3::ith(axis, rate));
+        let h = (0..3)
+            .map(|i| {
+                let shrink = along(0, -self.taper[i]).exp();
+                let scaled = along(i, 1.0 / self.semi_axes[i]).times(&shrink);
+                scaled.powf(4.0)
+            })
+            .fold(Jet::default(), |sum, power| sum.plus(&power));
+        Derivatives::on_sphere(n, &h.powf(-0.25))
     }
 }
 

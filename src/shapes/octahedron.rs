@@ -1,11 +1,12 @@
 //! An octahedron.
 
 use super::Bicone;
-use super::gauge::radius_and_gradient;
+use super::gauge::{derivatives, radius_and_gradient};
 use super::section::along_side;
 use super::solid::{Solid, closed_form};
 use crate::measure::Integrals;
-use crate::model::StarSurface;
+use crate::model::{Derivatives, StarSurface};
+use crate::sphere::Jet;
 use nalgebra::Vector3;
 use std::f64::consts::FRAC_2_PI;
 
@@ -17,6 +18,11 @@ pub struct Octahedron {
 }
 
 impl Octahedron {
+    /// The slope of the gauge |x|/a + |y|/b + |z|/c on the side that `n` meets.
+    fn slope(&self, n: &Vector3<f64>) -> Vector3<f64> {
+        n.map(f64::signum).component_div(&self.semi_axes)
+    }
+
     /// Mean radius: that of bicones over the side of the rhombus in a quadrant of z = 0.
     fn mean_radius(&self) -> f64 {
         let [a, b, half_height]: [f64; 3] = self.semi_axes.into();
@@ -38,8 +44,11 @@ impl StarSurface for Octahedron {
     }
 
     fn radius_and_gradient(&self, n: &Vector3<f64>) -> (f64, Vector3<f64>) {
-        let slope = n.map(f64::signum).component_div(&self.semi_axes);
-        radius_and_gradient(n, &slope)
+        radius_and_gradient(n, &self.slope(n))
+    }
+
+    fn derivatives(&self, n: &Vector3<f64>) -> Derivatives {
+        derivatives(n, &Jet::linear(n, self.slope(n)))
     }
 }
 

@@ -176,6 +176,37 @@ mod tests {
         }
     }
 
+    #[test]
+    fn second_derivatives_match_differences_of_the_gradient_away_from_edges() {
+        let step = 1e-5_f64;
+        for body in Body::ALL {
+            let shape = body.surface();
+            let mut skipped = 0;
+            for n in Sampling::Fibonacci.directions(500, 0).unwrap() {
+                let found = shape.derivatives(&n);
+                let (r, gradient) = shape.radius_and_gradient(&n);
+                assert_relative_eq!(found.radius, r, max_relative = 1e-14);
+                assert!((found.gradient - gradient).norm() < 1e-13 * r);
+                assert!((found.hessian * n).norm() < 1e-12 * r);
+                let first = n.cross(&Vector3::ith(n.iamin(), 1.0)).normalize();
+                for tangent in [first, n.cross(&first)] {
+                    let [after, before] = [step, -step].map(|angle| {
+                        let n = n * angle.cos() + tangent * angle.sin();
+                        shape.radius_and_gradient(&n).1
+                    });
+                    let change = (after - before) / (2.0 * step);
+                    let error = change - n * change.dot(&n) - found.hessian * tangent;
+                    if change.norm() > 1e3 {
+                        skipped += 1;
+                        continue;
+                    }
+                    assert!(error.norm() < 1e-6, "{body} at {n:?}: {error:?}");
+                }
+            }
+            assert!(skipped < 10, "{body}: {skipped}");
+        }
+    }
+
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(20))]
         #[test]

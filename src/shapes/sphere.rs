@@ -2,8 +2,8 @@
 
 use super::solid::{Solid, closed_form};
 use crate::measure::Integrals;
-use crate::model::StarSurface;
-use nalgebra::Vector3;
+use crate::model::{Derivatives, StarSurface};
+use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::PI;
 
 /// The sphere r(n) = radius.
@@ -20,6 +20,14 @@ impl StarSurface for Sphere {
 
     fn radius_and_gradient(&self, _n: &Vector3<f64>) -> (f64, Vector3<f64>) {
         (self.radius, Vector3::zeros())
+    }
+
+    fn derivatives(&self, _n: &Vector3<f64>) -> Derivatives {
+        Derivatives {
+            radius: self.radius,
+            gradient: Vector3::zeros(),
+            hessian: Matrix3::zeros(),
+        }
     }
 }
 

@@ -30,6 +30,31 @@ impl Jet {
         }
     }
 
+    /// The linear function with this slope.
+    pub(crate) fn linear(n: &Vector3<f64>, slope: Vector3<f64>) -> Self {
+        Self {
+            value: slope.dot(n),
+            gradient: slope,
+            ..Self::default()
+        }
+    }
+
+    /// This function to a power.
+    pub(crate) fn powf(&self, power: f64) -> Self {
+        let slope = |times: f64| self.value.powf(power - times);
+        self.composed(
+            slope(0.0),
+            power * slope(1.0),
+            power * (power - 1.0) * slope(2.0),
+        )
+    }
+
+    /// The exponential of this function.
+    pub(crate) fn exp(&self) -> Self {
+        let value = self.value.exp();
+        self.composed(value, value, value)
+    }
+
     /// A function of this one, given by its value and its first two derivatives here.
     pub(crate) fn composed(&self, value: f64, first: f64, second: f64) -> Self {
         Self {
