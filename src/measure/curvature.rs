@@ -20,6 +20,9 @@
 use crate::model::Derivatives;
 use nalgebra::{Matrix2, Vector3};
 
+/// A gradient below this share of the radius is rounding and has no direction of its own.
+const LEAST_SLOPE: f64 = 1e-14;
+
 /// The shape of a surface round one of its points, in the frame of its [`Derivatives`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Curvature {
@@ -48,8 +51,9 @@ impl Curvature {
             gradient,
             hessian,
         } = *derivatives;
+        let gradient = gradient - n * n.dot(&gradient);
         let slope = gradient.norm();
-        let along = match slope > 0.0 {
+        let along = match slope > LEAST_SLOPE * r {
             true => gradient / slope,
             false => n.cross(&Vector3::ith(n.iamin(), 1.0)).normalize(),
         };
@@ -62,11 +66,7 @@ impl Curvature {
         let n_n = (r * r - r * form(&across, &across)) / stretch;
 
         // Per unit length instead of per radian: the matrix of the shape operator is symmetric.
-        let (a, b, c) = (
-            l / (stretch * stretch),
-            m / (stretch * r),
-            n_n / (r * r),
-        );
+        let (a, b, c) = (l / (stretch * stretch), m / (stretch * r), n_n / (r * r));
         let units = [(along * r + n * slope) / stretch, across];
         let (mean, half_spread) = (0.5 * (a + c), (0.5 * (a - c)).hypot(b));
         let turn = 0.5 * (2.0 * b).atan2(a - c);
@@ -96,7 +96,9 @@ impl Curvature {
 
     /// Normal curvature along a unit tangent of the surface, k1 cos² + k2 sin² (Euler).
     pub fn along(&self, tangent: &Vector3<f64>) -> f64 {
-        let [first, second] = self.directions.map(|direction| direction.dot(tangent).powi(2));
+        let [first, second] = self
+            .directions
+            .map(|direction| direction.dot(tangent).powi(2));
         self.principal[0] * first + self.principal[1] * second
     }
 }
@@ -147,7 +149,12 @@ mod tests {
 
     #[test]
     fn ellipsoids_have_their_closed_form_everywhere_and_at_the_poles() {
-        for axes in [[2.0, 2.0, 1.0], [3.0, 2.0, 1.0], [1.0, 1.0, 4.0], [5.0, 5.0, 5.0]] {
+        for axes in [
+            [2.0, 2.0, 1.0],
+            [3.0, 2.0, 1.0],
+            [1.0, 1.0, 4.0],
+            [5.0, 5.0, 5.0],
+        ] {
             for n in directions() {
                 check_ellipsoid(Vector3::from(axes), &n);
             }
@@ -213,7 +220,10 @@ mod tests {
 
     #[test]
     fn flat_faces_are_flat_and_a_mantle_is_curved_one_way() {
-        let cylinder = Cylinder { radius: 2.0, half_height: 1.0 };
+        let cylinder = Cylinder {
+            radius: 2.0,
+            half_height: 1.0,
+        };
         let side = at(&cylinder, &Vector3::new(0.6, 0.7, 0.1).normalize());
         assert_relative_eq!(side.principal[0], 0.5, epsilon = 1e-13);
         assert!(side.principal[1].abs() < 1e-13);
