@@ -4,6 +4,7 @@
 //!
 //! ```text
 //! scan -> fit -> model -> measure -> export / report
+//!                  \-> contact
 //! ```
 //!
 //! # Conventions
@@ -19,6 +20,8 @@ pub mod bench;
 #[cfg(feature = "cli")]
 #[doc(hidden)]
 pub mod cli;
+pub mod contact;
+mod elliptic;
 pub mod export;
 pub mod fit;
 pub mod measure;

@@ -1,4 +1,5 @@
-//! Area, volume, centroid and inertia of star-shaped surfaces and of meshes.
+//! Area, volume, inertia, size, form and curvature of star-shaped surfaces and of meshes, and how far one
+//! surface is from another.
 
 mod curvature;
 mod extents;
@@ -6,6 +7,7 @@ mod grain;
 mod integrals;
 mod mass;
 mod mesh;
+mod support;
 
 pub use curvature::Curvature;
 pub use extents::extents;
@@ -14,3 +16,4 @@ pub use grain::grain_properties;
 pub use integrals::{Integrals, MAX_EVALUATIONS, integrate};
 pub use mass::{MassProperties, Moments, PrincipalInertia};
 pub use mesh::{MeshIntegralError, mesh_properties};
+pub use support::{Support, support};

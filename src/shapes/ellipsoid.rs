@@ -1,7 +1,7 @@
 //! An ellipsoid.
 
-use super::carlson::{rf, rg};
 use super::solid::{Solid, closed_form};
+use crate::elliptic::{rf, rg};
 use crate::measure::Integrals;
 use crate::model::{Derivatives, StarSurface};
 use crate::sphere::Jet;

@@ -10,7 +10,6 @@ mod bean;
 mod bicone;
 mod body;
 mod bump;
-mod carlson;
 mod chickpea;
 mod cuboid;
 mod cylinder;

@@ -9,8 +9,8 @@
 /// term left out is of the sixth power of this, below 1e-17.
 const NEAR: f64 = 1e-3;
 
-/// R_F(x, y, z) = 1/2 ∫_0^∞ dt / sqrt((t + x) (t + y) (t + z)), of positive arguments.
-pub(super) fn rf(mut x: f64, mut y: f64, mut z: f64) -> f64 {
+/// R_F(x, y, z) = 1/2 ∫_0^∞ dt / sqrt((t + x) (t + y) (t + z)), of positive arguments (one of x and y may be zero).
+pub(crate) fn rf(mut x: f64, mut y: f64, mut z: f64) -> f64 {
     loop {
         let mean = (x + y + z) / 3.0;
         let [p, q, r] = [x, y, z].map(|argument| 1.0 - argument / mean);
@@ -24,8 +24,8 @@ pub(super) fn rf(mut x: f64, mut y: f64, mut z: f64) -> f64 {
     }
 }
 
-/// R_D(x, y, z) = 3/2 ∫_0^∞ dt / (sqrt((t + x) (t + y)) (t + z)^(3/2)), of positive arguments.
-pub(super) fn rd(mut x: f64, mut y: f64, mut z: f64) -> f64 {
+/// R_D(x, y, z) = 3/2 ∫_0^∞ dt / (sqrt((t + x) (t + y)) (t + z)^(3/2)), of positive arguments (one of x and y may be zero).
+pub(crate) fn rd(mut x: f64, mut y: f64, mut z: f64) -> f64 {
     let (mut sum, mut factor) = (0.0, 1.0);
     loop {
         let mean = (x + y + 3.0 * z) / 5.0;
@@ -54,7 +54,7 @@ pub(super) fn rd(mut x: f64, mut y: f64, mut z: f64) -> f64 {
 ///
 /// Its form by R_F and R_D (DLMF 19.21.10) is taken with the middle argument in the last place,
 /// where no term is negative.
-pub(super) fn rg(x: f64, y: f64, z: f64) -> f64 {
+pub(crate) fn rg(x: f64, y: f64, z: f64) -> f64 {
     let mut sorted = [x, y, z];
     sorted.sort_by(f64::total_cmp);
     let [low, middle, high] = sorted;

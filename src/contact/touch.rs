@@ -1,0 +1,190 @@
+//! Where a body touches what comes from a direction, and how it is curved there.
+
+use super::{EdgeError, TangentCap};
+use crate::measure::{Curvature, Support, support};
+use crate::model::StarSurface;
+use nalgebra::Vector3;
+use std::f64::consts::TAU;
+use thiserror::Error;
+
+/// Distance, in radians, at which the sides of an edge are looked at.
+const ASIDE: f64 = 1e-6;
+
+/// Directions round an edge in which its sides are looked at.
+const AROUND: usize = 16;
+
+/// Largest angle between the normals of one side, in radians: on a side that is curved a thousand
+/// times as much as a sphere they are as far apart.
+const ONE_SIDE: f64 = 2e-3;
+
+/// A point of a body by which it touches a plane.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Touch {
+    /// The point, seen from the surface's origin: on an edge, before that is rounded.
+    pub point: Vector3<f64>,
+    /// Principal curvatures there, the larger first: one over length.
+    pub principal: [f64; 2],
+    /// Unit vectors along which they are met, tangential to the plane.
+    pub directions: [Vector3<f64>; 2],
+    /// The cap by which an edge was rounded.
+    pub cap: Option<TangentCap>,
+}
+
+/// Why a body's contact has no curvature.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+#[non_exhaustive]
+pub enum TouchError {
+    /// Give the radius of the cap that rounds it.
+    #[error("the surface has an edge of {turn_deg:.1} degrees there, which has no curvature")]
+    Edge {
+        /// Angle between the normals of its sides, in degrees.
+        turn_deg: f64,
+    },
+    /// More than two sides meet: no cap is tangent to all of them.
+    #[error("the surface has a corner there, which has no curvature")]
+    Corner,
+    /// The edge cannot be rounded by a cap of the radius asked for.
+    #[error(transparent)]
+    Cap(#[from] EdgeError),
+}
+
+/// Where a surface touches a plane whose normal, pointing away from the surface, is the unit vector
+/// `towards`. An edge there, as expansions of an octant have where they meet their images, is rounded by
+/// a cap of the given radius.
+///
+/// # Errors
+///
+/// See [`TouchError`].
+pub fn touch(
+    surface: &(impl StarSurface + ?Sized),
+    towards: &Vector3<f64>,
+    edge_radius: Option<f64>,
+) -> Result<Touch, TouchError> {
+    let found = support(surface, towards);
+    if found.is_smooth {
+        return Ok(Touch {
+            point: found.point,
+            principal: found.curvature.principal,
+            directions: found.curvature.directions,
+            cap: None,
+        });
+    }
+    round(
+        &found,
+        &sides(surface, &found.direction)?,
+        towards,
+        edge_radius,
+    )
+}
+
+/// The two sides of an edge: those that are farthest apart of all round `n`.
+fn sides(
+    surface: &(impl StarSurface + ?Sized),
+    n: &Vector3<f64>,
+) -> Result<[Curvature; 2], TouchError> {
+    let first = n.cross(&Vector3::ith(n.iamin(), 1.0)).normalize();
+    let second = n.cross(&first);
+    // Half a step off the axes, along which edges tend to run.
+    let around: Vec<Curvature> = (0..AROUND)
+        .map(|i| {
+            let (sin, cos) = (TAU * (i as f64 + 0.5) / AROUND as f64).sin_cos();
+            let aside = (n + (first * cos + second * sin) * ASIDE).normalize();
+            Curvature::new(&aside, &surface.derivatives(&aside))
+        })
+        .collect();
+    let apart = |one: &Curvature, other: &Curvature| (one.normal - other.normal).norm();
+    let one = around[0];
+    let farthest = |from: &Curvature| {
+        let farther = |a: &&Curvature, b: &&Curvature| apart(from, a).total_cmp(&apart(from, b));
+        around.iter().max_by(farther).copied().unwrap_or(one)
+    };
+    let one = farthest(&one);
+    let other = farthest(&one);
+    let is_on_a_side = |side: &Curvature| apart(side, &one).min(apart(side, &other)) < ONE_SIDE;
+    match around.iter().all(is_on_a_side) {
+        true => Ok([one, other]),
+        false => Err(TouchError::Corner),
+    }
+}
+
+fn round(
+    found: &Support,
+    sides: &[Curvature; 2],
+    towards: &Vector3<f64>,
+    edge_radius: Option<f64>,
+) -> Result<Touch, TouchError> {
+    let normals = [&sides[0].normal, &sides[1].normal];
+    let cap = TangentCap::new(normals, edge_radius.unwrap_or(1.0))?;
+    if edge_radius.is_none() {
+        return Err(TouchError::Edge {
+            turn_deg: cap.turn_rad.to_degrees(),
+        });
+    }
+    let Some(along) = normals[0].cross(normals[1]).try_normalize(0.0) else {
+        return Err(TouchError::Corner);
+    };
+    // Meusnier: the edge, seen from the direction of the contact, bends more than the side does.
+    let bend = sides[0].along(&along) / normals[0].dot(towards);
+    Ok(Touch {
+        point: found.point,
+        principal: cap.principal_curvatures(1.0 / bend),
+        directions: [along.cross(towards), along],
+        cap: Some(cap),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shapes::{Bicone, Body, Cuboid, Ellipsoid};
+    use approx::assert_relative_eq;
+
+    #[test]
+    fn an_ellipsoid_touches_with_the_radii_of_table_3_6() {
+        let ellipsoid = Ellipsoid {
+            semi_axes: Vector3::new(2.0, 2.0, 1.0),
+        };
+        let side = touch(&ellipsoid, &Vector3::x(), None).unwrap();
+        assert_relative_eq!(side.principal[0], 2.0, max_relative = 1e-12);
+        assert_relative_eq!(side.principal[1], 0.5, max_relative = 1e-12);
+        let top = touch(&ellipsoid, &Vector3::z(), None).unwrap();
+        assert_relative_eq!(top.principal[0], 0.25, max_relative = 1e-12);
+        assert!(top.cap.is_none());
+    }
+
+    #[test]
+    fn the_rim_of_a_bicone_is_rounded_by_a_cap() {
+        let bicone = Bicone {
+            radius: 4.0,
+            half_height: 3.0,
+        };
+        let refused = touch(&bicone, &Vector3::x(), None).unwrap_err();
+        let turn: f64 = 2.0 * (4.0_f64 / 3.0).atan();
+        assert!(matches!(refused, TouchError::Edge { turn_deg }
+            if (turn_deg - turn.to_degrees()).abs() < 1e-4));
+        let found = touch(&bicone, &Vector3::x(), Some(0.1)).unwrap();
+        assert_relative_eq!(found.principal[0], 10.0, max_relative = 1e-9);
+        let recess = 0.1 * (1.0 / (0.5 * turn).cos() - 1.0);
+        assert_relative_eq!(
+            found.principal[1],
+            1.0 / (4.0 - recess),
+            max_relative = 1e-5
+        );
+        assert_relative_eq!(found.directions[1].y.abs(), 1.0, epsilon = 1e-5);
+    }
+
+    #[test]
+    fn corners_and_apexes_are_refused() {
+        let cuboid = Cuboid {
+            half_edges: Vector3::new(1.0, 1.0, 1.0),
+        };
+        let diagonal = Vector3::repeat(1.0).normalize();
+        assert_eq!(
+            touch(&cuboid, &diagonal, Some(0.1)),
+            Err(TouchError::Corner)
+        );
+        let bicone = Body::Bicone.surface();
+        let apex = touch(bicone.as_ref(), &Vector3::z(), Some(0.1));
+        assert_eq!(apex, Err(TouchError::Corner));
+    }
+}

@@ -1,0 +1,180 @@
+//! Where a surface reaches farthest in a direction: the point by which it touches a plane.
+
+use super::Curvature;
+use crate::model::{Derivatives, StarSurface};
+use crate::sphere::cube_grid;
+use nalgebra::{Matrix3, Vector3};
+
+/// Cells along a cube's edge of the directions that the search starts from: 1538 directions, 6 degrees
+/// apart. A second maximum narrower than that can be missed.
+const START: usize = 16;
+
+/// Most steps of either stage; Newton's iteration takes some five, the compass some sixty.
+const MAX_STEPS: usize = 200;
+
+/// Angle below which the compass search ends, in radians: the surface point is then off by as much of
+/// the radius.
+const LEAST_STEP: f64 = 1e-12;
+
+/// Largest angle between the normal and the direction looked for at a smooth point, in radians.
+const SMOOTH: f64 = 1e-6;
+
+/// The point of a surface that lies farthest in a direction.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Support {
+    /// Direction of the point from the surface's origin, a unit vector.
+    pub direction: Vector3<f64>,
+    /// The point, seen from the surface's origin.
+    pub point: Vector3<f64>,
+    /// Curvature there: on an edge, that of one of its sides.
+    pub curvature: Curvature,
+    /// Whether the surface is smooth there, so that its normal is the direction looked for.
+    pub is_smooth: bool,
+}
+
+/// The point of a surface farthest in the direction of the unit vector `towards`.
+///
+/// The best of a grid of directions is refined by Newton's iteration on the normal, and where that
+/// does not climb (on an edge or an apex) by a compass search. Error: rounding at a smooth point, 1e-12
+/// of the radius on an edge.
+pub fn support(surface: &(impl StarSurface + ?Sized), towards: &Vector3<f64>) -> Support {
+    let height = |n: &Vector3<f64>| surface.radius(n) * n.dot(towards);
+    let (directions, _) = cube_grid(START);
+    let start = directions
+        .iter()
+        .fold((Vector3::z(), f64::NEG_INFINITY), |best, n| {
+            let height = height(n);
+            if height > best.1 { (*n, height) } else { best }
+        });
+    let climbed = newton(surface, towards, start.0, height);
+    let found = at(surface, towards, &climbed);
+    match found.is_smooth {
+        true => found,
+        false => at(surface, towards, &compass(climbed, height)),
+    }
+}
+
+fn at(surface: &(impl StarSurface + ?Sized), towards: &Vector3<f64>, n: &Vector3<f64>) -> Support {
+    let derivatives = surface.derivatives(n);
+    let curvature = Curvature::new(n, &derivatives);
+    Support {
+        direction: *n,
+        point: n * derivatives.radius,
+        curvature,
+        is_smooth: curvature.normal.cross(towards).norm() < SMOOTH
+            && curvature.normal.dot(towards) > 0.0,
+    }
+}
+
+/// Climbs from `n` as long as it gets higher: along the surface by the turn of the normal over the
+/// curvature, shortened where that leads down.
+fn newton(
+    surface: &(impl StarSurface + ?Sized),
+    towards: &Vector3<f64>,
+    mut n: Vector3<f64>,
+    height: impl Fn(&Vector3<f64>) -> f64,
+) -> Vector3<f64> {
+    let mut highest = height(&n);
+    for _ in 0..MAX_STEPS {
+        let derivatives: Derivatives = surface.derivatives(&n);
+        let curvature = Curvature::new(&n, &derivatives);
+        let across = Matrix3::identity() - curvature.normal * curvature.normal.transpose();
+        let turn = across * towards;
+        let step: Vector3<f64> = curvature
+            .principal
+            .into_iter()
+            .zip(curvature.directions)
+            .map(|(k, direction)| {
+                // A flat or hollow place is climbed by steps of its own size.
+                let k = k.max(0.1 / derivatives.radius);
+                direction * (turn.dot(&direction) / k)
+            })
+            .sum();
+        let point = n * derivatives.radius;
+        let tried = [1.0, 0.5, 0.25, 0.1, 0.01].into_iter().find_map(|share| {
+            let next = (point + step * share).try_normalize(0.0)?;
+            let height = height(&next);
+            (height > highest).then_some((next, height))
+        });
+        match tried {
+            Some((next, height)) => (n, highest) = (next, height),
+            None => break,
+        }
+    }
+    n
+}
+
+/// Climbs from `n` by steps in eight tangential directions, halved where none leads up.
+fn compass(mut n: Vector3<f64>, height: impl Fn(&Vector3<f64>) -> f64) -> Vector3<f64> {
+    let mut highest = height(&n);
+    let mut step = 0.05;
+    for _ in 0..MAX_STEPS {
+        if step < LEAST_STEP {
+            break;
+        }
+        let first = n.cross(&Vector3::ith(n.iamin(), 1.0)).normalize();
+        let second = n.cross(&first);
+        let best = (0..8)
+            .map(|i| {
+                let (sin, cos) = (i as f64 * std::f64::consts::FRAC_PI_4).sin_cos();
+                let next = (n + (first * cos + second * sin) * step).normalize();
+                (next, height(&next))
+            })
+            .max_by(|one, other| one.1.total_cmp(&other.1));
+        match best {
+            Some((next, height)) if height > highest => (n, highest) = (next, height),
+            _ => step *= 0.5,
+        }
+    }
+    n
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shapes::{Body, Cuboid, Ellipsoid, Sampling};
+    use approx::assert_relative_eq;
+
+    /// The farthest point of an ellipsoid along d is (a² d_x, b² d_y, c² d_z) / |(a d_x, b d_y, c d_z)|.
+    #[test]
+    fn ellipsoids_reach_to_their_closed_form() {
+        for axes in [[2.0, 2.0, 1.0], [3.0, 1.0, 0.5], [1.0, 1.0, 1.0]] {
+            let semi_axes = Vector3::from(axes);
+            for towards in Sampling::Cube.directions(98, 0).unwrap() {
+                let scaled = semi_axes.component_mul(&towards);
+                let exact = semi_axes.component_mul(&scaled) / scaled.norm();
+                let found = support(&Ellipsoid { semi_axes }, &towards);
+                assert!(found.is_smooth, "{towards}");
+                assert_relative_eq!(found.point, exact, epsilon = 1e-7);
+                let height = found.point.dot(&towards);
+                assert_relative_eq!(height, scaled.norm(), max_relative = 1e-14);
+            }
+        }
+    }
+
+    #[test]
+    fn grains_are_not_seen_above_it() {
+        for body in [Body::Bean, Body::Chickpea, Body::Maize] {
+            let surface = body.surface();
+            let directions = Sampling::Fibonacci.directions(5000, 0).unwrap();
+            for towards in Sampling::Fibonacci.directions(60, 0).unwrap() {
+                let found = support(surface.as_ref(), &towards);
+                assert!(found.is_smooth, "{body} along {towards}");
+                let height = found.point.dot(&towards);
+                for n in &directions {
+                    assert!(surface.radius(n) * n.dot(&towards) <= height);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_corner_is_found_and_told_from_a_smooth_point() {
+        let cuboid = Cuboid {
+            half_edges: Vector3::new(1.0, 2.0, 3.0),
+        };
+        let found = support(&cuboid, &Vector3::new(0.5, 0.6, 0.7).normalize());
+        assert!(!found.is_smooth);
+        assert_relative_eq!(found.point, Vector3::new(1.0, 2.0, 3.0), epsilon = 1e-9);
+    }
+}
