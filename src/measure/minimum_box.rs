@@ -1,0 +1,342 @@
+//! The box of least volume round a body, over all orientations.
+//!
+//! With one of its axes along d, the least box has the volume V(d) = (height along d) x (area of the
+//! least rectangle round the projection along d), and the rectangle is found exactly by calipers. What
+//! is left is to find the least V over the directions of half a sphere. V has many local minima and
+//! its minima lie in creases (O'Rourke 1985: two adjacent faces of the least box each hold an edge of
+//! the hull; his exact search takes O(n³)). So, as Chang, Gorissen and Melchior 2011 do it:
+//!
+//! 1. V is found in the directions of a grid in the principal frame, so that the result does not
+//!    depend on how the body is turned; of small hulls also along the normals of facets and across
+//!    pairs of edges, which finds the box of a cuboid or a tetrahedron.
+//! 2. The least of these are refined by simplex searches (Nelder and Mead 1965) and by turning the box
+//!    about each of its own axes.
+//!
+//! Both are done on a few hundred points of the hull, at first those extreme in the directions of a
+//! grid. The box found is then tried on the whole hull, the points that are outside are added, and the
+//! refinement goes on until there are none: a local minimum for those few is one for the hull.
+//!
+//! Error: the box holds all points, so its volume is never too small. Of cuboids and tetrahedra it is
+//! exact to 1e-9. On random hulls of 12 to 60 corners none of 20 000 directions gives a box smaller by
+//! more than 1e-6 of its volume. Of a smooth grain turned in any way it is the same to 1e-4, of one that
+//! is nearly round, with many boxes of nearly the same volume, to 1e-3.
+
+use super::convex_polygon::ConvexPolygon;
+use super::extents::bounds;
+use super::{MeshIntegralError, mesh_properties};
+use crate::Mesh;
+use crate::sphere::cube_grid;
+use nalgebra::{Matrix3, Point3, Vector2, Vector3};
+
+#[cfg(test)]
+mod tests;
+
+/// A box of any orientation.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct OrientedBox {
+    /// Centre.
+    pub centre: Point3<f64>,
+    /// Unit axes in the columns, in the order of the extents: a rotation. The largest component of the
+    /// first and of the second axis is positive.
+    pub axes: Matrix3<f64>,
+    /// Length, width and thickness: the sides of the box, descending.
+    pub extents: Vector3<f64>,
+}
+
+impl OrientedBox {
+    /// Product of the extents.
+    pub fn volume(&self) -> f64 {
+        self.extents.product()
+    }
+}
+
+/// The smallest box with the given orthonormal axes (columns, in any order) that holds all points.
+pub fn box_along(points: &[Point3<f64>], axes: &Matrix3<f64>) -> OrientedBox {
+    let [low, high] = bounds(points, axes);
+    let extents = high - low;
+    let mut order = [0, 1, 2];
+    order.sort_by(|&i, &j| extents[j].total_cmp(&extents[i]));
+    let [first, second] = [order[0], order[1]].map(|i| {
+        let axis = axes.column(i).into_owned();
+        axis * axis[axis.iamax()].signum()
+    });
+    OrientedBox {
+        centre: Point3::from(axes * ((low + high) / 2.0)),
+        axes: Matrix3::from_columns(&[first, second, first.cross(&second)]),
+        extents: Vector3::from_fn(|i, _| extents[order[i]]),
+    }
+}
+
+/// Cells per cube edge of the grid of directions whose extreme points stand for the hull at first.
+const EXTREMES: usize = 6;
+
+/// Cells per cube edge of the grid of directions that are tried: 9 degrees.
+const GRID: usize = 10;
+
+/// Directions that are refined, and the least angle between them in radians.
+const STARTS: usize = 4;
+const APART: f64 = 0.2;
+
+/// Largest numbers of triangles whose normals, and of edges whose pairs, are tried as well.
+const SMALL_TRIANGLES: usize = 600;
+const SMALL_EDGES: usize = 60;
+
+/// Rounds on the whole hull, and the share of the volume by which the box may grow in the last.
+const ROUNDS: usize = 6;
+const SETTLED: f64 = 1e-6;
+
+/// Size of the first simplex in a round after the first, in radians.
+const NEARBY: f64 = 0.02;
+
+/// The box of least volume round a convex hull; see the module for the error. A mesh that is not
+/// convex has the same box, and takes longer.
+///
+/// # Errors
+///
+/// [`MeshIntegralError`] if the mesh is broken or has no volume.
+pub fn minimum_box(hull: &Mesh) -> Result<OrientedBox, MeshIntegralError> {
+    let unit = of_unit_size(hull);
+    let principal = mesh_properties(&unit)?.principal();
+    let frame = principal.map_or_else(Matrix3::identity, |principal| principal.axes);
+    let grid = |n| {
+        let half = cube_grid(n).0.into_iter().filter(is_in_half);
+        half.map(move |direction| frame * direction)
+    };
+    let mut few = ExtremePoints::new(&unit.vertices, grid(EXTREMES));
+    let mut tried: Vec<Candidate> = grid(GRID)
+        .chain(frame.column_iter().map(|axis| axis.into_owned()))
+        .chain(natural_directions(&unit))
+        .filter_map(|direction| few.least_box(&direction))
+        .collect();
+    tried.sort_by(|a, b| a.volume.total_cmp(&b.volume));
+    let mut starts: Vec<Candidate> = Vec::with_capacity(STARTS);
+    for candidate in tried {
+        let is_apart = |other: &Candidate| {
+            let cosine = candidate.axes.column(2).dot(&other.axes.column(2));
+            cosine.abs() < APART.cos()
+        };
+        if starts.len() < STARTS && starts.iter().all(is_apart) {
+            starts.push(candidate);
+        }
+    }
+    let principal = box_along(&unit.vertices, &frame);
+    let mut least = (principal.volume(), frame);
+    for start in starts {
+        let mut best = few.refine(start, APART / 2.0, 4);
+        for _ in 0..ROUNDS {
+            // With more points it can only become larger.
+            if best.volume >= least.0 {
+                break;
+            }
+            let volume = box_along(&unit.vertices, &best.axes).volume();
+            if volume < least.0 {
+                least = (volume, best.axes);
+            }
+            if volume <= best.volume * (1.0 + SETTLED) {
+                break;
+            }
+            few.add(&unit.vertices, near_axes(&best.axes).into_iter());
+            let Some(grown) = few.least_box(&best.axes.column(2).into_owned()) else {
+                break;
+            };
+            best = few.refine(grown, NEARBY, 2);
+        }
+    }
+    Ok(box_along(&hull.vertices, &least.1))
+}
+
+/// The mesh moved to the origin and scaled to a size of one.
+fn of_unit_size(mesh: &Mesh) -> Mesh {
+    let [low, high] = bounds(&mesh.vertices, &Matrix3::identity());
+    let (centre, size) = ((low + high) / 2.0, (high - low).amax());
+    Mesh {
+        vertices: mesh
+            .vertices
+            .iter()
+            .map(|vertex| (vertex - centre) / size)
+            .collect(),
+        triangles: mesh.triangles.clone(),
+    }
+}
+
+/// Whether a direction is the one to take of itself and its opposite.
+fn is_in_half(direction: &Vector3<f64>) -> bool {
+    let sign = direction.iter().find(|c| c.abs() > f64::EPSILON);
+    sign.is_some_and(|c| *c > 0.0)
+}
+
+/// The axes, and directions about them where their faces will touch when the box is turned a little.
+fn near_axes(axes: &Matrix3<f64>) -> Vec<Vector3<f64>> {
+    let axis = |i: usize| axes.column(i % 3).into_owned();
+    let tilts = [(0.0, 0.0), (1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)];
+    let tilted = |i| {
+        tilts.map(|(u, v)| (axis(i) + (axis(i + 1) * u + axis(i + 2) * v) * NEARBY).normalize())
+    };
+    (0..3).flat_map(tilted).collect()
+}
+
+/// Normals of facets, and normals to pairs of edges, of a mesh that has few of them.
+fn natural_directions(mesh: &Mesh) -> Vec<Vector3<f64>> {
+    let mut directions = Vec::new();
+    if mesh.triangles.len() > SMALL_TRIANGLES {
+        return directions;
+    }
+    let mut edges: Vec<Vector3<f64>> = Vec::new();
+    for corners in &mesh.triangles {
+        let [a, b, c] = corners.map(|corner| mesh.vertices[corner as usize]);
+        directions.push((b - a).cross(&(c - a)));
+        for (from, to) in [(0, 1), (1, 2), (2, 0)] {
+            if corners[from] < corners[to] {
+                let ends = [corners[from], corners[to]].map(|i| mesh.vertices[i as usize]);
+                edges.push(ends[1] - ends[0]);
+            }
+        }
+    }
+    if edges.len() <= SMALL_EDGES {
+        let pairs = (0..edges.len()).flat_map(|i| (0..i).map(move |j| (i, j)));
+        directions.extend(pairs.map(|(i, j)| edges[i].cross(&edges[j])));
+    }
+    let lengths = directions
+        .into_iter()
+        .map(|n| n.try_normalize(f64::EPSILON));
+    lengths.flatten().collect()
+}
+
+/// A box and its volume; the last axis is the direction it was found for.
+#[derive(Clone, Copy)]
+struct Candidate {
+    volume: f64,
+    axes: Matrix3<f64>,
+}
+
+/// A few points of a hull, which stand for it.
+struct ExtremePoints {
+    points: Vec<Point3<f64>>,
+}
+
+impl ExtremePoints {
+    fn new(points: &[Point3<f64>], directions: impl Iterator<Item = Vector3<f64>>) -> Self {
+        let mut few = Self { points: Vec::new() };
+        few.add(points, directions);
+        few
+    }
+
+    /// Adds the points that are extreme in the given directions and their opposites.
+    fn add(&mut self, points: &[Point3<f64>], directions: impl Iterator<Item = Vector3<f64>>) {
+        for direction in directions {
+            let (mut low, mut high) = ((f64::MAX, 0), (f64::MIN, 0));
+            for (index, point) in points.iter().enumerate() {
+                let place = direction.dot(&point.coords);
+                if place < low.0 {
+                    low = (place, index);
+                }
+                if place > high.0 {
+                    high = (place, index);
+                }
+            }
+            self.points.extend([points[low.1], points[high.1]]);
+        }
+        let key = |p: &Point3<f64>| [p.x, p.y, p.z].map(f64::to_bits);
+        self.points.sort_unstable_by_key(key);
+        self.points.dedup();
+    }
+
+    /// The least box with one axis in this direction, which is a unit vector.
+    fn least_box(&self, direction: &Vector3<f64>) -> Option<Candidate> {
+        let u = direction
+            .cross(&Vector3::ith(direction.iamin(), 1.0))
+            .normalize();
+        let v = direction.cross(&u);
+        let (mut low, mut high) = (f64::MAX, f64::MIN);
+        let projected = self.points.iter().map(|point| {
+            let height = direction.dot(&point.coords);
+            (low, high) = (low.min(height), high.max(height));
+            Vector2::new(u.dot(&point.coords), v.dot(&point.coords))
+        });
+        let polygon = ConvexPolygon::hull_of(projected.collect());
+        let rectangle = polygon.least_rectangle()?;
+        let side = u * rectangle.axis.x + v * rectangle.axis.y;
+        Some(Candidate {
+            volume: (high - low) * rectangle.area,
+            axes: Matrix3::from_columns(&[side, direction.cross(&side), *direction]),
+        })
+    }
+
+    /// A local minimum of the volume near a box: so many simplex searches, the first of the given size in
+    /// radians.
+    fn refine(&self, start: Candidate, size: f64, restarts: i32) -> Candidate {
+        let mut best = start;
+        for restart in 0..restarts {
+            let size = size * SHRINK.powi(restart);
+            let end = if restart + 1 == restarts {
+                LAST_SIMPLEX
+            } else {
+                size.abs() * 1e-2
+            };
+            best = self.simplex_search(best, size, end);
+            for axis in 0..2 {
+                let turned = self.least_box(&best.axes.column(axis).into_owned());
+                if let Some(turned) = turned.filter(|turned| turned.volume < best.volume) {
+                    best = turned;
+                }
+            }
+        }
+        best
+    }
+
+    /// The simplex search of Nelder and Mead 1965, in the plane tangential to the sphere of directions.
+    fn simplex_search(&self, start: Candidate, size: f64, end: f64) -> Candidate {
+        let [u, v, w] = [0, 1, 2].map(|i| start.axes.column(i).into_owned());
+        let at = |place: Vector2<f64>| {
+            let direction = (w + u * place.x + v * place.y).normalize();
+            (place, self.least_box(&direction).unwrap_or(start))
+        };
+        let mut simplex = [
+            (Vector2::zeros(), start),
+            at(Vector2::x() * size),
+            at(Vector2::y() * size),
+        ];
+        for _ in 0..STEPS {
+            simplex.sort_by(|a, b| a.1.volume.total_cmp(&b.1.volume));
+            let [best, second, worst] = simplex;
+            let width = (worst.0 - best.0).amax().max((second.0 - best.0).amax());
+            if width < end {
+                break;
+            }
+            let middle = (best.0 + second.0) / 2.0;
+            let reflected = at(middle * 2.0 - worst.0);
+            if reflected.1.volume < best.1.volume {
+                let expanded = at(middle * 3.0 - worst.0 * 2.0);
+                let is_better = expanded.1.volume < reflected.1.volume;
+                simplex[2] = if is_better { expanded } else { reflected };
+            } else if reflected.1.volume < second.1.volume {
+                simplex[2] = reflected;
+            } else {
+                let is_outside = reflected.1.volume < worst.1.volume;
+                let limit = if is_outside { reflected } else { worst };
+                let contracted = at((middle + limit.0) / 2.0);
+                if contracted.1.volume < limit.1.volume {
+                    simplex[2] = contracted;
+                } else {
+                    simplex[1] = at((best.0 + second.0) / 2.0);
+                    simplex[2] = at((best.0 + worst.0) / 2.0);
+                }
+            }
+        }
+        simplex
+            .into_iter()
+            .map(|(_, candidate)| candidate)
+            .fold(start, |best, other| match other.volume < best.volume {
+                true => other,
+                false => best,
+            })
+    }
+}
+
+/// By how much a simplex search is smaller than the one before: the simplex is turned to the other side,
+/// for one that has collapsed in a crease does not find its way along it.
+const SHRINK: f64 = -0.5;
+
+/// Steps of a simplex search, and the size in radians at which the last one ends.
+const STEPS: usize = 120;
+const LAST_SIMPLEX: f64 = 1e-10;

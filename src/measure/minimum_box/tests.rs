@@ -1,0 +1,146 @@
+use super::*;
+use crate::measure::convex_hull;
+use crate::shapes::{Body, Sampling};
+use approx::assert_relative_eq;
+use nalgebra::Rotation3;
+use proptest::prelude::*;
+
+fn turn(angles: [f64; 3]) -> Rotation3<f64> {
+    Rotation3::from_euler_angles(angles[0], angles[1], angles[2])
+}
+
+/// The hull of points turned by these angles and moved.
+fn hull(points: &[[f64; 3]], angles: [f64; 3]) -> Mesh {
+    let shift = Vector3::new(3.0, -2.0, 1.0);
+    let place = |p: &[f64; 3]| turn(angles) * Point3::from(*p) + shift;
+    convex_hull(&points.iter().map(place).collect::<Vec<_>>()).unwrap()
+}
+
+fn assert_holds(found: &OrientedBox, hull: &Mesh) {
+    let axes = found.axes;
+    assert_relative_eq!(axes.tr_mul(&axes), Matrix3::identity(), epsilon = 1e-12);
+    assert_relative_eq!(axes.determinant(), 1.0, epsilon = 1e-12);
+    for vertex in &hull.vertices {
+        let place = axes.tr_mul(&(vertex - found.centre));
+        let excess = place.abs() - found.extents / 2.0;
+        assert!(excess.max() <= 1e-12 * found.extents.x);
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(24))]
+    #[test]
+    fn a_cuboid_of_any_rotation_is_its_own_box(
+        sides in prop::array::uniform3(0.2..2.0_f64),
+        angles in prop::array::uniform3(-3.0..3.0_f64),
+    ) {
+        let corners: Vec<_> = (0..8)
+            .map(|i| [i & 1, i >> 1 & 1, i >> 2].map(f64::from))
+            .map(|c| [c[0] * sides[0], c[1] * sides[1], c[2] * sides[2]])
+            .collect();
+        let hull = hull(&corners, angles);
+        let found = minimum_box(&hull).unwrap();
+        assert_holds(&found, &hull);
+        let mut sides = sides;
+        sides.sort_by(|a, b| b.total_cmp(a));
+        assert_relative_eq!(found.extents, Vector3::from(sides), max_relative = 1e-9);
+    }
+
+    #[test]
+    fn the_box_of_a_regular_tetrahedron_is_the_cube_round_it(
+        angles in prop::array::uniform3(-3.0..3.0_f64),
+    ) {
+        let corners = [[1.0, 1.0, 1.0], [1.0, -1.0, -1.0], [-1.0, 1.0, -1.0], [-1.0, -1.0, 1.0]];
+        let found = minimum_box(&hull(&corners, angles)).unwrap();
+        // Edges of 2 sqrt2, a cube of edge 2.
+        assert_relative_eq!(found.volume(), 8.0, max_relative = 1e-9);
+        assert_relative_eq!(found.extents, Vector3::repeat(2.0), max_relative = 1e-9);
+    }
+
+    #[test]
+    fn no_direction_gives_a_smaller_box(
+        points in prop::collection::vec(prop::array::uniform3(-1.0..1.0_f64), 12..60),
+        angles in prop::array::uniform3(-3.0..3.0_f64),
+    ) {
+        let here = hull(&points, [0.0; 3]);
+        let found = minimum_box(&here).unwrap();
+        assert_holds(&found, &here);
+        let all = ExtremePoints { points: here.vertices.clone() };
+        for direction in Sampling::Fibonacci.directions(20_000, 0).unwrap() {
+            let volume = all.least_box(&direction).unwrap().volume;
+            prop_assert!(found.volume() <= volume * (1.0 + 1e-6), "{} {volume}", found.volume());
+        }
+        let turned = minimum_box(&hull(&points, angles)).unwrap();
+        assert_relative_eq!(turned.volume(), found.volume(), max_relative = 1e-6);
+    }
+}
+
+/// The hull of a body with the given number of points.
+fn body_hull(body: Body, points: usize, angles: [f64; 3]) -> Mesh {
+    let surface = body.surface();
+    let directions = Sampling::Fibonacci.directions(points, 0).unwrap();
+    let points: Vec<_> = directions
+        .iter()
+        .map(|n| <[f64; 3]>::from(n * surface.radius(n)))
+        .collect();
+    hull(&points, angles)
+}
+
+#[test]
+fn the_box_of_a_grain_does_not_depend_on_its_rotation_and_beats_the_principal_axes() {
+    // The chickpea is nearly round: it has many boxes of nearly the same volume.
+    for (body, tolerance) in [
+        (Body::Bean, 1e-5),
+        (Body::Chickpea, 1e-3),
+        (Body::Maize, 1e-5),
+    ] {
+        let here = body_hull(body, 5000, [0.0; 3]);
+        let found = minimum_box(&here).unwrap();
+        assert_holds(&found, &here);
+        let principal = mesh_properties(&here).unwrap().principal().unwrap();
+        let along = box_along(&here.vertices, &principal.axes);
+        assert!(found.volume() <= along.volume());
+        for angles in [[0.3, 0.7, -1.1], [2.0, -0.4, 0.1]] {
+            let turned = minimum_box(&body_hull(body, 5000, angles)).unwrap();
+            assert_relative_eq!(turned.volume(), found.volume(), max_relative = tolerance);
+        }
+    }
+}
+
+#[test]
+fn the_box_of_an_ellipsoid_has_its_axes() {
+    // The box with axes R has the volume 8 prod sqrt(sum_j R_ij² a_j²), least at the semi-axes.
+    let hull = body_hull(Body::Ellipsoid, 20_000, [0.4, 1.0, -2.0]);
+    let found = minimum_box(&hull).unwrap();
+    assert_relative_eq!(
+        found.extents,
+        Vector3::new(4.0, 4.0, 2.0),
+        max_relative = 1e-3
+    );
+}
+
+#[test]
+fn broken_meshes_are_refused() {
+    let mut mesh = hull(
+        &[[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+        [0.0; 3],
+    );
+    let flat = Mesh {
+        vertices: vec![mesh.vertices[0]; 4],
+        ..mesh.clone()
+    };
+    for bad in [flat, Mesh::default()] {
+        let found = minimum_box(&bad);
+        assert!(
+            matches!(found, Err(MeshIntegralError::NoVolume { .. })),
+            "{found:?}"
+        );
+    }
+    mesh.vertices[2].x = f64::NAN;
+    assert!(minimum_box(&mesh).is_err());
+    mesh.triangles[0][1] = 9;
+    assert!(matches!(
+        minimum_box(&mesh),
+        Err(MeshIntegralError::MissingVertex { .. })
+    ));
+}

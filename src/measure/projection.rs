@@ -1,0 +1,258 @@
+//! The outline of a closed mesh projected along an axis.
+
+use super::Outline;
+use crate::Mesh;
+use nalgebra::{Point3, Vector2, Vector3};
+use std::f64::consts::TAU;
+use thiserror::Error;
+
+/// Azimuths at which an outline is found. Of an ellipse the area is low by (2 pi / n)²/6, or 3e-6, and
+/// the perimeter by a quarter of that; the corner farthest out between two azimuths is added.
+pub const OUTLINE_AZIMUTHS: usize = 1440;
+
+/// Why a mesh has no outline.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum ProjectionError {
+    /// A triangle names a vertex that does not exist.
+    #[error("triangle {triangle} names a vertex that does not exist")]
+    MissingVertex {
+        /// Position of the triangle in the mesh.
+        triangle: usize,
+    },
+    /// The axis has no direction, or a coordinate is not finite, or the outline has no area.
+    #[error("the projection has no area, or a coordinate is not finite")]
+    NoArea,
+}
+
+/// The outline of a closed mesh projected along `axis`, seen from its tip, about `centre`, which must be
+/// inside the outline.
+///
+/// The projection of a body that is star-shaped about the centre is star-shaped about the projected
+/// centre, so in each of [`OUTLINE_AZIMUTHS`] equally spaced azimuths the outline is the farthest
+/// intersection with a projected edge. Of other bodies overhangs are filled: where a ray leaves the
+/// projection and enters it again, what is between counts as inside.
+///
+/// # Errors
+///
+/// See [`ProjectionError`].
+pub fn project(
+    mesh: &Mesh,
+    axis: &Vector3<f64>,
+    centre: &Point3<f64>,
+) -> Result<Outline, ProjectionError> {
+    let axis = axis.try_normalize(0.0).ok_or(ProjectionError::NoArea)?;
+    let across = axis.cross(&Vector3::ith(axis.iamin(), 1.0));
+    let u = across.try_normalize(0.0).ok_or(ProjectionError::NoArea)?;
+    let v = axis.cross(&u);
+    let places: Vec<Place> = mesh
+        .vertices
+        .iter()
+        .map(|vertex| Place::of(u.dot(&(vertex - centre)), v.dot(&(vertex - centre))))
+        .collect();
+    if places.iter().any(|place| !place.azimuth.is_finite()) {
+        return Err(ProjectionError::NoArea);
+    }
+    let directions: Vec<Vector2<f64>> = (0..OUTLINE_AZIMUTHS)
+        .map(|azimuth| (TAU * azimuth as f64 / OUTLINE_AZIMUTHS as f64).sin_cos())
+        .map(|(sin, cos)| Vector2::new(cos, sin))
+        .collect();
+    let mut radii = vec![0.0_f64; OUTLINE_AZIMUTHS];
+    for (triangle, &[a, b, c]) in mesh.triangles.iter().enumerate() {
+        for (from, to) in [(a, b), (b, c), (c, a)] {
+            let [Some(from), Some(to)] = [from, to].map(|i| places.get(i as usize)) else {
+                return Err(ProjectionError::MissingVertex { triangle });
+            };
+            // Each edge of a closed mesh is walked both ways: once counter-clockwise.
+            if let Some(span) = from.span_to(to) {
+                for azimuth in span {
+                    let azimuth = azimuth % OUTLINE_AZIMUTHS;
+                    let radius = &mut radii[azimuth];
+                    *radius = radius.max(from.crossing(to, &directions[azimuth]));
+                }
+            }
+        }
+    }
+    let rays = directions.iter().zip(&radii);
+    let samples: Vec<Vector2<f64>> = rays
+        .map(|(direction, radius)| direction * *radius)
+        .collect();
+    Outline::of(with_corners(&samples, &places)).ok_or(ProjectionError::NoArea)
+}
+
+/// A projected vertex.
+struct Place {
+    position: Vector2<f64>,
+    /// In steps of the azimuths, from 0 up to their number.
+    azimuth: f64,
+}
+
+impl Place {
+    fn of(x: f64, y: f64) -> Self {
+        let turns = y.atan2(x) / TAU;
+        let turns = if turns < 0.0 { turns + 1.0 } else { turns };
+        Self {
+            position: Vector2::new(x, y),
+            azimuth: turns * OUTLINE_AZIMUTHS as f64,
+        }
+    }
+
+    /// The azimuths from here to another place, which may be counted beyond the last; `None` if it lies
+    /// clockwise from here.
+    fn span_to(&self, other: &Self) -> Option<std::ops::RangeInclusive<usize>> {
+        let round = OUTLINE_AZIMUTHS as f64;
+        let ahead = other.azimuth - self.azimuth;
+        let end = if ahead < -round / 2.0 {
+            other.azimuth + round
+        } else if (0.0..=round / 2.0).contains(&ahead) {
+            other.azimuth
+        } else {
+            return None;
+        };
+        Some(self.azimuth.ceil() as usize..=end.floor() as usize)
+    }
+
+    /// Distance from the centre at which a ray crosses the edge to another place, no farther than the
+    /// farther end.
+    fn crossing(&self, other: &Self, direction: &Vector2<f64>) -> f64 {
+        let farther = self.position.norm().max(other.position.norm());
+        let edge = other.position - self.position;
+        let radius = self.position.perp(&edge) / direction.perp(&edge);
+        if radius.is_finite() {
+            radius.min(farther)
+        } else {
+            farther
+        }
+    }
+}
+
+/// The outline through the samples and the vertices farthest outside it, one between two samples.
+fn with_corners(samples: &[Vector2<f64>], places: &[Place]) -> Vec<Vector2<f64>> {
+    let after = |azimuth: usize| samples[(azimuth + 1) % samples.len()];
+    let mut corners: Vec<Option<(f64, Vector2<f64>)>> = vec![None; samples.len()];
+    for place in places {
+        let azimuth = place.azimuth as usize % samples.len();
+        let sample = samples[azimuth];
+        let excess = (place.position - sample).perp(&(after(azimuth) - sample));
+        if excess > corners[azimuth].map_or(0.0, |corner| corner.0) {
+            corners[azimuth] = Some((excess, place.position));
+        }
+    }
+    let with_corner = samples.iter().zip(corners);
+    with_corner
+        .flat_map(|(sample, corner)| std::iter::once(*sample).chain(corner.map(|corner| corner.1)))
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shapes::Body;
+    use crate::sphere::cube_grid;
+    use approx::assert_relative_eq;
+    use nalgebra::{Matrix3, Rotation3};
+    use proptest::prelude::*;
+    use std::f64::consts::PI;
+
+    fn mesh_of(n: usize, radius: impl Fn(&Vector3<f64>) -> f64) -> Mesh {
+        let (directions, triangles) = cube_grid(n);
+        let vertices = directions.iter().map(|n| Point3::from(n * radius(n)));
+        Mesh {
+            vertices: vertices.collect(),
+            triangles,
+        }
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(12))]
+        #[test]
+        fn the_outline_of_an_ellipsoid_is_an_ellipse(direction in prop::array::uniform3(-1.0..1.0_f64)) {
+            let semi_axes = Vector3::new(2.0, 1.5, 1.0);
+            let axis = (Vector3::from(direction) + Vector3::z() * 1e-3).normalize();
+            let body = Body::Ellipsoid.with_axes(semi_axes).unwrap();
+            let found = project(&mesh_of(64, |n| body.radius(n)), &axis, &Point3::new(0.1, 0.2, -0.1)).unwrap();
+            // The half width along a unit vector w is sqrt(w.S w), S = diag(a²); its largest and least
+            // values across the axis are the semi-axes.
+            let u = axis.cross(&Vector3::ith(axis.iamin(), 1.0)).normalize();
+            let v = axis.cross(&u);
+            let squares = Matrix3::from_diagonal(&semi_axes.component_mul(&semi_axes));
+            let [uu, uv, vv] = [u.dot(&(squares * u)), u.dot(&(squares * v)), v.dot(&(squares * v))];
+            let spread = ((uu - vv) / 2.0).hypot(uv);
+            let [long, short] = [1.0, -1.0].map(|sign| ((uu + vv) / 2.0 + sign * spread).sqrt());
+            // The mesh itself is inside by up to 4e-4.
+            assert_relative_eq!(found.area, PI * long * short, max_relative = 1e-3);
+            assert_relative_eq!(found.largest_feret, 2.0 * long, max_relative = 1e-3);
+            assert_relative_eq!(found.smallest_feret, 2.0 * short, max_relative = 1e-3);
+            assert_relative_eq!(found.inscribed_diameter, 2.0 * short, max_relative = 2e-3);
+            assert_relative_eq!(found.enclosing_diameter, 2.0 * long, max_relative = 1e-3);
+        }
+
+        #[test]
+        fn outlines_move_with_the_body(
+            angles in prop::array::uniform3(-3.0..3.0_f64), size in -9..9_i32,
+        ) {
+            let maize = Body::Maize.surface();
+            let mesh = mesh_of(16, |n| maize.radius(n));
+            let axis = Vector3::new(0.3, 0.2, 0.8);
+            let found = project(&mesh, &axis, &Point3::origin()).unwrap();
+            let turn = Rotation3::from_euler_angles(angles[0], angles[1], angles[2]);
+            let scale = 10.0_f64.powi(size);
+            let place = |p: &Point3<f64>| (turn * p + Vector3::new(1.0, 2.0, 3.0)) * scale;
+            let moved = Mesh { vertices: mesh.vertices.iter().map(place).collect(), ..mesh };
+            let other = project(&moved, &(turn * axis), &place(&Point3::origin())).unwrap();
+            assert_relative_eq!(other.area, found.area * scale * scale, max_relative = 1e-5);
+            assert_relative_eq!(other.perimeter, found.perimeter * scale, max_relative = 1e-5);
+            assert_relative_eq!(other.largest_feret, found.largest_feret * scale, max_relative = 1e-5);
+            assert_relative_eq!(other.roundness, found.roundness, max_relative = 1e-2);
+        }
+    }
+
+    #[test]
+    fn a_cube_projects_to_a_square_and_to_a_hexagon() {
+        let cube = mesh_of(3, |n| 1.0 / n.amax());
+        let square = project(&cube, &Vector3::z(), &Point3::new(0.3, 0.1, 0.0)).unwrap();
+        assert_relative_eq!(square.area, 4.0, max_relative = 1e-9);
+        assert_relative_eq!(square.perimeter, 8.0, max_relative = 1e-9);
+        let hexagon = project(&cube, &Vector3::repeat(1.0), &Point3::origin()).unwrap();
+        assert_relative_eq!(hexagon.area, 48.0_f64.sqrt(), max_relative = 1e-9);
+        assert_relative_eq!(
+            hexagon.largest_feret,
+            2.0 * (8.0_f64 / 3.0).sqrt(),
+            max_relative = 1e-9
+        );
+    }
+
+    #[test]
+    fn broken_meshes_and_axes_are_refused() {
+        let mut mesh = mesh_of(2, |_| 1.0);
+        let centre = Point3::origin();
+        for axis in [
+            Vector3::zeros(),
+            Vector3::repeat(f64::NAN),
+            Vector3::repeat(f64::INFINITY),
+        ] {
+            assert_eq!(project(&mesh, &axis, &centre), Err(ProjectionError::NoArea));
+        }
+        assert_eq!(
+            project(&Mesh::default(), &Vector3::z(), &centre),
+            Err(ProjectionError::NoArea)
+        );
+        let flat = Mesh {
+            vertices: vec![Point3::new(1.0, 2.0, 3.0); 26],
+            ..mesh.clone()
+        };
+        assert_eq!(
+            project(&flat, &Vector3::z(), &centre),
+            Err(ProjectionError::NoArea)
+        );
+        mesh.triangles[5][2] = 99;
+        let missing = ProjectionError::MissingVertex { triangle: 5 };
+        assert_eq!(project(&mesh, &Vector3::z(), &centre), Err(missing));
+        mesh.triangles[5][2] = 0;
+        mesh.vertices[3].x = f64::NAN;
+        assert_eq!(
+            project(&mesh, &Vector3::z(), &centre),
+            Err(ProjectionError::NoArea)
+        );
+    }
+}
