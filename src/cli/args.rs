@@ -3,6 +3,7 @@
 use super::values::{Auto, SeamsArg, tolerance, vector};
 use crate::fit::{FitOptions, Tolerance};
 use crate::shapes::{Body, Sampling};
+use crate::sphere::Symmetry;
 use clap::{Args, Parser, Subcommand, value_parser};
 use nalgebra::Vector3;
 use std::path::PathBuf;
@@ -191,6 +192,12 @@ pub(super) struct FittingArgs {
     /// independent segments of the angle domain, with steps between them)
     #[arg(long, value_name = "blended|none", default_value = "blended", help_heading = SEARCH)]
     pub(super) seams: SeamsArg,
+
+    /// Mirror planes of the grain, told by the scan's axes normal to them, such as z or xyz: one
+    /// expansion is fitted to a half, a quarter or an octant, and mirrored. The planes go through the
+    /// centre; turn the scan beforehand if its axes are not those of the grain
+    #[arg(long, value_name = "AXES|none", default_value_t = Symmetry::NONE, help_heading = SEARCH)]
+    pub(super) symmetry: Symmetry,
 
     /// Degree of every segment's expansion, or auto to search
     #[arg(long, value_name = "L|auto", default_value = "auto", help_heading = SEARCH)]

@@ -22,6 +22,7 @@ impl FittingArgs {
     pub(super) fn settle(&self) -> Result<FitOptions> {
         let options = FitOptions {
             seams: self.seams.0,
+            symmetry: self.symmetry,
             degree: self.degree.0,
             segments: self.segments.0,
             max_degree: self.max_degree,

@@ -58,7 +58,12 @@ impl Factorization {
         self.used = 0;
     }
 
-    /// Space for `rows` more rows: a column-major matrix of the returned stride whose last column
+    /// Rows that can be appended at once.
+    pub(crate) fn most_rows(&self) -> usize {
+        self.stride - self.columns
+    }
+
+    /// Space for `rows` more rows, at most [`Self::most_rows`]: a column-major matrix of the returned stride whose last column
     /// is the radius. Factors what is there first if it has to.
     pub(crate) fn append(&mut self, rows: usize) -> (&mut [f64], usize) {
         if self.stride - self.used < rows {

@@ -16,6 +16,7 @@ mod held_out;
 mod householder;
 mod joint;
 mod level;
+mod mirrored;
 mod options;
 mod prepare;
 mod reduce;
@@ -29,6 +30,7 @@ mod strays;
 mod surface;
 mod thin;
 
+pub use mirrored::{DirectedSample, MirroredFitError, fit_mirrored};
 pub use options::{
     FitError, FitOptions, MAX_CELLS, MAX_COEFFICIENTS, MAX_DEGREE, MAX_PARTS, Seams, Tolerance,
 };
@@ -57,6 +59,9 @@ pub struct Fitted {
     pub mean_radius: f64,
     /// Radial residuals of all points the fit rests on.
     pub residuals: Residuals,
+    /// Root mean square difference of the radius between mirror images, as far as expansions of degree
+    /// 3 follow it, in the scan's unit. `None` of a fit without mirrors.
+    pub asymmetry: Option<f64>,
     /// What a user should know of the scan: whole sentences.
     pub warnings: Vec<String>,
     spread: Option<Spread>,

@@ -1,12 +1,15 @@
 //! What a user may ask of a fit.
 
-use crate::sphere::{MAX_FACE_PARTS, coefficient_count};
+use crate::sphere::{MAX_FACE_PARTS, Symmetry, coefficient_count};
 
 /// Settings of a fit; the default asks for nothing and searches.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FitOptions {
     /// How expansions are joined.
     pub seams: Seams,
+    /// Mirror planes through the centre, normal to the scan's own axes. With any, one expansion is
+    /// fitted to the part of the sphere that they leave, and mirrored; there are no segments then.
+    pub symmetry: Symmetry,
     /// Degree of every segment's expansion; `None` searches up to `max_degree`.
     pub degree: Option<usize>,
     /// Number of segments. Blended: 1, or 6 n^2 cells; `None` refines adaptively. Independent: k^2;
@@ -26,6 +29,7 @@ impl Default for FitOptions {
     fn default() -> Self {
         Self {
             seams: Seams::Blended,
+            symmetry: Symmetry::NONE,
             degree: None,
             segments: None,
             max_degree: 3,
@@ -125,6 +129,12 @@ pub enum FitError {
         /// The nearest possible number above.
         above: usize,
     },
+    /// Segments are asked for, and mirrors too.
+    #[error(
+        "a fit with mirror planes is one expansion: neither independent segments nor a number of \
+         segments can be asked for with it"
+    )]
+    SymmetryOfSegments,
     /// A setting is outside of its range.
     #[error("{setting} is {value}; it must be from {least} to {most}")]
     OutOfRange {
@@ -220,6 +230,10 @@ impl FitOptions {
         let degrees = self
             .degree
             .map_or_else(|| (0..=self.max_degree).collect(), |degree| vec![degree]);
+        let segments = self.segments.or(self.max_segments);
+        if self.symmetry != Symmetry::NONE && (self.seams != Seams::Blended || segments.is_some()) {
+            return Err(FitError::SymmetryOfSegments);
+        }
         let parts = match self.seams {
             Seams::Blended => self.parts_of_faces()?,
             Seams::None => self.parts_of_angles()?,

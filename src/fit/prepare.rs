@@ -3,6 +3,7 @@
 use super::axes::principal_axes;
 use super::centre::{deepest_centre, facing_away_share};
 use super::joint;
+use super::mirrored;
 use super::options::{FitError, FitOptions, Seams};
 use super::reduce::{ReducedCell, reduce_cells};
 use super::reference::Reference;
@@ -15,8 +16,8 @@ use crate::measure::mesh_properties;
 use crate::mesh::Mesh;
 use crate::model::{Blended, Frame, Grain, Segmented, Surface};
 use crate::scan::Scan;
-use crate::sphere::{AngularPartition, CapBasis};
-use nalgebra::Point3;
+use crate::sphere::{AngularPartition, CapBasis, Symmetry};
+use nalgebra::{Matrix3, Point3};
 use std::collections::HashSet;
 
 /// Share of the area that may face away from the centre. The folds of real kernels (the crease of
@@ -48,6 +49,7 @@ pub struct PreparedScan {
     pub(crate) degree: Option<usize>,
     pub(crate) most_segments: usize,
     seams: Seams,
+    pub(crate) symmetry: Symmetry,
     warnings: Vec<String>,
     grid: CellGrid,
     probes: Option<Samples>,
@@ -86,7 +88,10 @@ impl PreparedScan {
         let centre = star_centre(&mesh, properties.centroid, &mut warnings)?;
         let frame = Frame {
             centre,
-            axes: principal_axes(&mesh, &properties),
+            axes: match options.symmetry {
+                Symmetry::NONE => principal_axes(&mesh, &properties),
+                _ => Matrix3::identity(),
+            },
         };
         let mean_radius = mean_radius(&mesh, &centre);
 
@@ -101,7 +106,12 @@ impl PreparedScan {
         let bases: Vec<CapBasis> = (0..=degrees[degrees.len() - 1])
             .map(CapBasis::new)
             .collect();
-        let reduced = reduce_cells(&samples, &grid, &bases[bases.len() - 1]);
+        // With mirrors, segments only tell of the noise.
+        let degree_of_segments = match options.symmetry {
+            Symmetry::NONE => bases.len() - 1,
+            _ => mirrored::LOCAL_DEGREE.min(bases.len() - 1),
+        };
+        let reduced = reduce_cells(&samples, &grid, &bases[degree_of_segments]);
         Ok(Self {
             frame,
             reference: Reference {
@@ -119,6 +129,7 @@ impl PreparedScan {
             degree: options.degree,
             most_segments: options.most_segments(),
             seams: options.seams,
+            symmetry: options.symmetry,
             warnings,
             grid,
             probes,
@@ -131,6 +142,7 @@ impl PreparedScan {
     /// done.
     pub fn search(&self, progress: &dyn Fn(usize)) -> Found {
         match self.seams {
+            _ if self.symmetry != Symmetry::NONE => mirrored::search(self),
             Seams::Blended => joint::search(self, progress),
             Seams::None => search(self, progress),
         }
@@ -139,7 +151,7 @@ impl PreparedScan {
     /// The grain of the chosen candidate, and what is known of it.
     pub fn finish(self, found: Found) -> Fitted {
         let Found { search, fit } = found;
-        let mut spread = None;
+        let (mut spread, mut asymmetry) = (None, None);
         let (surface, residuals) = match fit {
             FoundFit::Segments(segments) => self.segmented(&search, segments),
             FoundFit::Joined(joined) => {
@@ -148,17 +160,23 @@ impl PreparedScan {
                 spread = Some(joined.spread);
                 (Surface::Blended(surface), joined.residuals)
             }
+            FoundFit::Mirrored(fit) => {
+                asymmetry = Some(fit.asymmetry);
+                (Surface::Mirrored(fit.surface), fit.residuals)
+            }
         };
         let mut warnings = self.warnings;
         warnings.extend(search.warnings());
+        warnings.extend(asymmetry.and_then(|rms| mirrored::warning(rms / self.mean_radius)));
         Fitted {
-            grain: Grain::new(self.frame, surface).expect("the frame is made of principal axes"),
+            grain: Grain::new(self.frame, surface).expect("the axes are orthonormal"),
             reference: self.reference,
             points: self.samples.rows().len() - search.outliers,
             mean_radius: self.mean_radius,
             residuals,
             warnings,
             search,
+            asymmetry,
             spread,
         }
     }

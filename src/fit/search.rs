@@ -20,6 +20,7 @@
 
 use super::joint::Joined;
 use super::level::{FittedLevel, LARGEST_MISS};
+use super::mirrored::MirroredFit;
 use super::options::Seams;
 use super::prepare::PreparedScan;
 use super::segment::SegmentFit;
@@ -77,7 +78,7 @@ impl fmt::Display for Rejection {
                 "skipped: one with fewer coefficients is within the limit"
             ),
             Self::Unsupported { degree } => {
-                write!(f, "no segment has enough points for degree {degree}")
+                write!(f, "too few points for degree {degree}")
             }
             Self::Misses { worst } => {
                 write!(f, "misses a point by {:.0} % of its radius", 100.0 * worst)
@@ -149,6 +150,10 @@ impl Search {
         let advice = "Its area, volume and inertia are as good as their deviations say, but look at \
                       the mesh before relying on details of the surface.";
         Some(match reason {
+            Rejection::Unsupported { degree } if self.choice().segments == 1 => format!(
+                "There are too few points for degree {degree}; the surface was fitted at the largest \
+                 degree that they support."
+            ),
             Rejection::Unsupported { degree } => format!(
                 "No segment holds the points that degree {degree} needs; each was fitted at the \
                  largest degree that its points support."
@@ -173,12 +178,13 @@ pub struct Found {
 }
 
 /// The fit of a candidate.
-#[expect(clippy::large_enum_variant, reason = "there is one per search")]
 pub(crate) enum FoundFit {
     /// Independent segments, each at every degree.
     Segments(Vec<SegmentFit>),
     /// A jointly fitted surface.
     Joined(Joined),
+    /// One expansion and its mirror images.
+    Mirrored(MirroredFit),
 }
 
 /// A local fit adds noise / sqrt(samples per coefficient); the limit leaves room for that.
@@ -256,7 +262,7 @@ pub(crate) fn search(prepared: &PreparedScan, progress: &dyn Fn(usize)) -> Found
     }
 }
 
-fn skipped(degree: usize, k: usize) -> Candidate {
+pub(super) fn skipped(degree: usize, k: usize) -> Candidate {
     Candidate {
         degree,
         segments: k * k,
@@ -270,7 +276,7 @@ fn skipped(degree: usize, k: usize) -> Candidate {
 }
 
 /// The rule at the head of this file. Rejected candidates are chosen only where there is no other.
-fn choose(candidates: &[Candidate], limit: f64) -> usize {
+pub(super) fn choose(candidates: &[Candidate], limit: f64) -> usize {
     let heldout = |c: &Candidate| c.heldout_rms.unwrap_or(f64::INFINITY);
     let deviation = |c: &Candidate| {
         c.area_error.unwrap_or(f64::INFINITY).abs() + c.volume_error.unwrap_or(f64::INFINITY).abs()

@@ -11,7 +11,7 @@ use rayon::prelude::*;
 
 /// Samples per coefficient that a degree needs. In a local basis the answer with fewer oscillates
 /// between the samples (a bean of 1538 points, k = 8: area +15 %).
-const SAMPLES_PER_COEFFICIENT: usize = 2;
+pub(crate) const SAMPLES_PER_COEFFICIENT: usize = 2;
 
 /// Largest leverage that a degree may have anywhere in its segment: the variance of the fitted
 /// radius there, in units of the variance of one sample. Samples stop half a spacing short of the

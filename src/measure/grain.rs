@@ -1,13 +1,14 @@
 //! Area, volume and inertia of a fitted grain.
 
-use super::integrals::{ORDERS, Piece, integrate_pieces};
+use super::integrals::{ORDERS, Piece, integrate, integrate_pieces};
 use super::{Integrals, MassProperties};
-use crate::model::{Blended, Grain, Segmented, Surface};
+use crate::model::{Blended, Grain, Mirrored, Segmented, Surface};
 use crate::sphere::{AngleRectangle, FaceRectangle, GaussLegendre};
 use nalgebra::Vector3;
 
-/// Relative tolerance of the integrals over independent segments.
-const SEGMENTED_TOLERANCE: f64 = 1e-9;
+/// Relative tolerance of the integrals over independent segments and over mirror images, which are
+/// smooth.
+const SMOOTH_TOLERANCE: f64 = 1e-9;
 
 /// Relative tolerance of the integrals over a blended surface, whose third derivatives jump where the
 /// margins of cells end. The estimate is pessimistic: at 1e-5 the error is 5e-8 on the maize kernel.
@@ -25,10 +26,13 @@ const BLENDED_ORDERS: [usize; 2] = [6, 5];
 /// the walls of the steps. There the radius cubed and to the fifth power are polynomials in the
 /// direction, so volume, centroid and inertia are exact to rounding (1e-13); the area is adaptive, to
 /// 1e-9.
+///
+/// Of a mirrored surface: octant by octant, so its edges lie between them, to 1e-9.
 pub fn grain_properties(grain: &Grain) -> Integrals {
     let local = match grain.surface() {
         Surface::Blended(surface) => blended_properties(surface),
         Surface::Segmented(surface) => segmented(surface),
+        Surface::Mirrored(surface) => mirrored_properties(surface),
     };
     let frame = grain.frame();
     Integrals {
@@ -48,6 +52,23 @@ pub(crate) fn blended_properties(surface: &Blended) -> Integrals {
     integrate_pieces(zones, BLENDED_ORDERS, BLENDED_TOLERANCE, |_, directions| {
         surface.radii_and_gradients(directions)
     })
+}
+
+/// Those of a mirrored surface in the grain's own frame. What vanishes by symmetry is zero, so that axes
+/// normal to the mirrors are principal axes even where moments are equal.
+pub(crate) fn mirrored_properties(surface: &Mirrored) -> Integrals {
+    let mut found = integrate(surface, SMOOTH_TOLERANCE);
+    let MassProperties {
+        centroid, inertia, ..
+    } = &mut found.properties;
+    for axis in surface.symmetry().normals() {
+        centroid[axis] = 0.0;
+        for other in (0..3).filter(|&other| other != axis) {
+            inertia[(axis, other)] = 0.0;
+            inertia[(other, axis)] = 0.0;
+        }
+    }
+    found
 }
 
 impl Piece for FaceRectangle {
@@ -97,7 +118,7 @@ fn segmented(surface: &Segmented) -> Integrals {
         1 => whole(0).quarters().into(),
         _ => (0..partition.segments()).map(whole).collect(),
     };
-    integrate_pieces(parts, ORDERS, SEGMENTED_TOLERANCE, |parts, directions| {
+    integrate_pieces(parts, ORDERS, SMOOTH_TOLERANCE, |parts, directions| {
         let per_part = directions.len() / parts.len();
         let nodes = parts.iter().zip(directions.chunks(per_part));
         nodes

@@ -1,10 +1,10 @@
 //! A grain as JSON: versioned, exact to the last bit, and refused where it is not sound.
 //!
-//! Version 2 holds either `cells` (blended) or `segments` (independent). Version 1, which knew
+//! Version 2 holds one of `cells` (blended), `segments` (independent) and `symmetry` (mirrored). Version 1, which knew
 //! segments only, is still read.
 
-use super::{Blended, Frame, Grain, InvalidGrain, Segmented, Surface};
-use crate::sphere::{AngularPartition, Cover, CoverError, CubeCell};
+use super::{Blended, Frame, Grain, InvalidGrain, Mirrored, Segmented, Surface};
+use crate::sphere::{AngularPartition, Cover, CoverError, CubeCell, Symmetry};
 use nalgebra::{Matrix3, Point3, Vector3};
 use serde::{Deserialize, Serialize};
 
@@ -36,6 +36,12 @@ struct GrainFile {
     /// Per segment, row by row from the +z pole: coefficients of the cap basis by degree.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     segments: Option<Vec<Vec<f64>>>,
+    /// The axes normal to the mirror planes of one expansion.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    symmetry: Option<Symmetry>,
+    /// Of the mirrored expansion: coefficients of the cap basis by degree.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    coefficients: Option<Vec<f64>>,
 }
 
 /// A cell, numbered as in [`CubeCell`], and the coefficients of its cap basis by degree.
@@ -76,9 +82,10 @@ pub enum LoadError {
         /// Parts per angle named in the file.
         found: usize,
     },
-    /// No surface, or two.
+    /// No surface, or several.
     #[error(
-        "the model is not sound: it must hold either `cells`, or `parts_per_angle` and `segments`"
+        "the model is not sound: it must hold either `cells`, or `parts_per_angle` and `segments`, \
+         or `symmetry` and `coefficients`"
     )]
     Surface,
     /// The cells do not tile the sphere.
@@ -100,6 +107,8 @@ pub fn save_grain(grain: &Grain) -> String {
         cells: None,
         parts_per_angle: None,
         segments: None,
+        symmetry: None,
+        coefficients: None,
     };
     match grain.surface() {
         Surface::Blended(surface) => {
@@ -116,6 +125,10 @@ pub fn save_grain(grain: &Grain) -> String {
         Surface::Segmented(surface) => {
             file.parts_per_angle = Some(surface.partition().per_angle());
             file.segments = Some(surface.coefficients().to_vec());
+        }
+        Surface::Mirrored(surface) => {
+            file.symmetry = Some(surface.symmetry());
+            file.coefficients = Some(surface.coefficients().to_vec());
         }
     }
     serde_json::to_string_pretty(&file).expect("a record of numbers and strings is valid JSON")
@@ -135,8 +148,10 @@ pub fn parse_grain(text: &str) -> Result<Grain, LoadError> {
             found: file.version,
         });
     }
-    let surface = match (file.cells, file.parts_per_angle, file.segments) {
-        (Some(cells), None, None) => {
+    let independent = (file.parts_per_angle, file.segments);
+    let mirrored = (file.symmetry, file.coefficients);
+    let surface = match (file.cells, independent, mirrored) {
+        (Some(cells), (None, None), (None, None)) => {
             let place = |record: CellRecord| {
                 let cell = CubeCell {
                     face: record.face,
@@ -149,11 +164,14 @@ pub fn parse_grain(text: &str) -> Result<Grain, LoadError> {
             let (cells, coefficients) = cells.into_iter().map(place).unzip();
             Surface::Blended(Blended::new(Cover::new(cells)?, coefficients)?)
         }
-        (None, Some(found), Some(segments)) => {
+        (None, (Some(found), Some(segments)), (None, None)) => {
             if found > LARGEST_PARTITION {
                 return Err(LoadError::Partition { found });
             }
             Surface::Segmented(Segmented::new(AngularPartition::new(found), segments)?)
+        }
+        (None, (None, None), (Some(symmetry), Some(coefficients))) => {
+            Surface::Mirrored(Mirrored::new(symmetry, coefficients)?)
         }
         _ => return Err(LoadError::Surface),
     };

@@ -1,6 +1,6 @@
 //! The fitted grain: a star-shaped surface and where it lies in the scan.
 
-use super::{Blended, Derivatives, Frame, Segmented, StarSurface};
+use super::{Blended, Derivatives, Frame, Mirrored, Segmented, StarSurface};
 use nalgebra::{Matrix3, Point3, Vector3};
 use rayon::prelude::*;
 
@@ -21,6 +21,8 @@ pub enum Surface {
     /// Independent expansions, one per segment: the radius may jump where they meet
     /// ([`Grain::seam_jump`] says by how much).
     Segmented(Segmented),
+    /// One expansion and its mirror images: continuous, with edges on the mirror planes.
+    Mirrored(Mirrored),
 }
 
 impl Surface {
@@ -28,15 +30,23 @@ impl Surface {
     pub fn blended(&self) -> Option<&Blended> {
         match self {
             Self::Blended(surface) => Some(surface),
-            Self::Segmented(_) => None,
+            _ => None,
         }
     }
 
     /// The surface of independent segments, if it is one.
     pub fn segmented(&self) -> Option<&Segmented> {
         match self {
-            Self::Blended(_) => None,
             Self::Segmented(surface) => Some(surface),
+            _ => None,
+        }
+    }
+
+    /// The expansion with mirror images, if it is one.
+    pub fn mirrored(&self) -> Option<&Mirrored> {
+        match self {
+            Self::Mirrored(surface) => Some(surface),
+            _ => None,
         }
     }
 }
@@ -109,6 +119,7 @@ impl Grain {
         match &self.surface {
             Surface::Blended(surface) => surface.coefficients(),
             Surface::Segmented(surface) => surface.coefficients(),
+            Surface::Mirrored(surface) => std::slice::from_ref(&surface.coefficients),
         }
     }
 
@@ -122,6 +133,7 @@ impl Grain {
         match &self.surface {
             Surface::Blended(surface) => surface.degree(),
             Surface::Segmented(surface) => surface.degree(),
+            Surface::Mirrored(surface) => surface.degree(),
         }
     }
 
@@ -142,6 +154,7 @@ impl Grain {
                     .sum::<f64>()
                     / (4.0 * std::f64::consts::PI)
             }
+            Surface::Mirrored(surface) => surface.coefficients().len() as f64,
         }
     }
 
@@ -172,9 +185,9 @@ impl Grain {
                 .into_iter()
                 .map(|(radius, _)| radius)
                 .collect(),
-            Surface::Segmented(surface) => {
+            Surface::Segmented(_) | Surface::Mirrored(_) => {
                 let tasks = directions.par_iter().with_min_len(1024);
-                tasks.map(|n| surface.radius(n)).collect()
+                tasks.map(|n| self.local_radius(n)).collect()
             }
         }
     }
@@ -184,6 +197,7 @@ impl Grain {
         match &self.surface {
             Surface::Blended(surface) => surface.radius(n),
             Surface::Segmented(surface) => surface.radius(n),
+            Surface::Mirrored(surface) => surface.radius(n),
         }
     }
 }
@@ -215,6 +229,7 @@ impl StarSurface for Grain {
         let (radius, gradient) = match &self.surface {
             Surface::Blended(surface) => surface.radius_and_gradient(&local),
             Surface::Segmented(surface) => surface.radius_and_gradient(&local),
+            Surface::Mirrored(surface) => surface.radius_and_gradient(&local),
         };
         (radius, self.frame.axes * gradient)
     }
@@ -223,6 +238,7 @@ impl StarSurface for Grain {
         let jet = match &self.surface {
             Surface::Blended(surface) => surface.jet(&local),
             Surface::Segmented(surface) => surface.jet(&local),
+            Surface::Mirrored(surface) => surface.jet(&local),
         };
         Derivatives::on_sphere(&local, &jet).turned(&self.frame.axes)
     }

@@ -2,7 +2,7 @@
 
 use super::{Grain, Surface};
 use crate::sphere::{
-    AngleRectangle, Cap, CapBasis, CubeCell, GaussLegendre, coefficient_count, harmonics,
+    AngleRectangle, Cap, CapBasis, CubeCell, GaussLegendre, Symmetry, coefficient_count, harmonics,
 };
 use nalgebra::Vector3;
 use std::f64::consts::TAU;
@@ -28,6 +28,8 @@ pub enum Region {
     Rectangle(AngleRectangle),
     /// A cell of a cube's face and its margin, blended with its neighbours.
     Cell(CubeCell),
+    /// The region into which mirrors fold all directions, and its images.
+    Mirrored(Symmetry),
 }
 
 impl Region {
@@ -35,6 +37,7 @@ impl Region {
         match self {
             Self::Rectangle(rectangle) => rectangle.direction(s, t),
             Self::Cell(cell) => cell.at(s, t),
+            Self::Mirrored(symmetry) => symmetry.rectangle().direction(s, t),
         }
     }
 }
@@ -53,6 +56,10 @@ impl Grain {
             Surface::Segmented(surface) => {
                 let rectangle = surface.partition().rectangle(segment);
                 (Region::Rectangle(rectangle), rectangle.cap())
+            }
+            Surface::Mirrored(surface) => {
+                let symmetry = surface.symmetry();
+                (Region::Mirrored(symmetry), symmetry.cap())
             }
         };
         self.coefficients()

@@ -9,10 +9,10 @@ const PLACES: usize = 9;
 impl Grain {
     /// The largest jump of the radius across a border of two segments, or between the segments that
     /// meet at a pole, in the scan's unit. Looked for at 9 places per border; 0 where the expansions
-    /// are blended.
+    /// are blended or mirrored.
     pub fn seam_jump(&self) -> f64 {
         match self.surface() {
-            Surface::Blended(_) => 0.0,
+            Surface::Blended(_) | Surface::Mirrored(_) => 0.0,
             Surface::Segmented(surface) => surface.seam_jump(),
         }
     }

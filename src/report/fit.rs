@@ -5,6 +5,8 @@ use super::number::{percent, short, with_error};
 use super::rule::rule;
 use crate::fit::{FitOptions, Fitted, Reference, ReferenceKind, StandardErrors};
 use crate::measure::{extents, grain_properties};
+use crate::model::Mirrored;
+use crate::sphere::Symmetry;
 use nalgebra::Vector3;
 use serde::Serialize;
 use std::fmt;
@@ -20,6 +22,12 @@ pub struct FitReport {
     pub degree: usize,
     /// Number of segments.
     pub segments: usize,
+    /// Axes of the scan normal to the mirror planes; left out without these.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub symmetry: Option<Symmetry>,
+    /// Root mean square difference of the radius between mirror images of the scan; left out likewise.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub asymmetry: Option<f64>,
     /// Coefficients that the model holds: (degree + 1)^2 per segment, fewer where a segment was
     /// reduced.
     pub coefficients: usize,
@@ -130,6 +138,7 @@ impl FitReport {
         scan_warnings: &[String],
     ) -> Self {
         let search = &fitted.search;
+        let mirrored = fitted.grain.surface().mirrored();
         let choice = search.choice();
         let properties = grain_properties(&fitted.grain).properties;
         let principal = properties.principal();
@@ -139,8 +148,10 @@ impl FitReport {
         Self {
             input,
             points: fitted.points,
-            degree: choice.degree,
+            degree: mirrored.map_or(choice.degree, Mirrored::degree),
             segments: choice.segments,
+            symmetry: mirrored.map(Mirrored::symmetry),
+            asymmetry: fitted.asymmetry,
             coefficients: fitted.grain.coefficient_count(),
             area: properties.area,
             volume: properties.volume,
@@ -219,11 +230,24 @@ impl fmt::Display for FitReport {
             |error: f64, reference: f64| format!("{} against {}", percent(error), short(reference));
         let heldout = self.heldout_rms.map_or("unknown".into(), of_radius);
         writeln!(f, "scan          {}, {} points", self.input, self.points)?;
-        writeln!(
-            f,
-            "model         degree {}, {} segments, {} coefficients, {:.0} per evaluation",
-            self.degree, self.segments, self.coefficients, self.coefficients_touched
-        )?;
+        write!(f, "model         degree {}, ", self.degree)?;
+        match self.symmetry {
+            Some(symmetry) => writeln!(
+                f,
+                "{} {} on {}",
+                self.coefficients,
+                match self.coefficients {
+                    1 => "coefficient",
+                    _ => "coefficients",
+                },
+                mirroring(symmetry)
+            )?,
+            None => writeln!(
+                f,
+                "{} segments, {} coefficients, {:.0} per evaluation",
+                self.segments, self.coefficients, self.coefficients_touched
+            )?,
+        }
         writeln!(f, "chosen for    {}", self.rule)?;
         writeln!(f, "reference     {}", self.reference.description())?;
         writeln!(
@@ -263,6 +287,9 @@ impl fmt::Display for FitReport {
         if self.seam_jump > 0.0 {
             writeln!(f, "seam jump     largest {}", of_radius(self.seam_jump))?;
         }
+        if let Some(asymmetry) = self.asymmetry {
+            writeln!(f, "asymmetry     RMS {}", of_radius(asymmetry))?;
+        }
         if self.noise > 0.0 {
             writeln!(f, "noise         {}", of_radius(self.noise))?;
         }
@@ -282,4 +309,20 @@ impl fmt::Display for FitReport {
         }
         write!(f, "Lengths are in the scan's unit.")
     }
+}
+
+/// What the expansion covers, and along which axes it is mirrored.
+fn mirroring(symmetry: Symmetry) -> String {
+    let part = match symmetry.images() {
+        1 => "the whole sphere",
+        2 => "one half",
+        4 => "one quarter",
+        _ => "one octant",
+    };
+    let names = symmetry.names();
+    let axes = match names.as_slice() {
+        [most @ .., last] if !most.is_empty() => format!("{} and {last}", most.join(", ")),
+        names => names.concat(),
+    };
+    format!("{part}, mirrored along {axes}")
 }

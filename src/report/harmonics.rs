@@ -1,7 +1,7 @@
 //! The published coefficients a_l^m as CSV.
 
 use crate::model::{Frame, PublishedExpansion, Region};
-use crate::sphere::MARGIN;
+use crate::sphere::{AngleRectangle, MARGIN, Symmetry};
 use std::io::{self, Write};
 
 /// The largest loss of the conversion over all segments, in the scan's unit.
@@ -21,14 +21,11 @@ pub fn write_harmonics(
 ) -> io::Result<()> {
     let row = |v: [f64; 3]| v.map(|x| x.to_string()).join(" ");
     let [x, y, z] = [0, 1, 2].map(|i| row(frame.axes.column(i).into_owned().into()));
-    let joined = matches!(segments.first().map(|s| s.region), Some(Region::Cell(_)));
-    let (how, columns) = if joined {
-        (blending(), "face,parts,row,column")
-    } else {
-        (
-            "in each segment".into(),
-            "theta_min,theta_max,phi_min,phi_max",
-        )
+    let angles = "theta_min,theta_max,phi_min,phi_max";
+    let (how, columns) = match segments.first().map(|s| s.region) {
+        Some(Region::Cell(_)) => (blending(), "face,parts,row,column"),
+        Some(Region::Mirrored(symmetry)) => (mirroring(symmetry), angles),
+        _ => ("in each segment".into(), angles),
     };
     write!(
         writer,
@@ -49,9 +46,8 @@ pub fn write_harmonics(
     )?;
     for (number, segment) in segments.iter().enumerate() {
         let region = match segment.region {
-            Region::Rectangle(r) => {
-                format!("{},{},{},{}", r.theta[0], r.theta[1], r.phi[0], r.phi[1])
-            }
+            Region::Rectangle(rectangle) => bounds(&rectangle),
+            Region::Mirrored(symmetry) => bounds(&symmetry.rectangle()),
             Region::Cell(c) => format!("{},{},{},{}", c.face, c.parts, c.row, c.column),
         };
         for (index, a) in segment.coefficients.iter().enumerate() {
@@ -61,6 +57,23 @@ pub fn write_harmonics(
         }
     }
     Ok(())
+}
+
+fn bounds(rectangle: &AngleRectangle) -> String {
+    let AngleRectangle { theta, phi } = rectangle;
+    format!("{},{},{},{}", theta[0], theta[1], phi[0], phi[1])
+}
+
+/// How the expansion of a part of the sphere makes a radius.
+fn mirroring(symmetry: Symmetry) -> String {
+    let names = symmetry.names();
+    let absolute: Vec<String> = names.iter().map(|name| format!("|{name}|")).collect();
+    format!(
+        "in the region given, and mirrored:\n\
+         #   r of a direction (x, y, z) elsewhere is that of its image there, with {} in the place of {}",
+        absolute.join(", "),
+        names.join(", "),
+    )
 }
 
 /// How the expansions of cells make a radius.

@@ -2,6 +2,7 @@
 
 use super::number::short;
 use crate::fit::{FitOptions, Fitted, Seams, Tolerance};
+use crate::sphere::Symmetry;
 
 /// The rule of [`crate::fit`] as it decided here.
 pub(super) fn rule(fitted: &Fitted, options: &FitOptions) -> String {
@@ -10,7 +11,8 @@ pub(super) fn rule(fitted: &Fitted, options: &FitOptions) -> String {
     if search.candidates.len() == 1 {
         return "the only candidate asked for".into();
     }
-    if choice.rejected.is_some() && options.seams == Seams::None {
+    let is_refined = options.seams == Seams::Blended && options.symmetry == Symmetry::NONE;
+    if choice.rejected.is_some() && !is_refined {
         return "every candidate was rejected; this one has the least held-out RMS".into();
     }
     let tolerance = options.tolerance.length(fitted.mean_radius);
@@ -31,7 +33,7 @@ pub(super) fn rule(fitted: &Fitted, options: &FitOptions) -> String {
         Some(rms) if rms <= search.limit => {
             format!("the fewest coefficients whose held-out RMS is within {limit}")
         }
-        _ if options.seams == Seams::Blended => {
+        _ if is_refined => {
             format!(
                 "splitting segments further does not lower the held-out RMS; {limit} is not met"
             )

@@ -12,6 +12,7 @@ mod harmonics;
 mod jet;
 mod partition;
 mod quadrature;
+mod symmetry;
 mod triangulation;
 
 pub use cap::{Cap, Places};
@@ -26,4 +27,5 @@ pub(crate) use jet::Jet;
 pub use partition::{AngleRectangle, AngularPartition};
 pub(crate) use partition::{azimuth_fraction, polar_fraction};
 pub use quadrature::GaussLegendre;
+pub use symmetry::{Symmetry, SymmetryError};
 pub use triangulation::{TriangulationError, triangulate_directions};

@@ -7,6 +7,7 @@ mod harmonics;
 mod measure;
 mod mesh;
 mod search;
+mod symmetry;
 mod synth;
 
 use serde_json::Value;

@@ -104,8 +104,8 @@ fn root(prepared: &PreparedScan, limit: f64, work: &mut Work) -> (FittedLevel, V
     up_to(top)
 }
 
-/// Degrees up to which the whole sphere is fitted at first: each costs half as much as the next.
-const ROOT_DEGREES: [usize; 5] = [4, 6, 9, 12, 16];
+/// Degrees up to which one expansion is fitted at first: each costs half as much as the next.
+pub(crate) const ROOT_DEGREES: [usize; 5] = [4, 6, 9, 12, 16];
 
 /// The first candidate that is good enough.
 fn within(candidates: &[Candidate], limit: f64) -> Option<usize> {

@@ -1,0 +1,84 @@
+//! One expansion of a part of the sphere, and its mirror images.
+
+use super::grain::check_expansion;
+use super::{Derivatives, InvalidGrain, StarSurface};
+use crate::sphere::{Cap, CapBasis, Jet, Symmetry};
+use nalgebra::{Matrix3, Vector3};
+
+/// A radius that is mirror-symmetric: r(n) = f(fold(n)), with f one expansion on the region into which
+/// the mirrors fold all directions. It is continuous; on the mirror planes it has an edge, and its
+/// derivatives are there those of the positive side.
+#[derive(Debug, Clone)]
+pub struct Mirrored {
+    symmetry: Symmetry,
+    cap: Cap,
+    pub(super) coefficients: Vec<f64>,
+    basis: CapBasis,
+}
+
+impl Mirrored {
+    /// The expansion with the given coefficients of the basis on [`Symmetry::cap`].
+    ///
+    /// # Errors
+    /// [`InvalidGrain`] if the coefficients are not (L+1)^2 finite numbers.
+    pub fn new(symmetry: Symmetry, coefficients: Vec<f64>) -> Result<Self, InvalidGrain> {
+        let degree = check_expansion(0, &coefficients)?;
+        Ok(Self {
+            symmetry,
+            cap: symmetry.cap(),
+            coefficients,
+            basis: CapBasis::new(degree),
+        })
+    }
+
+    /// The mirrors, in the grain's own frame.
+    pub fn symmetry(&self) -> Symmetry {
+        self.symmetry
+    }
+
+    /// The cap-basis coefficients: (L+1)^2 numbers in the scan's unit.
+    pub fn coefficients(&self) -> &[f64] {
+        &self.coefficients
+    }
+
+    /// The degree of the expansion.
+    pub fn degree(&self) -> usize {
+        self.basis.degree()
+    }
+
+    /// Radius and its derivatives with respect to the components of `n`.
+    pub(crate) fn jet(&self, n: &Vector3<f64>) -> Jet {
+        let signs = self.symmetry.signs(n);
+        let folded = n.component_mul(&signs);
+        let jet = self.basis.jet(&self.cap, &self.coefficients, &folded);
+        let unfold = Matrix3::from_diagonal(&signs);
+        Jet {
+            value: jet.value,
+            gradient: jet.gradient.component_mul(&signs),
+            hessian: unfold * jet.hessian * unfold,
+        }
+    }
+}
+
+impl StarSurface for Mirrored {
+    fn radius(&self, n: &Vector3<f64>) -> f64 {
+        let folded = self.symmetry.fold(n);
+        self.basis.value(&self.cap, &self.coefficients, &folded)
+    }
+
+    fn radius_and_gradient(&self, n: &Vector3<f64>) -> (f64, Vector3<f64>) {
+        let signs = self.symmetry.signs(n);
+        let folded = n.component_mul(&signs);
+        let (radius, gradient) =
+            self.basis
+                .value_and_gradient(&self.cap, &self.coefficients, &folded);
+        (radius, gradient.component_mul(&signs))
+    }
+
+    fn derivatives(&self, n: &Vector3<f64>) -> Derivatives {
+        Derivatives::on_sphere(n, &self.jet(n))
+    }
+}
+
+#[cfg(test)]
+mod tests;
