@@ -2,11 +2,11 @@
 //!
 //! `cargo run --release --example accuracy`
 
-use grainform::measure::grain_properties;
+use grainform::measure::{Deviation, grain_properties};
 use grainform::scan::Scan;
 use grainform::shapes::{Body, Sampling, SynthOptions, synthesize};
-use grainform::{FitOptions, Fitted, StarSurface, fit};
-use nalgebra::Vector3;
+use grainform::{FitOptions, Fitted, fit};
+use nalgebra::Point3;
 
 /// Directions in which the fitted radius is compared with the true one.
 const PLACES: usize = 20_000;
@@ -59,10 +59,9 @@ fn row(options: &SynthOptions) -> Result<String, Box<dyn std::error::Error>> {
 fn distance(fitted: &Fitted, body: Body) -> Result<f64, Box<dyn std::error::Error>> {
     let surface = body.surface();
     let directions = Sampling::Fibonacci.directions(PLACES, 0)?;
-    let squares = directions.iter().map(|n| {
-        let from_centre: Vector3<f64> = n * surface.radius(n) - fitted.grain.frame().centre.coords;
-        let radius = fitted.grain.radius(&from_centre.normalize());
-        (from_centre.norm() - radius).powi(2)
-    });
-    Ok((squares.sum::<f64>() / PLACES as f64).sqrt())
+    let places: Vec<_> = directions
+        .iter()
+        .map(|n| Point3::from(n * surface.radius(n)))
+        .collect();
+    Ok(Deviation::from_places(&fitted.grain, &places).rms())
 }

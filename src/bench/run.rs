@@ -2,8 +2,7 @@
 
 use super::{BenchRow, BenchScan, Family, Setting, Subject, Truth, options};
 use crate::fit::{FitError, Fitted, PreparedScan, Reference};
-use crate::measure::grain_properties;
-use crate::model::{Grain, StarSurface};
+use crate::measure::{Deviation, grain_properties};
 use std::time::Instant;
 
 /// A fit that takes longer, in seconds, is timed once: the noise of the clock is far below.
@@ -100,18 +99,9 @@ fn row(
         heldout_share: choice.heldout_rms.map(|rms| rms / fitted.mean_radius),
         area_error: found.area / area - 1.0,
         volume_error: found.volume / volume - 1.0,
-        rms_error: truth.map(|truth| distance(grain, truth) / truth.mean_radius),
+        rms_error: truth
+            .map(|truth| Deviation::from_places(grain, &truth.places).rms() / truth.mean_radius),
         seam_jump: grain.seam_jump() / fitted.mean_radius,
         rejected: choice.rejected.map(|reason| reason.to_string()),
     }
-}
-
-/// Root mean square of the radial distance from the fit to the closed form.
-fn distance(grain: &Grain, truth: &Truth) -> f64 {
-    let centre = grain.frame().centre;
-    let squares = truth.places.iter().map(|place| {
-        let from_centre = place - centre;
-        (from_centre.norm() - grain.radius(&from_centre.normalize())).powi(2)
-    });
-    (squares.sum::<f64>() / truth.places.len() as f64).sqrt()
 }

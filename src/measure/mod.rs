@@ -4,8 +4,10 @@
 mod clearance;
 mod convex_polygon;
 mod curvature;
+mod deviation;
 mod enclosing_ball;
 mod extents;
+mod four_triangles;
 mod grain;
 mod hull;
 mod inscribed_ball;
@@ -19,8 +21,10 @@ mod roundness;
 mod support;
 
 pub use curvature::Curvature;
+pub use deviation::Deviation;
 pub use enclosing_ball::{Ball, EnclosingBallError, enclosing_ball};
 pub use extents::extents;
+pub use four_triangles::four_triangles;
 pub use grain::grain_properties;
 pub(crate) use grain::{blended_properties, mirrored_properties};
 pub use hull::{HullError, convex_hull};

@@ -4,7 +4,7 @@ use super::gauge::{derivatives, distance_from_axis, from_axis, radius_and_gradie
 use super::solid::{Solid, closed_form};
 use crate::measure::Integrals;
 use crate::model::{Derivatives, StarSurface};
-use crate::sphere::Jet;
+use crate::sphere::{Jet, Symmetry};
 use nalgebra::Vector3;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -56,6 +56,15 @@ impl Solid for Bicone {
             TAU / 3.0 * r * r * h,
             Vector3::new(across, across, along),
         )
+    }
+
+    fn symmetry(&self) -> Symmetry {
+        Symmetry::OCTANT
+    }
+
+    /// The apex and the rim, at 0 and pi/2.
+    fn singular_polar_angles(&self, _azimuth: f64) -> Vec<f64> {
+        vec![0.0, FRAC_PI_2]
     }
 }
 

@@ -4,7 +4,7 @@ use super::gauge::{derivatives, distance_from_axis, from_axis, radius_and_gradie
 use super::solid::{Solid, closed_form};
 use crate::measure::Integrals;
 use crate::model::{Derivatives, StarSurface};
-use crate::sphere::Jet;
+use crate::sphere::{Jet, Symmetry};
 use nalgebra::Vector3;
 use std::f64::consts::TAU;
 
@@ -71,6 +71,15 @@ impl Solid for Cylinder {
             TAU * r * r * h,
             Vector3::new(across, across, along),
         )
+    }
+
+    fn symmetry(&self) -> Symmetry {
+        Symmetry::OCTANT
+    }
+
+    /// The rim, at atan(R/h).
+    fn singular_polar_angles(&self, _azimuth: f64) -> Vec<f64> {
+        vec![self.radius.atan2(self.half_height)]
     }
 }
 

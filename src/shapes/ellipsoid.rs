@@ -4,7 +4,7 @@ use super::solid::{Solid, closed_form};
 use crate::elliptic::{rf, rg};
 use crate::measure::Integrals;
 use crate::model::{Derivatives, StarSurface};
-use crate::sphere::Jet;
+use crate::sphere::{Jet, Symmetry};
 use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::PI;
 
@@ -55,6 +55,10 @@ impl Solid for Ellipsoid {
             4.0 / 3.0 * PI * axes.product(),
             squares / 5.0,
         )
+    }
+
+    fn symmetry(&self) -> Symmetry {
+        Symmetry::OCTANT
     }
 }
 

@@ -6,9 +6,9 @@ use super::section::along_side;
 use super::solid::{Solid, closed_form};
 use crate::measure::Integrals;
 use crate::model::{Derivatives, StarSurface};
-use crate::sphere::Jet;
+use crate::sphere::{Jet, Symmetry};
 use nalgebra::Vector3;
-use std::f64::consts::FRAC_2_PI;
+use std::f64::consts::{FRAC_2_PI, FRAC_PI_2};
 
 /// The octahedron |x|/a + |y|/b + |z|/c <= 1, centred at the origin, its corners on the axes.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -64,6 +64,20 @@ impl Solid for Octahedron {
             4.0 / 3.0 * axes.product(),
             axes.component_mul(axes) / 10.0,
         )
+    }
+
+    fn symmetry(&self) -> Symmetry {
+        Symmetry::OCTANT
+    }
+
+    /// The corner on the axis and the edges round z = 0, at 0 and pi/2.
+    fn singular_polar_angles(&self, _azimuth: f64) -> Vec<f64> {
+        vec![0.0, FRAC_PI_2]
+    }
+
+    /// The edges in the planes y = 0 and x = 0, at 0 and pi/2.
+    fn singular_azimuths(&self) -> Vec<f64> {
+        vec![0.0, FRAC_PI_2]
     }
 }
 

@@ -2,6 +2,7 @@
 
 use crate::measure::{Integrals, MassProperties, integrate};
 use crate::model::StarSurface;
+use crate::sphere::Symmetry;
 use nalgebra::{Matrix3, Point3, Vector3};
 
 /// Relative tolerance of integrals that have no closed form.
@@ -16,6 +17,23 @@ pub trait Solid: StarSurface + Send + Sync {
     /// forms, by them to 1e-14 and without a single evaluation of the surface.
     fn integrals(&self) -> Integrals {
         integrate(self, QUADRATURE_TOLERANCE)
+    }
+
+    /// The mirror planes that are known of it: all three of a shape, none of a grain.
+    fn symmetry(&self) -> Symmetry {
+        Symmetry::NONE
+    }
+
+    /// Polar angles in \[0, pi/2\] at which the surface has an edge, a corner or an apex along the
+    /// meridian of an azimuth in \[0, pi/2\], ascending: there the surface gradient jumps.
+    fn singular_polar_angles(&self, _azimuth: f64) -> Vec<f64> {
+        Vec::new()
+    }
+
+    /// Azimuths in \[0, pi/2\] along which an edge runs that lies in the plane of a meridian, ascending:
+    /// there the surface gradient jumps along the parallels that the edge reaches.
+    fn singular_azimuths(&self) -> Vec<f64> {
+        Vec::new()
     }
 }
 

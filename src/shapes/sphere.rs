@@ -3,6 +3,7 @@
 use super::solid::{Solid, closed_form};
 use crate::measure::Integrals;
 use crate::model::{Derivatives, StarSurface};
+use crate::sphere::Symmetry;
 use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::PI;
 
@@ -41,5 +42,9 @@ impl Solid for Sphere {
             4.0 / 3.0 * PI * square * self.radius,
             Vector3::repeat(square / 5.0),
         )
+    }
+
+    fn symmetry(&self) -> Symmetry {
+        Symmetry::OCTANT
     }
 }
