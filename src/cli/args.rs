@@ -1,7 +1,8 @@
 //! The arguments as they are typed.
 
-use super::values::{Auto, SeamsArg, tolerance, vector};
+use super::values::{Auto, SchemeArg, SeamsArg, Unit, tolerance, vector};
 use crate::fit::{FitOptions, Tolerance};
+use crate::report::Measure;
 use crate::shapes::{Body, Sampling};
 use crate::sphere::Symmetry;
 use clap::{Args, Parser, Subcommand, value_parser};
@@ -37,6 +38,7 @@ pub(super) enum Command {
     Search(SearchArgs),
     Mesh(MeshArgs),
     Measure(MeasureArgs),
+    Contact(ContactArgs),
     Synth(SynthArgs),
     Bench(BenchArgs),
 }
@@ -91,15 +93,87 @@ pub(super) struct MeshArgs {
     pub(super) meshing: MeshingArgs,
 }
 
-/// Measure a scan or a model: area, volume, centroid, inertia, dimensions
+/// Measure a scan or a model: size, mass properties, shape descriptors, curvature
 ///
 /// Of a scan, its own faces are measured if they are closed, else the points are triangulated by their
-/// directions.
+/// directions. What has to do with curvature is measured of models only.
 #[derive(Args)]
 pub(super) struct MeasureArgs {
     /// A scan, or a model written by `fit`; the content decides
     #[arg(value_name = "SCAN|MODEL.json")]
     pub(super) input: PathBuf,
+
+    /// Measure these only, separated by commas, and compute nothing else: area, volume, centroid,
+    /// inertia, principal, dimensions, minimum_box, form, spheres, sphericity, roundness, regularity,
+    /// angularity, convexity, ellipsoid, projections, curvature, spectrum
+    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    pub(super) only: Vec<Measure>,
+
+    /// How area, volume and moments of a model are integrated: exact, or four-triangles, the source's
+    /// polyhedron on a 128 x 128 grid
+    #[arg(long, value_name = "exact|four-triangles", default_value = "exact")]
+    pub(super) scheme: SchemeArg,
+
+    /// Print one JSON object
+    #[arg(long)]
+    pub(super) json: bool,
+}
+
+/// Tell the normal force of a grain pressed against a plane or another grain, by the theory of Hertz
+///
+/// The force follows from the curvature where they touch, which asks more of a fit than size does: fit
+/// with a tolerance of 0.01 %.
+#[derive(Args)]
+pub(super) struct ContactArgs {
+    /// A model written by `fit`
+    #[arg(value_name = "MODEL.json")]
+    pub(super) model: PathBuf,
+
+    /// The grain that it is pressed against [default: a plane]
+    #[arg(value_name = "OTHER.json")]
+    pub(super) other: Option<PathBuf>,
+
+    /// Direction in which the grain is touched, in its scan's frame: it touches by its farthest point
+    #[arg(long, value_name = "X,Y,Z", default_value = "0,0,-1", value_parser = vector,
+          allow_hyphen_values = true)]
+    pub(super) towards: Vector3<f64>,
+
+    /// Likewise of the other grain
+    #[arg(long, value_name = "X,Y,Z", default_value = "0,0,1", value_parser = vector,
+          allow_hyphen_values = true)]
+    pub(super) other_towards: Vector3<f64>,
+
+    /// Angle between the directions of largest curvature of the two grains
+    #[arg(long, value_name = "DEG", default_value_t = 0.0)]
+    pub(super) angle_deg: f64,
+
+    /// Unit of the scans' lengths: um, mm, cm or m
+    #[arg(long, value_name = "UNIT")]
+    pub(super) unit: Unit,
+
+    /// How far the bodies approach after they touch
+    #[arg(long, value_name = "U", allow_hyphen_values = true)]
+    pub(super) indentation_um: f64,
+
+    /// Young's modulus of the grain (inf: rigid)
+    #[arg(long, value_name = "E")]
+    pub(super) youngs_modulus_mpa: f64,
+
+    /// Poisson's ratio of the grain
+    #[arg(long, value_name = "NU", default_value_t = 0.3)]
+    pub(super) poissons_ratio: f64,
+
+    /// Young's modulus of the plane or the other grain [default: the same]
+    #[arg(long, value_name = "E")]
+    pub(super) other_youngs_modulus_mpa: Option<f64>,
+
+    /// Poisson's ratio of the plane or the other grain [default: the same]
+    #[arg(long, value_name = "NU")]
+    pub(super) other_poissons_ratio: Option<f64>,
+
+    /// Radius, in the scan's unit, of the cap that rounds an edge by which a grain is touched
+    #[arg(long, value_name = "R")]
+    pub(super) edge_radius: Option<f64>,
 
     /// Print one JSON object
     #[arg(long)]

@@ -1,13 +1,13 @@
 //! `grainform measure`
 
-use super::args::{DEFAULT_RESOLUTION, MeasureArgs};
+use super::args::MeasureArgs;
 use super::mesh::{grain, read};
 use super::{print, print_json, warn};
 use crate::fit::scanned_surface;
-use crate::measure::{grain_properties, mesh_properties};
-use crate::report::{MeasureReport, Measured};
+use crate::measure::{Scheme, Survey};
+use crate::report::{Measure, MeasureReport, Measured};
 use crate::scan::parse_scan;
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, bail};
 
 pub(super) fn run(args: MeasureArgs) -> Result<()> {
     let report = measure(&args)?;
@@ -22,33 +22,27 @@ pub(super) fn run(args: MeasureArgs) -> Result<()> {
 fn measure(args: &MeasureArgs) -> Result<MeasureReport> {
     let path = &args.input;
     let input = path.display().to_string();
+    let only = match args.only.as_slice() {
+        [] => Measure::ALL.as_slice(),
+        asked => asked,
+    };
     let bytes = read(path)?;
     if bytes.trim_ascii_start().starts_with(b"{") {
         let grain = grain(path, &bytes)?;
-        let properties = grain_properties(&grain).properties;
-        let mesh = grain.mesh(DEFAULT_RESOLUTION.into());
+        let survey = Survey::of_grain(&grain, args.scheme.0);
         let of = Measured::Model;
-        return Ok(MeasureReport::new(
-            input,
-            of,
-            &properties,
-            &mesh,
-            Vec::new(),
-        ));
+        return Ok(MeasureReport::new(input, of, &survey, only, Vec::new()));
+    }
+    if args.scheme.0 != Scheme::Exact {
+        bail!("{input} is a scan: integration schemes are for models; leave --scheme out");
     }
     let extension = path.extension().and_then(|extension| extension.to_str());
     let scan = parse_scan(&bytes, extension)
         .with_context(|| format!("cannot read a scan from {input}"))?;
     let surface = scanned_surface(&scan).with_context(|| format!("cannot measure {input}"))?;
-    let properties =
-        mesh_properties(&surface.mesh).with_context(|| format!("cannot measure {input}"))?;
+    let survey =
+        Survey::of_mesh(&surface.mesh).with_context(|| format!("cannot measure {input}"))?;
     let warnings = [scan.warnings.as_slice(), &surface.warnings].concat();
     let of = surface.kind.into();
-    Ok(MeasureReport::new(
-        input,
-        of,
-        &properties,
-        &surface.mesh,
-        warnings,
-    ))
+    Ok(MeasureReport::new(input, of, &survey, only, warnings))
 }

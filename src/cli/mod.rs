@@ -2,6 +2,7 @@
 
 mod args;
 mod bench;
+mod contact;
 mod fit;
 mod fitting;
 mod measure;
@@ -30,6 +31,7 @@ pub fn run() -> ExitCode {
         Command::Search(args) => search::run(args),
         Command::Mesh(args) => mesh::run(args),
         Command::Measure(args) => measure::run(args),
+        Command::Contact(args) => contact::run(args),
         Command::Synth(args) => synth::run(args),
         Command::Bench(args) => bench::run(args),
     };

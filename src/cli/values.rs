@@ -1,8 +1,60 @@
 //! Values of arguments that have a notation of their own.
 
 use crate::fit::{Seams, Tolerance};
+use crate::measure::Scheme;
 use nalgebra::Vector3;
 use std::str::FromStr;
+
+/// `exact` or `four-triangles`.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct SchemeArg(pub(super) Scheme);
+
+impl FromStr for SchemeArg {
+    type Err = &'static str;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        match text {
+            "exact" => Ok(Self(Scheme::Exact)),
+            "four-triangles" => Ok(Self(Scheme::FourTriangles)),
+            _ => Err("expected exact or four-triangles"),
+        }
+    }
+}
+
+/// A unit of length.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Unit {
+    Micrometre,
+    Millimetre,
+    Centimetre,
+    Metre,
+}
+
+impl Unit {
+    /// Its length in metres.
+    pub(super) fn metres(self) -> f64 {
+        match self {
+            Self::Micrometre => 1e-6,
+            Self::Millimetre => 1e-3,
+            Self::Centimetre => 1e-2,
+            Self::Metre => 1.0,
+        }
+    }
+}
+
+impl FromStr for Unit {
+    type Err = &'static str;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        match text {
+            "um" => Ok(Self::Micrometre),
+            "mm" => Ok(Self::Millimetre),
+            "cm" => Ok(Self::Centimetre),
+            "m" => Ok(Self::Metre),
+            _ => Err("expected um, mm, cm or m"),
+        }
+    }
+}
 
 /// `blended` or `none`.
 #[derive(Debug, Clone, Copy)]

@@ -135,9 +135,13 @@ impl Search {
     /// What a user should know of the choice: whole sentences.
     pub(crate) fn warnings(&self) -> impl Iterator<Item = String> {
         let outliers = (self.outliers > 0).then(|| {
+            let [stand, were] = match self.outliers {
+                1 => ["point stands", "was"],
+                _ => ["points stand", "were"],
+            };
             format!(
-                "{} points stand apart from the fitted surface and from their neighbours, and were \
-                 left out.",
+                "{} {stand} apart from the fitted surface and from the neighbours, and {were} left \
+                 out.",
                 self.outliers
             )
         });

@@ -15,7 +15,7 @@ const SMOOTH_TOLERANCE: f64 = 1e-9;
 const BLENDED_TOLERANCE: f64 = 3e-6;
 
 /// Gauss nodes per side of a zone of a blended surface: a zone is a tenth of a cell.
-const BLENDED_ORDERS: [usize; 2] = [6, 5];
+pub(super) const BLENDED_ORDERS: [usize; 2] = [6, 5];
 
 /// Area, volume, centroid and inertia of a fitted grain, in the scan's frame.
 ///
@@ -86,7 +86,7 @@ impl Piece for FaceRectangle {
 }
 
 /// A part of a segment.
-struct SegmentPart {
+pub(super) struct SegmentPart {
     segment: usize,
     rectangle: AngleRectangle,
 }
@@ -108,16 +108,21 @@ impl Piece for SegmentPart {
     }
 }
 
-fn segmented(surface: &Segmented) -> Integrals {
+/// The segments, or the quarters of the only one.
+pub(super) fn segment_parts(surface: &Segmented) -> Vec<SegmentPart> {
     let partition = surface.partition();
     let whole = |segment: usize| SegmentPart {
         segment,
         rectangle: partition.rectangle(segment),
     };
-    let parts = match partition.per_angle() {
+    match partition.per_angle() {
         1 => whole(0).quarters().into(),
         _ => (0..partition.segments()).map(whole).collect(),
-    };
+    }
+}
+
+fn segmented(surface: &Segmented) -> Integrals {
+    let parts = segment_parts(surface);
     integrate_pieces(parts, ORDERS, SMOOTH_TOLERANCE, |parts, directions| {
         let per_part = directions.len() / parts.len();
         let nodes = parts.iter().zip(directions.chunks(per_part));

@@ -39,19 +39,25 @@ pub struct Integrals {
 /// Rounding limits what can be reached to some 1e-14. A surface that is not smooth costs more and
 /// may end above the tolerance; the result says so.
 pub fn integrate(surface: &(impl StarSurface + ?Sized), tolerance: f64) -> Integrals {
-    let octants = (0..8).map(|i| {
-        let (polar, azimuth) = ((i / 4) as f64 * FRAC_PI_2, (i % 4) as f64 * FRAC_PI_2);
-        AngleRectangle {
-            theta: [polar, polar + FRAC_PI_2],
-            phi: [azimuth, azimuth + FRAC_PI_2],
-        }
-    });
-    integrate_pieces(octants.collect(), ORDERS, tolerance, |_, directions| {
+    integrate_pieces(octants(), ORDERS, tolerance, |_, directions| {
         directions
             .iter()
             .map(|n| surface.radius_and_gradient(n))
             .collect()
     })
+}
+
+/// The eight octants.
+pub(super) fn octants() -> Vec<AngleRectangle> {
+    (0..8)
+        .map(|i| {
+            let (polar, azimuth) = ((i / 4) as f64 * FRAC_PI_2, (i % 4) as f64 * FRAC_PI_2);
+            AngleRectangle {
+                theta: [polar, polar + FRAC_PI_2],
+                phi: [azimuth, azimuth + FRAC_PI_2],
+            }
+        })
+        .collect()
 }
 
 /// A part of the sphere that can be integrated over and cut in four.

@@ -1,12 +1,18 @@
 //! Area, volume, inertia, size, form and curvature of star-shaped surfaces and of meshes, and how far one
 //! surface is from another.
 
+mod angularity;
 mod clearance;
 mod convex_polygon;
+mod convexity;
 mod curvature;
+mod curvature_statistics;
 mod deviation;
+mod elements;
+mod ellipsoid;
 mod enclosing_ball;
 mod extents;
+mod form;
 mod four_triangles;
 mod grain;
 mod hull;
@@ -15,15 +21,23 @@ mod integrals;
 mod mass;
 mod mesh;
 mod minimum_box;
+mod nodes;
 mod outline;
 mod projection;
 mod roundness;
+mod spectrum;
+mod sphericity;
 mod support;
+mod survey;
 
+pub use convexity::Convexity;
 pub use curvature::Curvature;
+pub use curvature_statistics::{CurvatureStatistics, Distribution};
 pub use deviation::Deviation;
+pub use ellipsoid::EquivalentEllipsoid;
 pub use enclosing_ball::{Ball, EnclosingBallError, enclosing_ball};
 pub use extents::extents;
+pub use form::Form;
 pub use four_triangles::four_triangles;
 pub use grain::grain_properties;
 pub(crate) use grain::{blended_properties, mirrored_properties};
@@ -36,4 +50,7 @@ pub use minimum_box::{OrientedBox, box_along, minimum_box};
 pub use outline::Outline;
 pub use projection::{OUTLINE_AZIMUTHS, ProjectionError, project};
 pub use roundness::ROUNDNESS_ORDER;
+pub use spectrum::{SPECTRUM_DEGREE, Spectrum};
+pub use sphericity::{Sphericity, wadell};
 pub use support::{Support, support};
+pub use survey::{Scheme, Survey, SurveyError};

@@ -5,6 +5,7 @@
 //! is what `--json` prints. Numbers that are not known are `null`. Their `Display` is the summary for
 //! a person. Errors of area and volume are signed and relative; lengths are in the scan's unit.
 
+mod contact;
 mod fit;
 mod harmonics;
 mod measure;
@@ -13,9 +14,13 @@ mod rule;
 mod search;
 mod synth;
 
+pub use contact::{ContactReport, Load, TouchRecord};
 pub use fit::{FitReport, ReferenceRecord, Seconds, Skipped};
 pub use harmonics::{largest_loss, write_harmonics};
-pub use measure::{Dimensions, MeasureReport, Measured, Principal};
+pub use measure::{
+    BoxRecord, CurvatureRecord, Dimensions, EllipsoidRecord, Measure, MeasureReport, Measured,
+    Measures, NotMeasured, Principal, ProjectionRecord, SphereRecord, Spheres, UnknownMeasure,
+};
 pub use number::{percent, short};
 pub use search::{CandidateRecord, SearchReport};
 pub use synth::SynthReport;

@@ -1,6 +1,7 @@
 //! The command line from end to end, through the built binary.
 
 mod bench;
+mod contact;
 mod errors;
 mod fit;
 mod harmonics;

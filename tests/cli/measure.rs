@@ -1,4 +1,4 @@
-use super::{deviation, folder, json, succeed};
+use super::{deviation, errors, folder, grainform, json, succeed};
 
 #[test]
 fn scan_mesh_and_model_agree_with_the_closed_form() {
@@ -54,4 +54,99 @@ fn dimensions_are_extents_along_the_principal_axes() {
     assert!(moments.is_sorted_by(|a, b| a.as_f64() <= b.as_f64()));
     let text = succeed(&folder, &["measure", "s.ply"]);
     assert!(text.contains("triangulated by direction") && text.contains("length 11."));
+}
+
+#[test]
+fn only_what_is_asked_for_is_told() {
+    let folder = folder();
+    succeed(&folder, &["synth", "bean", "-o", "s.ply"]);
+    succeed(&folder, &["fit", "s.ply", "-o", "m.json"]);
+    for input in ["s.ply", "m.json"] {
+        let all = json(&folder, &["measure", input]);
+        let some = json(
+            &folder,
+            &["measure", input, "--only", "volume,form,spheres"],
+        );
+        let keys: Vec<&String> = some.as_object().unwrap().keys().collect();
+        assert_eq!(keys.len(), 7, "{keys:?}");
+        for key in ["volume", "form", "spheres"] {
+            assert_eq!(some[key], all[key]);
+        }
+        let text = succeed(&folder, &["measure", input, "--only", "area"]);
+        assert_eq!(text.lines().count(), 4, "{text}");
+    }
+}
+
+#[test]
+fn what_has_to_do_with_curvature_is_measured_of_models_only_and_the_report_says_so() {
+    let folder = folder();
+    succeed(&folder, &["synth", "bean", "-o", "s.ply"]);
+    succeed(&folder, &["fit", "s.ply", "-o", "m.json"]);
+    let scan = json(&folder, &["measure", "s.ply"]);
+    let missing = scan["not_measured"].as_array().unwrap();
+    let names: Vec<&str> = missing
+        .iter()
+        .map(|missing| missing["measure"].as_str().unwrap())
+        .collect();
+    assert_eq!(names, ["roundness", "regularity", "curvature"]);
+    let model = json(&folder, &["measure", "m.json"]);
+    assert_eq!(model["not_measured"], serde_json::json!([]));
+    let error = model["curvature"]["gauss_bonnet_error"].as_f64().unwrap();
+    assert!(error.abs() < 1e-3, "{error}");
+}
+
+#[test]
+fn every_key_of_the_report_is_in_the_documentation() {
+    let documentation = include_str!("../../docs/measures.md");
+    let folder = folder();
+    succeed(&folder, &["synth", "bean", "-o", "s.ply"]);
+    succeed(&folder, &["fit", "s.ply", "-o", "m.json"]);
+    let report = json(&folder, &["measure", "m.json"]);
+    for (key, value) in report.as_object().unwrap() {
+        if ["input", "of", "not_measured", "warnings"].contains(&key.as_str()) {
+            continue;
+        }
+        let is_told = |name: &str| documentation.contains(&format!("`{name}`"));
+        let parts = value.as_object().map(|parts| {
+            let mut parts = parts.keys();
+            parts.all(|part| is_told(&format!("{key}.{part}")))
+        });
+        assert!(is_told(key) || parts == Some(true), "{key}");
+    }
+}
+
+#[test]
+fn an_unknown_measure_is_refused_with_the_list() {
+    let folder = folder();
+    let output = grainform(&folder, &["measure", "s.ply", "--only", "weight"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(
+        errors(&output).contains("there is no measure named \"weight\"; known are area, volume")
+    );
+}
+
+#[test]
+fn the_four_triangle_scheme_reads_a_model_low_by_as_much_as_the_source_does() {
+    let folder = folder();
+    succeed(&folder, &["synth", "bean", "-o", "s.ply"]);
+    succeed(&folder, &["fit", "s.ply", "-o", "m.json"]);
+    let exact = json(&folder, &["measure", "m.json", "--only", "volume,centroid"]);
+    let words = [
+        "measure",
+        "m.json",
+        "--only",
+        "volume,centroid",
+        "--scheme",
+        "four-triangles",
+    ];
+    let found = json(&folder, &words);
+    let low = 1.0 - found["volume"].as_f64().unwrap() / exact["volume"].as_f64().unwrap();
+    assert!((2e-4..6e-4).contains(&low), "{low}");
+    for axis in 0..3 {
+        let at = |report: &serde_json::Value| report["centroid"][axis].as_f64().unwrap();
+        assert!((at(&found) - at(&exact)).abs() < 1e-3);
+    }
+    let output = grainform(&folder, &["measure", "s.ply", "--scheme", "four-triangles"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(errors(&output).contains("integration schemes are for models"));
 }

@@ -1,0 +1,74 @@
+//! `grainform contact`
+
+use super::args::ContactArgs;
+use super::mesh::{grain, read};
+use super::{print, print_json};
+use crate::contact::{Material, RelativeCurvature, Touch, TouchError, effective_modulus_pa, touch};
+use crate::model::Grain;
+use crate::report::{ContactReport, Load, TouchRecord};
+use anyhow::{Context, Result, anyhow, bail};
+use nalgebra::Vector3;
+use std::path::Path;
+
+pub(super) fn run(args: ContactArgs) -> Result<()> {
+    let report = contact(&args)?;
+    if args.json {
+        return print_json(&report);
+    }
+    print(&report)
+}
+
+fn contact(args: &ContactArgs) -> Result<ContactReport> {
+    if !(args.indentation_um > 0.0 && args.indentation_um.is_finite()) {
+        bail!(
+            "the indentation must be above zero, not {} um",
+            args.indentation_um
+        );
+    }
+    let own = Material::new(1e6 * args.youngs_modulus_mpa, args.poissons_ratio)?;
+    let other = Material::new(
+        1e6 * args
+            .other_youngs_modulus_mpa
+            .unwrap_or(args.youngs_modulus_mpa),
+        args.other_poissons_ratio.unwrap_or(args.poissons_ratio),
+    )?;
+    let load = Load {
+        metres_per_unit: args.unit.metres(),
+        effective_modulus_pa: effective_modulus_pa(&own, &other),
+        indentation_um: args.indentation_um,
+    };
+    if !load.effective_modulus_pa.is_finite() {
+        bail!("both bodies are rigid: give one of them a finite Young's modulus");
+    }
+    let (first, one) = touched(&args.model, &args.towards, args.edge_radius)?;
+    let (second, principal) = match &args.other {
+        Some(path) => {
+            let (record, touch) = touched(path, &args.other_towards, args.edge_radius)?;
+            (Some(record), touch.principal)
+        }
+        None => (None, [0.0; 2]),
+    };
+    let relative = RelativeCurvature::new(one.principal, principal, args.angle_deg.to_radians())?;
+    Ok(ContactReport::new(first, second, &relative, &load))
+}
+
+/// Where a model is touched in a direction.
+fn touched(
+    path: &Path,
+    towards: &Vector3<f64>,
+    edge_radius: Option<f64>,
+) -> Result<(TouchRecord, Touch)> {
+    let input = path.display().to_string();
+    let grain: Grain = grain(path, &read(path)?)?;
+    let towards = towards
+        .try_normalize(0.0)
+        .filter(|n| n.iter().all(|x| x.is_finite()))
+        .ok_or_else(|| anyhow!("the direction of the contact must not be zero"))?;
+    let touch = touch(&grain, &towards, edge_radius).map_err(|error| match error {
+        TouchError::Edge { .. } => anyhow!("{error}; round it with --edge-radius"),
+        other => anyhow!(other),
+    });
+    let touch = touch.with_context(|| format!("{input} cannot be touched there"))?;
+    let centre = &grain.frame().centre;
+    Ok((TouchRecord::new(input, centre, &towards, &touch), touch))
+}

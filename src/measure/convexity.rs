@@ -1,0 +1,30 @@
+//! How much of its convex hull a body fills.
+
+use super::{MeshIntegralError, mesh_properties};
+use crate::Mesh;
+use serde::Serialize;
+
+/// A body against its convex hull: pure numbers, 1 of a convex body.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Convexity {
+    /// Volume over that of the hull, also called solidity: above 0 to 1.
+    pub volume: f64,
+    /// Area of the hull over that of the body: above 0; below 1 where the body is rough or grooved,
+    /// while a hollow that is wide and shallow, or a crown of tips, can bring it above 1.
+    pub area: f64,
+}
+
+impl Convexity {
+    /// That of a closed mesh and its hull.
+    ///
+    /// # Errors
+    ///
+    /// When either has no volume.
+    pub fn new(mesh: &Mesh, hull: &Mesh) -> Result<Self, MeshIntegralError> {
+        let (body, hull) = (mesh_properties(mesh)?, mesh_properties(hull)?);
+        Ok(Self {
+            volume: body.volume / hull.volume,
+            area: hull.area / body.area,
+        })
+    }
+}

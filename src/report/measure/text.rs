@@ -1,0 +1,205 @@
+//! The report of measures for a person.
+
+use super::{
+    BoxRecord, Dimensions, MeasureReport, Measured, Principal, ProjectionRecord, SphereRecord,
+};
+use crate::measure::Distribution;
+use crate::report::number::{short, triple};
+use std::fmt;
+
+/// Degrees of the spectrum that are shown.
+const DEGREES_SHOWN: usize = 8;
+
+impl fmt::Display for MeasureReport {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let of = match self.of {
+            Measured::Faces => "the scan's own faces",
+            Measured::Directions => "the points, triangulated by direction",
+            Measured::Model => "the fitted model",
+        };
+        writeln!(f, "input         {}", self.input)?;
+        writeln!(f, "measured      {of}")?;
+        self.mass(f)?;
+        self.size(f)?;
+        self.shape(f)?;
+        self.surface(f)?;
+        for missing in &self.not_measured {
+            writeln!(
+                f,
+                "{:<13} not measured: {}",
+                missing.measure, missing.reason
+            )?;
+        }
+        write!(f, "Lengths are in the scan's unit, the density is 1.")
+    }
+}
+
+impl MeasureReport {
+    fn mass(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let measures = &self.measures;
+        if let Some(area) = measures.area {
+            writeln!(f, "area          {}", short(area))?;
+        }
+        if let Some(volume) = measures.volume {
+            writeln!(f, "volume        {}", short(volume))?;
+        }
+        if let Some(centroid) = measures.centroid {
+            writeln!(f, "centroid      {}", triple(centroid))?;
+        }
+        if let Some(inertia) = measures.inertia {
+            for (i, row) in inertia.into_iter().enumerate() {
+                let name = if i == 0 { "inertia" } else { "" };
+                writeln!(f, "{name:<13} {}", triple(row))?;
+            }
+        }
+        if let Some(Principal { moments, axes }) = measures.principal {
+            for (i, (moment, axis)) in moments.into_iter().zip(axes).enumerate() {
+                let name = if i == 0 { "principal" } else { "" };
+                writeln!(f, "{name:<13} {}  along  {}", short(moment), triple(axis))?;
+            }
+        }
+        Ok(())
+    }
+
+    fn size(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let measures = &self.measures;
+        if let Some(Dimensions {
+            length,
+            width,
+            thickness,
+        }) = measures.dimensions
+        {
+            let [length, width, thickness] = [length, width, thickness].map(short);
+            writeln!(
+                f,
+                "dimensions    length {length}, width {width}, thickness {thickness}"
+            )?;
+        }
+        if let Some(BoxRecord {
+            length,
+            width,
+            thickness,
+            volume,
+            ..
+        }) = measures.minimum_box
+        {
+            let [length, width, thickness] = [length, width, thickness].map(short);
+            let volume = short(volume);
+            writeln!(
+                f,
+                "minimum box   {length} x {width} x {thickness} = {volume}"
+            )?;
+        }
+        if let Some(spheres) = measures.spheres {
+            let radius = |sphere: SphereRecord| short(sphere.radius);
+            let (inside, outside) = (radius(spheres.inscribed), radius(spheres.enclosing));
+            writeln!(
+                f,
+                "spheres       radii: inscribed {inside}, enclosing {outside}"
+            )?;
+        }
+        if let Some(ellipsoid) = measures.ellipsoid {
+            writeln!(f, "ellipsoid     semi-axes {}", triple(ellipsoid.semi_axes))?;
+        }
+        Ok(())
+    }
+
+    fn shape(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let measures = &self.measures;
+        if let Some(form) = measures.form {
+            writeln!(
+                f,
+                "form          aspect ratio {:.4}, elongation {:.4}, flatness {:.4}",
+                form.aspect_ratio, form.elongation, form.flatness
+            )?;
+        }
+        if let Some(sphericity) = measures.sphericity {
+            writeln!(
+                f,
+                "sphericity    Wadell {:.4}, operational {:.4}, spheres {:.4} (root {:.4}), \
+                 Krumbein {:.4}, maximum projection {:.4}",
+                sphericity.wadell,
+                sphericity.operational,
+                sphericity.inscribed_enclosing,
+                sphericity.inscribed_enclosing_root,
+                sphericity.krumbein,
+                sphericity.maximum_projection
+            )?;
+        }
+        for (name, value) in [
+            ("roundness", measures.roundness),
+            ("regularity", measures.regularity),
+            ("angularity", measures.angularity),
+        ] {
+            if let Some(value) = value {
+                writeln!(f, "{name:<13} {value:.4}")?;
+            }
+        }
+        if let Some(convexity) = measures.convexity {
+            writeln!(
+                f,
+                "convexity     volume {:.4}, area {:.4}",
+                convexity.volume, convexity.area
+            )?;
+        }
+        Ok(())
+    }
+
+    fn surface(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let measures = &self.measures;
+        for projection in measures.projections.iter().flatten() {
+            outline(f, projection)?;
+        }
+        if let Some(curvature) = measures.curvature {
+            let told = |distribution: Distribution| {
+                format!(
+                    "{} mean, {} SD, {} to {}",
+                    short(distribution.mean),
+                    short(distribution.standard_deviation),
+                    short(distribution.least),
+                    short(distribution.largest)
+                )
+            };
+            writeln!(f, "curvature     mean: {}", told(curvature.mean))?;
+            writeln!(f, "              Gaussian: {}", told(curvature.gaussian))?;
+            writeln!(f, "              larger: {}", told(curvature.larger))?;
+            writeln!(f, "              smaller: {}", told(curvature.smaller))?;
+            writeln!(
+                f,
+                "              {:.2} % of the area convex; integral over 4 pi off by {:.1e}",
+                100.0 * curvature.convex_share,
+                curvature.gauss_bonnet_error
+            )?;
+        }
+        if let Some(spectrum) = &measures.spectrum {
+            let shown: Vec<String> = spectrum.relative_amplitude[1..=DEGREES_SHOWN]
+                .iter()
+                .map(|amplitude| format!("{amplitude:.4}"))
+                .collect();
+            let shown = shown.join(" ");
+            writeln!(
+                f,
+                "spectrum      amplitude of degrees 1 to {DEGREES_SHOWN}: {shown}"
+            )?;
+        }
+        Ok(())
+    }
+}
+
+/// One outline: sizes, and the forms of sphericity that are used most.
+fn outline(f: &mut fmt::Formatter<'_>, seen: &ProjectionRecord) -> fmt::Result {
+    writeln!(
+        f,
+        "outline       along the {}: area {}, perimeter {}, Feret {} x {},",
+        seen.along,
+        short(seen.area),
+        short(seen.perimeter),
+        short(seen.largest_feret),
+        short(seen.smallest_feret)
+    )?;
+    writeln!(
+        f,
+        "              circularity {:.4}, circle ratio {:.4}, solidity {:.4}, roundness {:.4}",
+        seen.circularity, seen.circle_ratio, seen.solidity, seen.roundness
+    )
+}

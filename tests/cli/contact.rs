@@ -1,0 +1,128 @@
+use super::{errors, folder, grainform, json, succeed};
+
+/// A model of an oblate ellipsoid of semi-axes 2, 2 and 1.
+fn ellipsoid() -> tempfile::TempDir {
+    let folder = folder();
+    succeed(
+        &folder,
+        &["synth", "ellipsoid", "--points", "6146", "-o", "s.ply"],
+    );
+    let fit = ["fit", "s.ply", "--tolerance", "0.01%", "-o", "m.json"];
+    succeed(&folder, &fit);
+    folder
+}
+
+#[test]
+fn an_ellipsoid_on_a_plane_is_pressed_as_hertz_has_it() {
+    let folder = ellipsoid();
+    let load = [
+        "--unit",
+        "mm",
+        "--indentation-um",
+        "10",
+        "--youngs-modulus-mpa",
+        "91",
+        "--other-youngs-modulus-mpa",
+        "inf",
+    ];
+    for (towards, radii, force) in [
+        // E* = 100 MPa; F = 4/3 E* c sqrt(rho) u^1.5, with the exact c of A/B = 1 and 4.
+        ("0,0,-1", [4.0, 4.0], 4.0 / 3.0 * 100e6 * (4e-3_f64).sqrt()),
+        (
+            "1,0,0",
+            [0.5, 2.0],
+            4.0 / 3.0 * 100e6 * 1.039_804 * (1e-3_f64).sqrt(),
+        ),
+    ] {
+        let report = json(
+            &folder,
+            &[&["contact", "m.json", "--towards", towards], &load[..]].concat(),
+        );
+        for (i, radius) in radii.into_iter().enumerate() {
+            let curvature = report["first"]["principal_curvatures"][i].as_f64().unwrap();
+            assert!(
+                (curvature * radius - 1.0).abs() < 0.03,
+                "{towards}: {curvature}"
+            );
+        }
+        let found = report["normal_force_n"].as_f64().unwrap();
+        let expected = force * 1e-5_f64.powf(1.5);
+        assert!((found / expected - 1.0).abs() < 0.02, "{found} {expected}");
+        let stiffness = report["normal_stiffness_n_per_m"].as_f64().unwrap();
+        assert!((stiffness / (1.5 * found / 1e-5) - 1.0).abs() < 1e-12);
+    }
+    let text = succeed(
+        &folder,
+        &[&["contact", "m.json", "m.json"], &load[..]].concat(),
+    );
+    assert_eq!(text.matches("touched at").count(), 2);
+    assert!(text.contains("normal force"));
+}
+
+#[test]
+fn what_cannot_be_pressed_is_refused_in_a_sentence() {
+    let folder = ellipsoid();
+    let refused = |more: &[&str]| {
+        let load = ["--unit", "mm", "--indentation-um"];
+        let words = [&["contact", "m.json"], &load[..], more].concat();
+        let output = grainform(&folder, &words);
+        assert_eq!(output.status.code(), Some(2));
+        errors(&output)
+    };
+    for (more, sentence) in [
+        (
+            &["-1", "--youngs-modulus-mpa", "9"][..],
+            "the indentation must be above zero, not -1 um",
+        ),
+        (
+            &["1", "--youngs-modulus-mpa", "0"],
+            "Young's modulus must be above zero, not 0 Pa",
+        ),
+        (
+            &["1", "--youngs-modulus-mpa", "inf"],
+            "both bodies are rigid",
+        ),
+        (
+            &["1", "--youngs-modulus-mpa", "9", "--poissons-ratio", "0.6"],
+            "Poisson's ratio must lie between -1 and 0.5, not at 0.6",
+        ),
+        (
+            &["1", "--youngs-modulus-mpa", "9", "--towards", "0,0,0"],
+            "the direction of the contact must not be zero",
+        ),
+    ] {
+        let message = refused(more);
+        assert!(message.contains(sentence), "{message}");
+    }
+}
+
+#[test]
+fn the_edge_of_a_mirrored_model_is_rounded_when_its_radius_is_given() {
+    let folder = folder();
+    succeed(&folder, &["synth", "ellipsoid", "-o", "s.ply"]);
+    let fit = ["fit", "s.ply", "--symmetry", "z", "--degree", "2"];
+    succeed(&folder, &[&fit[..], &["-o", "m.json"]].concat());
+    let press = [
+        "contact",
+        "m.json",
+        "--towards",
+        "1,0,0",
+        "--unit",
+        "mm",
+        "--indentation-um",
+        "10",
+        "--youngs-modulus-mpa",
+        "91",
+    ];
+    let output = grainform(&folder, &press);
+    assert_eq!(output.status.code(), Some(2));
+    let message = errors(&output);
+    assert!(
+        message.contains("has an edge") && message.contains("--edge-radius"),
+        "{message}"
+    );
+    let report = json(&folder, &[&press[..], &["--edge-radius", "0.1"]].concat());
+    let curvatures = &report["first"]["principal_curvatures"];
+    assert!((curvatures[0].as_f64().unwrap() - 10.0).abs() < 1e-9);
+    assert!((curvatures[1].as_f64().unwrap() - 0.5).abs() < 0.05);
+}
