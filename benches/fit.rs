@@ -7,14 +7,15 @@
 //! p coefficients. Both leave out evaluating the bases, held-out errors, earlier rounds, area and
 //! volume.
 
+mod timing;
+
 use faer::{Accum, Mat, Par};
 use grainform::fit::PreparedScan;
 use grainform::measure::grain_properties;
 use grainform::scan::Scan;
 use grainform::shapes::{Body, Sampling, SynthOptions, synthesize};
 use grainform::{FitOptions, Seams};
-use std::hint::black_box;
-use std::time::Instant;
+use timing::median;
 
 fn main() {
     let pool = rayon::ThreadPoolBuilder::new()
@@ -101,17 +102,4 @@ fn stages(points: usize, runs: usize, rate: f64) {
         milliseconds(searching),
         searching / segments_floor,
     );
-}
-
-/// Median time of a few runs, in seconds.
-fn median<T>(runs: usize, mut work: impl FnMut() -> T) -> f64 {
-    let mut seconds: Vec<f64> = (0..runs)
-        .map(|_| {
-            let started = Instant::now();
-            black_box(work());
-            started.elapsed().as_secs_f64()
-        })
-        .collect();
-    seconds.sort_by(f64::total_cmp);
-    seconds[runs / 2]
 }

@@ -3,11 +3,12 @@
 //!
 //! `cargo run --release --example cube_study`
 //!
-//! Expansions of the whole sphere of degree 1 to 8, as the paper's; expansions folded into one octant; and the
-//! adaptive blended fit of the same points. Errors are of area, volume and inertia against the exact cube,
-//! LS is the sum of squared radial deviations at the points, "largest" and "least" are deviations anywhere.
-//! The paper reports the best area and inertia at L = 5 and bulges beyond. Here L = 5 is L = 4, for a cube has
-//! no odd terms; the area is worse at L = 6 and 7, as reported, but best at 8, and the inertia improves on.
+//! Expansions of the whole sphere of degree 1 to 8, as the paper's; expansions folded into one octant;
+//! and the adaptive blended fit of the same points. Errors are of area, volume and inertia against the
+//! exact cube, LS is the sum of squared radial deviations at the points, "largest" and "least" are
+//! deviations anywhere. The paper reports the best area and inertia at L = 5 and bulges beyond. Here L
+//! = 5 is L = 4, for a cube has no odd terms; the area is worse at L = 6 and 7, as reported, but best
+//! at 8, and the inertia improves on.
 
 use grainform::fit::{DirectedSample, fit_mirrored};
 use grainform::measure::{Deviation, Integrals, four_triangles, grain_properties, integrate};

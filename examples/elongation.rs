@@ -2,12 +2,13 @@
 //!
 //! `cargo run --release --example elongation`
 //!
-//! For c/a from 0.4 to 1, the errors of area and volume against the exact figures and of the LS error against
-//! that of the threshold, in percent: first the printed ones, then ours, of 16 x 8 samples whose density is
-//! found for each body by a small search. The source does not say how many samples it took, and gives one row
-//! for the ellipsoid and the cylinder both, so its figures are to compare with, not reproduced. It prints the
-//! absolute value of the LS error's; ours is negative where it is below that of the threshold, which is not
-//! the fit of least relative deviations. The sphere (ellipsoid, 1) is met to rounding: its LS says nothing.
+//! For c/a from 0.4 to 1, the errors of area and volume against the exact figures and of the LS error
+//! against that of the threshold, in percent: first the printed ones, then ours, of 16 x 8 samples
+//! whose density is found for each body by a small search. The source does not say how many samples it
+//! took, and gives one row for the ellipsoid and the cylinder both, so its figures are to compare with,
+//! not reproduced. It prints the absolute value of the LS error's; ours is negative where it is below
+//! that of the threshold, which is not the fit of least relative deviations. The sphere (ellipsoid, 1)
+//! is met to rounding: its LS says nothing.
 
 mod chapter_3;
 

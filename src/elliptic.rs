@@ -9,7 +9,8 @@
 /// term left out is of the sixth power of this, below 1e-17.
 const NEAR: f64 = 1e-3;
 
-/// R_F(x, y, z) = 1/2 ∫_0^∞ dt / sqrt((t + x) (t + y) (t + z)), of positive arguments (one of x and y may be zero).
+/// R_F(x, y, z) = 1/2 ∫_0^∞ dt / sqrt((t + x) (t + y) (t + z)), of positive
+/// arguments (one of x and y may be zero).
 pub(crate) fn rf(mut x: f64, mut y: f64, mut z: f64) -> f64 {
     loop {
         let mean = (x + y + z) / 3.0;
@@ -24,7 +25,8 @@ pub(crate) fn rf(mut x: f64, mut y: f64, mut z: f64) -> f64 {
     }
 }
 
-/// R_D(x, y, z) = 3/2 ∫_0^∞ dt / (sqrt((t + x) (t + y)) (t + z)^(3/2)), of positive arguments (one of x and y may be zero).
+/// R_D(x, y, z) = 3/2 ∫_0^∞ dt / (sqrt((t + x) (t + y)) (t + z)^(3/2)), of positive
+/// arguments (one of x and y may be zero).
 pub(crate) fn rd(mut x: f64, mut y: f64, mut z: f64) -> f64 {
     let (mut sum, mut factor) = (0.0, 1.0);
     loop {

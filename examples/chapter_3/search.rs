@@ -1,8 +1,8 @@
 //! The best models that a few well-placed and well-weighted samples give.
 //!
 //! The samples are Gauss points that respect the edges ([`edge_gauss`]); searched are the three exponents
-//! of their density, over a fixed grid, and for each pair of the others the exponent of the radius at which
-//! the volume is exact.
+//! of their density, over a fixed grid, and for each pair of the others the exponent of the radius at
+//! which the volume is exact.
 
 use super::study::{Figures, Study};
 use grainform::fit::MirroredFitError;

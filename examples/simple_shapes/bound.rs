@@ -2,8 +2,8 @@
 //!
 //! Fitted to samples that are alike in x and y, a model of degree 1 is
 //! r = alpha + beta (|x| + |y|) + delta |z|. Its LS error is a quadratic form of the three, and its area
-//! and volume grow with alpha. For every beta and delta of a fine grid the alphas that meet the demands on
-//! area and volume are an interval; the one of least LS error is there in closed form.
+//! and volume grow with alpha. For every beta and delta of a fine grid the alphas that meet the demands
+//! on area and volume are an interval; the one of least LS error is there in closed form.
 
 use crate::chapter_3::search::Goal;
 use crate::chapter_3::study::Study;

@@ -233,8 +233,9 @@ pub(super) struct SynthArgs {
 ///
 /// Families, on one thread: whole-surface fits of degree 1 to 20; 1 x 1 to 16 x 16 independent segments
 /// of degree 0 to 6; 6 to 150 blended cells of degree 1 to 5; and adaptive cells within 1 % to 0.02 % of
-/// the mean radius, of degree 3 or less and of any degree. Seconds are those of the fit alone; what preparing the scan takes is a column of bench.csv.
-/// Printed are the settings with the least held-out RMS for their coefficients or their seconds.
+/// the mean radius, of degree 3 or less and of any degree. Seconds are those of the fit alone; what
+/// preparing the scan takes is a column of bench.csv. Printed are the settings with the least held-out
+/// RMS for their coefficients or their seconds.
 #[derive(Args)]
 pub(super) struct BenchArgs {
     /// Scans [default: a synthetic bean, chickpea and maize kernel, clean and noisy, whose truth is

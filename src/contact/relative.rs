@@ -24,7 +24,7 @@ use crate::measure::Curvature;
 use std::f64::consts::{FRAC_2_PI, PI};
 use thiserror::Error;
 
-/// Largest ratio A/B for which the correction is taken: the patch is then a thousand times longer than
+/// Largest ratio A/B for which the correction is taken: the patch is then some 250 times longer than
 /// wide, and a theory of line contact is the better one.
 pub const LARGEST_RATIO: f64 = 1e4;
 

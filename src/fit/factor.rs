@@ -63,8 +63,8 @@ impl Factorization {
         self.stride - self.columns
     }
 
-    /// Space for `rows` more rows, at most [`Self::most_rows`]: a column-major matrix of the returned stride whose last column
-    /// is the radius. Factors what is there first if it has to.
+    /// Space for `rows` more rows, at most [`Self::most_rows`]: a column-major matrix of the returned
+    /// stride whose last column is the radius. Factors what is there first if it has to.
     pub(crate) fn append(&mut self, rows: usize) -> (&mut [f64], usize) {
         if self.stride - self.used < rows {
             self.compress();

@@ -88,8 +88,8 @@ impl ReducedCell {
         }
     }
 
-    /// Adds the rows of this cell to the factorization of a segment with the given cap, whose degree may be
-    /// lower.
+    /// Adds the rows of this cell to the factorization of a segment with the given cap, whose degree
+    /// may be lower.
     pub(crate) fn add_to(
         &self,
         factorization: &mut Factorization,

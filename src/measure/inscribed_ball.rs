@@ -27,13 +27,13 @@ pub enum InscribedBallError {
 /// The radius is the distance from the centre to the nearest triangle, in its interior, on an edge or at
 /// a corner. The distance r_i(c) to one triangle is convex in c, so its linearisation at the present
 /// centre is never too large, and neither is the distance to its plane: the shift s that makes the least
-/// of r_i + g_i . s largest, a linear programme in four unknowns, never makes the ball smaller. Of the thousands of triangles only those
-/// nearby can bind, and of these a few dozen do.
+/// of r_i + g_i . s largest, a linear programme in four unknowns, never makes the ball smaller. Of the
+/// thousands of triangles only those nearby can bind, and of these a few dozen do.
 ///
 /// Of a convex body the ball is the largest there is (its centre is the Chebyshev centre of the
 /// facets). Of others it is a local maximum, or, in the middle of a neck between two equal lobes, a
-/// saddle. Error of the radius: 1e-9 of itself for polyhedra of large facets, 1e-6 on fine meshes of smooth
-/// bodies.
+/// saddle. Error of the radius: 1e-9 of itself for polyhedra of large facets, 1e-6 on fine meshes of
+/// smooth bodies.
 ///
 /// # Errors
 ///

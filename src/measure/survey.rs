@@ -42,7 +42,7 @@ pub struct Survey<'a> {
 enum Body<'a> {
     Grain(&'a Grain, Scheme),
     Solid(&'a dyn Solid),
-    Mesh(&'a Mesh),
+    Mesh(&'a Mesh, MassProperties),
 }
 
 /// How area, volume and moments of a grain are integrated.
@@ -89,12 +89,12 @@ pub enum SurveyError {
 impl<'a> Survey<'a> {
     /// Of a fitted grain.
     pub fn of_grain(grain: &'a Grain, scheme: Scheme) -> Self {
-        Self::new(Body::Grain(grain, scheme), OnceCell::new())
+        Self::new(Body::Grain(grain, scheme))
     }
 
     /// Of a closed-form body, in its own frame; area, volume and moments are those that it knows.
     pub fn of_solid(solid: &'a dyn Solid) -> Self {
-        Self::new(Body::Solid(solid), OnceCell::new())
+        Self::new(Body::Solid(solid))
     }
 
     /// Of a closed mesh, wound counter-clockwise from outside.
@@ -103,14 +103,13 @@ impl<'a> Survey<'a> {
     ///
     /// When it is broken or encloses no volume.
     pub fn of_mesh(mesh: &'a Mesh) -> Result<Self, MeshIntegralError> {
-        let properties = mesh_properties(mesh)?;
-        Ok(Self::new(Body::Mesh(mesh), properties.into()))
+        Ok(Self::new(Body::Mesh(mesh, mesh_properties(mesh)?)))
     }
 
-    fn new(body: Body<'a>, properties: OnceCell<MassProperties>) -> Self {
+    fn new(body: Body<'a>) -> Self {
         Self {
             body,
-            properties,
+            properties: OnceCell::new(),
             mesh: OnceCell::new(),
             hull: OnceCell::new(),
             elements: OnceCell::new(),
@@ -132,7 +131,7 @@ impl<'a> Survey<'a> {
                 }
             }
             Body::Solid(solid) => solid.integrals().properties,
-            Body::Mesh(_) => unreachable!("known from the start"),
+            Body::Mesh(_, properties) => properties,
         })
     }
 
@@ -163,7 +162,7 @@ impl<'a> Survey<'a> {
         Ok(match self.body {
             Body::Grain(grain, _) => along(grain),
             Body::Solid(solid) => along(solid),
-            Body::Mesh(mesh) => extents(mesh, &axes),
+            Body::Mesh(mesh, _) => extents(mesh, &axes),
         })
     }
 
@@ -233,7 +232,7 @@ impl<'a> Survey<'a> {
         match self.body {
             Body::Grain(grain, _) => Ok(statistics(grain)),
             Body::Solid(solid) => Ok(statistics(solid)),
-            Body::Mesh(_) => Err(SurveyError::Flat),
+            Body::Mesh(..) => Err(SurveyError::Flat),
         }
     }
 
@@ -315,7 +314,7 @@ impl<'a> Survey<'a> {
                     triangles,
                 }
             }),
-            Body::Mesh(mesh) => mesh,
+            Body::Mesh(mesh, _) => mesh,
         }
     }
 
@@ -334,7 +333,7 @@ impl<'a> Survey<'a> {
                     surface_elements(grain, &nodes(), &shift)
                 }
                 Body::Solid(solid) => surface_elements(solid, &nodes(), &-centroid.coords),
-                Body::Mesh(mesh) => mesh_elements(mesh, centroid),
+                Body::Mesh(mesh, _) => mesh_elements(mesh, centroid),
             }
         })
     }
@@ -343,7 +342,7 @@ impl<'a> Survey<'a> {
         match self.body {
             Body::Grain(grain, _) => grain_nodes(grain, integrand),
             Body::Solid(_) => octant_nodes(integrand),
-            Body::Mesh(_) => Vec::new(),
+            Body::Mesh(..) => Vec::new(),
         }
     }
 }

@@ -1,7 +1,7 @@
 //! A grain as JSON: versioned, exact to the last bit, and refused where it is not sound.
 //!
-//! Version 2 holds one of `cells` (blended), `segments` (independent) and `symmetry` (mirrored). Version 1, which knew
-//! segments only, is still read.
+//! Version 2 holds one of `cells` (blended), `segments` (independent) and `symmetry` (mirrored).
+//! Version 1, which knew segments only, is still read.
 
 use super::{Blended, Frame, Grain, InvalidGrain, Mirrored, Segmented, Surface};
 use crate::sphere::{AngularPartition, Cover, CoverError, CubeCell, Symmetry};

@@ -52,8 +52,9 @@ impl Strategy {
     }
 
     /// Directions in the octant of positive x, y, z, each with its number of images on the full body,
-    /// itself included: 8 inside, 4 on a mirror plane, 2 on two. The pole comes first; then `polar` rings, the last at pi/2 unless by Gauss, of `azimuth`
-    /// + 1 directions each: `polar` (`azimuth` + 1) + 1 in all.
+    /// itself included: 8 inside, 4 on a mirror plane, 2 on two. The pole comes first; then `polar`
+    /// rings, the last at pi/2 unless by Gauss, of `azimuth` + 1 directions each: `polar` (`azimuth` +
+    /// 1) + 1 in all.
     ///
     /// The weights add up to the number of points of the full body: but for Gauss nodes,
     /// (2 `polar` - 1) 4 `azimuth` + 2. Less than one step counts as one, and adaptive steps are one at

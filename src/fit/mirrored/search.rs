@@ -1,9 +1,9 @@
 //! The search for the degree of an expansion with mirror images.
 //!
 //! **Rule.** The lowest degree whose held-out RMS e is within the limit, e^2 <= tolerance^2 + noise^2,
-//! else the least held-out RMS. A degree needs two points per coefficient in each image, for the points of
-//! a symmetric scan come in images of each other, and only one of them tells of the surface; else the
-//! largest degree that the points support takes its place.
+//! else the least held-out RMS. A degree needs two points per coefficient in each image, for the points
+//! of a symmetric scan come in images of each other, and only one of them tells of the surface; else
+//! the largest degree that the points support takes its place.
 //!
 //! **Held-out error.** Every point is predicted from all others, its images included.
 
