@@ -1,7 +1,7 @@
 //! The power of a surface's radius per degree of spherical harmonics.
 
 use super::elements::Element;
-use crate::sphere::{coefficient_count, harmonics};
+use crate::sphere::{HarmonicBasis, coefficient_count};
 use rayon::prelude::*;
 use serde::Serialize;
 
@@ -13,7 +13,7 @@ pub const SPECTRUM_DEGREE: usize = 20;
 const PER_TASK: usize = 4096;
 
 /// How the radius, seen from the centroid, is made of harmonics of each degree: r = sum of a_l^m Y_l^m
-/// with the real orthonormal harmonics of [`harmonics`].
+/// with the real orthonormal harmonics of [`harmonics`](crate::sphere::harmonics).
 ///
 /// Invariant under rotation and translation (Kazhdan, Funkhouser and Rusinkiewicz 2003).
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -30,15 +30,17 @@ impl Spectrum {
     /// That of the surface made of these elements, seen from the centroid.
     pub(super) fn new(elements: &[Element]) -> Self {
         let count = coefficient_count(SPECTRUM_DEGREE);
+        let basis = HarmonicBasis::new(SPECTRUM_DEGREE);
         let sums: Vec<Vec<f64>> = elements
             .par_chunks(PER_TASK)
             .map(|elements| {
-                let mut sums = vec![0.0; count];
+                let (mut sums, mut values) = (vec![0.0; count], vec![0.0; count]);
                 for element in elements {
                     let (direction, distance, solid_angle) = element.seen();
-                    let values = harmonics(SPECTRUM_DEGREE, &direction);
-                    for (sum, value) in sums.iter_mut().zip(values) {
-                        *sum += value * distance * solid_angle;
+                    basis.evaluate(&direction, &mut values);
+                    let weight = distance * solid_angle;
+                    for (sum, value) in sums.iter_mut().zip(&values) {
+                        *sum += value * weight;
                     }
                 }
                 sums

@@ -18,33 +18,76 @@ pub const fn harmonic_index(degree: usize, order: isize) -> usize {
 }
 
 /// All real orthonormal harmonics of degree <= `degree` in the direction of the unit vector `n`, at
-/// their [`harmonic_index`].
+/// their [`harmonic_index`]. In many directions, a [`HarmonicBasis`] is faster.
 pub fn harmonics(degree: usize, n: &Vector3<f64>) -> Vec<f64> {
-    let mut out = vec![0.0; (degree + 1) * (degree + 1)];
-    let mut sectoral = 1.0 / (4.0 * PI).sqrt();
-    let (mut re, mut im) = (1.0, 0.0);
-    for m in 0..=degree {
-        if m > 0 {
-            sectoral *= ((2 * m + 1) as f64 / (2 * m) as f64).sqrt();
-            (re, im) = (re * n.x - im * n.y, re * n.y + im * n.x);
-        }
-        let scale = if m == 0 { 1.0 } else { 2.0_f64.sqrt() };
-        let (mut below, mut current) = (0.0, sectoral);
-        for l in m..=degree {
-            let order = m as isize;
-            out[harmonic_index(l, order)] = scale * re * current;
-            if m > 0 {
-                out[harmonic_index(l, -order)] = scale * im * current;
-            }
-            let ratio = |l: usize| {
-                let (l, m) = (l as f64, m as f64);
-                ((4.0 * l * l - 1.0) / (l * l - m * m)).sqrt()
-            };
-            let next = ratio(l + 1) * (n.z * current - if l == m { 0.0 } else { below / ratio(l) });
-            (below, current) = (current, next);
+    let mut values = vec![0.0; (degree + 1) * (degree + 1)];
+    HarmonicBasis::new(degree).evaluate(n, &mut values);
+    values
+}
+
+/// All real orthonormal harmonics up to a degree, with the factors of their recurrence.
+#[derive(Debug, Clone, PartialEq)]
+pub struct HarmonicBasis {
+    degree: usize,
+    /// Per order m: the factor from the sectoral harmonic of order m - 1 to that of m.
+    sectoral: Vec<f64>,
+    /// Per order m and degree l = m, ..., degree: what cos(theta) times the harmonic of degree l and what
+    /// that of degree l - 1 contribute to that of degree l + 1.
+    steps: Vec<[f64; 2]>,
+}
+
+impl HarmonicBasis {
+    /// The harmonics of degree 0 to `degree`.
+    pub fn new(degree: usize) -> Self {
+        let ratio = |l: usize, m: usize| {
+            let (l, m) = (l as f64, m as f64);
+            ((4.0 * l * l - 1.0) / (l * l - m * m)).sqrt()
+        };
+        let orders = 0..=degree;
+        Self {
+            degree,
+            sectoral: orders
+                .clone()
+                .map(|m| match m {
+                    0 => 1.0 / (4.0 * PI).sqrt(),
+                    m => ((2 * m + 1) as f64 / (2 * m) as f64).sqrt(),
+                })
+                .collect(),
+            steps: orders
+                .flat_map(|m| (m..=degree).map(move |l| (l, m)))
+                .map(|(l, m)| {
+                    let up = ratio(l + 1, m);
+                    [up, if l == m { 0.0 } else { up / ratio(l, m) }]
+                })
+                .collect(),
         }
     }
-    out
+
+    /// Their values in the direction of the unit vector `n`, at their [`harmonic_index`]: `out` holds
+    /// (degree + 1)² of them.
+    pub fn evaluate(&self, n: &Vector3<f64>, out: &mut [f64]) {
+        let mut sectoral = 1.0;
+        let (mut re, mut im) = (1.0, 0.0);
+        let mut steps = self.steps.iter();
+        for m in 0..=self.degree {
+            sectoral *= self.sectoral[m];
+            let mut scale = 1.0;
+            if m > 0 {
+                (re, im) = (re * n.x - im * n.y, re * n.y + im * n.x);
+                scale = 2.0_f64.sqrt();
+            }
+            let (cos, sin) = (scale * re, scale * im);
+            let (mut below, mut current) = (0.0, sectoral);
+            for (l, [up, back]) in (m..=self.degree).zip(steps.by_ref()) {
+                let order = m as isize;
+                out[harmonic_index(l, order)] = cos * current;
+                if m > 0 {
+                    out[harmonic_index(l, -order)] = sin * current;
+                }
+                (below, current) = (current, up * n.z * current - back * below);
+            }
+        }
+    }
 }
 
 #[cfg(test)]

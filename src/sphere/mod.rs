@@ -22,7 +22,7 @@ pub use cover::{Cover, CoverError, MAX_FACE_PARTS};
 pub use cube_cell::CubeCell;
 pub use cube_grid::cube_grid;
 pub(crate) use face_rectangle::FaceRectangle;
-pub use harmonics::{harmonic_index, harmonics};
+pub use harmonics::{HarmonicBasis, harmonic_index, harmonics};
 pub(crate) use jet::Jet;
 pub use partition::{AngleRectangle, AngularPartition};
 pub(crate) use partition::{azimuth_fraction, polar_fraction};
