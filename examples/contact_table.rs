@@ -89,11 +89,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let directions = Sampling::Cube.directions(6146, 0)?;
         let samples: Vec<DirectedSample> = directions
             .into_iter()
-            .map(|direction| DirectedSample {
-                direction,
-                radius: ellipsoid.radius(&direction),
-                weight: 1.0,
-            })
+            .map(|direction| DirectedSample::on(&ellipsoid, direction, 1.0))
             .collect();
         let model = fit_mirrored(&samples, Symmetry::OCTANT, degree)?;
         row(&format!("octant, L = {degree}"), &model)?;

@@ -6,9 +6,7 @@
 use grainform::measure::{MassProperties, extents, grain_properties};
 use grainform::scan::Scan;
 use grainform::shapes::{Body, SynthOptions, synthesize};
-use grainform::sphere::cube_grid;
 use grainform::{FitOptions, Mesh, fit};
-use nalgebra::Point3;
 
 /// Scans per grain, which differ by the seed of their noise.
 const SCANS: u64 = 200;
@@ -86,15 +84,7 @@ fn row(body: Body) -> Result<Vec<String>, Box<dyn std::error::Error>> {
 fn truth(body: Body) -> Result<Vec<f64>, Box<dyn std::error::Error>> {
     let synthetic = synthesize(&SynthOptions::clean(body))?;
     let surface = body.surface();
-    let (directions, triangles) = cube_grid(256);
-    let vertices = directions
-        .iter()
-        .map(|n| Point3::from(n * surface.radius(n)))
-        .collect();
-    let mesh = Mesh {
-        vertices,
-        triangles,
-    };
+    let mesh = Mesh::radial(256, |n| surface.radius(n));
     figures(&synthetic.truth.properties, &mesh)
 }
 

@@ -1,6 +1,7 @@
 //! A triangle mesh: what a scan may bring, what a fitted grain is exported as.
 
-use nalgebra::Point3;
+use crate::sphere::cube_grid;
+use nalgebra::{Point3, Vector3};
 use std::collections::HashMap;
 
 /// Triangles over shared vertices, wound counter-clockwise when seen from outside.
@@ -47,6 +48,18 @@ pub enum MeshDefect {
 }
 
 impl Mesh {
+    /// A closed mesh of a star-shaped surface about the origin, given by its radius in the direction of a
+    /// unit vector: the directions of a cube with `resolution` cells per edge, 6 N² + 2 vertices and
+    /// 12 N² triangles ([`cube_grid`]).
+    pub fn radial(resolution: usize, radius: impl Fn(&Vector3<f64>) -> f64) -> Self {
+        let (directions, triangles) = cube_grid(resolution);
+        let vertices = directions.iter().map(|n| Point3::from(n * radius(n)));
+        Self {
+            vertices: vertices.collect(),
+            triangles,
+        }
+    }
+
     /// Checks that the mesh is one closed, consistently oriented, manifold surface of the topology
     /// of a sphere, with every vertex in use.
     ///

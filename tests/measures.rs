@@ -5,20 +5,12 @@ use approx::assert_relative_eq;
 use grainform::measure::{Scheme, Survey, SurveyError};
 use grainform::scan::Scan;
 use grainform::shapes::{Body, Ellipsoid, SynthOptions, synthesize};
-use grainform::sphere::cube_grid;
 use grainform::{FitOptions, Mesh, StarSurface, Tolerance, fit};
-use nalgebra::{Point3, Rotation3, Vector3};
+use nalgebra::{Rotation3, Vector3};
 use proptest::prelude::*;
 
 fn mesh(surface: &(impl StarSurface + ?Sized), resolution: usize) -> Mesh {
-    let (directions, triangles) = cube_grid(resolution);
-    Mesh {
-        vertices: directions
-            .iter()
-            .map(|n| Point3::from(n * surface.radius(n)))
-            .collect(),
-        triangles,
-    }
+    Mesh::radial(resolution, |n| surface.radius(n))
 }
 
 fn moved(mesh: &Mesh, turn: &Rotation3<f64>, shift: &Vector3<f64>, size: f64) -> Mesh {

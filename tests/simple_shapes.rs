@@ -14,24 +14,10 @@ use grainform::{FitOptions, fit};
 use nalgebra::{Point3, Vector3};
 use std::f64::consts::FRAC_PI_2;
 
-const SHAPES: [Body; 7] = [
-    Body::Sphere,
-    Body::Ellipsoid,
-    Body::Cylinder,
-    Body::Bicone,
-    Body::Octahedron,
-    Body::Cuboid,
-    Body::Cube,
-];
-
 fn model(shape: &dyn Solid, degree: usize, samples: &[(Vector3<f64>, f64)]) -> Mirrored {
     let samples: Vec<DirectedSample> = samples
         .iter()
-        .map(|&(direction, weight)| DirectedSample {
-            direction,
-            radius: shape.radius(&direction),
-            weight,
-        })
+        .map(|&(direction, weight)| DirectedSample::on(shape, direction, weight))
         .collect();
     fit_mirrored(&samples, shape.symmetry(), degree).expect("a fit")
 }
@@ -243,7 +229,7 @@ fn shapes_are_symmetric_and_grains_claim_nothing() {
     for body in Body::ALL {
         let surface = body.surface();
         let symmetry = surface.symmetry();
-        let expected = match SHAPES.contains(&body) {
+        let expected = match Body::SHAPES.contains(&body) {
             true => Symmetry::OCTANT,
             false => Symmetry::NONE,
         };
@@ -286,7 +272,7 @@ fn jump(shape: &dyn Solid, at: impl Fn(f64) -> Vector3<f64>, angle: f64, step: f
 fn gradients_jump_at_the_singular_angles_and_nowhere_else() {
     const ROUGH: f64 = 0.3;
     const SMOOTH: f64 = 0.02;
-    for body in SHAPES {
+    for body in Body::SHAPES {
         let shape = body.surface();
         let shape = shape.as_ref();
         for azimuth in [0.3, 0.7, 1.2] {

@@ -89,11 +89,7 @@ fn fit(
 ) -> Result<Mirrored, MirroredFitError> {
     let samples: Vec<DirectedSample> = samples
         .iter()
-        .map(|&(direction, weight)| DirectedSample {
-            direction,
-            radius: shape.radius(&direction),
-            weight,
-        })
+        .map(|&(direction, weight)| DirectedSample::on(shape, direction, weight))
         .collect();
     fit_mirrored(&samples, shape.symmetry(), degree)
 }

@@ -12,7 +12,7 @@ pub(crate) use search::{LOCAL_DEGREE, MirroredFit, search, warning};
 
 use super::factor::{Factorization, Triangle};
 use super::options::MAX_DEGREE;
-use crate::model::{InvalidGrain, Mirrored};
+use crate::model::{InvalidGrain, Mirrored, StarSurface};
 use crate::sphere::{CapBasis, Places, Symmetry, coefficient_count};
 use faer::{Col, Mat};
 use nalgebra::Vector3;
@@ -26,6 +26,17 @@ pub struct DirectedSample {
     pub radius: f64,
     /// What the squared residual counts, relative to those of others; not negative.
     pub weight: f64,
+}
+
+impl DirectedSample {
+    /// What is seen of a surface in the direction of the unit vector `direction`.
+    pub fn on(surface: &(impl StarSurface + ?Sized), direction: Vector3<f64>, weight: f64) -> Self {
+        Self {
+            direction,
+            radius: surface.radius(&direction),
+            weight,
+        }
+    }
 }
 
 /// Why an expansion cannot be fitted.

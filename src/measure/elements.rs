@@ -89,7 +89,6 @@ mod tests {
     use super::*;
     use crate::measure::mesh_properties;
     use crate::shapes::Body;
-    use crate::sphere::cube_grid;
     use approx::assert_relative_eq;
     use std::f64::consts::PI;
 
@@ -97,14 +96,7 @@ mod tests {
     fn the_elements_of_a_mesh_have_its_area_and_volume_and_fill_the_sphere() {
         for resolution in [1, 8, 100] {
             let surface = Body::Bean.surface();
-            let (directions, triangles) = cube_grid(resolution);
-            let mesh = Mesh {
-                vertices: directions
-                    .iter()
-                    .map(|n| Point3::from(n * surface.radius(n)))
-                    .collect(),
-                triangles,
-            };
+            let mesh = Mesh::radial(resolution, |n| surface.radius(n));
             let exact = mesh_properties(&mesh).unwrap();
             let elements = mesh_elements(&mesh, &exact.centroid);
             assert!(elements.len() > NODES / 3);

@@ -106,23 +106,13 @@ mod tests {
     use super::*;
     use crate::measure::{convex_hull, mesh_properties};
     use crate::shapes::{Body, Sampling};
-    use crate::sphere::cube_grid;
     use approx::assert_relative_eq;
     use nalgebra::Rotation3;
     use proptest::prelude::*;
 
-    fn mesh_of(n: usize, radius: impl Fn(&Vector3<f64>) -> f64) -> Mesh {
-        let (directions, triangles) = cube_grid(n);
-        let vertices = directions.iter().map(|n| Point3::from(n * radius(n)));
-        Mesh {
-            vertices: vertices.collect(),
-            triangles,
-        }
-    }
-
     #[test]
     fn a_cube_holds_the_ball_of_half_its_edge_from_any_start() {
-        let cube = mesh_of(4, |n| 1.0 / n.amax());
+        let cube = Mesh::radial(4, |n| 1.0 / n.amax());
         for start in [[0.0; 3], [0.9, 0.9, 0.9], [0.5, -0.7, 0.1]] {
             let ball = inscribed_ball(&cube, &Point3::from(start)).unwrap();
             assert_relative_eq!(ball.radius, 1.0, max_relative = 1e-9);
@@ -149,7 +139,7 @@ mod tests {
         let body = Body::Ellipsoid
             .with_axes(Vector3::new(3.0, 2.0, 1.0))
             .unwrap();
-        let mesh = mesh_of(32, |n| body.radius(n));
+        let mesh = Mesh::radial(32, |n| body.radius(n));
         for start in [[0.0; 3], [1.5, 0.5, 0.2], [-2.0, 0.3, -0.3]] {
             let ball = inscribed_ball(&mesh, &Point3::from(start)).unwrap();
             // Facets lie inside by up to (edge)²/8 times the curvature.
@@ -160,7 +150,7 @@ mod tests {
     #[test]
     fn a_dent_pushes_the_ball_aside() {
         let dent = |n: &Vector3<f64>| 1.0 - 0.6 * (8.0 * (n.z - 1.0)).exp();
-        let dented = mesh_of(24, dent);
+        let dented = Mesh::radial(24, dent);
         let ball = inscribed_ball(&dented, &Point3::origin()).unwrap();
         // On the axis a ball touches the bottom (0, 0, -1) and the dent's edge or bottom (0, 0, 0.4).
         assert!(ball.radius > 0.69 && ball.centre.z < -0.2, "{ball:?}");
@@ -199,7 +189,7 @@ mod tests {
 
     #[test]
     fn broken_meshes_are_refused() {
-        let mut mesh = mesh_of(2, |_| 1.0);
+        let mut mesh = Mesh::radial(2, |_| 1.0);
         let start = Point3::origin();
         assert_eq!(
             inscribed_ball(&Mesh::default(), &start),
@@ -229,7 +219,7 @@ mod tests {
             angles in prop::array::uniform3(-3.0..3.0_f64), size in -9..9_i32,
         ) {
             let maize = Body::Maize.surface();
-            let mesh = mesh_of(10, |n| maize.radius(n));
+            let mesh = Mesh::radial(10, |n| maize.radius(n));
             let found = inscribed_ball(&mesh, &Point3::new(0.3, 0.2, 0.1)).unwrap();
             let turn = Rotation3::from_euler_angles(angles[0], angles[1], angles[2]);
             let scale = 10.0_f64.powi(size);

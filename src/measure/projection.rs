@@ -148,20 +148,10 @@ fn with_corners(samples: &[Vector2<f64>], places: &[Place]) -> Vec<Vector2<f64>>
 mod tests {
     use super::*;
     use crate::shapes::Body;
-    use crate::sphere::cube_grid;
     use approx::assert_relative_eq;
     use nalgebra::{Matrix3, Rotation3};
     use proptest::prelude::*;
     use std::f64::consts::PI;
-
-    fn mesh_of(n: usize, radius: impl Fn(&Vector3<f64>) -> f64) -> Mesh {
-        let (directions, triangles) = cube_grid(n);
-        let vertices = directions.iter().map(|n| Point3::from(n * radius(n)));
-        Mesh {
-            vertices: vertices.collect(),
-            triangles,
-        }
-    }
 
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(12))]
@@ -170,7 +160,7 @@ mod tests {
             let semi_axes = Vector3::new(2.0, 1.5, 1.0);
             let axis = (Vector3::from(direction) + Vector3::z() * 1e-3).normalize();
             let body = Body::Ellipsoid.with_axes(semi_axes).unwrap();
-            let found = project(&mesh_of(64, |n| body.radius(n)), &axis, &Point3::new(0.1, 0.2, -0.1)).unwrap();
+            let found = project(&Mesh::radial(64, |n| body.radius(n)), &axis, &Point3::new(0.1, 0.2, -0.1)).unwrap();
             // The half width along a unit vector w is sqrt(w.S w), S = diag(a²); its largest and least
             // values across the axis are the semi-axes.
             let u = axis.cross(&Vector3::ith(axis.iamin(), 1.0)).normalize();
@@ -192,7 +182,7 @@ mod tests {
             angles in prop::array::uniform3(-3.0..3.0_f64), size in -9..9_i32,
         ) {
             let maize = Body::Maize.surface();
-            let mesh = mesh_of(16, |n| maize.radius(n));
+            let mesh = Mesh::radial(16, |n| maize.radius(n));
             let axis = Vector3::new(0.3, 0.2, 0.8);
             let found = project(&mesh, &axis, &Point3::origin()).unwrap();
             let turn = Rotation3::from_euler_angles(angles[0], angles[1], angles[2]);
@@ -209,7 +199,7 @@ mod tests {
 
     #[test]
     fn a_cube_projects_to_a_square_and_to_a_hexagon() {
-        let cube = mesh_of(3, |n| 1.0 / n.amax());
+        let cube = Mesh::radial(3, |n| 1.0 / n.amax());
         let square = project(&cube, &Vector3::z(), &Point3::new(0.3, 0.1, 0.0)).unwrap();
         assert_relative_eq!(square.area, 4.0, max_relative = 1e-9);
         assert_relative_eq!(square.perimeter, 8.0, max_relative = 1e-9);
@@ -224,7 +214,7 @@ mod tests {
 
     #[test]
     fn broken_meshes_and_axes_are_refused() {
-        let mut mesh = mesh_of(2, |_| 1.0);
+        let mut mesh = Mesh::radial(2, |_| 1.0);
         let centre = Point3::origin();
         for axis in [
             Vector3::zeros(),

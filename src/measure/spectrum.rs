@@ -67,7 +67,6 @@ mod tests {
     use crate::Mesh;
     use crate::measure::elements::mesh_elements;
     use crate::shapes::Body;
-    use crate::sphere::cube_grid;
     use approx::assert_relative_eq;
     use nalgebra::{Point3, Rotation3, Vector3};
     use std::f64::consts::PI;
@@ -75,16 +74,12 @@ mod tests {
     /// That of a mesh of a body, turned and moved.
     fn spectrum(body: Body, angle: f64) -> Spectrum {
         let surface = body.surface();
-        let (directions, triangles) = cube_grid(64);
         let turn = Rotation3::from_euler_angles(angle, 2.0 * angle, 3.0 * angle);
         let from = Point3::from(Vector3::repeat(angle));
-        let mesh = Mesh {
-            vertices: directions
-                .iter()
-                .map(|n| from + turn * n * surface.radius(n))
-                .collect(),
-            triangles,
-        };
+        let mut mesh = Mesh::radial(64, |n| surface.radius(n));
+        for vertex in &mut mesh.vertices {
+            *vertex = from + turn * vertex.coords;
+        }
         Spectrum::new(&mesh_elements(&mesh, &from))
     }
 

@@ -12,8 +12,7 @@ use super::{
 use crate::Mesh;
 use crate::model::{Grain, StarSurface};
 use crate::shapes::Solid;
-use crate::sphere::cube_grid;
-use nalgebra::{Point3, Vector3};
+use nalgebra::Vector3;
 use std::cell::OnceCell;
 use thiserror::Error;
 
@@ -306,14 +305,9 @@ impl<'a> Survey<'a> {
     fn mesh(&self) -> &Mesh {
         match self.body {
             Body::Grain(grain, _) => self.mesh.get_or_init(|| grain.mesh(RESOLUTION)),
-            Body::Solid(solid) => self.mesh.get_or_init(|| {
-                let (directions, triangles) = cube_grid(RESOLUTION);
-                let on_surface = directions.iter().map(|n| Point3::from(n * solid.radius(n)));
-                Mesh {
-                    vertices: on_surface.collect(),
-                    triangles,
-                }
-            }),
+            Body::Solid(solid) => self
+                .mesh
+                .get_or_init(|| Mesh::radial(RESOLUTION, |n| solid.radius(n))),
             Body::Mesh(mesh, _) => mesh,
         }
     }

@@ -58,6 +58,17 @@ impl Body {
         Self::Cube,
     ];
 
+    /// The shapes, which can have any size.
+    pub const SHAPES: [Self; 7] = [
+        Self::Sphere,
+        Self::Ellipsoid,
+        Self::Cylinder,
+        Self::Bicone,
+        Self::Octahedron,
+        Self::Cuboid,
+        Self::Cube,
+    ];
+
     /// The bodies without edges.
     #[cfg(test)]
     pub(crate) const SMOOTH: [Self; 5] = [

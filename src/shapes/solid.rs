@@ -66,19 +66,8 @@ mod tests {
     use crate::Mesh;
     use crate::measure::mesh_properties;
     use crate::shapes::{Body, Cylinder, Ellipsoid, Sampling};
-    use crate::sphere::cube_grid;
     use approx::assert_relative_eq;
     use proptest::prelude::*;
-
-    const SHAPES: [Body; 7] = [
-        Body::Sphere,
-        Body::Ellipsoid,
-        Body::Cylinder,
-        Body::Bicone,
-        Body::Octahedron,
-        Body::Cuboid,
-        Body::Cube,
-    ];
 
     /// Largest relative difference of mean radius, area, volume and inertia.
     fn difference(found: &Integrals, other: &Integrals) -> f64 {
@@ -130,16 +119,9 @@ mod tests {
 
     #[test]
     fn closed_forms_agree_with_a_fine_mesh() {
-        let (directions, triangles) = cube_grid(128);
-        for body in SHAPES {
+        for body in Body::SHAPES {
             let shape = body.surface();
-            let mesh = Mesh {
-                vertices: directions
-                    .iter()
-                    .map(|n| Point3::from(n * shape.radius(n)))
-                    .collect(),
-                triangles: triangles.clone(),
-            };
+            let mesh = Mesh::radial(128, |n| shape.radius(n));
             let mesh = mesh_properties(&mesh).unwrap();
             let exact = shape.integrals().properties;
             // Edges that the mesh crosses are cut off.
@@ -160,7 +142,7 @@ mod tests {
 
     #[test]
     fn gradients_are_tangential_and_finite_everywhere() {
-        for body in SHAPES {
+        for body in Body::SHAPES {
             let shape = body.surface();
             for n in directions() {
                 let (r, gradient) = shape.radius_and_gradient(&n);
@@ -173,7 +155,7 @@ mod tests {
     #[test]
     fn gradients_match_differences_away_from_edges() {
         let step = 1e-6_f64;
-        for body in SHAPES {
+        for body in Body::SHAPES {
             let shape = body.surface();
             let mut skipped = 0;
             for n in Sampling::Fibonacci.directions(500, 0).unwrap() {
@@ -240,11 +222,11 @@ mod tests {
     proptest! {
         #[test]
         fn figures_scale_with_the_powers_of_length(
-            which in 0..SHAPES.len(),
+            which in 0..Body::SHAPES.len(),
             flat in -8.0..8.0_f64,
             size in -4.0..4.0_f64,
         ) {
-            let body = SHAPES[which];
+            let body = Body::SHAPES[which];
             let axes = match body {
                 Body::Sphere | Body::Cube => Vector3::repeat(1.0),
                 _ => Vector3::new(1.0, 1.0, flat.exp()),

@@ -67,11 +67,8 @@ fn octant_grid(n: usize) -> Vec<DirectedSample> {
                 (0, _) => 2,
                 _ => usize::from(i == n) + usize::from(j == 0 || j == 16),
             };
-            samples.push(DirectedSample {
-                direction,
-                radius: surface.radius(&direction),
-                weight: 0.5_f64.powi(planes as i32),
-            });
+            let weight = 0.5_f64.powi(planes as i32);
+            samples.push(DirectedSample::on(&surface, direction, weight));
         }
     }
     samples
