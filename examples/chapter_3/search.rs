@@ -56,10 +56,21 @@ impl Goal {
     }
 }
 
+/// The model of a density.
+pub(crate) fn found(
+    study: &Study,
+    [polar, azimuth]: [usize; 2],
+    density: SamplingDensity,
+) -> Result<Found, MirroredFitError> {
+    let samples = edge_gauss(study.shape.as_ref(), polar, azimuth, density);
+    let figures = study.figures(&study.model(&samples)?);
+    Ok(Found { density, figures })
+}
+
 /// Every model of the search over pairs of exponents of the sine and the slope, in a fixed order.
 pub(crate) fn search(
     study: &Study,
-    [polar, azimuth]: [usize; 2],
+    samples: [usize; 2],
     sines: &[f64],
     slopes: &[f64],
 ) -> Result<Vec<Found>, MirroredFitError> {
@@ -67,15 +78,13 @@ pub(crate) fn search(
         .iter()
         .flat_map(|&slope| sines.iter().map(move |&sine| (sine, slope)))
         .collect();
-    let found = |sine: f64, radius: f64, slope: f64| -> Result<Found, MirroredFitError> {
+    let found = |sine: f64, radius: f64, slope: f64| {
         let density = SamplingDensity {
             sine,
             radius,
             slope,
         };
-        let samples = edge_gauss(study.shape.as_ref(), polar, azimuth, density);
-        let figures = study.figures(&study.model(&samples)?);
-        Ok(Found { density, figures })
+        found(study, samples, density)
     };
     let per_pair: Result<Vec<Vec<Found>>, MirroredFitError> = pairs
         .into_par_iter()

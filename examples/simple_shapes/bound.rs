@@ -5,6 +5,7 @@
 //! and volume grow with alpha. For every beta and delta of a fine grid the alphas that meet the demands
 //! on area and volume are an interval; the one of least LS error is there in closed form.
 
+use crate::best::Rival;
 use crate::chapter_3::search::Goal;
 use crate::chapter_3::study::Study;
 use grainform::sphere::GaussLegendre;
@@ -24,8 +25,9 @@ const REACH: f64 = 2.5;
 /// Halvings of the interval in which an alpha is sought.
 const HALVINGS: usize = 40;
 
-/// Prints the least LS errors that the best printed area, and area and volume, leave possible.
-pub(crate) fn print(study: &Study, goal: &Goal) {
+/// Prints the least LS errors that the best printed area, and area and volume, leave possible, and those
+/// that the rows which none of ours beats do.
+pub(crate) fn print(study: &Study, goal: &Goal, unbeaten: &[Rival]) {
     let space = Space::new(study);
     let least = space.minimum / study.threshold;
     let none = f64::INFINITY;
@@ -47,6 +49,17 @@ pub(crate) fn print(study: &Study, goal: &Goal) {
             false => "cannot be had together with a better LS error",
         };
         println!("- {name}: {bound:.4}: {verdict}");
+    }
+    for Rival { name, goal, .. } in unbeaten {
+        let bound = space.least_with([goal.area, goal.volume]) / study.threshold;
+        println!(
+            "- S and V of {name}: {bound:.4}, where {:.4} is printed: {}",
+            goal.ls_ratio,
+            match bound < goal.ls_ratio {
+                true => "possible, but not found by the search",
+                false => "no model of degree 1 is better in all three",
+            }
+        );
     }
     println!();
 }
