@@ -12,7 +12,7 @@ use super::{
 use crate::Mesh;
 use crate::model::{Grain, StarSurface};
 use crate::shapes::Solid;
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 use std::cell::OnceCell;
 use thiserror::Error;
 
@@ -30,6 +30,7 @@ const RESOLUTION: usize = 64;
 pub struct Survey<'a> {
     body: Body<'a>,
     properties: OnceCell<MassProperties>,
+    dimensions: OnceCell<Result<Vector3<f64>, SurveyError>>,
     mesh: OnceCell<Mesh>,
     hull: OnceCell<Result<Mesh, SurveyError>>,
     elements: OnceCell<Vec<Element>>,
@@ -109,6 +110,7 @@ impl<'a> Survey<'a> {
         Self {
             body,
             properties: OnceCell::new(),
+            dimensions: OnceCell::new(),
             mesh: OnceCell::new(),
             hull: OnceCell::new(),
             elements: OnceCell::new(),
@@ -150,19 +152,8 @@ impl<'a> Survey<'a> {
     ///
     /// [`SurveyError::NotSolid`].
     pub fn dimensions(&self) -> Result<Vector3<f64>, SurveyError> {
-        let axes = self.principal()?.axes;
-        let along = |surface: &dyn StarSurface| {
-            Vector3::from_fn(|i, _| {
-                let axis = axes.column(i).into_owned();
-                let reach = |towards: Vector3<f64>| support(surface, &towards).point.dot(&towards);
-                reach(axis) + reach(-axis)
-            })
-        };
-        Ok(match self.body {
-            Body::Grain(grain, _) => along(grain),
-            Body::Solid(solid) => along(solid),
-            Body::Mesh(mesh, _) => extents(mesh, &axes),
-        })
+        let dimensions = || Ok(self.extents_along(&self.principal()?.axes));
+        self.dimensions.get_or_init(dimensions).clone()
     }
 
     /// The box of least volume.
@@ -309,6 +300,22 @@ impl<'a> Survey<'a> {
                 .mesh
                 .get_or_init(|| Mesh::radial(RESOLUTION, |n| solid.radius(n))),
             Body::Mesh(mesh, _) => mesh,
+        }
+    }
+
+    /// Extents along three unit axes, the columns.
+    fn extents_along(&self, axes: &Matrix3<f64>) -> Vector3<f64> {
+        let along = |surface: &dyn StarSurface| {
+            Vector3::from_fn(|i, _| {
+                let axis = axes.column(i).into_owned();
+                let reach = |towards: Vector3<f64>| support(surface, &towards).point.dot(&towards);
+                reach(axis) + reach(-axis)
+            })
+        };
+        match self.body {
+            Body::Grain(grain, _) => along(grain),
+            Body::Solid(solid) => along(solid),
+            Body::Mesh(mesh, _) => extents(mesh, axes),
         }
     }
 

@@ -2,7 +2,8 @@
 
 use super::{Grain, Surface};
 use crate::sphere::{
-    AngleRectangle, Cap, CapBasis, CubeCell, GaussLegendre, Symmetry, coefficient_count, harmonics,
+    AngleRectangle, Cap, CapBasis, CubeCell, GaussLegendre, HarmonicBasis, Symmetry,
+    coefficient_count,
 };
 use nalgebra::Vector3;
 use std::f64::consts::TAU;
@@ -76,7 +77,9 @@ impl Grain {
 fn publish(basis: &CapBasis, cap: &Cap, own: &[f64], region: Region) -> PublishedExpansion {
     let degree = own.len().isqrt() - 1;
     let turns = 2 * degree + 1;
-    let mut coefficients = vec![0.0; coefficient_count(degree)];
+    let harmonics = HarmonicBasis::new(degree);
+    let mut values = vec![0.0; coefficient_count(degree)];
+    let mut coefficients = values.clone();
     for (z, weight) in GaussLegendre::new(degree + 1).on(-1.0, 1.0) {
         let s = (1.0 - z * z).sqrt();
         for turn in 0..turns {
@@ -84,7 +87,8 @@ fn publish(basis: &CapBasis, cap: &Cap, own: &[f64], region: Region) -> Publishe
             let n = Vector3::new(s * cp, s * sp, z);
             let radius = basis.value(cap, own, &n);
             let solid_angle = TAU * weight / turns as f64;
-            for (a, y) in coefficients.iter_mut().zip(harmonics(degree, &n)) {
+            harmonics.evaluate(&n, &mut values);
+            for (a, y) in coefficients.iter_mut().zip(&values) {
                 *a += solid_angle * radius * y;
             }
         }
@@ -92,11 +96,8 @@ fn publish(basis: &CapBasis, cap: &Cap, own: &[f64], region: Region) -> Publishe
     let loss = (0..81)
         .map(|i| region.direction((i / 9) as f64 / 8.0, (i % 9) as f64 / 8.0))
         .map(|n| {
-            let sum: f64 = harmonics(degree, &n)
-                .iter()
-                .zip(&coefficients)
-                .map(|(y, a)| y * a)
-                .sum();
+            harmonics.evaluate(&n, &mut values);
+            let sum: f64 = values.iter().zip(&coefficients).map(|(y, a)| y * a).sum();
             (sum - basis.value(cap, own, &n)).abs()
         })
         .fold(0.0, f64::max);

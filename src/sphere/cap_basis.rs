@@ -21,10 +21,11 @@
 //! degree m + j, so that the first (d+1)^2 span the harmonics of degree <= d. No trigonometric
 //! function is called, and 1 - n.c is taken as |n - c|^2 / 2, which does not cancel.
 
+mod derivatives;
+
 use super::cap::{Cap, Places};
-use super::jet::Jet;
 use crate::vectorize::vectorize;
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Vector3;
 
 /// Number of coefficients of an expansion of degree `degree`: (L+1)^2.
 pub const fn coefficient_count(degree: usize) -> usize {
@@ -183,48 +184,6 @@ impl CapBasis {
             }
         }
         (e.value, gradients)
-    }
-
-    /// An expansion with its derivatives with respect to the components of `n`.
-    pub(crate) fn jet(&self, cap: &Cap, coefficients: &[f64], n: &Vector3<f64>) -> Jet {
-        let [u, v, x] = cap.coordinates((*n).into());
-        let place = |value: f64, gradient: Vector3<f64>| Jet {
-            value,
-            gradient,
-            hessian: Matrix3::zeros(),
-        };
-        let per_tangent = 1.0 / cap.tangent_length();
-        let u = place(u, cap.tangents[0] * per_tangent);
-        let v = place(v, cap.tangents[1] * per_tangent);
-        let x = place(x, cap.centre * (-2.0 / cap.height));
-        let degree = (coefficients.len().isqrt().saturating_sub(1)).min(self.degree);
-        let mut sum = Jet::default();
-        let (mut re, mut im) = (Jet::constant(1.0), Jet::default());
-        for (m, (first, steps)) in self.orders.iter().enumerate().take(degree + 1) {
-            if m > 0 {
-                (re, im) = (
-                    re.times(&u).plus(&im.times(&v).scaled(-1.0)),
-                    re.times(&v).plus(&im.times(&u)),
-                );
-            }
-            let (mut below, mut current) = (Jet::default(), Jet::constant(*first));
-            for j in 0..=degree - m {
-                let at = column(m + j, m);
-                sum = sum.plus(&current.times(&re).scaled(coefficients[at]));
-                if m > 0 {
-                    sum = sum.plus(&current.times(&im).scaled(coefficients[at + 1]));
-                }
-                if let Some(s) = steps.get(j) {
-                    let factor = Jet {
-                        value: s.a * x.value + s.b,
-                        ..x.scaled(s.a)
-                    };
-                    let next = factor.times(&current).plus(&below.scaled(-s.c));
-                    (below, current) = (current, next);
-                }
-            }
-        }
-        sum
     }
 
     /// Values of an expansion at many places.
