@@ -1,0 +1,157 @@
+//! An expansion on an oversampled grid of the doubled sphere, ready to be interpolated from.
+
+use super::kernel::HALF_WIDTH;
+use super::polar::PolarTable;
+use crate::sphere::azimuth_fft::{AzimuthFft, even_smooth_number};
+use realfft::num_complex::Complex;
+use std::collections::BTreeMap;
+use std::f64::consts::PI;
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// Least number of points around the sphere, so that a halo is copied from within the grid.
+const LEAST_POINTS: usize = 4 * HALF_WIDTH;
+
+/// Tables of all degrees that have been asked for.
+static GRIDS: Mutex<BTreeMap<usize, Arc<Grid>>> = Mutex::new(BTreeMap::new());
+
+/// A grid of rings theta_i = 2 pi i / n, i = 0, ..., n / 2, and equispaced azimuths, twice as fine as
+/// the degree needs, with a halo of HALF_WIDTH points around it: beyond a pole the function goes on
+/// as f(2 pi - theta, phi) = f(theta, phi + pi). Rows are stored ring by ring.
+pub(super) struct Grid {
+    polar: PolarTable,
+    fft: AzimuthFft,
+    around: usize,
+    orders: usize,
+}
+
+impl Grid {
+    /// The grid of a degree. It is made once in a process, and kept.
+    pub(super) fn of_degree(degree: usize) -> Arc<Self> {
+        let kept = || GRIDS.lock().unwrap_or_else(PoisonError::into_inner);
+        let known = kept().get(&degree).cloned();
+        known.unwrap_or_else(|| {
+            let made = Arc::new(Self::new(degree));
+            Arc::clone(kept().entry(degree).or_insert(made))
+        })
+    }
+
+    fn new(degree: usize) -> Self {
+        let least = (2 * (2 * degree + 1)).max(LEAST_POINTS);
+        let around = least.next_multiple_of(2);
+        let fft = AzimuthFft::new(even_smooth_number(least));
+        Self {
+            polar: PolarTable::new(degree, around, fft.points()),
+            fft,
+            around,
+            orders: degree + 1,
+        }
+    }
+
+    /// Length of a row with its halo.
+    pub(super) fn stride(&self) -> usize {
+        self.fft.points() + 2 * HALF_WIDTH
+    }
+
+    /// Number of points with the halo.
+    pub(super) fn len(&self) -> usize {
+        (self.polar.rings() + 2 * HALF_WIDTH) * self.stride()
+    }
+
+    /// Polar angle in \[0, pi\] and azimuth in \[0, 2 pi\] as coordinates in grid steps, such that
+    /// their ceilings are the first row and column to interpolate from.
+    pub(super) fn place(&self, theta: f64, phi: f64) -> [f64; 2] {
+        let (rows, columns) = (self.around as f64, self.fft.points() as f64);
+        [
+            (theta / (2.0 * PI) * rows).min(rows / 2.0),
+            (phi / (2.0 * PI) * columns).min(columns),
+        ]
+    }
+
+    /// The expansion, each of its waves divided by the kernel's transform, on the grid and its halo.
+    pub(super) fn synthesis(&self, coefficients: &[f64]) -> Vec<f64> {
+        let mut terms = vec![Complex::ZERO; self.polar.rings() * self.orders];
+        self.polar.synthesis(coefficients, &mut terms);
+        let mut points = vec![0.0; self.len()];
+        let mut workspace = self.fft.workspace();
+        for (terms, row) in terms.chunks_exact(self.orders).zip(self.rings(&mut points)) {
+            self.fft.synthesis(terms, inner(row), &mut workspace);
+        }
+        for (ring, beyond) in self.beyond_poles() {
+            let (ring, beyond) = self.two_rows(&mut points, ring, beyond);
+            let (ring, beyond) = (inner(ring), inner(beyond));
+            let half = ring.len() / 2;
+            beyond[..half].copy_from_slice(&ring[half..]);
+            beyond[half..].copy_from_slice(&ring[..half]);
+        }
+        for row in points.chunks_exact_mut(self.stride()) {
+            let end = row.len() - HALF_WIDTH;
+            row.copy_within(end - HALF_WIDTH..end, 0);
+            row.copy_within(HALF_WIDTH..2 * HALF_WIDTH, end);
+        }
+        points
+    }
+
+    /// The transpose of [`Self::synthesis`]. Overwrites `points`.
+    pub(super) fn adjoint(&self, points: &mut [f64], coefficients: &mut [f64]) {
+        for row in points.chunks_exact_mut(self.stride()) {
+            let end = row.len() - HALF_WIDTH;
+            for i in 0..HALF_WIDTH {
+                row[end - HALF_WIDTH + i] += row[i];
+                row[HALF_WIDTH + i] += row[end + i];
+            }
+        }
+        for (ring, beyond) in self.beyond_poles() {
+            let (ring, beyond) = self.two_rows(points, ring, beyond);
+            let (ring, beyond) = (inner(ring), inner(beyond));
+            let half = ring.len() / 2;
+            for i in 0..half {
+                ring[half + i] += beyond[i];
+                ring[i] += beyond[half + i];
+            }
+        }
+        let mut terms = vec![Complex::ZERO; self.polar.rings() * self.orders];
+        let mut workspace = self.fft.workspace();
+        for (terms, row) in terms.chunks_exact_mut(self.orders).zip(self.rings(points)) {
+            self.fft.adjoint(inner(row), terms, &mut workspace);
+        }
+        self.polar.adjoint(&terms, coefficients);
+    }
+
+    /// Rows of the grid proper.
+    fn rings<'a>(&self, points: &'a mut [f64]) -> impl Iterator<Item = &'a mut [f64]> {
+        points
+            .chunks_exact_mut(self.stride())
+            .skip(HALF_WIDTH)
+            .take(self.polar.rings())
+    }
+
+    /// Rows of the grid with the rows of the halo that continue them beyond a pole.
+    fn beyond_poles(&self) -> impl Iterator<Item = (usize, usize)> + use<> {
+        let (north, south) = (HALF_WIDTH, HALF_WIDTH + self.polar.rings() - 1);
+        (1..=HALF_WIDTH).flat_map(move |i| [(north + i, north - i), (south - i, south + i)])
+    }
+
+    /// Two different rows.
+    fn two_rows<'a>(
+        &self,
+        points: &'a mut [f64],
+        first: usize,
+        second: usize,
+    ) -> (&'a mut [f64], &'a mut [f64]) {
+        let stride = self.stride();
+        let (low, high) = points.split_at_mut(first.max(second) * stride);
+        let low = &mut low[first.min(second) * stride..][..stride];
+        let high = &mut high[..stride];
+        if first < second {
+            (low, high)
+        } else {
+            (high, low)
+        }
+    }
+}
+
+/// A row without its halo.
+fn inner(row: &mut [f64]) -> &mut [f64] {
+    let end = row.len() - HALF_WIDTH;
+    &mut row[HALF_WIDTH..end]
+}

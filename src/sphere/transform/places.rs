@@ -1,0 +1,100 @@
+//! Interpolation from a grid at places that do not change, and its transpose.
+
+use super::grid::Grid;
+use super::kernel::{WIDTH, weights};
+use crate::vectorize::vectorize;
+use nalgebra::Vector3;
+use std::f64::consts::PI;
+
+/// Places are visited in bands of as many rows of the grid, so that what they read stays in cache.
+const BAND: usize = 8;
+
+/// The places of some directions on a grid, in the order in which they are visited.
+pub(super) struct Places {
+    /// Length of a row of the grid.
+    stride: usize,
+    places: Vec<Place>,
+    /// Weights of the rows and of the columns of each place.
+    weights: Vec<[[f64; WIDTH]; 2]>,
+}
+
+struct Place {
+    /// Which direction it is.
+    index: u32,
+    /// Offset of the first of its WIDTH x WIDTH points of the grid.
+    corner: u32,
+}
+
+impl Places {
+    pub(super) fn new(grid: &Grid, directions: &[Vector3<f64>]) -> Self {
+        let mut visits: Vec<_> = directions
+            .iter()
+            .enumerate()
+            .map(|(index, n)| {
+                let phi = n.y.atan2(n.x);
+                let phi = if phi < 0.0 { phi + 2.0 * PI } else { phi };
+                let at = grid.place(n.x.hypot(n.y).atan2(n.z), phi);
+                let [row, column] = at.map(|t| t.ceil() as usize);
+                ((row / BAND, column, row, index), at)
+            })
+            .collect();
+        visits.sort_unstable_by_key(|(key, _)| *key);
+        let stride = grid.stride();
+        Self {
+            stride,
+            places: visits
+                .iter()
+                .map(|((_, column, row, index), _)| Place {
+                    index: *index as u32,
+                    corner: (row * stride + column) as u32,
+                })
+                .collect(),
+            weights: visits.iter().map(|(_, at)| at.map(weights)).collect(),
+        }
+    }
+
+    /// values[i] = the function on the grid in direction i.
+    pub(super) fn interpolate(&self, points: &[f64], values: &mut [f64]) {
+        vectorize(
+            #[inline(always)]
+            || {
+                for (place, [rows, columns]) in self.places.iter().zip(&self.weights) {
+                    let mut sums = [0.0; WIDTH];
+                    for (a, weight) in rows.iter().enumerate() {
+                        let from = &points[place.corner as usize + a * self.stride..][..WIDTH];
+                        for b in 0..WIDTH {
+                            sums[b] += weight * from[b];
+                        }
+                    }
+                    let mut products = [0.0; WIDTH];
+                    for b in 0..WIDTH {
+                        products[b] = sums[b] * columns[b];
+                    }
+                    values[place.index as usize] = products.iter().sum();
+                }
+            },
+        );
+    }
+
+    /// The transpose of [`Self::interpolate`]: adds to `points`.
+    pub(super) fn spread(&self, values: &[f64], points: &mut [f64]) {
+        vectorize(
+            #[inline(always)]
+            || {
+                for (place, [rows, columns]) in self.places.iter().zip(&self.weights) {
+                    let value = values[place.index as usize];
+                    let mut scaled = [0.0; WIDTH];
+                    for b in 0..WIDTH {
+                        scaled[b] = value * columns[b];
+                    }
+                    for (a, weight) in rows.iter().enumerate() {
+                        let to = &mut points[place.corner as usize + a * self.stride..][..WIDTH];
+                        for b in 0..WIDTH {
+                            to[b] += weight * scaled[b];
+                        }
+                    }
+                }
+            },
+        );
+    }
+}
