@@ -12,12 +12,12 @@ use super::search::{Found, FoundFit, Search, search};
 use super::segment::{Level, SegmentFit};
 use super::surface::{ScannedSurface, scanned_surface};
 use super::{Fitted, Residuals};
-use crate::measure::mesh_properties;
+use crate::measure::{MassProperties, mesh_properties};
 use crate::mesh::Mesh;
 use crate::model::{Blended, Frame, Grain, Segmented, Surface};
 use crate::scan::Scan;
 use crate::sphere::{AngularPartition, CapBasis, Symmetry};
-use nalgebra::{Matrix3, Point3};
+use nalgebra::{Matrix3, Point3, Vector3};
 use std::collections::HashSet;
 
 /// Share of the area that may face away from the centre. The folds of real kernels (the crease of
@@ -39,6 +39,8 @@ pub struct PreparedScan {
     frame: Frame,
     pub(crate) reference: Reference,
     pub(crate) mean_radius: f64,
+    /// Semi-axes of the ellipsoid of equal second moments, along the grain's own axes.
+    pub(crate) semi_axes: Vector3<f64>,
     pub(crate) tolerance: f64,
     samples: Samples,
     pub(crate) degrees: Vec<usize>,
@@ -120,6 +122,7 @@ impl PreparedScan {
                 volume: properties.volume,
             },
             mean_radius,
+            semi_axes: semi_axes(&properties, &frame),
             tolerance: options.tolerance.length(mean_radius),
             samples,
             degrees,
@@ -201,6 +204,11 @@ impl PreparedScan {
         (Surface::Segmented(surface), residuals)
     }
 
+    /// Centre and axes.
+    pub(crate) fn frame(&self) -> &Frame {
+        &self.frame
+    }
+
     /// All samples.
     pub(crate) fn samples(&self) -> &Samples {
         &self.samples
@@ -276,6 +284,16 @@ fn star_centre(
         ));
     }
     Ok(centre)
+}
+
+/// Semi-axes of the ellipsoid that has a body's second moments along the axes of a frame.
+fn semi_axes(properties: &MassProperties, frame: &Frame) -> Vector3<f64> {
+    let inertia = frame.axes.transpose() * properties.inertia * frame.axes;
+    // Of an ellipsoid with semi-axes a_i, the integral of x_i^2 is V a_i^2 / 5.
+    Vector3::from_fn(|i, _| {
+        let second = 0.5 * inertia.trace() - inertia[(i, i)];
+        (5.0 * second / properties.volume).sqrt()
+    })
 }
 
 /// Mean of the radius over all directions: facets weighted by the solid angle they fill.

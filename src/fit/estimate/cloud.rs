@@ -1,0 +1,83 @@
+//! The points that an estimate rests on, in a space in which the grain is rounder.
+
+use crate::fit::samples::Sample;
+use nalgebra::Vector3;
+
+/// Directions and radii of points after the linear map T = diag(`stretch`), radii in units of their mean.
+#[derive(Debug, Clone)]
+pub(crate) struct Cloud {
+    /// The factors of the map along the grain's own axes; their product is 1.
+    pub(crate) stretch: Vector3<f64>,
+    /// Unit vectors in the stretched space.
+    pub(crate) directions: Vec<Vector3<f64>>,
+    /// Radii in the stretched space, in units of `mean`.
+    pub(crate) radii: Vec<f64>,
+    /// How many points each stands for, in units of the mean of that number.
+    pub(crate) weights: Vec<f64>,
+    /// Mean radius in the stretched space, in the scan's unit.
+    pub(crate) mean: f64,
+    /// sum of log(|T n_i| / mean): minus the logarithm of the density that the map takes from the likelihood.
+    pub(crate) compression: f64,
+}
+
+impl Cloud {
+    /// The samples (in the grain's own frame) after a map; `counts` says how many points each stands for.
+    pub(crate) fn new(samples: &[Sample], counts: Option<&[f64]>, stretch: Vector3<f64>) -> Self {
+        let (directions, mut radii): (Vec<_>, Vec<_>) =
+            Self::mapped(samples, stretch, 1.0).into_iter().unzip();
+        let mut weights = counts.map_or_else(|| vec![1.0; samples.len()], <[f64]>::to_vec);
+        let per_weight = weights.len() as f64 / weights.iter().sum::<f64>();
+        weights.iter_mut().for_each(|weight| *weight *= per_weight);
+        let weighted = radii.iter().zip(&weights).map(|(r, w)| r * w);
+        let mean = weighted.sum::<f64>() / samples.len() as f64;
+        radii.iter_mut().for_each(|r| *r /= mean);
+        Self {
+            stretch,
+            compression: samples
+                .iter()
+                .zip(&radii)
+                .map(|(sample, radius)| (radius / sample[3]).ln())
+                .sum(),
+            directions,
+            radii,
+            weights,
+            mean,
+        }
+    }
+
+    /// Directions and radii, in units of `mean`, of samples after a map.
+    pub(crate) fn mapped(
+        samples: &[Sample],
+        stretch: Vector3<f64>,
+        mean: f64,
+    ) -> Vec<(Vector3<f64>, f64)> {
+        let mapped = samples.iter().map(|&[x, y, z, radius]| {
+            let mapped = stretch.component_mul(&Vector3::new(x, y, z));
+            let length = mapped.norm();
+            (mapped / length, radius * length / mean)
+        });
+        mapped.collect()
+    }
+
+    /// Number of points.
+    pub(crate) fn len(&self) -> usize {
+        self.radii.len()
+    }
+
+    /// The cloud without the points at the given ascending positions.
+    pub(crate) fn without(&self, left_out: &[usize]) -> Self {
+        fn keep<T: Copy>(values: &[T], left_out: &[usize]) -> Vec<T> {
+            let mut left_out = left_out.iter().peekable();
+            let kept = values.iter().enumerate();
+            kept.filter(|(at, _)| left_out.next_if_eq(&at).is_none())
+                .map(|(_, value)| *value)
+                .collect()
+        }
+        Self {
+            directions: keep(&self.directions, left_out),
+            radii: keep(&self.radii, left_out),
+            weights: keep(&self.weights, left_out),
+            ..*self
+        }
+    }
+}

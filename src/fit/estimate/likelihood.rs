@@ -1,0 +1,212 @@
+//! The likelihood of a spectrum, from what the points say of each degree.
+//!
+//! For given variances v_l and noise s the points determine the coefficients of degree l as if each
+//! had been measured N_l times: their posterior variance is C_l = 1 / (N_l / s^2 + 1 / v_l). With the
+//! powers P_l of the coefficients before they were shrunk, and the squared residuals R left by these,
+//!
+//! ```text
+//! F = 1/2 [ n log s^2 + sum (2l + 1) log(1 + N_l v_l / s^2) + R / s^2 + sum N_l P_l / (N_l v_l + s^2) ]
+//! ```
+//!
+//! is the negative log likelihood as if N_l did not depend on the spectrum. Where the spectrum no longer
+//! moves, the gradient of F is that of the exact likelihood. Exact, and in no need of rounds, where the
+//! points are spread evenly: then N_l = n / 4 pi for all degrees.
+
+use super::spectrum::{BOUNDS, STEPS, Spectrum};
+use nalgebra::{Matrix4, Vector4};
+
+/// What the points say of each degree.
+#[derive(Debug, Clone)]
+pub(crate) struct Evidence {
+    /// Number of points.
+    pub(crate) points: f64,
+    /// N_l, P_l of degrees 0, 1, ...
+    pub(crate) degrees: Vec<[f64; 2]>,
+    /// Weighted sum of squares of the residuals left by the coefficients before they were shrunk.
+    pub(crate) residuals: f64,
+}
+
+/// Means and standard deviations of the logarithms over grains of many kinds, which are all that is known of a
+/// grain of few points.
+const HYPERPRIOR: [[f64; 2]; 4] = [[-1.897, 1.0], [0.875, 0.25], [1.0986, 0.5], [-5.298, 2.0]];
+
+/// With so few points the likelihood alone is too sure of itself: of 50 points, 95 % intervals of the
+/// volume cover 35 % with it and 90 % with the hyperprior.
+const FEW_POINTS: f64 = 100.0;
+
+/// Negative logarithm of the hyperprior and its gradient: zero unless the points are few.
+pub(crate) fn hyperprior(points: f64, spectrum: &Spectrum) -> (f64, [f64; 4]) {
+    let (mut value, mut gradient) = (0.0, [0.0; 4]);
+    if points <= FEW_POINTS {
+        for (at, [mean, sd]) in HYPERPRIOR.into_iter().enumerate() {
+            let z = (spectrum.0[at] - mean) / sd;
+            value += 0.5 * z * z;
+            gradient[at] = z / sd;
+        }
+    }
+    (value, gradient)
+}
+
+impl Evidence {
+    /// F and its gradient.
+    pub(crate) fn value(&self, spectrum: &Spectrum) -> (f64, [f64; 4]) {
+        let noise = spectrum.noise().powi(2);
+        let mut sum = self.points * noise.ln() + self.residuals / noise;
+        let mut gradient = [0.0, 0.0, 0.0, self.points - self.residuals / noise];
+        let variances = spectrum.variances(self.degrees.len() - 1);
+        for (l, (&[count, power], v)) in self.degrees.iter().zip(variances).enumerate() {
+            let orders = (2 * l + 1) as f64;
+            let total = count * v + noise;
+            sum += orders * (count * v / noise).ln_1p() + count * power / total;
+            let slope = 0.5 * count * v / total * (orders - count * power / total);
+            for (gradient, by) in gradient.iter_mut().zip(spectrum.slopes(l)) {
+                *gradient += by * slope;
+            }
+            gradient[3] -= count * v / total * orders + count * power * noise / total.powi(2);
+        }
+        let (prior, slopes) = hyperprior(self.points, spectrum);
+        let value = 0.5 * sum + prior;
+        for (gradient, slope) in gradient.iter_mut().zip(slopes) {
+            *gradient += slope;
+        }
+        (value, gradient)
+    }
+
+    /// The spectrum of least F that one step may reach, and by how much F is lower there: damped Newton steps
+    /// (Levenberg, Marquardt).
+    pub(crate) fn most_likely(&self, start: &Spectrum) -> (Spectrum, f64) {
+        let bounds: [[f64; 2]; 4] = std::array::from_fn(|i| {
+            let ([low, high], at, step) = (BOUNDS[i], start.0[i], STEPS[i]);
+            [(at - step).max(low), (at + step).min(high)]
+        });
+        let first = self.value(start).0;
+        let (mut at, mut cost) = (*start, first);
+        let mut damping = 1e-3;
+        for _ in 0..MOST_STEPS {
+            let mut gradient = Vector4::from(self.value(&at).1);
+            let mut hessian = self.curvature(&at);
+            for (i, [low, high]) in bounds.into_iter().enumerate() {
+                let is_held =
+                    at.0[i] <= low && gradient[i] > 0.0 || at.0[i] >= high && gradient[i] < 0.0;
+                if is_held {
+                    hessian.fill_row(i, 0.0);
+                    hessian.fill_column(i, 0.0);
+                    hessian[(i, i)] = 1.0;
+                    gradient[i] = 0.0;
+                }
+            }
+            let scale = hessian.diagonal();
+            let lower = (0..12).find_map(|_| {
+                let damped = hessian + Matrix4::from_diagonal(&(scale * damping));
+                let step = damped.cholesky()?.solve(&gradient);
+                let next = Spectrum(std::array::from_fn(|i| {
+                    (at.0[i] - step[i]).clamp(bounds[i][0], bounds[i][1])
+                }));
+                let value = self.value(&next).0;
+                if value < cost {
+                    damping *= 0.1;
+                    return Some((next, value));
+                }
+                damping *= 10.0;
+                None
+            });
+            let Some((next, value)) = lower else { break };
+            let gain = cost - value;
+            (at, cost) = (next, value);
+            if gain < GAIN {
+                break;
+            }
+        }
+        (at, first - cost)
+    }
+
+    /// Second derivatives of F, made positive: a first guess of those of the exact likelihood.
+    pub(crate) fn curvature(&self, spectrum: &Spectrum) -> Matrix4<f64> {
+        let gradient = |at: Spectrum| Vector4::from(self.value(&at).1);
+        let mut hessian = Matrix4::zeros();
+        for i in 0..4 {
+            let moved = |by: f64| {
+                let mut moved = *spectrum;
+                moved.0[i] += by;
+                gradient(moved)
+            };
+            let column = (moved(DIFFERENCE) - moved(-DIFFERENCE)) / (2.0 * DIFFERENCE);
+            hessian.set_column(i, &column);
+        }
+        let eigen = (0.5 * (hessian + hessian.transpose())).symmetric_eigen();
+        let largest = eigen.eigenvalues.amax().max(f64::MIN_POSITIVE);
+        let positive = eigen
+            .eigenvalues
+            .map(|k| k.abs().max(LEAST_CURVATURE * largest));
+        eigen.eigenvectors * Matrix4::from_diagonal(&positive) * eigen.eigenvectors.transpose()
+    }
+}
+
+/// Steps to the least F at most; ten are usual.
+const MOST_STEPS: usize = 60;
+
+/// Fall of F below which they end.
+const GAIN: f64 = 1e-6;
+
+/// Step of the differences by which second derivatives are found.
+const DIFFERENCE: f64 = 1e-4;
+
+/// Curvatures are at least this share of the largest.
+const LEAST_CURVATURE: f64 = 1e-6;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What is expected of an even cloud.
+    fn evidence(spectrum: &Spectrum, points: f64, degree: usize) -> Evidence {
+        let noise = spectrum.noise().powi(2);
+        let count = points / (4.0 * std::f64::consts::PI);
+        let variances = spectrum.variances(degree);
+        let degrees = variances
+            .iter()
+            .enumerate()
+            .map(|(l, v)| [count, (2 * l + 1) as f64 * (v + noise / count)]);
+        Evidence {
+            points,
+            degrees: degrees.collect(),
+            residuals: noise * (points - ((degree + 1) * (degree + 1)) as f64),
+        }
+    }
+
+    #[test]
+    fn the_gradient_is_that_of_differences() {
+        let truth = Spectrum([-2.0, 0.9, 1.2, -5.0]);
+        for points in [60.0, 4000.0] {
+            let evidence = evidence(&truth, points, 5);
+            let at = Spectrum([-2.5, 0.7, 1.0, -4.5]);
+            let (_, gradient) = evidence.value(&at);
+            for i in 0..4 {
+                let moved = |by: f64| {
+                    let mut moved = at;
+                    moved.0[i] += by;
+                    evidence.value(&moved).0
+                };
+                let difference = (moved(1e-5) - moved(-1e-5)) / 2e-5;
+                assert!(
+                    (difference - gradient[i]).abs() < 1e-5 * gradient[i].abs().max(1.0),
+                    "{i}: {difference} {}",
+                    gradient[i]
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn the_spectrum_behind_the_evidence_is_found() {
+        let truth = Spectrum([-2.0, 0.9, 1.2, -5.0]);
+        let evidence = evidence(&truth, 6000.0, 36);
+        let mut at = Spectrum::start();
+        for _ in 0..5 {
+            at = evidence.most_likely(&at).0;
+        }
+        for (have, want) in at.0.iter().zip(truth.0) {
+            assert!((have - want).abs() < 0.01, "{at:?}");
+        }
+    }
+}

@@ -1,0 +1,277 @@
+//! The estimate: the radius in harmonics of the whole sphere, told from noise by its own spectrum.
+//!
+//! 1. A linear map along the grain's axes makes it rounder: of three strengths the one under which the points are
+//!    most likely is taken.
+//! 2. Coefficients have a prior variance per degree, a power law; its parameters and the noise are those
+//!    under which the points are most likely. No degree has to be chosen: it is high enough when the last
+//!    degrees carry nothing.
+//! 3. Points that stand alone are left out, and the estimate is made again.
+//! 4. Clouds of more than 30 000 points are reduced to patch means, with one correction.
+//!
+//! The posterior covariance says how well every functional of the radius is known.
+
+mod cloud;
+#[cfg(test)]
+mod lab;
+mod likelihood;
+mod neighbours;
+mod newton;
+mod outliers;
+mod patches;
+mod posterior;
+mod spectrum;
+mod spectrum_fit;
+
+use super::samples::Sample;
+use crate::sphere::{ScatteredHarmonics, coefficient_count};
+use cloud::Cloud;
+use nalgebra::Vector3;
+use patches::{Patches, WHOLE_CLOUD};
+use posterior::{Posterior, SETTLED};
+use spectrum::Spectrum;
+use spectrum_fit::{Count, SpectrumFit, fit_spectrum};
+
+/// The estimate of a grain's radius.
+#[derive(Debug, Clone)]
+pub(crate) struct Estimate {
+    /// The points, after the map and without outliers.
+    pub(crate) cloud: Cloud,
+    /// The largest degree.
+    pub(crate) degree: usize,
+    /// The coefficients in the stretched space, in units of `cloud.mean`, at their harmonic index.
+    pub(crate) coefficients: Vec<f64>,
+    /// The spectrum: prior variances and noise.
+    pub(crate) spectrum: Spectrum,
+    /// Per degree, the share of the prior variance that the points leave.
+    pub(crate) unlearnt: Vec<f64>,
+    /// Points left out because they stand alone.
+    pub(crate) outliers: usize,
+    /// Whether the matrix of the problem is small enough to be factored.
+    pub(crate) is_factored: bool,
+}
+
+/// Strengths of the map: T = diag(semi-axes)^-k.
+const STRENGTHS: [f64; 3] = [1.0, 0.5, 0.0];
+
+/// Axes that differ by less than this need no map.
+const ROUND: f64 = 1.03;
+
+/// Degree at which the maps are compared.
+const COMPARED_DEGREE: usize = 24;
+
+/// Maps that differ by less than this per point in the logarithm of the likelihood are compared again at the full
+/// degree: of a clean, textured grain what the low degree leaves passes for noise.
+const CLOSE: f64 = 0.1;
+
+/// Degrees that are tried one after the other, as long as the last degrees carry something.
+const DEGREES: [usize; 5] = [36, 48, 60, 72, 80];
+
+/// The last degrees carry something when the surface they make is larger, as RMS, than this share of the standard
+/// deviation of the estimate ...
+const TAIL: f64 = 0.1;
+
+/// ... and than this share of the mean radius.
+const LEAST_TAIL: f64 = 2e-5;
+
+/// Degrees that count as last.
+const LAST_DEGREES: usize = 4;
+
+/// A higher degree is kept if it lowers the negative log likelihood by this: else what the last degrees carried was
+/// noise, of which the prior expected more.
+const WORTH_A_DEGREE: f64 = 5.0;
+
+/// Coefficients per point beyond which a higher degree is not tried.
+const MOST_PER_POINT: f64 = 0.9;
+
+/// Clouds up to this size have their matrix factored at degree 36: at more than .6 coefficients per point the
+/// cheap way fails on uneven clouds.
+const FACTORED: usize = 2500;
+
+/// Floor of the share of the points that is not spent on coefficients.
+const LEAST_SPARE: f64 = 0.3;
+
+/// Rounds of leaving out outliers.
+const OUTLIER_ROUNDS: usize = 5;
+
+/// Estimates the radius from samples in the grain's own frame; `axes`: semi-axes of the ellipsoid of equal second moments,
+/// along the grain's own axes.
+pub(crate) fn estimate(samples: &[Sample], axes: Vector3<f64>) -> Estimate {
+    let patches = (samples.len() > WHOLE_CLOUD).then(|| Patches::new(samples));
+    let (reduced, counts) = match &patches {
+        Some(patches) => (patches.means.as_slice(), Some(patches.counts.as_slice())),
+        None => (samples, None),
+    };
+    let first = first_degree(reduced.len());
+    let (mut cloud, start) = rounder(reduced, counts, axes, first);
+    let mut degree = first;
+    let mut outliers = patches.as_ref().map_or(0, Patches::left_out);
+    let mut rounds = 0;
+    let mut lower: Option<(usize, SpectrumFit)> = None;
+    let mut fit = start;
+    let is_factored = cloud.len() <= FACTORED;
+    loop {
+        let posterior = Posterior::new(&cloud, degree, is_factored);
+        let mut coefficients = std::mem::take(&mut fit.coefficients);
+        coefficients.resize(coefficient_count(degree), 0.0);
+        fit = fit_spectrum(&posterior, fit.spectrum, Some(coefficients), Count::Probed);
+        let alone = match rounds < OUTLIER_ROUNDS && patches.is_none() {
+            true => {
+                // Errors of predictions from all other points, were the points spread evenly.
+                let orders = fit.unlearnt.iter().enumerate();
+                let learnt: f64 = orders.map(|(l, q)| (2 * l + 1) as f64 * (1.0 - q)).sum();
+                let spare = (1.0 - learnt / cloud.len() as f64).max(LEAST_SPARE);
+                let mut errors = posterior.residuals(&fit.coefficients);
+                errors.iter_mut().for_each(|e| *e /= spare);
+                outliers::outliers(&cloud.directions, &errors)
+            }
+            false => Vec::new(),
+        };
+        if !alone.is_empty() {
+            rounds += 1;
+            outliers += alone.len();
+            cloud = cloud.without(&alone);
+            continue;
+        }
+        if let Some((lower, before)) = lower.take()
+            && fit.cost > before.cost - WORTH_A_DEGREE
+        {
+            (degree, fit) = (lower, before);
+            break;
+        }
+        match next_degree(&fit, degree, cloud.len(), is_factored) {
+            Some(next) => {
+                lower = Some((degree, fit.clone()));
+                degree = next;
+            }
+            None => break,
+        }
+    }
+    if let Some(patches) = &patches {
+        correct(&mut cloud, samples, patches, degree, &mut fit);
+    }
+    Estimate {
+        cloud,
+        degree,
+        coefficients: fit.coefficients,
+        spectrum: fit.spectrum,
+        unlearnt: fit.unlearnt,
+        outliers,
+        is_factored,
+    }
+}
+
+/// The degree that a cloud of so many points is first fitted at.
+fn first_degree(points: usize) -> usize {
+    match points {
+        0..=20 => 16,
+        21..=100 => 30,
+        _ => DEGREES[0],
+    }
+}
+
+/// The cloud after the map under which its points are most likely, and its fit at a low degree.
+fn rounder(
+    samples: &[Sample],
+    counts: Option<&[f64]>,
+    axes: Vector3<f64>,
+    degree: usize,
+) -> (Cloud, SpectrumFit) {
+    let mean = (axes.x * axes.y * axes.z).cbrt();
+    let strengths = match axes.max() > ROUND * axes.min() {
+        true => &STRENGTHS[..],
+        false => &STRENGTHS[2..],
+    };
+    let fit = |k: f64, degree: usize, start: Option<SpectrumFit>| {
+        let cloud = Cloud::new(samples, counts, axes.map(|axis| (mean / axis).powf(k)));
+        let posterior = Posterior::new(&cloud, degree, cloud.len() <= FACTORED);
+        let spectrum = start.map_or_else(Spectrum::start, |fit| fit.spectrum);
+        let fit = fit_spectrum(&posterior, spectrum, None, Count::Even);
+        (cloud, fit)
+    };
+    let least = |fits: &[(f64, (Cloud, SpectrumFit))]| {
+        let costs = fits.iter().map(|(_, (_, fit))| fit.cost);
+        costs.fold(f64::INFINITY, f64::min)
+    };
+    let compared = degree.min(COMPARED_DEGREE);
+    let mut fits: Vec<_> = strengths
+        .iter()
+        .map(|&k| (k, fit(k, compared, None)))
+        .collect();
+    let close = least(&fits) + CLOSE * samples.len() as f64;
+    fits.retain(|(_, (_, fit))| fit.cost <= close);
+    if fits.len() > 1 && compared < degree {
+        let again = fits
+            .into_iter()
+            .map(|(k, (_, start))| (k, fit(k, degree, Some(start))));
+        fits = again.collect();
+    }
+    let best = least(&fits);
+    let found = fits.into_iter().find(|(_, (_, fit))| fit.cost <= best);
+    found.expect("costs are finite").1
+}
+
+/// A higher degree, if the last ones carry something and the points are enough.
+fn next_degree(
+    fit: &SpectrumFit,
+    degree: usize,
+    points: usize,
+    is_factored: bool,
+) -> Option<usize> {
+    let next = DEGREES.into_iter().find(|&next| next > degree)?;
+    if is_factored || coefficient_count(next) as f64 > MOST_PER_POINT * points as f64 {
+        return None;
+    }
+    let from = (degree + 1 - LAST_DEGREES).pow(2);
+    let tail: f64 = fit.coefficients[from..].iter().map(|x| x * x).sum();
+    let variance = variance(&fit.spectrum, &fit.unlearnt);
+    let sphere = 4.0 * std::f64::consts::PI;
+    (tail / sphere > (TAIL * TAIL * variance).max(LEAST_TAIL * LEAST_TAIL)).then_some(next)
+}
+
+/// Mean posterior variance of the radius: sum of (2l + 1) C_l / 4 pi.
+fn variance(spectrum: &Spectrum, unlearnt: &[f64]) -> f64 {
+    let variances = spectrum.variances(unlearnt.len() - 1);
+    let terms = variances.iter().zip(unlearnt).enumerate();
+    terms
+        .map(|(l, (v, q))| (2 * l + 1) as f64 * v * q)
+        .sum::<f64>()
+        / (4.0 * std::f64::consts::PI)
+}
+
+/// Points evaluated at once.
+const CHUNK: usize = 1 << 16;
+
+/// Adds the patch means of the points' residuals, and solves again.
+fn correct(
+    cloud: &mut Cloud,
+    samples: &[Sample],
+    patches: &Patches,
+    degree: usize,
+    fit: &mut SpectrumFit,
+) {
+    let mut sums = vec![0.0; patches.means.len()];
+    for (samples, patch_of) in samples.chunks(CHUNK).zip(patches.patch_of.chunks(CHUNK)) {
+        let points = Cloud::mapped(samples, cloud.stretch, cloud.mean);
+        let directions: Vec<Vector3<f64>> = points.iter().map(|(n, _)| *n).collect();
+        let mut radii = vec![0.0; samples.len()];
+        ScatteredHarmonics::new(degree, &directions).synthesis(&fit.coefficients, &mut radii);
+        for ((patch, (_, measured)), fitted) in patch_of.iter().zip(points).zip(radii) {
+            if let Some(patch) = patch {
+                sums[*patch as usize] += measured - fitted;
+            }
+        }
+    }
+    let posterior = Posterior::new(cloud, degree, false);
+    let fitted = posterior.radii(&fit.coefficients);
+    for ((radius, fitted), (sum, count)) in cloud
+        .radii
+        .iter_mut()
+        .zip(fitted)
+        .zip(sums.iter().zip(&patches.counts))
+    {
+        *radius = fitted + sum / count;
+    }
+    let posterior = Posterior::new(cloud, degree, false);
+    let given = posterior.given(&fit.spectrum);
+    fit.coefficients = given.mean(Some(&fit.coefficients), SETTLED).0;
+}

@@ -1,0 +1,159 @@
+//! The search for the most likely spectrum: a quasi-Newton method in four unknowns.
+//!
+//! At first each step leads to where the likelihood would be largest if the points said the same of each degree
+//! under every spectrum. Where such a step fails (few points, uneven clouds), Newton steps take over, whose second
+//! derivatives learn from the gradients on the way (the update of Broyden, Fletcher, Goldfarb and Shanno). A step
+//! fails that does not lower the cost; where no cost is known, one after which the gradient points back.
+
+use super::spectrum::Spectrum;
+use super::spectrum::{BOUNDS, STEPS};
+use nalgebra::{Matrix4, Vector4};
+
+/// The search ends where a step promises to lower the cost by less than this: a spectrum twenty times less likely
+/// would be told from it by three.
+const PROMISE: f64 = 0.05;
+
+/// Steps that move no logarithm by more than this end the search too.
+const SETTLED: f64 = 0.003;
+
+/// A spectrum with what is known of the likelihood there.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Place {
+    pub(crate) spectrum: Spectrum,
+    /// Negative log likelihood, where it is known exactly.
+    pub(crate) cost: Option<f64>,
+    pub(crate) gradient: Vector4<f64>,
+    /// Where the cost would be least if the evidence stayed as it is here, and by how much it would fall.
+    pub(crate) proposal: (Spectrum, f64),
+}
+
+/// The state of a search.
+#[derive(Debug, Clone)]
+pub(crate) struct Newton {
+    best: Option<Place>,
+    curvature: Matrix4<f64>,
+    /// Whether proposals have not failed yet.
+    trusts: bool,
+    /// Share of the full step.
+    share: f64,
+}
+
+/// What to do next.
+pub(crate) enum Next {
+    /// Look there.
+    Try(Spectrum),
+    /// The last place is the best.
+    Here,
+    /// An earlier place is the best.
+    Back(Spectrum),
+}
+
+impl Newton {
+    /// A search that knows these second derivatives.
+    pub(crate) fn new(curvature: Matrix4<f64>) -> Self {
+        Self {
+            best: None,
+            curvature,
+            trusts: true,
+            share: 1.0,
+        }
+    }
+
+    /// Takes note of a place and tells where to look next.
+    pub(crate) fn next(&mut self, place: Place) -> Next {
+        if let Some(best) = self.best {
+            self.learn(&best, &place);
+            if !is_better(&place, &best) {
+                match self.trusts {
+                    true => self.trusts = false,
+                    false => self.share *= 0.5,
+                }
+                let next = self.step(&best);
+                return match is_settled(&best.spectrum, &next) {
+                    true => Next::Back(best.spectrum),
+                    false => Next::Try(next),
+                };
+            }
+        }
+        self.share = (2.0 * self.share).min(1.0);
+        self.best = Some(place);
+        let (next, promise) = match self.trusts {
+            true => place.proposal,
+            false => {
+                let next = self.step(&place);
+                let moved = difference(&next, &place.spectrum);
+                (next, -0.5 * moved.dot(&place.gradient))
+            }
+        };
+        match promise < PROMISE || is_settled(&place.spectrum, &next) {
+            true => Next::Here,
+            false => Next::Try(next),
+        }
+    }
+
+    /// The spectrum that a step from a place leads to.
+    fn step(&self, place: &Place) -> Spectrum {
+        let at = &place.spectrum.0;
+        let mut matrix = self.curvature;
+        let mut right = place.gradient;
+        for i in 0..4 {
+            let [low, high] = BOUNDS[i];
+            let is_held = (at[i] <= low && right[i] > 0.0) || (at[i] >= high && right[i] < 0.0);
+            if is_held {
+                for j in 0..4 {
+                    matrix[(i, j)] = 0.0;
+                    matrix[(j, i)] = 0.0;
+                }
+                matrix[(i, i)] = 1.0;
+                right[i] = 0.0;
+            }
+        }
+        let step = matrix
+            .cholesky()
+            .map_or_else(Vector4::zeros, |factor| -factor.solve(&right));
+        let too_far = step.iter().zip(STEPS).map(|(step, most)| step.abs() / most);
+        let shorter = self.share / too_far.fold(1.0, f64::max);
+        Spectrum(std::array::from_fn(|i| {
+            (at[i] + shorter * step[i]).clamp(BOUNDS[i][0], BOUNDS[i][1])
+        }))
+    }
+
+    /// Learns second derivatives from two places.
+    fn learn(&mut self, from: &Place, to: &Place) {
+        let moved = difference(&to.spectrum, &from.spectrum);
+        let turned = to.gradient - from.gradient;
+        let along = self.curvature * moved;
+        let (curved, expected) = (moved.dot(&turned), moved.dot(&along));
+        // Damped (Powell), so that the matrix stays positive.
+        if expected <= 0.0 {
+            return;
+        }
+        let blend = match curved < 0.2 * expected {
+            true => 0.8 * expected / (expected - curved),
+            false => 1.0,
+        };
+        let turned = turned * blend + along * (1.0 - blend);
+        self.curvature +=
+            turned * turned.transpose() / moved.dot(&turned) - along * along.transpose() / expected;
+    }
+}
+
+fn difference(to: &Spectrum, from: &Spectrum) -> Vector4<f64> {
+    Vector4::from(to.0) - Vector4::from(from.0)
+}
+
+fn is_settled(from: &Spectrum, to: &Spectrum) -> bool {
+    difference(to, from).amax() < SETTLED
+}
+
+/// Whether a step led down: by the cost, or else by the gradient, which must not point back more
+/// steeply than it pointed forward.
+fn is_better(place: &Place, best: &Place) -> bool {
+    match (place.cost, best.cost) {
+        (Some(here), Some(there)) => here <= there,
+        _ => {
+            let moved = difference(&place.spectrum, &best.spectrum);
+            moved.dot(&place.gradient) <= moved.dot(&best.gradient).abs()
+        }
+    }
+}

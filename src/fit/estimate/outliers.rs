@@ -1,0 +1,83 @@
+//! Points that stand alone: far from the estimate, and far from what their neighbours say of it.
+
+use super::neighbours::Neighbours;
+use nalgebra::Vector3;
+
+/// Neighbours that a point is compared with.
+const NEIGHBOURS: usize = 8;
+
+/// A point is an outlier when its residual differs from the median of its neighbours' by more than this many
+/// standard deviations of such differences, of all points and of the [`VICINITY`] nearest (told by their medians, so
+/// that outliers do not hide themselves) ...
+const DEVIATIONS: f64 = 8.0;
+
+/// Points near by that tell how rough the surface is there.
+const VICINITY: usize = 32;
+
+/// ... and by more than this share of the mean radius ...
+const LEAST: f64 = 0.01;
+
+/// ... unless so many neighbours stand off on the same side: that is an edge.
+const COMPANY: usize = 2;
+
+/// Standard deviation over median absolute deviation of a normal distribution.
+const PER_MEDIAN: f64 = 1.4826;
+
+/// Positions of the outliers among points with these residuals, ascending.
+pub(crate) fn outliers(directions: &[Vector3<f64>], residuals: &[f64]) -> Vec<usize> {
+    // A contrast is at most twice the largest residual: mostly there is nothing to look for.
+    let spread = robust_deviation(residuals.iter().copied());
+    let limit = (DEVIATIONS * spread).max(LEAST);
+    if !residuals.iter().any(|e| e.abs() > 0.5 * limit) {
+        return Vec::new();
+    }
+    let neighbours = Neighbours::new(directions);
+    let around: Vec<Vec<usize>> = directions
+        .iter()
+        .enumerate()
+        .map(|(own, n)| {
+            let mut near = neighbours.nearest(n, NEIGHBOURS + 1);
+            near.retain(|&other| other != own);
+            near
+        })
+        .collect();
+    let contrasts: Vec<f64> = around
+        .iter()
+        .zip(residuals)
+        .map(|(near, residual)| {
+            let mut near: Vec<f64> = near.iter().map(|&other| residuals[other]).collect();
+            residual - median(&mut near).unwrap_or(0.0)
+        })
+        .collect();
+    let limit = (DEVIATIONS * robust_deviation(contrasts.iter().copied())).max(LEAST);
+    let stands_off: Vec<bool> = (0..contrasts.len())
+        .map(|at| {
+            contrasts[at].abs() > limit && {
+                let near = neighbours.nearest(&directions[at], VICINITY);
+                let near = near.into_iter().map(|other| contrasts[other]);
+                contrasts[at].abs() > DEVIATIONS * robust_deviation(near)
+            }
+        })
+        .collect();
+    (0..residuals.len())
+        .filter(|&at| stands_off[at])
+        .filter(|&at| {
+            let alike = |&&other: &&usize| {
+                stands_off[other] && contrasts[other].signum() == contrasts[at].signum()
+            };
+            around[at].iter().filter(alike).count() < COMPANY
+        })
+        .collect()
+}
+
+/// Standard deviation of values round zero, told by the median of their sizes.
+pub(crate) fn robust_deviation(values: impl Iterator<Item = f64>) -> f64 {
+    let mut sizes: Vec<f64> = values.map(f64::abs).collect();
+    PER_MEDIAN * median(&mut sizes).unwrap_or(0.0)
+}
+
+/// The median, the upper one of two.
+pub(crate) fn median(values: &mut [f64]) -> Option<f64> {
+    let middle = values.len() / 2;
+    (!values.is_empty()).then(|| *values.select_nth_unstable_by(middle, f64::total_cmp).1)
+}

@@ -1,0 +1,325 @@
+//! What is known of the coefficients once a spectrum is given: their mean and covariance.
+//!
+//! With Y the harmonics in the points' directions, W the weights and V the variances of the spectrum, the
+//! coefficients given the radii y are normal with the covariance C = (Y'WY / s^2 + V^-1)^-1 and the mean
+//! C Y'W y / s^2. Either the matrix is formed and factored, scaled by V so that it is safe
+//! (I + V^1/2 Y'WY V^1/2 / s^2, condition bounded by the data), or systems are solved by conjugate
+//! gradients with the harmonic transform, preconditioned by the matrix of an even cloud.
+
+use super::cloud::Cloud;
+use super::spectrum::Spectrum;
+use crate::sphere::{HarmonicBasis, ScatteredHarmonics, coefficient_count};
+use faer::linalg::matmul::triangular::{self, BlockStructure};
+use faer::linalg::solvers::{Llt, Solve};
+use faer::linalg::triangular_inverse::invert_lower_triangular;
+use faer::{Accum, Mat, MatMut, MatRef, Par, Side};
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::{Rng, SeedableRng};
+use std::f64::consts::PI;
+
+/// A cloud ready to be conditioned on.
+pub(crate) struct Posterior<'a> {
+    pub(crate) cloud: &'a Cloud,
+    degree: usize,
+    harmonics: ScatteredHarmonics,
+    /// Y'WY, where systems are solved by factoring.
+    gram: Option<Mat<f64>>,
+    /// Y'W y.
+    right: Vec<f64>,
+}
+
+/// Points whose part of the design matrix is formed at once.
+const BLOCK: usize = 512;
+
+impl<'a> Posterior<'a> {
+    /// Prepares a cloud for harmonics up to `degree`; `factored` says whether to form and factor the matrix.
+    pub(crate) fn new(cloud: &'a Cloud, degree: usize, factored: bool) -> Self {
+        let harmonics = ScatteredHarmonics::new(degree, &cloud.directions);
+        let mut right = vec![0.0; coefficient_count(degree)];
+        let weighted = cloud.radii.iter().zip(&cloud.weights).map(|(r, w)| r * w);
+        harmonics.adjoint(&weighted.collect::<Vec<_>>(), &mut right);
+        Self {
+            cloud,
+            degree,
+            harmonics,
+            gram: factored.then(|| gram(cloud, degree)),
+            right,
+        }
+    }
+
+    /// The posterior for a spectrum.
+    pub(crate) fn given(&self, spectrum: &Spectrum) -> Conditioned<'_> {
+        let degrees = spectrum.variances(self.degree);
+        let variances: Vec<f64> = degrees
+            .iter()
+            .enumerate()
+            .flat_map(|(l, &v)| std::iter::repeat_n(v, 2 * l + 1))
+            .collect();
+        let noise = spectrum.noise().powi(2);
+        let factor = self.gram.as_ref().and_then(|gram| {
+            let root: Vec<f64> = variances.iter().map(|v| v.sqrt()).collect();
+            let count = root.len();
+            let mut matrix = Mat::zeros(count, count);
+            for j in 0..count {
+                let (from, to) = (gram.col_as_slice(j), matrix.col_as_slice_mut(j));
+                let scale = root[j] / noise;
+                for i in j..count {
+                    to[i] = from[i] * root[i] * scale;
+                }
+                to[j] += 1.0;
+            }
+            matrix.llt(Side::Lower).ok()
+        });
+        Conditioned {
+            posterior: self,
+            degrees,
+            variances,
+            noise,
+            factor,
+        }
+    }
+
+    /// The largest degree.
+    pub(crate) fn degree(&self) -> usize {
+        self.degree
+    }
+
+    /// Whether the matrix is formed and factored.
+    pub(crate) fn is_factored(&self) -> bool {
+        self.gram.is_some()
+    }
+
+    /// The radii that coefficients give at the points.
+    pub(crate) fn radii(&self, coefficients: &[f64]) -> Vec<f64> {
+        let mut radii = vec![0.0; self.cloud.len()];
+        self.harmonics.synthesis(coefficients, &mut radii);
+        radii
+    }
+
+    /// Measured less fitted radii.
+    pub(crate) fn residuals(&self, coefficients: &[f64]) -> Vec<f64> {
+        let fitted = self.radii(coefficients);
+        let pairs = self.cloud.radii.iter().zip(fitted);
+        pairs.map(|(measured, fitted)| measured - fitted).collect()
+    }
+}
+
+/// Y'WY, lower triangle.
+fn gram(cloud: &Cloud, degree: usize) -> Mat<f64> {
+    let basis = HarmonicBasis::new(degree);
+    let count = coefficient_count(degree);
+    let mut gram = Mat::zeros(count, count);
+    let mut rows = vec![0.0; BLOCK * count];
+    let points = cloud
+        .directions
+        .chunks(BLOCK)
+        .zip(cloud.weights.chunks(BLOCK));
+    for (directions, weights) in points {
+        let block = directions.len();
+        for ((n, weight), row) in directions
+            .iter()
+            .zip(weights)
+            .zip(rows.chunks_exact_mut(count))
+        {
+            basis.evaluate(n, row);
+            let root = weight.sqrt();
+            row.iter_mut().for_each(|value| *value *= root);
+        }
+        // One column per point.
+        let design = MatRef::from_column_major_slice(&rows[..block * count], count, block);
+        triangular::matmul(
+            gram.as_mut(),
+            BlockStructure::TriangularLower,
+            Accum::Add,
+            design,
+            BlockStructure::Rectangular,
+            design.transpose(),
+            BlockStructure::Rectangular,
+            1.0,
+            Par::Seq,
+        );
+    }
+    gram
+}
+
+/// The posterior for a spectrum.
+pub(crate) struct Conditioned<'a> {
+    posterior: &'a Posterior<'a>,
+    /// v_l per degree, and of every coefficient.
+    degrees: Vec<f64>,
+    variances: Vec<f64>,
+    /// s^2.
+    noise: f64,
+    factor: Option<Llt<f64>>,
+}
+
+/// Conjugate gradients end when the last [`LOOK_BACK`] steps together removed less than this of the squared error, in
+/// units of the posterior variance of one coefficient. (The usual test, of the preconditioned residual, ends 2.5
+/// standard deviations off where the scan has a hole.)
+pub(crate) const SETTLED: f64 = 0.1;
+
+const LOOK_BACK: usize = 8;
+
+/// Steps of a solution at most.
+pub(crate) const MOST_STEPS: usize = 1000;
+
+/// Random vectors by which traces are estimated.
+const PROBES: usize = 4;
+
+impl Conditioned<'_> {
+    /// The mean of the coefficients, found from `start`, and the number of steps that it took.
+    pub(crate) fn mean(&self, start: Option<&[f64]>, settled: f64) -> (Vec<f64>, usize) {
+        let right: Vec<f64> = self
+            .posterior
+            .right
+            .iter()
+            .map(|b| b / self.noise)
+            .collect();
+        self.solve(&right, start, settled)
+    }
+
+    /// The exact negative logarithm of the likelihood, where the matrix is factored:
+    /// 1/2 [n log s^2 + log det(I + V^1/2 Y'WY V^1/2 / s^2) + (y'Wy - y'WY x) / s^2].
+    pub(crate) fn cost(&self, mean: &[f64]) -> Option<f64> {
+        let factor = self.factor.as_ref()?.L();
+        let cloud = self.posterior.cloud;
+        let log_determinant: f64 = (0..factor.nrows()).map(|j| factor[(j, j)].ln()).sum();
+        // y'Wy - y'WY x without cancellation: the weighted squares of the residuals and x'V^-1 x s^2.
+        let residuals = self.posterior.residuals(mean);
+        let squared = residuals.iter().zip(&cloud.weights);
+        let squared: f64 = squared.map(|(e, w)| w * e * e).sum();
+        let shrunk = mean.iter().zip(&self.variances);
+        let shrunk: f64 = shrunk.map(|(x, v)| x * x / v).sum();
+        Some(
+            0.5 * (cloud.len() as f64 * self.noise.ln() + squared / self.noise + shrunk)
+                + log_determinant,
+        )
+    }
+
+    /// C g: the covariances of a linear functional g with every coefficient.
+    pub(crate) fn covariances(&self, g: &[f64], settled: f64) -> Vec<f64> {
+        self.solve(g, None, settled).0
+    }
+
+    fn solve(&self, right: &[f64], start: Option<&[f64]>, settled: f64) -> (Vec<f64>, usize) {
+        let Some(factor) = &self.factor else {
+            return self.conjugate_gradients(right, start, settled);
+        };
+        let scaled = right.iter().zip(&self.variances).map(|(b, v)| b * v.sqrt());
+        let mut x: Vec<f64> = scaled.collect();
+        let count = x.len();
+        factor.solve_in_place(MatMut::from_column_major_slice_mut(&mut x, count, 1));
+        for (x, v) in x.iter_mut().zip(&self.variances) {
+            *x *= v.sqrt();
+        }
+        (x, 0)
+    }
+
+    /// (Y'WY / s^2 + V^-1) x.
+    fn precision(&self, x: &[f64], radii: &mut [f64], out: &mut [f64]) {
+        let Posterior {
+            harmonics, cloud, ..
+        } = self.posterior;
+        harmonics.synthesis(x, radii);
+        for (radius, weight) in radii.iter_mut().zip(&cloud.weights) {
+            *radius *= weight / self.noise;
+        }
+        harmonics.adjoint(radii, out);
+        for ((out, x), v) in out.iter_mut().zip(x).zip(&self.variances) {
+            *out += x / v;
+        }
+    }
+
+    fn conjugate_gradients(
+        &self,
+        right: &[f64],
+        start: Option<&[f64]>,
+        settled: f64,
+    ) -> (Vec<f64>, usize) {
+        let count = right.len();
+        let even = self.posterior.cloud.weights.iter().sum::<f64>() / (4.0 * PI * self.noise);
+        let preconditioner: Vec<f64> = self
+            .variances
+            .iter()
+            .map(|v| 1.0 / (even + 1.0 / v))
+            .collect();
+        let (mut radii, mut q) = (vec![0.0; self.posterior.cloud.len()], vec![0.0; count]);
+        let mut x = vec![0.0; count];
+        let mut r = right.to_vec();
+        if let Some(start) = start {
+            x.copy_from_slice(start);
+            self.precision(&x, &mut radii, &mut q);
+            r.iter_mut().zip(&q).for_each(|(r, q)| *r -= q);
+        }
+        let dot = |a: &[f64], b: &[f64]| -> f64 { a.iter().zip(b).map(|(a, b)| a * b).sum() };
+        let mut z: Vec<f64> = r.iter().zip(&preconditioner).map(|(r, p)| r * p).collect();
+        let mut p = z.clone();
+        let mut rz = dot(&r, &z);
+        let mut energies: Vec<f64> = Vec::new();
+        while energies.len() < MOST_STEPS && rz > 0.0 {
+            self.precision(&p, &mut radii, &mut q);
+            let step = rz / dot(&p, &q);
+            for i in 0..count {
+                x[i] += step * p[i];
+                r[i] -= step * q[i];
+                z[i] = r[i] * preconditioner[i];
+            }
+            energies.push(step * rz);
+            let recent = &energies[energies.len().saturating_sub(LOOK_BACK)..];
+            if (energies.len() >= LOOK_BACK || rz < 1e-6 * settled)
+                && recent.iter().sum::<f64>() < settled
+            {
+                break;
+            }
+            let next = dot(&r, &z);
+            for i in 0..count {
+                p[i] = z[i] + next / rz * p[i];
+            }
+            rz = next;
+        }
+        (x, energies.len())
+    }
+
+    /// Per degree, the share of the prior variance that the points leave: the mean of C_mm / v_l.
+    pub(crate) fn unlearnt(&self) -> Vec<f64> {
+        let diagonal = match &self.factor {
+            Some(factor) => inverse_diagonal(factor),
+            None => self.probed_diagonal(),
+        };
+        (0..self.degrees.len())
+            .map(|l| {
+                let own = &diagonal[l * l..(l + 1) * (l + 1)];
+                own.iter().sum::<f64>() / own.len() as f64
+            })
+            .collect()
+    }
+
+    /// Estimates of C_jj / v_j whose means are right: h'C h of random signs h over the roots of v.
+    fn probed_diagonal(&self) -> Vec<f64> {
+        let mut random = ChaCha8Rng::seed_from_u64(0);
+        let mut diagonal = vec![0.0; self.variances.len()];
+        for _ in 0..PROBES {
+            let probe: Vec<f64> = self
+                .variances
+                .iter()
+                .map(|v| if random.next_u32() & 1 == 0 { 1.0 } else { -1.0 } / v.sqrt())
+                .collect();
+            let (solution, _) = self.solve(&probe, None, SETTLED);
+            for ((diagonal, h), z) in diagonal.iter_mut().zip(&probe).zip(&solution) {
+                *diagonal += h * z / PROBES as f64;
+            }
+        }
+        diagonal
+    }
+}
+
+/// The diagonal of the inverse of a factored matrix.
+fn inverse_diagonal(factor: &Llt<f64>) -> Vec<f64> {
+    let l = factor.L();
+    let count = l.nrows();
+    let mut inverse = Mat::zeros(count, count);
+    invert_lower_triangular(inverse.as_mut(), l, Par::Seq);
+    (0..count)
+        .map(|j| inverse.col_as_slice(j)[j..].iter().map(|x| x * x).sum())
+        .collect()
+}

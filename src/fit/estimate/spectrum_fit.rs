@@ -1,0 +1,175 @@
+//! The most likely spectrum of a cloud and the mean of the coefficients under it, by rounds.
+//!
+//! A round conditions on a spectrum, sees what the points say of each degree, and takes a step towards the
+//! most likely spectrum. Of a cloud whose matrix is not factored, the first rounds take it as even
+//! (N_l = n / 4 pi); then random probes tell N_l.
+
+use super::likelihood::{Evidence, hyperprior};
+use super::newton::{Newton, Next, Place};
+use super::posterior::{Conditioned, Posterior, SETTLED as MEAN_SETTLED};
+use super::spectrum::Spectrum;
+use std::f64::consts::PI;
+
+/// Rounds at most; three to ten are usual.
+const MOST_ROUNDS: usize = 40;
+
+/// Conjugate-gradient steps of one mean beyond which a cloud had better be factored.
+pub(crate) const SLOW: usize = 400;
+
+/// A spectrum and the coefficients under it.
+#[derive(Debug, Clone)]
+pub(crate) struct SpectrumFit {
+    pub(crate) spectrum: Spectrum,
+    /// Mean of the coefficients, in units of the mean radius.
+    pub(crate) coefficients: Vec<f64>,
+    /// Per degree, the share of the prior variance that the points leave.
+    pub(crate) unlearnt: Vec<f64>,
+    /// Negative logarithm of the likelihood.
+    pub(crate) cost: f64,
+    /// Whether a solution took more than [`SLOW`] steps.
+    pub(crate) is_slow: bool,
+}
+
+/// How the number of measurements per degree is told where no matrix is factored.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Count {
+    /// n / 4 pi, as of an even cloud: enough to compare.
+    Even,
+    /// By probes.
+    Probed,
+}
+
+/// Finds the most likely spectrum from `start`.
+pub(crate) fn fit_spectrum(
+    posterior: &Posterior<'_>,
+    start: Spectrum,
+    coefficients: Option<Vec<f64>>,
+    count: Count,
+) -> SpectrumFit {
+    let mut spectrum = start;
+    let mut coefficients = coefficients;
+    let mut counted = match posterior.is_factored() {
+        true => count,
+        false => Count::Even,
+    };
+    let mut is_slow = false;
+    let mut newton: Option<Newton> = None;
+    let mut is_last = false;
+    for round in 1.. {
+        let given = posterior.given(&spectrum);
+        let (mean, steps) = given.mean(coefficients.as_deref(), MEAN_SETTLED);
+        is_slow |= steps > SLOW;
+        let Told {
+            evidence,
+            unlearnt,
+            gradient,
+        } = told(posterior, &given, &spectrum, &mean, counted);
+        let value = evidence.value(&spectrum).0;
+        let prior = hyperprior(posterior.cloud.len() as f64, &spectrum).0;
+        let cost = given.cost(&mean).map(|cost| cost + prior);
+        let place = Place {
+            spectrum,
+            cost,
+            gradient: gradient.into(),
+            proposal: evidence.most_likely(&spectrum),
+        };
+        let newton_ = newton.get_or_insert_with(|| Newton::new(evidence.curvature(&spectrum)));
+        let next = match is_last || round >= MOST_ROUNDS {
+            true => Next::Here,
+            false => newton_.next(place),
+        };
+        match next {
+            Next::Here if counted == count => {
+                return SpectrumFit {
+                    cost: cost.unwrap_or(value) - posterior.cloud.compression,
+                    spectrum,
+                    coefficients: mean,
+                    unlearnt,
+                    is_slow,
+                };
+            }
+            Next::Here => {
+                counted = count;
+                newton = None;
+            }
+            Next::Try(next) => spectrum = next,
+            Next::Back(best) => {
+                is_last = true;
+                spectrum = best;
+            }
+        }
+        coefficients = Some(mean);
+    }
+    unreachable!("rounds end")
+}
+
+/// What a round says of a spectrum.
+struct Told {
+    evidence: Evidence,
+    /// Per degree, the share of the prior variance that the points leave.
+    unlearnt: Vec<f64>,
+    /// Of the exact likelihood, as far as `unlearnt` is exact:
+    /// d/d log v_l = 1/2 sum_m (1 - x_lm^2 / v_l - C_mm / v_l), d/d log s = n - sum (1 - C_jj / v_j) - R / s^2.
+    gradient: [f64; 4],
+}
+
+/// Squared residuals of the unshrunk coefficients are at least this share of those of the shrunk ones.
+const LEAST_RESIDUALS: f64 = 1e-3;
+
+/// Shares that the points leave are kept within these bounds, whatever the probes say.
+const SHARES: [f64; 2] = [1e-15, 1.0 - 1e-9];
+
+fn told(
+    posterior: &Posterior<'_>,
+    given: &Conditioned<'_>,
+    spectrum: &Spectrum,
+    mean: &[f64],
+    count: Count,
+) -> Told {
+    let cloud = posterior.cloud;
+    let points = cloud.len() as f64;
+    let noise = spectrum.noise().powi(2);
+    let variances = spectrum.variances(posterior.degree());
+    let mut unlearnt = if posterior.is_factored() || count == Count::Probed {
+        given.unlearnt()
+    } else {
+        let even = points / (4.0 * PI);
+        variances
+            .iter()
+            .map(|v| noise / (even * v + noise))
+            .collect()
+    };
+    for share in &mut unlearnt {
+        *share = share.clamp(SHARES[0], SHARES[1]);
+    }
+    let residuals = posterior.residuals(mean);
+    let squares = residuals.iter().zip(&cloud.weights);
+    let squared: f64 = squares.map(|(e, w)| w * e * e).sum();
+    let mut left = squared;
+    let (_, mut gradient) = hyperprior(points, spectrum);
+    gradient[3] += points - squared / noise;
+    let mut degrees = Vec::with_capacity(variances.len());
+    for (l, (v, unlearnt)) in variances.iter().zip(&unlearnt).enumerate() {
+        let orders = (2 * l + 1) as f64;
+        let power: f64 = mean[l * l..(l + 1) * (l + 1)].iter().map(|x| x * x).sum();
+        let slope = 0.5 * (orders * (1.0 - unlearnt) - power / v);
+        for (gradient, by) in gradient.iter_mut().zip(spectrum.slopes(l)) {
+            *gradient += by * slope;
+        }
+        let learnt = 1.0 - unlearnt;
+        gradient[3] -= orders * learnt;
+        let measured = noise / v * (learnt / unlearnt);
+        let unshrunk = power / (learnt * learnt);
+        left -= measured * unshrunk * unlearnt * unlearnt;
+        degrees.push([measured, unshrunk]);
+    }
+    Told {
+        evidence: Evidence {
+            points,
+            degrees,
+            residuals: left.max(LEAST_RESIDUALS * squared),
+        },
+        unlearnt,
+        gradient,
+    }
+}
