@@ -6,3 +6,5 @@ mod files;
 mod grains;
 mod integrals;
 mod seams;
+mod stretched;
+mod whole;
