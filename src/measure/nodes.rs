@@ -30,7 +30,7 @@ impl Integrand {
     fn rings(self, degree: usize) -> usize {
         match self {
             Self::Radius => 40 + 3 * degree / 2,
-            Self::Curvature => 40 + 3 * degree,
+            Self::Curvature => 40 + 2 * degree,
         }
     }
 }

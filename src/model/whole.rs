@@ -21,8 +21,9 @@ pub struct Whole {
     degrees: Degrees,
 }
 
-/// Directions evaluated together.
-const LANES: usize = 8;
+/// Directions evaluated together: more than fit a register, for each step of the recurrence waits for the
+/// one before.
+const LANES: usize = 16;
 
 impl Whole {
     /// The largest degree of an expansion.

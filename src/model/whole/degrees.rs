@@ -82,11 +82,12 @@ impl Degrees {
                     for i in 0..N {
                         a[d][i] += cos * current[d][i];
                         b[d][i] += sin * current[d][i];
-                        let mut upwards = z[i] * current[d][i];
+                        // In an order that keeps short what the next step waits for.
+                        let mut rest = back * below[d][i];
                         if d > 0 {
-                            upwards += d as f64 * current[d - 1][i];
+                            rest -= up * d as f64 * current[d - 1][i];
                         }
-                        next[d][i] = up * upwards - back * below[d][i];
+                        next[d][i] = up * z[i] * current[d][i] - rest;
                     }
                 }
                 (below, current) = (current, next);
