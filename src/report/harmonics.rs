@@ -76,10 +76,9 @@ fn stretching(stretch: &Stretch) -> String {
         return String::new();
     }
     format!(
-        "# this is the radius of the grain stretched along its own axes by t = {}: in a direction n of the \
-         grain,\n\
-         #   take q = (t_x n_x, t_y n_y, t_z n_z), find r as said here with q / |q| in the place of n, \
-         and divide it by |q|\n",
+        "# r is the radius of the grain stretched along its own axes, by t = {}\n\
+         #   that of the grain itself in a direction n: with q = (t_x n_x, t_y n_y, t_z n_z), find r as \
+         said here for the direction q / |q|, and divide it by |q|\n",
         row((*stretch.factors()).into()),
     )
 }
