@@ -52,7 +52,7 @@ fn derivatives_are_those_of_the_radius() {
 fn slope(degree: usize, f: impl Fn(f64) -> f64) -> f64 {
     let term = |j: usize| {
         let t = (2 * j - 1) as f64 * PI / (2 * degree) as f64;
-        let sign = if j % 2 == 0 { -1.0 } else { 1.0 };
+        let sign = if j.is_multiple_of(2) { -1.0 } else { 1.0 };
         sign * f(t) / ((4 * degree) as f64 * (0.5 * t).sin().powi(2))
     };
     (1..=2 * degree).map(term).sum()
