@@ -136,7 +136,7 @@ fn unsound_models_are_refused() {
     let text = save_grain(&grain(1, 2));
     assert!(parse_grain("{}").is_err());
     assert!(parse_grain("solid grain").is_err());
-    assert!(parse_grain(&text.replace("\"version\": 2", "\"version\": 3")).is_err());
+    assert!(parse_grain(&text.replace("\"version\": 3", "\"version\": 4")).is_err());
     assert!(parse_grain(&text.replace("grainform model", "other model")).is_err());
     assert!(
         parse_grain(&text.replace("\"parts_per_angle\": 2", "\"parts_per_angle\": 3")).is_err()

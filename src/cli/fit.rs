@@ -75,8 +75,6 @@ fn write_files(args: &FitArgs, grain: &Grain) -> Result<Option<f64>> {
         return Ok(None);
     };
     let published = grain.published();
-    write_atomically(path, |file| {
-        Ok(write_harmonics(grain.frame(), &published, file)?)
-    })?;
+    write_atomically(path, |file| Ok(write_harmonics(grain, &published, file)?))?;
     Ok(Some(largest_loss(&published)))
 }

@@ -7,7 +7,7 @@
 //! tolerance, so the errors add up to at most the tolerance; else it is cut in four.
 
 use super::{MassProperties, Moments};
-use crate::model::StarSurface;
+use crate::model::{Ray, StarSurface, Stretch};
 use crate::sphere::{AngleRectangle, GaussLegendre};
 use nalgebra::{Point3, Vector3};
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -39,7 +39,16 @@ pub struct Integrals {
 /// Rounding limits what can be reached to some 1e-14. A surface that is not smooth costs more and
 /// may end above the tolerance; the result says so.
 pub fn integrate(surface: &(impl StarSurface + ?Sized), tolerance: f64) -> Integrals {
-    integrate_pieces(octants(), ORDERS, tolerance, |_, directions| {
+    integrate_octants(surface, &Stretch::NONE, tolerance)
+}
+
+/// The same of the body that is this one once stretched.
+pub(super) fn integrate_octants(
+    surface: &(impl StarSurface + ?Sized),
+    stretch: &Stretch,
+    tolerance: f64,
+) -> Integrals {
+    integrate_pieces(octants(), stretch, ORDERS, tolerance, |_, directions| {
         directions
             .iter()
             .map(|n| surface.radius_and_gradient(n))
@@ -85,10 +94,12 @@ impl Piece for AngleRectangle {
 }
 
 /// Integrates a surface over pieces that tile the sphere, with Gauss rules of the given two orders; as
-/// [`integrate`]. `evaluate` gives radius and surface gradient in many directions at once: as many,
+/// [`integrate`]. Pieces and evaluations are those of the surface once stretched, integrals those of the
+/// surface itself. `evaluate` gives radius and surface gradient in many directions at once: as many,
 /// piece by piece, for each of the pieces given to it.
 pub(crate) fn integrate_pieces<P: Piece>(
     pieces: Vec<P>,
+    stretch: &Stretch,
     orders: [usize; 2],
     tolerance: f64,
     evaluate: impl Fn(&[P], &[Vector3<f64>]) -> Vec<(f64, Vector3<f64>)>,
@@ -102,7 +113,7 @@ pub(crate) fn integrate_pieces<P: Piece>(
     let mut generation = pieces;
     while !generation.is_empty() {
         evaluations += generation.len() * per_piece;
-        let sums = sums(&generation, &rules, &evaluate);
+        let sums = sums(&generation, stretch, &rules, &evaluate);
         let scale = scale.get_or_insert_with(|| {
             let all = |all, [sums, _]: &[Sums; 2]| all + *sums;
             sums.iter().fold(Sums::default(), all)
@@ -121,17 +132,13 @@ pub(crate) fn integrate_pieces<P: Piece>(
         }
         generation = next;
     }
-    Integrals {
-        properties: total.moments.about_centroid(&Point3::origin()),
-        mean_radius: total.radius / (4.0 * PI),
-        relative_error,
-        evaluations,
-    }
+    total.integrals(relative_error, evaluations)
 }
 
 /// The integrals over each piece by both rules.
 fn sums<P: Piece>(
     pieces: &[P],
+    stretch: &Stretch,
     rules: &[GaussLegendre; 2],
     evaluate: impl Fn(&[P], &[Vector3<f64>]) -> Vec<(f64, Vector3<f64>)>,
 ) -> Vec<[Sums; 2]> {
@@ -153,8 +160,12 @@ fn sums<P: Piece>(
             orders.map(|order| {
                 let mut sums = Sums::default();
                 for ((n, solid_angle), (r, g)) in nodes.by_ref().take(order * order) {
-                    sums.radius += r * solid_angle;
-                    sums.moments.add_ray(n, r, &g, solid_angle);
+                    sums.add_ray(&stretch.ray(Ray {
+                        direction: *n,
+                        solid_angle,
+                        radius: r,
+                        gradient: g,
+                    }));
                 }
                 sums
             })
@@ -164,15 +175,35 @@ fn sums<P: Piece>(
 
 /// The integrals over a part of the sphere.
 #[derive(Clone, Copy, Default)]
-struct Sums {
+pub(super) struct Sums {
     /// ∫ r dΩ.
     radius: f64,
     moments: Moments,
 }
 
 impl Sums {
+    /// Adds one node of a quadrature.
+    pub(super) fn add_ray(&mut self, ray: &Ray) {
+        self.radius += ray.radius * ray.solid_angle;
+        let Ray {
+            direction, radius, ..
+        } = ray;
+        self.moments
+            .add_ray(direction, *radius, &ray.gradient, ray.solid_angle);
+    }
+
+    /// What they make over all directions.
+    pub(super) fn integrals(&self, relative_error: f64, evaluations: usize) -> Integrals {
+        Integrals {
+            properties: self.moments.about_centroid(&Point3::origin()),
+            mean_radius: self.radius / (4.0 * PI),
+            relative_error,
+            evaluations,
+        }
+    }
+
     /// Largest difference to `other`, relative to `scale`; NaN when any difference is.
-    fn difference(&self, other: &Self, scale: &Self) -> f64 {
+    pub(super) fn difference(&self, other: &Self, scale: &Self) -> f64 {
         let length = scale.radius / (4.0 * PI);
         let volume = scale.moments.volume;
         let difference = self.moments - other.moments;

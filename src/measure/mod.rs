@@ -24,6 +24,7 @@ mod minimum_box;
 mod nodes;
 mod outline;
 mod projection;
+mod rings;
 mod roundness;
 mod spectrum;
 mod sphericity;

@@ -2,6 +2,7 @@
 
 use super::grain::{BLENDED_ORDERS, segment_parts};
 use super::integrals::{ORDERS, Piece, octants};
+use super::rings::ring_nodes;
 use crate::model::{Grain, Surface};
 use crate::sphere::GaussLegendre;
 use nalgebra::Vector3;
@@ -24,9 +25,18 @@ impl Integrand {
             Self::Curvature => 1,
         }
     }
+
+    /// Rings of nodes for an expansion of the whole sphere.
+    fn rings(self, degree: usize) -> usize {
+        match self {
+            Self::Radius => 40 + 3 * degree / 2,
+            Self::Curvature => 40 + 2 * degree,
+        }
+    }
 }
 
-/// Nodes for a grain, in the scan's frame: on the pieces in which its surface is smooth.
+/// Nodes for a grain, in the scan's frame: on the pieces in which its surface is smooth, those of the
+/// stretched space.
 pub(super) fn grain_nodes(grain: &Grain, integrand: Integrand) -> Vec<(Vector3<f64>, f64)> {
     let axes = grain.frame().axes;
     let cuts = integrand.cuts();
@@ -38,8 +48,11 @@ pub(super) fn grain_nodes(grain: &Grain, integrand: Integrand) -> Vec<(Vector3<f
         }
         Surface::Segmented(surface) => nodes(segment_parts(surface), 1 + cuts, ORDERS[0]),
         Surface::Mirrored(_) => octant_nodes(integrand),
+        Surface::Whole(surface) => ring_nodes(integrand.rings(surface.degree())),
     };
-    let turned = local.into_iter().map(|(n, weight)| (axes * n, weight));
+    let stretch = grain.stretch();
+    let plain = local.into_iter().map(|node| stretch.node(node));
+    let turned = plain.map(|(n, weight)| (axes * n, weight));
     turned.collect()
 }
 

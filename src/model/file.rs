@@ -1,15 +1,17 @@
 //! A grain as JSON: versioned, exact to the last bit, and refused where it is not sound.
 //!
-//! Version 2 holds one of `cells` (blended), `segments` (independent) and `symmetry` (mirrored).
-//! Version 1, which knew segments only, is still read.
+//! Version 3 holds one of `cells` (blended), `segments` (independent), `symmetry` (mirrored) and
+//! `harmonics` (the whole sphere), of the grain stretched along its axes by `stretch`, if that is there.
+//! Version 2, which knew neither `harmonics` nor `stretch`, and version 1, which knew segments only, are
+//! still read.
 
-use super::{Blended, Frame, Grain, InvalidGrain, Mirrored, Segmented, Surface};
+use super::{Blended, Frame, Grain, InvalidGrain, Mirrored, Segmented, Stretch, Surface, Whole};
 use crate::sphere::{AngularPartition, Cover, CoverError, CubeCell, Symmetry};
 use nalgebra::{Matrix3, Point3, Vector3};
 use serde::{Deserialize, Serialize};
 
 /// The version of the file format that this library writes.
-const VERSION: u32 = 2;
+const VERSION: u32 = 3;
 
 /// The text that tells a model file from any other JSON.
 const FORMAT: &str = "grainform model";
@@ -27,6 +29,10 @@ struct GrainFile {
     centre: [f64; 3],
     /// The grain's x, y and z axes in the scan.
     axes: [[f64; 3]; 3],
+    /// The factors along the grain's axes by which it is stretched before its radius is taken; 1, 1, 1 if
+    /// absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    stretch: Option<[f64; 3]>,
     /// Overlapping cells of the faces of a cube, blended.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     cells: Option<Vec<CellRecord>>,
@@ -42,6 +48,9 @@ struct GrainFile {
     /// Of the mirrored expansion: coefficients of the cap basis by degree.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     coefficients: Option<Vec<f64>>,
+    /// Of the whole sphere: a_l^m of the real orthonormal harmonics at index l(l+1) + m.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    harmonics: Option<Vec<f64>>,
 }
 
 /// A cell, numbered as in [`CubeCell`], and the coefficients of its cap basis by degree.
@@ -85,7 +94,7 @@ pub enum LoadError {
     /// No surface, or several.
     #[error(
         "the model is not sound: it must hold either `cells`, or `parts_per_angle` and `segments`, \
-         or `symmetry` and `coefficients`"
+         or `symmetry` and `coefficients`, or `harmonics`"
     )]
     Surface,
     /// The cells do not tile the sphere.
@@ -99,16 +108,19 @@ pub enum LoadError {
 /// The JSON text of a grain.
 pub fn save_grain(grain: &Grain) -> String {
     let Frame { centre, axes } = grain.frame();
+    let stretch = grain.stretch();
     let mut file = GrainFile {
         format: FORMAT.into(),
         version: VERSION,
         centre: centre.coords.into(),
         axes: [0, 1, 2].map(|i| axes.column(i).into_owned().into()),
+        stretch: (!stretch.is_none()).then(|| (*stretch.factors()).into()),
         cells: None,
         parts_per_angle: None,
         segments: None,
         symmetry: None,
         coefficients: None,
+        harmonics: None,
     };
     match grain.surface() {
         Surface::Blended(surface) => {
@@ -130,6 +142,7 @@ pub fn save_grain(grain: &Grain) -> String {
             file.symmetry = Some(surface.symmetry());
             file.coefficients = Some(surface.coefficients().to_vec());
         }
+        Surface::Whole(surface) => file.harmonics = Some(surface.coefficients().to_vec()),
     }
     serde_json::to_string_pretty(&file).expect("a record of numbers and strings is valid JSON")
 }
@@ -150,8 +163,8 @@ pub fn parse_grain(text: &str) -> Result<Grain, LoadError> {
     }
     let independent = (file.parts_per_angle, file.segments);
     let mirrored = (file.symmetry, file.coefficients);
-    let surface = match (file.cells, independent, mirrored) {
-        (Some(cells), (None, None), (None, None)) => {
+    let surface = match (file.cells, independent, mirrored, file.harmonics) {
+        (Some(cells), (None, None), (None, None), None) => {
             let place = |record: CellRecord| {
                 let cell = CubeCell {
                     face: record.face,
@@ -164,14 +177,17 @@ pub fn parse_grain(text: &str) -> Result<Grain, LoadError> {
             let (cells, coefficients) = cells.into_iter().map(place).unzip();
             Surface::Blended(Blended::new(Cover::new(cells)?, coefficients)?)
         }
-        (None, (Some(found), Some(segments)), (None, None)) => {
+        (None, (Some(found), Some(segments)), (None, None), None) => {
             if found > LARGEST_PARTITION {
                 return Err(LoadError::Partition { found });
             }
             Surface::Segmented(Segmented::new(AngularPartition::new(found), segments)?)
         }
-        (None, (None, None), (Some(symmetry), Some(coefficients))) => {
+        (None, (None, None), (Some(symmetry), Some(coefficients)), None) => {
             Surface::Mirrored(Mirrored::new(symmetry, coefficients)?)
+        }
+        (None, (None, None), (None, None), Some(harmonics)) => {
+            Surface::Whole(Whole::new(harmonics)?)
         }
         _ => return Err(LoadError::Surface),
     };
@@ -179,5 +195,9 @@ pub fn parse_grain(text: &str) -> Result<Grain, LoadError> {
         centre: Point3::from(file.centre),
         axes: Matrix3::from_columns(&file.axes.map(Vector3::from)),
     };
-    Ok(Grain::new(frame, surface)?)
+    let stretch = match file.stretch {
+        Some(factors) => Stretch::new(factors.into())?,
+        None => Stretch::NONE,
+    };
+    Ok(Grain::stretched(frame, stretch, surface)?)
 }

@@ -1,15 +1,17 @@
 //! The fitted grain: a star-shaped surface and where it lies in the scan.
 
-use super::{Blended, Derivatives, Frame, Mirrored, Segmented, StarSurface};
+use super::{Blended, Derivatives, Frame, Mirrored, Segmented, StarSurface, Stretch, Whole};
 use nalgebra::{Matrix3, Point3, Vector3};
 use rayon::prelude::*;
 
-/// A star-shaped surface whose radius is made of expansions in spherical harmonics of low degree.
+/// A star-shaped surface whose radius is made of expansions in spherical harmonics.
 ///
-/// Directions and positions are those of the scan. The radius is measured from [`Frame::centre`].
+/// Directions and positions are those of the scan. The radius is measured from [`Frame::centre`]. The
+/// expansions are those of the grain stretched along its own axes, see [`Grain::stretched`].
 #[derive(Debug, Clone)]
 pub struct Grain {
     frame: Frame,
+    stretch: Stretch,
     surface: Surface,
 }
 
@@ -23,6 +25,8 @@ pub enum Surface {
     Segmented(Segmented),
     /// One expansion and its mirror images: continuous, with edges on the mirror planes.
     Mirrored(Mirrored),
+    /// One expansion of the whole sphere: smooth.
+    Whole(Whole),
 }
 
 impl Surface {
@@ -49,6 +53,61 @@ impl Surface {
             _ => None,
         }
     }
+
+    /// The expansion of the whole sphere, if it is one.
+    pub fn whole(&self) -> Option<&Whole> {
+        match self {
+            Self::Whole(surface) => Some(surface),
+            _ => None,
+        }
+    }
+
+    /// Radius in a direction of the stretched space.
+    fn radius(&self, n: &Vector3<f64>) -> f64 {
+        match self {
+            Self::Blended(surface) => surface.radius(n),
+            Self::Segmented(surface) => surface.radius(n),
+            Self::Mirrored(surface) => surface.radius(n),
+            Self::Whole(surface) => surface.radius(n),
+        }
+    }
+
+    /// Radius and surface gradient, likewise.
+    fn radius_and_gradient(&self, n: &Vector3<f64>) -> (f64, Vector3<f64>) {
+        match self {
+            Self::Blended(surface) => surface.radius_and_gradient(n),
+            Self::Segmented(surface) => surface.radius_and_gradient(n),
+            Self::Mirrored(surface) => surface.radius_and_gradient(n),
+            Self::Whole(surface) => surface.radius_and_gradient(n),
+        }
+    }
+
+    /// Radius and its derivatives on the sphere, likewise.
+    fn derivatives(&self, n: &Vector3<f64>) -> Derivatives {
+        let jet = match self {
+            Self::Blended(surface) => surface.jet(n),
+            Self::Segmented(surface) => surface.jet(n),
+            Self::Mirrored(surface) => surface.jet(n),
+            Self::Whole(surface) => surface.jet(n),
+        };
+        Derivatives::on_sphere(n, &jet)
+    }
+
+    /// Radii in many directions, likewise.
+    fn radii(&self, directions: &[Vector3<f64>]) -> Vec<f64> {
+        match self {
+            Self::Blended(surface) => surface
+                .radii_and_gradients(directions)
+                .into_iter()
+                .map(|(radius, _)| radius)
+                .collect(),
+            Self::Whole(surface) => surface.radii(directions),
+            Self::Segmented(_) | Self::Mirrored(_) => {
+                let tasks = directions.par_iter().with_min_len(1024);
+                tasks.map(|n| self.radius(n)).collect()
+            }
+        }
+    }
 }
 
 /// Why parts do not make a grain.
@@ -71,6 +130,20 @@ pub enum InvalidGrain {
         /// Coefficients given.
         found: usize,
     },
+    /// An expansion of the whole sphere is of too high a degree.
+    #[error("degree {found}; at most {} is allowed", Whole::MAX_DEGREE)]
+    Degree {
+        /// The degree of the coefficients given.
+        found: usize,
+    },
+    /// Factors that are no stretch.
+    #[error(
+        "a stretch by {factors:?}: its factors must be above zero and within 1e6 of each other"
+    )]
+    Stretch {
+        /// The factors given.
+        factors: [f64; 3],
+    },
     /// A number is not finite.
     #[error("{what} is not finite")]
     NotFinite {
@@ -86,11 +159,25 @@ pub enum InvalidGrain {
 const AXES_TOLERANCE: f64 = 1e-9;
 
 impl Grain {
-    /// A grain from its parts.
+    /// A grain from its parts, not stretched.
     ///
     /// # Errors
     /// [`InvalidGrain`] if the frame is not orthonormal or not finite.
     pub fn new(frame: Frame, surface: Surface) -> Result<Self, InvalidGrain> {
+        Self::stretched(frame, Stretch::NONE, surface)
+    }
+
+    /// A grain whose `surface` is that of the grain stretched along the axes of the frame: with
+    /// T = diag of the factors and r' the radius of the surface, r(n) = r'(T n / |T n|) / |T n| for a
+    /// unit vector n of the frame.
+    ///
+    /// # Errors
+    /// [`InvalidGrain`] if the frame is not orthonormal or not finite.
+    pub fn stretched(
+        frame: Frame,
+        stretch: Stretch,
+        surface: Surface,
+    ) -> Result<Self, InvalidGrain> {
         if !frame.centre.iter().all(|x| x.is_finite()) {
             return Err(InvalidGrain::NotFinite {
                 what: "the centre".into(),
@@ -101,7 +188,11 @@ impl Grain {
         if !(deviation.amax() < AXES_TOLERANCE && frame.axes.determinant() > 0.0) {
             return Err(InvalidGrain::Axes);
         }
-        Ok(Self { frame, surface })
+        Ok(Self {
+            frame,
+            stretch,
+            surface,
+        })
     }
 
     /// Centre and axes in the scan.
@@ -109,17 +200,24 @@ impl Grain {
         &self.frame
     }
 
-    /// The surface, in the grain's own frame.
+    /// The stretch along the axes of the frame after which the grain is the [surface](Self::surface).
+    pub fn stretch(&self) -> &Stretch {
+        &self.stretch
+    }
+
+    /// The surface, in the grain's own frame, of the [stretched](Self::stretch) grain.
     pub fn surface(&self) -> &Surface {
         &self.surface
     }
 
-    /// Cap-basis coefficients per segment: (L+1)^2 numbers in the scan's unit.
+    /// Coefficients per segment: (L+1)^2 numbers in the scan's unit. Of the whole sphere those of the
+    /// harmonics, else of the cap basis.
     pub fn coefficients(&self) -> &[Vec<f64>] {
         match &self.surface {
             Surface::Blended(surface) => surface.coefficients(),
             Surface::Segmented(surface) => surface.coefficients(),
             Surface::Mirrored(surface) => std::slice::from_ref(&surface.coefficients),
+            Surface::Whole(surface) => std::slice::from_ref(&surface.coefficients),
         }
     }
 
@@ -134,6 +232,7 @@ impl Grain {
             Surface::Blended(surface) => surface.degree(),
             Surface::Segmented(surface) => surface.degree(),
             Surface::Mirrored(surface) => surface.degree(),
+            Surface::Whole(surface) => surface.degree(),
         }
     }
 
@@ -155,6 +254,7 @@ impl Grain {
                     / (4.0 * std::f64::consts::PI)
             }
             Surface::Mirrored(surface) => surface.coefficients().len() as f64,
+            Surface::Whole(surface) => surface.coefficients().len() as f64,
         }
     }
 
@@ -179,26 +279,13 @@ impl Grain {
 
     /// Radii in many directions of the grain's own frame.
     pub(crate) fn local_radii(&self, directions: &[Vector3<f64>]) -> Vec<f64> {
-        match &self.surface {
-            Surface::Blended(surface) => surface
-                .radii_and_gradients(directions)
-                .into_iter()
-                .map(|(radius, _)| radius)
-                .collect(),
-            Surface::Segmented(_) | Surface::Mirrored(_) => {
-                let tasks = directions.par_iter().with_min_len(1024);
-                tasks.map(|n| self.local_radius(n)).collect()
-            }
+        if self.stretch.is_none() {
+            return self.surface.radii(directions);
         }
-    }
-
-    /// Radius in a direction of the grain's own frame.
-    fn local_radius(&self, n: &Vector3<f64>) -> f64 {
-        match &self.surface {
-            Surface::Blended(surface) => surface.radius(n),
-            Surface::Segmented(surface) => surface.radius(n),
-            Surface::Mirrored(surface) => surface.radius(n),
-        }
+        let mapped = directions.par_iter().map(|n| self.stretch.direction(n));
+        let (mapped, lengths): (Vec<_>, Vec<_>) = mapped.unzip();
+        let radii = self.surface.radii(&mapped).into_iter().zip(lengths);
+        radii.map(|(radius, length)| radius / length).collect()
     }
 }
 
@@ -221,25 +308,23 @@ pub(super) fn check_expansion(segment: usize, coefficients: &[f64]) -> Result<us
 
 impl StarSurface for Grain {
     fn radius(&self, n: &Vector3<f64>) -> f64 {
-        self.local_radius(&self.frame.axes.tr_mul(n))
+        let local = self.frame.axes.tr_mul(n);
+        self.stretch.radius(&local, |q| self.surface.radius(q))
     }
 
     fn radius_and_gradient(&self, n: &Vector3<f64>) -> (f64, Vector3<f64>) {
         let local = self.frame.axes.tr_mul(n);
-        let (radius, gradient) = match &self.surface {
-            Surface::Blended(surface) => surface.radius_and_gradient(&local),
-            Surface::Segmented(surface) => surface.radius_and_gradient(&local),
-            Surface::Mirrored(surface) => surface.radius_and_gradient(&local),
-        };
+        let (radius, gradient) = self
+            .stretch
+            .radius_and_gradient(&local, |q| self.surface.radius_and_gradient(q));
         (radius, self.frame.axes * gradient)
     }
+
     fn derivatives(&self, n: &Vector3<f64>) -> Derivatives {
         let local = self.frame.axes.tr_mul(n);
-        let jet = match &self.surface {
-            Surface::Blended(surface) => surface.jet(&local),
-            Surface::Segmented(surface) => surface.jet(&local),
-            Surface::Mirrored(surface) => surface.jet(&local),
-        };
-        Derivatives::on_sphere(&local, &jet).turned(&self.frame.axes)
+        let derivatives = self
+            .stretch
+            .derivatives(&local, |q| self.surface.derivatives(q));
+        derivatives.turned(&self.frame.axes)
     }
 }

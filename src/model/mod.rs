@@ -9,7 +9,9 @@ mod mirrored;
 mod published;
 mod seams;
 mod segmented;
+mod stretch;
 mod surface;
+mod whole;
 
 pub use blended::Blended;
 pub use file::{LoadError, parse_grain, save_grain};
@@ -18,4 +20,7 @@ pub use grain::{Grain, InvalidGrain, Surface};
 pub use mirrored::Mirrored;
 pub use published::{PublishedExpansion, Region};
 pub use segmented::Segmented;
+pub(crate) use stretch::Ray;
+pub use stretch::Stretch;
 pub use surface::{Derivatives, StarSurface};
+pub use whole::Whole;

@@ -2,8 +2,8 @@
 
 use super::{Grain, Surface};
 use crate::sphere::{
-    AngleRectangle, Cap, CapBasis, CubeCell, GaussLegendre, HarmonicBasis, Symmetry,
-    coefficient_count,
+    AngleRectangle, AngularPartition, Cap, CapBasis, CubeCell, GaussLegendre, HarmonicBasis,
+    Symmetry, coefficient_count,
 };
 use nalgebra::Vector3;
 use std::f64::consts::TAU;
@@ -11,7 +11,8 @@ use std::f64::consts::TAU;
 /// An expansion r = sum of a_l^m Y_l^m in the real orthonormal harmonics.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PublishedExpansion {
-    /// Where it holds, in the grain's own frame.
+    /// Where it holds, in the grain's own frame; of a grain that is [stretched](Grain::stretched), in
+    /// the directions of the stretched space.
     pub region: Region,
     /// a_l^m at index l(l+1) + m, in the scan's unit, with respect to the grain's own axes.
     pub coefficients: Vec<f64>,
@@ -25,7 +26,7 @@ pub struct PublishedExpansion {
 /// Where an expansion holds.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Region {
-    /// A segment of the angle domain, alone.
+    /// A segment of the angle domain, alone; or all of it.
     Rectangle(AngleRectangle),
     /// A cell of a cube's face and its margin, blended with its neighbours.
     Cell(CubeCell),
@@ -46,29 +47,33 @@ impl Region {
 impl Grain {
     /// The published coefficients of every segment. Exact but for rounding: the cap basis spans the
     /// same functions, which are continued over the whole sphere and projected there by a product
-    /// rule that is exact for their degree.
+    /// rule that is exact for their degree. Those of the whole sphere are the model's own.
     pub fn published(&self) -> Vec<PublishedExpansion> {
-        let basis = CapBasis::new(self.degree());
         let place = |segment: usize| match self.surface() {
             Surface::Blended(surface) => {
                 let cell = surface.cover().cells()[segment];
-                (Region::Cell(cell), *surface.cover().cap(segment))
+                Some((Region::Cell(cell), *surface.cover().cap(segment)))
             }
             Surface::Segmented(surface) => {
                 let rectangle = surface.partition().rectangle(segment);
-                (Region::Rectangle(rectangle), rectangle.cap())
+                Some((Region::Rectangle(rectangle), rectangle.cap()))
             }
             Surface::Mirrored(surface) => {
                 let symmetry = surface.symmetry();
-                (Region::Mirrored(symmetry), symmetry.cap())
+                Some((Region::Mirrored(symmetry), symmetry.cap()))
             }
+            Surface::Whole(_) => None,
         };
-        self.coefficients()
-            .iter()
-            .enumerate()
-            .map(|(segment, own)| {
-                let (region, cap) = place(segment);
-                publish(&basis, &cap, own, region)
+        let basis = CapBasis::new(self.degree());
+        let expansions = self.coefficients().iter().enumerate();
+        expansions
+            .map(|(segment, own)| match place(segment) {
+                Some((region, cap)) => publish(&basis, &cap, own, region),
+                None => PublishedExpansion {
+                    region: Region::Rectangle(AngularPartition::new(1).rectangle(0)),
+                    coefficients: own.clone(),
+                    loss: 0.0,
+                },
             })
             .collect()
     }

@@ -1,6 +1,6 @@
 //! How far independent expansions are apart where their segments meet.
 
-use super::{Grain, Segmented, Surface};
+use super::{Grain, Segmented, Stretch, Surface};
 use nalgebra::Vector3;
 
 /// Places looked at along the border of two segments.
@@ -9,23 +9,23 @@ const PLACES: usize = 9;
 impl Grain {
     /// The largest jump of the radius across a border of two segments, or between the segments that
     /// meet at a pole, in the scan's unit. Looked for at 9 places per border; 0 where the expansions
-    /// are blended or mirrored.
+    /// are blended or mirrored, or there is but one.
     pub fn seam_jump(&self) -> f64 {
         match self.surface() {
-            Surface::Blended(_) | Surface::Mirrored(_) => 0.0,
-            Surface::Segmented(surface) => surface.seam_jump(),
+            Surface::Blended(_) | Surface::Mirrored(_) | Surface::Whole(_) => 0.0,
+            Surface::Segmented(surface) => surface.seam_jump(self.stretch()),
         }
     }
 }
 
 impl Segmented {
-    fn seam_jump(&self) -> f64 {
+    fn seam_jump(&self, stretch: &Stretch) -> f64 {
         let partition = self.partition();
         let k = partition.per_angle();
         let mut largest = 0.0_f64;
         let mut compare = |a: usize, b: usize, n: &Vector3<f64>| {
             let jump = (self.segment_radius(a, n) - self.segment_radius(b, n)).abs();
-            largest = largest.max(jump);
+            largest = largest.max(jump * stretch.back(n).1);
         };
         for segment in 0..partition.segments() {
             let rectangle = partition.rectangle(segment);

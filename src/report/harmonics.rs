@@ -1,6 +1,6 @@
 //! The published coefficients a_l^m as CSV.
 
-use crate::model::{Frame, PublishedExpansion, Region};
+use crate::model::{Grain, PublishedExpansion, Region, Stretch};
 use crate::sphere::{AngleRectangle, MARGIN, Symmetry};
 use std::io::{self, Write};
 
@@ -9,17 +9,17 @@ pub fn largest_loss(segments: &[PublishedExpansion]) -> f64 {
     segments.iter().fold(0.0, |most, s| most.max(s.loss))
 }
 
-/// Writes what [`Grain::published`](crate::Grain::published) gave as CSV, a row per coefficient. Lines
-/// at the head, marked with `#`, say by which conventions to read it.
+/// Writes what [`Grain::published`] gave as CSV, a row per coefficient. Lines at the head, marked with
+/// `#`, say by which conventions to read it.
 ///
 /// # Errors
 /// Those of the writer.
 pub fn write_harmonics(
-    frame: &Frame,
+    grain: &Grain,
     segments: &[PublishedExpansion],
     writer: &mut impl Write,
 ) -> io::Result<()> {
-    let row = |v: [f64; 3]| v.map(|x| x.to_string()).join(" ");
+    let frame = grain.frame();
     let [x, y, z] = [0, 1, 2].map(|i| row(frame.axes.column(i).into_owned().into()));
     let angles = "theta_min,theta_max,phi_min,phi_max";
     let (how, columns) = match segments.first().map(|s| s.region) {
@@ -34,6 +34,7 @@ pub fn write_harmonics(
          #   m > 0: sqrt(2) N P_l^m(cos theta) cos(m phi), m < 0: sqrt(2) N P_l^|m|(cos theta) \
          sin(|m| phi)\n\
          # theta from the grain's z axis, phi from its x axis towards its y axis, in radians\n\
+         {}\
          # centre of the grain in the scan: {}\n\
          # x axis of the grain in the scan: {x}\n\
          # y axis of the grain in the scan: {y}\n\
@@ -41,6 +42,7 @@ pub fn write_harmonics(
          # a and the centre are in the scan's unit\n\
          # largest loss of the conversion: {:e} in the scan's unit\n\
          segment,{columns},l,m,a\n",
+        stretching(grain.stretch()),
         row(frame.centre.coords.into()),
         largest_loss(segments),
     )?;
@@ -59,9 +61,26 @@ pub fn write_harmonics(
     Ok(())
 }
 
+fn row(v: [f64; 3]) -> String {
+    v.map(|x| x.to_string()).join(" ")
+}
+
 fn bounds(rectangle: &AngleRectangle) -> String {
     let AngleRectangle { theta, phi } = rectangle;
     format!("{},{},{},{}", theta[0], theta[1], phi[0], phi[1])
+}
+
+/// How to read radii of the stretched space; nothing without a stretch.
+fn stretching(stretch: &Stretch) -> String {
+    if stretch.is_none() {
+        return String::new();
+    }
+    format!(
+        "# r is the radius of the grain stretched along its own axes, by t = {}\n\
+         #   that of the grain itself in a direction n: with q = (t_x n_x, t_y n_y, t_z n_z), find r as \
+         said here for the direction q / |q|, and divide it by |q|\n",
+        row((*stretch.factors()).into()),
+    )
 }
 
 /// How the expansion of a part of the sphere makes a radius.

@@ -19,7 +19,7 @@ fn sphere() -> Grain {
 
 /// Checks the derivatives in a direction of the scan, by differences over a small angle, of which
 /// those of second order may be off by `bound` radii.
-fn check(grain: &Grain, n: &Vector3<f64>, bound: f64) {
+pub(crate) fn check(grain: &Grain, n: &Vector3<f64>, bound: f64) {
     let found = grain.derivatives(n);
     let (radius, gradient) = grain.radius_and_gradient(n);
     assert!((found.radius - radius).abs() < 1e-14 * RADIUS);

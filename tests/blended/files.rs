@@ -1,9 +1,10 @@
 //! Blended grains as JSON.
 
-use crate::grains::{all, blended, plain, ragged, segmented, turned};
-use grainform::model::{LoadError, parse_grain, save_grain};
+use crate::grains::{all, blended, plain, ragged, segmented, turned, whole};
+use grainform::model::{LoadError, Stretch, parse_grain, save_grain};
 use grainform::sphere::CubeCell;
 use grainform::{Grain, StarSurface};
+use nalgebra::Vector3;
 use serde_json::{Value, json};
 
 fn cells(grain: &Grain) -> Option<&[CubeCell]> {
@@ -14,19 +15,26 @@ fn cells(grain: &Grain) -> Option<&[CubeCell]> {
 }
 
 #[test]
-fn grains_of_both_kinds_are_the_same_to_the_last_bit_once_saved() {
+fn grains_of_all_kinds_are_the_same_to_the_last_bit_once_saved() {
     let mut grains = all(turned());
     grains.push(segmented(1, turned()));
     grains.push(segmented(4, turned()));
+    grains.push(whole(17, turned()));
+    let factors = Stretch::new(Vector3::new(0.1 + 0.2, 1.0, 1.0 / 3.0)).expect("factors");
+    for grain in grains.clone() {
+        let stretched = Grain::stretched(*grain.frame(), factors, grain.surface().clone());
+        grains.push(stretched.expect("a frame"));
+    }
     for grain in grains {
         let text = save_grain(&grain);
-        assert!(text.contains("\"version\": 2"));
+        assert!(text.contains("\"version\": 3"));
         let loaded = parse_grain(&text).expect("a model");
         assert_eq!(loaded.frame(), grain.frame());
+        assert_eq!(loaded.stretch(), grain.stretch());
         assert_eq!(loaded.coefficients(), grain.coefficients());
         assert_eq!(cells(&loaded), cells(&grain));
         assert_eq!(save_grain(&loaded), text);
-        let n = nalgebra::Vector3::new(0.36, -0.48, 0.8);
+        let n = Vector3::new(0.36, -0.48, 0.8);
         assert_eq!(loaded.radius(&n).to_bits(), grain.radius(&n).to_bits());
     }
 }
@@ -45,14 +53,61 @@ fn a_file_of_the_first_version_is_still_read() {
     assert_eq!(grain.segments(), 4);
     assert!(grain.surface().segmented().is_some());
     assert_eq!(grain.coefficients()[3], [8.0, 0.1, 0.2, 0.3]);
-    let n = nalgebra::Vector3::new(0.0, 0.6, 0.8);
+    let n = Vector3::new(0.0, 0.6, 0.8);
     assert!((grain.radius(&n) - 5.0).abs() < 1e-15);
     let again = save_grain(&grain);
-    assert!(again.contains("\"version\": 2"));
+    assert!(again.contains("\"version\": 3"));
     assert_eq!(
         parse_grain(&again).expect("a model").coefficients(),
         grain.coefficients()
     );
+}
+
+#[test]
+fn a_file_of_the_second_version_is_still_read() {
+    let text = r#"{
+        "format": "grainform model",
+        "version": 2,
+        "centre": [1.0, 2.0, 3.0],
+        "axes": [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+        "symmetry": "xyz",
+        "coefficients": [5.0]
+    }"#;
+    let grain = parse_grain(text).expect("a model");
+    assert!(grain.surface().mirrored().is_some());
+    assert!(grain.stretch().is_none());
+}
+
+#[test]
+fn stretches_and_harmonics_that_are_not_sound_are_refused() {
+    let grain = whole(2, plain());
+    let numbers = [
+        json!([0.0, 1.0, 1.0]),
+        json!([1.0, -1.0, 1.0]),
+        json!([1.0, 1e7, 1.0]),
+    ];
+    for factors in numbers {
+        let found = spoilt(&grain, |value| value["stretch"] = factors.clone());
+        assert!(matches!(found, Err(LoadError::Invalid(_))), "{found:?}");
+    }
+    for factors in [json!([1.0, 1.0]), json!([1.0, 1.0, null]), json!("none")] {
+        let found = spoilt(&grain, |value| value["stretch"] = factors.clone());
+        assert!(matches!(found, Err(LoadError::Form(_))), "{found:?}");
+    }
+    for own in [json!([]), json!([1.0, 2.0]), json!(vec![1.0; 130 * 130])] {
+        let found = spoilt(&grain, |value| value["harmonics"] = own.clone());
+        assert!(matches!(found, Err(LoadError::Invalid(_))), "{found:?}");
+    }
+    for own in [json!([null]), json!(["1"]), json!(1.0)] {
+        let found = spoilt(&grain, |value| value["harmonics"] = own.clone());
+        assert!(matches!(found, Err(LoadError::Form(_))), "{found:?}");
+    }
+    let text = save_grain(&grain).replacen("\"harmonics\": [", "\"harmonics\": [1e999,", 1);
+    assert!(parse_grain(&text).is_err());
+    let cells = spoilt(&blended(CubeCell::uniform(1), plain()), |value| {
+        value["harmonics"] = json!([1.0]);
+    });
+    assert!(matches!(cells, Err(LoadError::Surface)), "{cells:?}");
 }
 
 /// The text of a grain with something changed.
@@ -159,7 +214,7 @@ fn a_file_with_both_kinds_of_surface_or_none_is_refused() {
 #[test]
 fn other_versions_and_unknown_fields_are_refused() {
     let grain = blended(CubeCell::uniform(1), plain());
-    for version in [0, 3, 99] {
+    for version in [0, 4, 99] {
         let found = spoilt(&grain, |value| value["version"] = json!(version));
         assert!(matches!(found, Err(LoadError::Version { .. })), "{found:?}");
     }

@@ -1,7 +1,7 @@
 //! Blended grains whose expansions differ from cell to cell, so that only the weights can join them.
 
 use grainform::Grain;
-use grainform::model::{Blended, Frame, Segmented, Surface};
+use grainform::model::{Blended, Frame, Segmented, Surface, Whole};
 use grainform::sphere::{AngularPartition, Cover, CubeCell, coefficient_count};
 use nalgebra::{Matrix3, Point3, Rotation3, Vector3};
 
@@ -76,6 +76,19 @@ pub(crate) fn segmented(per_angle: usize, frame: Frame) -> Grain {
     let coefficients = coefficients(partition.segments(), 8);
     let surface = Segmented::new(partition, coefficients).expect("sound");
     Grain::new(frame, Surface::Segmented(surface)).expect("a frame")
+}
+
+/// A grain of one expansion of the whole sphere: a sphere, with changes of some per cent that fall off
+/// with the degree.
+pub(crate) fn whole(degree: usize, frame: Frame) -> Grain {
+    let mut next = numbers(11);
+    let size = |l: usize| 0.3 * RADIUS / (1 + l).pow(2) as f64;
+    let mut own: Vec<f64> = (0..coefficient_count(degree))
+        .map(|index| size(index.isqrt()) * next())
+        .collect();
+    own[0] = RADIUS * (4.0 * std::f64::consts::PI).sqrt();
+    let surface = Whole::new(own).expect("sound");
+    Grain::new(frame, Surface::Whole(surface)).expect("a frame")
 }
 
 /// Uniform and adaptive covers, in the frame given.

@@ -11,7 +11,7 @@ use nalgebra::{Point3, Vector3};
 use std::f64::consts::{PI, TAU};
 
 /// Compares the integrals with those of a product rule in polar angle and azimuth.
-fn check(grain: &Grain, bound: f64) {
+pub(crate) fn check(grain: &Grain, bound: f64) {
     let found = grain_properties(grain).properties;
     let mut moments = Moments::default();
     let turns = 720;

@@ -1,8 +1,10 @@
-//! The blended surface: smooth across every border, exact in its derivatives and integrals, and the
-//! same once saved.
+//! The blended surface, smooth across every border, and the whole sphere, stretched or not: exact in their
+//! derivatives and integrals, and the same once saved.
 
 mod derivatives;
 mod files;
 mod grains;
 mod integrals;
 mod seams;
+mod stretched;
+mod whole;

@@ -1,16 +1,18 @@
-//! The published coefficients of a blended grain: the CSV and the formula in its header are enough to
-//! rebuild the radius. Nothing of the library's weights or bases is used here.
+//! The published coefficients of a grain: the CSV and the formula in its header are enough to rebuild the
+//! radius. Nothing of the library's weights or bases is used here.
 
 use super::{folder, grain, json, number, succeed};
+use grainform::model::{Stretch, Surface, Whole};
+use grainform::report::write_harmonics;
 use grainform::{Grain, StarSurface, model};
 use nalgebra::{Matrix3, Vector3};
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
-/// A cell as the CSV tells of it: face, parts, row, column and a_l^m by l and m.
+/// A cell as the CSV tells of it: face, parts, row, column and a_l^m by l and m. Of the whole sphere: angles.
 #[derive(Default)]
 struct Cell {
-    place: [usize; 4],
+    place: [f64; 4],
     coefficients: Vec<(usize, i64, f64)>,
 }
 
@@ -18,8 +20,10 @@ struct Cell {
 struct Published {
     /// Rows: the grain's axes in the scan.
     axes: Matrix3<f64>,
-    /// h: share of a cell's width.
-    margin: f64,
+    /// t.
+    stretch: Vector3<f64>,
+    /// h: share of a cell's width; nothing if no cells are blended.
+    margin: Option<f64>,
     loss: f64,
     cells: Vec<Cell>,
 }
@@ -46,14 +50,20 @@ fn read(text: &str) -> Published {
         let columns: Vec<&str> = row.split(',').collect();
         let whole = |i: usize| columns[i].parse::<usize>().expect("a whole number");
         let cell = cells.entry(whole(0)).or_default();
-        cell.place = [whole(1), whole(2), whole(3), whole(4)];
+        cell.place = [1, 2, 3, 4].map(|i| columns[i].parse().expect("a number"));
         let m = columns[6].parse().expect("an order");
         let a = columns[7].parse().expect("a coefficient");
         cell.coefficients.push((whole(5), m, a));
     }
+    let is_blended = text.contains("over h = ");
+    let is_stretched = text.contains("by t = ");
     Published {
         axes: Matrix3::from_rows(&[axis("x"), axis("y"), axis("z")]),
-        margin: numbers(after(text, "over h = "))[0],
+        stretch: match is_stretched {
+            true => Vector3::from_column_slice(&numbers(after(text, "by t = "))[..3]),
+            false => Vector3::repeat(1.0),
+        },
+        margin: is_blended.then(|| numbers(after(text, "over h = "))[0]),
         loss: numbers(after(text, "largest loss of the conversion: "))[0],
         cells: cells.into_values().collect(),
     }
@@ -98,29 +108,43 @@ fn profile(angle: f64, low: f64, high: f64, reach: f64) -> f64 {
     step(low) * (1.0 - step(high))
 }
 
+impl Cell {
+    fn expansion(&self, n: &Vector3<f64>) -> f64 {
+        let terms = self.coefficients.iter();
+        terms.map(|&(l, m, a)| a * harmonic(l, m, n)).sum()
+    }
+}
+
 impl Published {
     /// The radius in a direction of the scan.
     fn radius(&self, n: &Vector3<f64>) -> f64 {
-        let local = self.axes * n;
+        let q = self.stretch.component_mul(&(self.axes * n));
+        let local = q.normalize();
+        let radius = match self.margin {
+            Some(margin) => self.blend(margin, &local),
+            None => self.cells[0].expansion(&local),
+        };
+        radius / q.norm()
+    }
+
+    fn blend(&self, margin: f64, n: &Vector3<f64>) -> f64 {
         let (mut sum, mut weights) = (0.0, 0.0);
         for cell in &self.cells {
             let [face, parts, row, column] = cell.place;
-            let axis = face / 2;
-            let side = if face % 2 == 0 { 1.0 } else { -1.0 };
-            if side * local[axis] <= 0.0 {
+            let axis = face as usize / 2;
+            let side = if face % 2.0 == 0.0 { 1.0 } else { -1.0 };
+            if side * n[axis] <= 0.0 {
                 continue;
             }
-            let width = PI / (2 * parts) as f64;
-            let along = |axis_across: usize, at: usize| {
-                let angle = (local[axis_across] / local[axis].abs()).atan();
-                let low = at as f64 * width - PI / 4.0;
-                profile(angle, low, low + width, self.margin * width)
+            let width = PI / (2.0 * parts);
+            let along = |axis_across: usize, at: f64| {
+                let angle = (n[axis_across] / n[axis].abs()).atan();
+                let low = at * width - PI / 4.0;
+                profile(angle, low, low + width, margin * width)
             };
             let weight = along((axis + 1) % 3, row) * along((axis + 2) % 3, column);
             if weight > 0.0 {
-                let terms = cell.coefficients.iter();
-                let value: f64 = terms.map(|&(l, m, a)| a * harmonic(l, m, &local)).sum();
-                sum += weight * value;
+                sum += weight * cell.expansion(n);
                 weights += weight;
             }
         }
@@ -159,6 +183,26 @@ fn the_formula_in_the_header_gives_back_the_radius_of_a_blended_grain() {
                 "{name} {options:?} {n}: {off} where {} is stated",
                 published.loss
             );
+        }
+    }
+}
+
+#[test]
+fn the_formula_in_the_header_gives_back_the_radius_of_a_stretched_grain() {
+    let (_, fitted, radius) = publish("bean.ply", &["--segments", "6", "--degree", "3"]);
+    let own = (0..81).map(|i| radius * f64::from(i == 0) + 1e-3 * f64::from(i * 7 % 11));
+    let whole = Surface::Whole(Whole::new(own.collect()).unwrap());
+    let stretch = Stretch::new(Vector3::new(0.7, 1.0 / 3.0, 1.9)).unwrap();
+    for surface in [fitted.surface().clone(), whole] {
+        let grain = Grain::stretched(*fitted.frame(), stretch, surface).unwrap();
+        let mut text = Vec::new();
+        write_harmonics(&grain, &grain.published(), &mut text).unwrap();
+        let published = read(std::str::from_utf8(&text).unwrap());
+        assert_eq!(published.stretch, *stretch.factors());
+        for n in grainform::sphere::cube_grid(9).0 {
+            let (found, want) = (published.radius(&n), grain.radius(&n));
+            let bound = 4.0 * published.loss + 1e-13 * radius;
+            assert!((found - want).abs() <= bound, "{n}: {found} {want}");
         }
     }
 }

@@ -1,4 +1,5 @@
-use super::{deviation, errors, folder, grainform, json, succeed};
+use super::{deviation, errors, folder, grainform, json, number, succeed};
+use std::f64::consts::PI;
 
 #[test]
 fn scan_mesh_and_model_agree_with_the_closed_form() {
@@ -54,6 +55,42 @@ fn dimensions_are_extents_along_the_principal_axes() {
     assert!(moments.is_sorted_by(|a, b| a.as_f64() <= b.as_f64()));
     let text = succeed(&folder, &["measure", "s.ply"]);
     assert!(text.contains("triangulated by direction") && text.contains("length 11."));
+}
+
+/// An ellipsoid of semi-axes 1, 2 and 4 as a sphere of radius 2, once stretched.
+#[test]
+fn a_model_of_the_whole_sphere_is_measured_meshed_and_touched() {
+    let folder = folder();
+    let model = serde_json::json!({
+        "format": "grainform model",
+        "version": 3,
+        "centre": [10.0, 0.0, -5.0],
+        "axes": [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+        "stretch": [2.0, 1.0, 0.5],
+        "harmonics": [2.0 * (4.0 * PI).sqrt()],
+    });
+    std::fs::write(folder.path().join("m.json"), model.to_string()).unwrap();
+    let volume = 4.0 / 3.0 * PI * 8.0;
+    let report = json(&folder, &["measure", "m.json"]);
+    assert_eq!(report["not_measured"], serde_json::json!([]));
+    assert!((number(&report, "volume") / volume - 1.0).abs() < 1e-12);
+    let length = number(&report["dimensions"], "length");
+    assert!((length - 8.0).abs() < 1e-9);
+    assert!(number(&report, "angularity") < 1e-9);
+
+    succeed(&folder, &["mesh", "m.json", "-o", "m.stl"]);
+    let report = json(&folder, &["measure", "m.stl"]);
+    assert!((number(&report, "volume") / volume - 1.0).abs() < 2e-3);
+
+    let words =
+        "contact m.json --towards 0,0,1 --unit mm --youngs-modulus-mpa 91 --indentation-um 10";
+    let contact: Vec<&str> = words.split(' ').collect();
+    let report = json(&folder, &contact);
+    // c / a² and c / b².
+    for (i, curvature) in [4.0, 1.0].into_iter().enumerate() {
+        let found = report["first"]["principal_curvatures"][i].as_f64().unwrap();
+        assert!((found / curvature - 1.0).abs() < 1e-6, "{found}");
+    }
 }
 
 #[test]

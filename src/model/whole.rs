@@ -1,0 +1,153 @@
+//! A radius made of one expansion of the whole sphere.
+
+mod azimuth;
+mod degrees;
+
+use super::grain::check_expansion;
+use super::{Derivatives, InvalidGrain, StarSurface};
+use crate::sphere::Jet;
+use crate::vectorize::vectorize;
+use azimuth::Azimuth;
+use degrees::{Degrees, Sums};
+use nalgebra::{Matrix3, Vector3};
+use rayon::prelude::*;
+
+/// r(n) = sum of a_l^m Y_l^m(n) over the whole sphere, in the real orthonormal harmonics of
+/// [`HarmonicBasis`](crate::sphere::HarmonicBasis): smooth everywhere. Each evaluation touches every
+/// coefficient.
+#[derive(Debug, Clone)]
+pub struct Whole {
+    pub(super) coefficients: Vec<f64>,
+    degrees: Degrees,
+}
+
+/// Directions evaluated together: more than fit a register, for each step of the recurrence waits for the
+/// one before.
+const LANES: usize = 16;
+
+impl Whole {
+    /// The largest degree of an expansion.
+    pub const MAX_DEGREE: usize = 128;
+
+    /// The expansion with the coefficients a_l^m at index l(l+1) + m, in the scan's unit.
+    ///
+    /// # Errors
+    /// [`InvalidGrain`] if they are not (L+1)^2 finite numbers, or L is above [`Self::MAX_DEGREE`].
+    pub fn new(coefficients: Vec<f64>) -> Result<Self, InvalidGrain> {
+        let degree = check_expansion(0, &coefficients)?;
+        if degree > Self::MAX_DEGREE {
+            return Err(InvalidGrain::Degree { found: degree });
+        }
+        Ok(Self {
+            coefficients,
+            degrees: Degrees::new(degree),
+        })
+    }
+
+    /// The coefficients a_l^m at index l(l+1) + m, in the scan's unit.
+    pub fn coefficients(&self) -> &[f64] {
+        &self.coefficients
+    }
+
+    /// The degree of the expansion.
+    pub fn degree(&self) -> usize {
+        self.degrees.degree()
+    }
+
+    /// Radii in many directions, in their order.
+    pub(crate) fn radii(&self, directions: &[Vector3<f64>]) -> Vec<f64> {
+        let tasks = directions.par_chunks(LANES * 16);
+        let parts = tasks.map(|directions| {
+            let mut radii = Vec::with_capacity(directions.len());
+            vectorize(
+                #[inline(always)]
+                || {
+                    for block in directions.chunks(LANES) {
+                        let at = |axis: usize| -> [f64; LANES] {
+                            std::array::from_fn(|lane| block[lane.min(block.len() - 1)][axis])
+                        };
+                        let found = self.values([&at(0), &at(1), &at(2)]);
+                        radii.extend_from_slice(&found[..block.len()]);
+                    }
+                },
+            );
+            radii
+        });
+        parts.flatten_iter().collect()
+    }
+
+    /// Radii in N directions, given component by component.
+    #[inline(always)]
+    fn values<const N: usize>(&self, [x, y, z]: [&[f64; N]; 3]) -> [f64; N] {
+        let mut values = [0.0; N];
+        let (mut re, mut im) = ([1.0; N], [0.0; N]);
+        self.degrees.sums(
+            &self.coefficients,
+            z,
+            #[inline(always)]
+            |[a]: &Sums<1, N>, [b]: &Sums<1, N>| {
+                for i in 0..N {
+                    values[i] += a[i] * re[i] + b[i] * im[i];
+                    (re[i], im[i]) = (re[i] * x[i] - im[i] * y[i], re[i] * y[i] + im[i] * x[i]);
+                }
+            },
+        );
+        values
+    }
+
+    /// Radii and surface gradients in directions of equal z, given by their x and y.
+    pub(crate) fn radii_and_gradients_at(
+        &self,
+        z: f64,
+        places: &[[f64; 2]],
+    ) -> Vec<(f64, Vector3<f64>)> {
+        let mut orders = Vec::with_capacity(self.degree() + 1);
+        let keep = |a: &Sums<2, 1>, b: &Sums<2, 1>| orders.push((a.map(|[a]| a), b.map(|[b]| b)));
+        self.degrees.sums(&self.coefficients, &[z], keep);
+        let at = |&[x, y]: &[f64; 2]| {
+            let mut azimuth = Azimuth::new(x, y);
+            for &(a, b) in &orders {
+                azimuth.add(a, b);
+            }
+            azimuth.on_sphere(&Vector3::new(x, y, z))
+        };
+        places.iter().map(at).collect()
+    }
+
+    /// Radius and its derivatives with respect to the components of `n`.
+    pub(crate) fn jet(&self, n: &Vector3<f64>) -> Jet {
+        let mut azimuth = Azimuth::new(n.x, n.y);
+        let mut hessian = Matrix3::zeros();
+        let add = |a: &Sums<3, 1>, b: &Sums<3, 1>| {
+            let (a, b) = (a.map(|[a]| a), b.map(|[b]| b));
+            hessian += azimuth.second(a, b);
+            azimuth.add([a[0], a[1]], [b[0], b[1]]);
+        };
+        self.degrees.sums(&self.coefficients, &[n.z], add);
+        Jet {
+            value: azimuth.value,
+            gradient: azimuth.gradient,
+            hessian,
+        }
+    }
+}
+
+impl StarSurface for Whole {
+    fn radius(&self, n: &Vector3<f64>) -> f64 {
+        let [radius] = self.values([&[n.x], &[n.y], &[n.z]]);
+        radius
+    }
+
+    fn radius_and_gradient(&self, n: &Vector3<f64>) -> (f64, Vector3<f64>) {
+        let mut azimuth = Azimuth::new(n.x, n.y);
+        let add = |[[a], [a1]]: &Sums<2, 1>, [[b], [b1]]: &Sums<2, 1>| {
+            azimuth.add([*a, *a1], [*b, *b1]);
+        };
+        self.degrees.sums(&self.coefficients, &[n.z], add);
+        azimuth.on_sphere(n)
+    }
+
+    fn derivatives(&self, n: &Vector3<f64>) -> Derivatives {
+        Derivatives::on_sphere(n, &self.jet(n))
+    }
+}
