@@ -43,8 +43,8 @@ pub(super) fn legend(family: Family) -> &'static str {
         Family::Whole => "whole surface",
         Family::Uniform => "k x k segments",
         Family::Blended => "blended cells",
-        Family::Adaptive => "adaptive, degree 3 or less",
-        Family::AdaptiveFree => "adaptive, free degree",
+        Family::Adaptive => "adaptive",
+        Family::Estimate => "estimate",
     }
 }
 
@@ -54,7 +54,7 @@ fn colour(family: Family) -> RGBColor {
         Family::Uniform => RGBColor(214, 150, 46),
         Family::Blended => RGBColor(74, 154, 118),
         Family::Adaptive => RGBColor(178, 57, 62),
-        Family::AdaptiveFree => RGBColor(118, 80, 150),
+        Family::Estimate => RGBColor(118, 80, 150),
     }
 }
 
@@ -66,7 +66,7 @@ fn corners(family: Family) -> (usize, f64) {
         Family::Uniform => (4, 0.125),
         Family::Blended => (3, 0.5),
         Family::Adaptive => (24, 0.0),
-        Family::AdaptiveFree => (3, 0.0),
+        Family::Estimate => (3, 0.0),
     }
 }
 

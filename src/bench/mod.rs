@@ -1,11 +1,10 @@
 //! Run time against error: every family of models over a grid of settings, on the same scans.
 //!
 //! Times are wall-clock seconds of the stage named, made on as many threads as the caller's pool
-//! has: `grainform bench` takes one. A fit is [`PreparedScan::search`] of one setting: least squares,
-//! held-out errors, area and volume. Preparing (reference surface, centre, axes, sorting, and on
-//! dense clouds the factors of the cells) is timed apart, because it is done once for a whole search.
+//! has: `grainform bench` takes one. A fit is [`PreparedScan::fit`] of one setting, all of it. Preparing (reference
+//! surface, centre, axes) is timed apart, because it is done once for a scan.
 //!
-//! [`PreparedScan::search`]: crate::fit::PreparedScan::search
+//! [`PreparedScan::fit`]: crate::fit::PreparedScan::fit
 
 mod axis;
 mod csv;

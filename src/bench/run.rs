@@ -1,7 +1,7 @@
 //! Fits every setting to a scan and takes the time.
 
 use super::{BenchRow, BenchScan, Family, Setting, Subject, Truth, options};
-use crate::fit::{FitError, Fitted, PreparedScan, Reference};
+use crate::fit::{Context, FitError, FitOptions, Fitted, PreparedScan, Reference};
 use crate::measure::{Deviation, grain_properties};
 use std::time::Instant;
 
@@ -48,23 +48,24 @@ pub fn run(
 /// # Errors
 /// [`FitError`] if the scan is not one closed surface round a centre.
 pub fn measure(subject: &Subject, setting: &Setting) -> Result<(BenchRow, Reference), FitError> {
-    let (prepared, seconds_prepare) = timed(|| PreparedScan::new(&subject.scan, &options(setting)));
-    let (fitted, seconds) = fit(prepared?);
+    let options = options(setting);
+    let (prepared, seconds_prepare) = timed(|| PreparedScan::new(&subject.scan, options.symmetry));
+    let (fitted, seconds) = fit(&prepared?, &options)?;
     let truth = subject.truth.as_ref();
     let row = row(setting, &fitted, truth, seconds, seconds_prepare);
     Ok((row, fitted.reference))
 }
 
 /// Fits, and gives the median seconds of three fits.
-fn fit(prepared: PreparedScan) -> (Fitted, f64) {
-    let fit = || timed(|| prepared.search(&|_| ()));
-    let (found, first) = fit();
+fn fit(prepared: &PreparedScan<'_>, options: &FitOptions) -> Result<(Fitted, f64), FitError> {
+    let fit = || timed(|| prepared.fit(options, &Context::default()));
+    let (fitted, first) = fit();
     let mut seconds = [first; 3];
     if first <= LONG {
         seconds = [first, fit().1, fit().1];
         seconds.sort_by(f64::total_cmp);
     }
-    (prepared.finish(found), seconds[1])
+    Ok((fitted?, seconds[1]))
 }
 
 fn timed<T>(work: impl FnOnce() -> T) -> (T, f64) {

@@ -1,6 +1,6 @@
 //! What is compared: families of models and their settings.
 
-use crate::fit::{FitOptions, MAX_DEGREE, Seams, Tolerance};
+use crate::fit::{FitOptions, Seams, Tolerance};
 use crate::sphere::coefficient_count;
 use serde::Serialize;
 use std::fmt;
@@ -24,23 +24,20 @@ const BLENDED_DEGREES: RangeInclusive<usize> = 1..=5;
 /// Tolerances of adaptive cells, as shares of the mean radius.
 const TOLERANCES: [f64; 7] = [0.01, 0.005, 0.003, 0.002, 0.001, 0.0005, 0.0002];
 
-/// Largest degree of adaptive cells that are bound to few coefficients each.
-const LOW_DEGREE: usize = 3;
-
 /// A family of models.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Family {
-    /// One expansion for the whole surface.
+    /// One expansion for the whole surface, fitted to the points by least squares.
     Whole,
     /// k x k segments, equal in angle and of one degree, fitted independently.
     Uniform,
-    /// n x n overlapping cells on each face of a cube, of one degree, fitted together.
+    /// n x n overlapping cells on each face of a cube, of one degree, fitted together to the estimate.
     Blended,
-    /// Overlapping cells of degree 3 or less, split where the scan asks for it.
+    /// Overlapping cells of degree 4 or less, split where the estimate asks for it.
     Adaptive,
-    /// The same with every degree allowed; its root is the whole surface.
-    AdaptiveFree,
+    /// The estimate itself, cut at the lowest degree that is near enough to it.
+    Estimate,
 }
 
 /// One model of a family.
@@ -70,8 +67,8 @@ pub enum Setting {
         /// RMS error that is good enough, as a share of the mean radius.
         tolerance: f64,
     },
-    /// Of [`Family::AdaptiveFree`].
-    AdaptiveFree {
+    /// Of [`Family::Estimate`].
+    Estimate {
         /// RMS error that is good enough, as a share of the mean radius.
         tolerance: f64,
     },
@@ -85,18 +82,18 @@ pub fn options(setting: &Setting) -> FitOptions {
         segments: Some(segments),
         ..FitOptions::default()
     };
-    let adaptive = |tolerance, max_degree| FitOptions {
+    let adaptive = |tolerance, segments| FitOptions {
         seams: Seams::Blended,
         tolerance: Tolerance::OfMeanRadius(tolerance),
-        max_degree,
+        segments,
         ..FitOptions::default()
     };
     match *setting {
         Setting::Whole { degree } => uniform(Seams::None, 1, degree),
         Setting::Uniform { parts, degree } => uniform(Seams::None, parts * parts, degree),
         Setting::Blended { parts, degree } => uniform(Seams::Blended, 6 * parts * parts, degree),
-        Setting::Adaptive { tolerance } => adaptive(tolerance, LOW_DEGREE),
-        Setting::AdaptiveFree { tolerance } => adaptive(tolerance, MAX_DEGREE),
+        Setting::Adaptive { tolerance } => adaptive(tolerance, None),
+        Setting::Estimate { tolerance } => adaptive(tolerance, Some(1)),
     }
 }
 
@@ -107,7 +104,7 @@ impl Family {
         Self::Uniform,
         Self::Blended,
         Self::Adaptive,
-        Self::AdaptiveFree,
+        Self::Estimate,
     ];
 
     /// The name, in lower case.
@@ -117,7 +114,7 @@ impl Family {
             Self::Uniform => "uniform",
             Self::Blended => "blended",
             Self::Adaptive => "adaptive",
-            Self::AdaptiveFree => "adaptive-free",
+            Self::Estimate => "estimate",
         }
     }
 
@@ -136,8 +133,8 @@ impl Family {
             Self::Adaptive => TOLERANCES
                 .map(|tolerance| Setting::Adaptive { tolerance })
                 .into(),
-            Self::AdaptiveFree => TOLERANCES
-                .map(|tolerance| Setting::AdaptiveFree { tolerance })
+            Self::Estimate => TOLERANCES
+                .map(|tolerance| Setting::Estimate { tolerance })
                 .into(),
         }
     }
@@ -159,7 +156,7 @@ impl Setting {
             Self::Uniform { .. } => Family::Uniform,
             Self::Blended { .. } => Family::Blended,
             Self::Adaptive { .. } => Family::Adaptive,
-            Self::AdaptiveFree { .. } => Family::AdaptiveFree,
+            Self::Estimate { .. } => Family::Estimate,
         }
     }
 
@@ -169,7 +166,7 @@ impl Setting {
             Self::Whole { degree }
             | Self::Uniform { degree, .. }
             | Self::Blended { degree, .. } => Some(degree),
-            Self::Adaptive { .. } | Self::AdaptiveFree { .. } => None,
+            Self::Adaptive { .. } | Self::Estimate { .. } => None,
         }
     }
 
@@ -177,7 +174,7 @@ impl Setting {
     pub fn tolerance(&self) -> Option<f64> {
         match *self {
             Self::Whole { .. } | Self::Uniform { .. } | Self::Blended { .. } => None,
-            Self::Adaptive { tolerance } | Self::AdaptiveFree { tolerance } => Some(tolerance),
+            Self::Adaptive { tolerance } | Self::Estimate { tolerance } => Some(tolerance),
         }
     }
 
@@ -188,7 +185,7 @@ impl Setting {
             Self::Whole { degree } => coefficient_count(degree),
             Self::Uniform { parts, degree } => parts * parts * coefficient_count(degree),
             Self::Blended { parts, degree } => 6 * parts * parts * coefficient_count(degree),
-            Self::Adaptive { .. } | Self::AdaptiveFree { .. } => 0,
+            Self::Adaptive { .. } | Self::Estimate { .. } => 0,
         };
         2 * coefficients <= points
     }
@@ -207,8 +204,8 @@ impl fmt::Display for Setting {
             Self::Adaptive { tolerance } => {
                 write!(f, "adaptive within {} %", 100.0 * tolerance)
             }
-            Self::AdaptiveFree { tolerance } => {
-                write!(f, "adaptive, free degree, within {} %", 100.0 * tolerance)
+            Self::Estimate { tolerance } => {
+                write!(f, "estimate within {} %", 100.0 * tolerance)
             }
         }
     }

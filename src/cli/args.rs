@@ -1,7 +1,7 @@
 //! The arguments as they are typed.
 
 use super::values::{Auto, SchemeArg, SeamsArg, Unit, tolerance, vector};
-use crate::fit::{FitOptions, Tolerance};
+use crate::fit::Tolerance;
 use crate::report::Measure;
 use crate::shapes::{Body, Sampling};
 use crate::sphere::Symmetry;
@@ -278,22 +278,21 @@ pub(super) struct FittingArgs {
     #[arg(long, value_name = "L|auto", default_value = "auto", help_heading = SEARCH)]
     pub(super) degree: Auto,
 
-    /// Number of segments: 1 or 6 n^2 blended cells, or k^2 independent segments; adaptive (or auto)
-    /// splits cells where the scan asks for it, or searches all k
+    /// Number of segments: 1 for the estimate itself, one expansion of the whole sphere; 6 n^2 blended cells; or
+    /// k^2 independent segments. adaptive (or auto) splits cells where the shape asks for it, or searches all k
     #[arg(long, value_name = "N|adaptive", default_value = "adaptive", help_heading = SEARCH)]
     pub(super) segments: Auto,
 
-    /// Largest degree searched: bounds the cost of an evaluation
-    #[arg(long, value_name = "L", default_value_t = FitOptions::default().max_degree,
-          help_heading = SEARCH)]
-    pub(super) max_degree: usize,
+    /// Largest degree searched: bounds the cost of an evaluation [default: 4 in blended cells, else 3]
+    #[arg(long, value_name = "L", help_heading = SEARCH)]
+    pub(super) max_degree: Option<usize>,
 
     /// Largest number of segments searched [default: 600 blended, 100 independent]
     #[arg(long, value_name = "N", help_heading = SEARCH)]
     pub(super) max_segments: Option<usize>,
 
-    /// RMS error that is good enough: a length in the scan's unit, a share of the mean radius such as
-    /// 0.3%, or auto (0.1%); the scan's noise is allowed on top
+    /// RMS difference from the estimate that is good enough: a length in the scan's unit, a share of the mean
+    /// radius such as 0.3%, or auto (0.05%); half of the estimate's own standard deviation always is
     #[arg(long, value_name = "T|auto", default_value = "auto", value_parser = tolerance,
           help_heading = SEARCH)]
     pub(super) tolerance: Tolerance,

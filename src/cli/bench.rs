@@ -7,9 +7,10 @@ use crate::bench::{
     self, BenchReport, BenchRow, BenchScan, Cost, Subject, plot, synthetic, write_csv,
 };
 use crate::export::write_atomically;
-use crate::fit::{FitOptions, PreparedScan};
+use crate::fit::PreparedScan;
 use crate::report::percent;
 use crate::scan::read_scan;
+use crate::sphere::Symmetry;
 use anyhow::{Context, Result, bail};
 use comfy_table::{CellAlignment, Table, presets::NOTHING};
 use std::io::Write;
@@ -61,8 +62,7 @@ fn read(paths: &[PathBuf]) -> Result<Vec<Subject>> {
     let subject = |path: &PathBuf| {
         let scan = read_scan(path)?;
         let name = path.display().to_string();
-        PreparedScan::new(&scan, &FitOptions::default())
-            .with_context(|| format!("cannot fit {name}"))?;
+        PreparedScan::new(&scan, Symmetry::NONE).with_context(|| format!("cannot fit {name}"))?;
         Ok(Subject {
             name,
             scan,

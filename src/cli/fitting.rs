@@ -3,7 +3,7 @@
 use super::args::FittingArgs;
 use super::progress::Progress;
 use super::say;
-use crate::fit::{FitOptions, Fitted, PreparedScan, Work};
+use crate::fit::{self, FitOptions, Fitted, PreparedScan, Stage, Work};
 use crate::report::Seconds;
 use crate::scan::read_scan;
 use anyhow::{Context, Result};
@@ -30,7 +30,7 @@ impl FittingArgs {
             tolerance: self.tolerance,
             exhaustive: self.exhaustive,
         };
-        options.candidates()?;
+        options.check()?;
         rayon::ThreadPoolBuilder::new()
             .num_threads(self.threads.into())
             .build_global()
@@ -51,12 +51,20 @@ pub(super) fn fit_scan(path: &Path, options: &FitOptions, progress: &Progress) -
     let read = started.elapsed().as_secs_f64();
 
     progress.stage("Finding the surface, the centre and the axes");
-    let prepared = PreparedScan::new(&scan, options)
-        .with_context(|| format!("cannot fit {}", path.display()))?;
-    let found = prepared.search(&|done| {
-        progress.stage(format_args!("Fitting: {done} numbers of segments done"));
-    });
-    let fitted = prepared.finish(found);
+    let failed = || format!("cannot fit {}", path.display());
+    let prepared = PreparedScan::new(&scan, options.symmetry).with_context(failed)?;
+    let tell = |stage: Stage| match stage {
+        Stage::Searching { done } if done > 0 => {
+            progress.stage(format_args!("Fitting: {done} numbers of segments done"));
+        }
+        Stage::Searching { .. } => progress.stage("Cutting it in segments"),
+        _ => progress.stage("Telling shape from noise"),
+    };
+    let context = fit::Context {
+        progress: Some(&tell),
+        ..fit::Context::default()
+    };
+    let fitted = prepared.fit(options, &context).with_context(failed)?;
     Ok(ScanFit {
         fitted,
         scan_warnings: scan.warnings,

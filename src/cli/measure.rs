@@ -5,7 +5,7 @@ use super::mesh::{grain, read};
 use super::{print, print_json, warn};
 use crate::fit::scanned_surface;
 use crate::measure::{Scheme, Survey};
-use crate::report::{Measure, MeasureReport, Measured};
+use crate::report::{Measure, MeasureReport, Measured, sentences};
 use crate::scan::parse_scan;
 use anyhow::{Context, Result, bail};
 
@@ -42,7 +42,7 @@ fn measure(args: &MeasureArgs) -> Result<MeasureReport> {
     let surface = scanned_surface(&scan).with_context(|| format!("cannot measure {input}"))?;
     let survey =
         Survey::of_mesh(&surface.mesh).with_context(|| format!("cannot measure {input}"))?;
-    let warnings = [scan.warnings.as_slice(), &surface.warnings].concat();
+    let warnings = sentences(&scan.warnings, &surface.warnings);
     let of = surface.kind.into();
     Ok(MeasureReport::new(input, of, &survey, only, warnings))
 }

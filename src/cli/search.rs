@@ -61,6 +61,7 @@ fn table(report: &SearchReport) -> Table {
         "area",
         "volume",
         "held-out RMS",
+        "difference",
         "reduced",
         "rejected",
     ]);
@@ -74,11 +75,12 @@ fn table(report: &SearchReport) -> Table {
             error(row.area_error),
             error(row.volume_error),
             row.heldout_rms.map_or("-".into(), short),
+            row.estimate_rms.map_or("-".into(), short),
             row.reduced_segments.to_string(),
             row.rejected.clone().unwrap_or_default(),
         ]);
     }
-    for column in table.column_iter_mut().skip(1).take(7) {
+    for column in table.column_iter_mut().skip(1).take(8) {
         column.set_cell_alignment(CellAlignment::Right);
     }
     table

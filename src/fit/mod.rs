@@ -1,4 +1,4 @@
-//! From a scan to a fitted grain: centre and axes, least squares, search.
+//! From a scan to a fitted grain: centre and axes, estimate, segments.
 //!
 //! ```no_run
 //! use grainform::{FitOptions, fit, scan::read_scan};
@@ -9,93 +9,40 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-mod axes;
-mod centre;
-#[allow(dead_code)] // TODO: until the fit calls it
+mod blended;
+mod candidate;
+mod context;
+mod dispatch;
+mod error;
 mod estimate;
-mod factor;
-mod held_out;
-mod householder;
-mod joint;
-mod level;
+mod linear;
 mod mirrored;
 mod options;
+mod outcome;
 mod prepare;
-mod reduce;
-mod reference;
-mod row;
-mod samples;
-mod search;
-mod segment;
-mod spread;
-mod strays;
-mod surface;
-mod thin;
+mod segments;
+mod warning;
 
+pub use candidate::{Candidate, Rejection, Search, Work};
+pub use context::{Context, Stage};
+pub use error::FitError;
 pub use mirrored::{DirectedSample, MirroredFitError, fit_mirrored};
 pub use options::{
-    FitError, FitOptions, MAX_CELLS, MAX_COEFFICIENTS, MAX_DEGREE, MAX_PARTS, Seams, Tolerance,
+    FitOptions, MAX_CELLS, MAX_COEFFICIENTS, MAX_DEGREE, MAX_PARTS, MAX_WHOLE_DEGREE, Seams,
+    Tolerance,
 };
-pub use prepare::PreparedScan;
-pub use reference::{Reference, ReferenceKind};
-pub use search::{Candidate, Rejection, Search, Work};
-pub use spread::StandardErrors;
-pub use surface::{ScannedSurface, scanned_surface};
+pub use outcome::{EstimateSummary, Fitted, Residuals, StandardErrors};
+pub use prepare::{PreparedScan, Reference, ReferenceKind, ScannedSurface, scanned_surface};
+pub use warning::FitWarning;
 
-use crate::model::Grain;
 use crate::scan::Scan;
-use spread::Spread;
 
-/// A fitted grain and what is known of it.
-#[derive(Debug, Clone)]
-pub struct Fitted {
-    /// The grain, in the scan's frame and unit.
-    pub grain: Grain,
-    /// The candidates, the choice and the work done.
-    pub search: Search,
-    /// What the candidates were compared with.
-    pub reference: Reference,
-    /// Distinct points that the fit rests on.
-    pub points: usize,
-    /// Mean of the radius over all directions, in the scan's unit.
-    pub mean_radius: f64,
-    /// Radial residuals of all points the fit rests on.
-    pub residuals: Residuals,
-    /// Root mean square difference of the radius between mirror images, as far as expansions of degree
-    /// 3 follow it, in the scan's unit. `None` of a fit without mirrors.
-    pub asymmetry: Option<f64>,
-    /// What a user should know of the scan: whole sentences.
-    pub warnings: Vec<String>,
-    spread: Option<Spread>,
-}
-
-impl Fitted {
-    /// Standard errors of the grain's area, volume, inertia and dimensions, from the covariance of
-    /// its coefficients. Drawn when asked for: some milliseconds. `None` of independent segments,
-    /// whose seams no covariance describes.
-    pub fn standard_errors(&self) -> Option<StandardErrors> {
-        let surface = self.grain.surface().blended()?;
-        self.spread.as_ref()?.standard_errors(surface)
-    }
-}
-
-/// Radial residuals: radius of the point minus radius of the grain in its direction.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Residuals {
-    /// Root mean square, in the scan's unit.
-    pub rms: f64,
-    /// Largest absolute value, in the scan's unit.
-    pub max: f64,
-}
-
-/// Fits a grain to a scan: [`PreparedScan::new`], [`PreparedScan::search`] and
-/// [`PreparedScan::finish`] in one.
+/// Fits a grain to a scan: [`PreparedScan::new`] and [`PreparedScan::fit`] in one.
 ///
 /// # Errors
 /// [`FitError`] if the options are out of range or the scan is not one closed surface round a
 /// centre.
 pub fn fit(scan: &Scan, options: &FitOptions) -> Result<Fitted, FitError> {
-    let prepared = PreparedScan::new(scan, options)?;
-    let found = prepared.search(&|_| ());
-    Ok(prepared.finish(found))
+    options.check()?;
+    PreparedScan::new(scan, options.symmetry)?.fit(options, &Context::default())
 }

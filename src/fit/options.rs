@@ -1,5 +1,6 @@
 //! What a user may ask of a fit.
 
+use super::error::FitError;
 use crate::sphere::{MAX_FACE_PARTS, Symmetry, coefficient_count};
 
 /// Settings of a fit; the default asks for nothing and searches.
@@ -12,11 +13,11 @@ pub struct FitOptions {
     pub symmetry: Symmetry,
     /// Degree of every segment's expansion; `None` searches up to `max_degree`.
     pub degree: Option<usize>,
-    /// Number of segments. Blended: 1, or 6 n^2 cells; `None` refines adaptively. Independent: k^2;
-    /// `None` searches all squares up to `max_segments`.
+    /// Number of segments. Blended: 1 for the estimate itself, an expansion of the whole sphere, or 6 n^2 cells;
+    /// `None` refines adaptively. Independent: k^2; `None` searches all squares up to `max_segments`.
     pub segments: Option<usize>,
-    /// Largest degree searched.
-    pub max_degree: usize,
+    /// Largest degree searched; `None` for 4 in blended cells and 3 elsewhere.
+    pub max_degree: Option<usize>,
     /// Largest number of segments searched; `None` for [`Seams::most_segments`].
     pub max_segments: Option<usize>,
     /// Error that is good enough.
@@ -32,7 +33,7 @@ impl Default for FitOptions {
             symmetry: Symmetry::NONE,
             degree: None,
             segments: None,
-            max_degree: 3,
+            max_degree: None,
             max_segments: None,
             tolerance: Tolerance::Auto,
             exhaustive: false,
@@ -64,7 +65,7 @@ impl Seams {
 /// A radial RMS error.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Tolerance {
-    /// 0.1 % of the mean radius. In every case the scan's own noise is allowed on top.
+    /// 0.05 % of the mean radius. In every case half of the estimate's own standard deviation is good enough.
     Auto,
     /// In the scan's unit.
     Length(f64),
@@ -84,11 +85,20 @@ impl Tolerance {
 }
 
 /// The tolerance of [`Tolerance::Auto`] as a share of the mean radius.
-const AUTO_TOLERANCE: f64 = 0.001;
+const AUTO_TOLERANCE: f64 = 0.0005;
 
 /// Largest degree that can be asked for: beyond it one segment holds more coefficients than most
 /// scans have points to give.
 pub const MAX_DEGREE: usize = 20;
+
+/// Largest degree of an expansion of the whole sphere that can be asked for.
+pub const MAX_WHOLE_DEGREE: usize = 80;
+
+/// Largest degree of blended cells where nothing else is asked for.
+const MOST_DEGREE_OF_CELLS: usize = 4;
+
+/// Largest degree of expansions that are fitted to the points themselves where nothing else is asked for.
+const MOST_DEGREE_SEARCHED: usize = 3;
 
 /// Largest number of parts per angle that can be asked for.
 pub const MAX_PARTS: usize = 64;
@@ -99,146 +109,52 @@ pub const MAX_CELLS: usize = 6 * (MAX_FACE_PARTS as usize) * (MAX_FACE_PARTS as 
 /// Largest number of coefficients of blended cells that can be asked for: a minute of work.
 pub const MAX_COEFFICIENTS: usize = 20_000;
 
-/// Why a fit cannot be made.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum FitError {
-    /// The number of segments is not a square: each angle is cut in the same number of parts.
-    #[error(
-        "{segments} segments cannot be made: both angles are cut in k equal parts, so ask for a \
-         square, {below} or {above}"
-    )]
-    SegmentsNotSquare {
-        /// The number asked for.
-        segments: usize,
-        /// The nearest square below.
-        below: usize,
-        /// The nearest square above.
-        above: usize,
-    },
-    /// No uniform cover of the cube's faces has this number of cells.
-    #[error(
-        "{segments} segments cannot be blended: ask for 1, or for 6 n^2 cells on the faces of a cube \
-         such as {below} or {above}, or for independent segments"
-    )]
-    SegmentsNotOfCube {
-        /// The number asked for.
-        segments: usize,
-        /// The nearest possible number below.
-        below: usize,
-        /// The nearest possible number above.
-        above: usize,
-    },
-    /// Segments are asked for, and mirrors too.
-    #[error(
-        "a fit with mirror planes is one expansion: neither independent segments nor a number of \
-         segments can be asked for with it"
-    )]
-    SymmetryOfSegments,
-    /// A setting is outside of its range.
-    #[error("{setting} is {value}; it must be from {least} to {most}")]
-    OutOfRange {
-        /// Name of the setting.
-        setting: &'static str,
-        /// The value asked for.
-        value: usize,
-        /// The smallest allowed.
-        least: usize,
-        /// The largest allowed.
-        most: usize,
-    },
-    /// The tolerance is not a positive number.
-    #[error("the tolerance is {value}; it must be a positive length")]
-    Tolerance {
-        /// The value asked for.
-        value: f64,
-    },
-    /// The scan has too few distinct points, or they enclose no volume.
-    #[error(
-        "the scan's {points} points do not enclose a volume; a closed surface needs at least 4 \
-         points that do not lie in one plane"
-    )]
-    NoVolume {
-        /// Number of points.
-        points: usize,
-    },
-    /// The numbers of the scan are too large or too small to compute with.
-    #[error(
-        "the scan is {size:e} of its units across; moments of inertia of such a size cannot be \
-         written as numbers: scale the scan to another unit"
-    )]
-    Scale {
-        /// Cube root of the volume.
-        size: f64,
-    },
-    /// A coordinate is not finite.
-    #[error("point {index} is not finite; remove it from the scan")]
-    NotFinite {
-        /// Index of the point.
-        index: usize,
-    },
-    /// No centre sees (nearly) the whole surface.
-    #[error(
-        "the surface is not star-shaped: seen from the best centre, {:.1} % of its area faces away, \
-         so the radius is not a function of the direction; rings, hooks and several bodies cannot \
-         be fitted, a whole grain can",
-        100.0 * share
-    )]
-    NotStarShaped {
-        /// Share of the area that faces away from the best centre.
-        share: f64,
-    },
-    /// Too many points do not belong to the surface that the others draw.
-    #[error(
-        "{:.0} % of the points stand apart from their neighbours by more than a tenth of the \
-         radius; a scan of one grain has below 1 % of such outliers: remove the background, or cut \
-         out one grain",
-        100.0 * share
-    )]
-    Strays {
-        /// Share of such points.
-        share: f64,
-    },
-    /// Points seen in nearly the same direction lie at very different distances.
-    #[error(
-        "the points are not one surface round a centre: in neighbouring directions their distance \
-         from it differs by {:.0} % (median), where a scanned grain shows below 5 %; it may be \
-         a ring, several bodies, or a scene with its background: cut out one grain",
-        100.0 * scatter
-    )]
-    Scattered {
-        /// Standard deviation of the radius against the neighbours' median.
-        scatter: f64,
-    },
-}
-
 impl FitOptions {
-    /// The degrees and the numbers of parts (per angle, or per edge of the cube) of the candidates;
-    /// no parts where the cover is to be found adaptively.
-    pub(crate) fn candidates(&self) -> Result<(Vec<usize>, Vec<usize>), FitError> {
+    /// Checks that every setting is in range and that they go together.
+    ///
+    /// # Errors
+    /// [`FitError`] names the setting.
+    pub fn check(&self) -> Result<(), FitError> {
+        let most = match (self.seams, self.segments) {
+            (Seams::Blended, Some(1)) => MAX_WHOLE_DEGREE,
+            _ => MAX_DEGREE,
+        };
         within(
             "the degree",
-            self.degree.unwrap_or(self.max_degree),
+            self.degree.unwrap_or(self.top_degree()),
             0,
-            MAX_DEGREE,
+            most,
         )?;
         if let Tolerance::Length(value) | Tolerance::OfMeanRadius(value) = self.tolerance
             && !(value > 0.0 && value.is_finite())
         {
             return Err(FitError::Tolerance { value });
         }
-        let degrees = self
-            .degree
-            .map_or_else(|| (0..=self.max_degree).collect(), |degree| vec![degree]);
         let segments = self.segments.or(self.max_segments);
         if self.symmetry != Symmetry::NONE && (self.seams != Seams::Blended || segments.is_some()) {
             return Err(FitError::SymmetryOfSegments);
         }
-        let parts = match self.seams {
-            Seams::Blended => self.parts_of_faces()?,
-            Seams::None => self.parts_of_angles()?,
+        match self.seams {
+            Seams::Blended => self.check_cells(),
+            Seams::None => self.parts().map(drop),
+        }
+    }
+
+    /// The largest degree of a segment.
+    pub(crate) fn top_degree(&self) -> usize {
+        let searched = match self.seams {
+            Seams::Blended if self.symmetry == Symmetry::NONE => MOST_DEGREE_OF_CELLS,
+            _ => MOST_DEGREE_SEARCHED,
         };
-        Ok((degrees, parts))
+        self.degree.or(self.max_degree).unwrap_or(searched)
+    }
+
+    /// The degrees of the candidates that are fitted to the points themselves.
+    pub(crate) fn degrees(&self) -> Vec<usize> {
+        match self.degree {
+            Some(degree) => vec![degree],
+            None => (0..=self.top_degree()).collect(),
+        }
     }
 
     /// The largest number of segments searched.
@@ -246,7 +162,8 @@ impl FitOptions {
         self.max_segments.unwrap_or(self.seams.most_segments())
     }
 
-    fn parts_of_angles(&self) -> Result<Vec<usize>, FitError> {
+    /// Parts per angle of the candidates of independent segments.
+    pub(crate) fn parts(&self) -> Result<Vec<usize>, FitError> {
         let most = self.segments.unwrap_or(self.most_segments());
         within("the number of segments", most, 1, MAX_PARTS * MAX_PARTS)?;
         let root = most.isqrt();
@@ -261,32 +178,28 @@ impl FitOptions {
         }
     }
 
-    /// Parts per edge of the cube's faces, 0 for the whole sphere.
-    fn parts_of_faces(&self) -> Result<Vec<usize>, FitError> {
+    /// Blended segments are 1, or 6 n^2 cells.
+    fn check_cells(&self) -> Result<(), FitError> {
         let most = self.segments.unwrap_or(self.most_segments());
         within("the number of segments", most, 1, MAX_CELLS)?;
-        let parts = (most / 6).isqrt();
-        match self.segments {
-            None => Ok(Vec::new()),
-            Some(1) => Ok(vec![0]),
-            Some(segments)
-                if segments * coefficient_count(self.degree.unwrap_or(self.max_degree))
-                    > MAX_COEFFICIENTS =>
-            {
-                Err(FitError::OutOfRange {
-                    setting: "the number of coefficients",
-                    value: segments * coefficient_count(self.degree.unwrap_or(self.max_degree)),
-                    least: 1,
-                    most: MAX_COEFFICIENTS,
-                })
-            }
-            Some(segments) if parts > 0 && 6 * parts * parts == segments => Ok(vec![parts]),
-            Some(segments) => Err(FitError::SegmentsNotOfCube {
-                segments,
-                below: (6 * parts * parts).max(1),
-                above: 6 * (parts + 1) * (parts + 1),
-            }),
+        let Some(segments) = self.segments.filter(|&segments| segments > 1) else {
+            return Ok(());
+        };
+        within(
+            "the number of coefficients",
+            segments * coefficient_count(self.top_degree()),
+            1,
+            MAX_COEFFICIENTS,
+        )?;
+        let parts = (segments / 6).isqrt();
+        if parts > 0 && 6 * parts * parts == segments {
+            return Ok(());
         }
+        Err(FitError::SegmentsNotOfCube {
+            segments,
+            below: (6 * parts * parts).max(1),
+            above: 6 * (parts + 1) * (parts + 1),
+        })
     }
 }
 

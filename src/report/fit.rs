@@ -1,8 +1,10 @@
 //! What `grainform fit` tells.
 
+use super::estimate::{EstimateRecord, EvaluationRecord};
 use super::measure::{Dimensions, Principal, rows};
 use super::number::{percent, short, with_error};
 use super::rule::rule;
+use super::warning::sentences;
 use crate::fit::{FitOptions, Fitted, Reference, ReferenceKind, StandardErrors};
 use crate::measure::{extents, grain_properties};
 use crate::model::Mirrored;
@@ -58,9 +60,20 @@ pub struct FitReport {
     pub heldout_rms: Option<f64>,
     /// Mean radius over all directions.
     pub mean_radius: f64,
-    /// Standard deviation of the points round a local fit; 0 where nothing was searched.
-    pub noise: f64,
-    /// The held-out RMS that was good enough.
+    /// What the points say of the radius, before it is cut in segments; `null` of independent segments and mirrored
+    /// fits, which are fitted to the points themselves.
+    pub estimate: Option<EstimateRecord>,
+    /// Root mean square difference of the model's radius from the estimate, over all directions; `null` likewise.
+    pub estimate_rms: Option<f64>,
+    /// What an evaluation of the model costs.
+    pub evaluation: EvaluationRecord,
+    /// What an evaluation costs of the expansion of the whole sphere that is as near to the estimate; `null` where the
+    /// model has no cells.
+    pub whole: Option<EvaluationRecord>,
+    /// Standard deviation of the points' noise; `null` where it was not estimated.
+    pub noise: Option<f64>,
+    /// The error that was good enough: the difference from the estimate, or the held-out RMS of independent segments and
+    /// mirrored fits.
     pub limit: f64,
     /// Why this degree and number of segments: half a sentence.
     pub rule: String,
@@ -167,6 +180,10 @@ impl FitReport {
             max: fitted.residuals.max,
             heldout_rms: choice.heldout_rms,
             mean_radius: fitted.mean_radius,
+            estimate: fitted.estimate.map(Into::into),
+            estimate_rms: choice.estimate_rms,
+            evaluation: EvaluationRecord::new(&fitted.grain),
+            whole: fitted.whole.as_ref().map(EvaluationRecord::new),
             noise: search.noise,
             limit: search.limit,
             rule: rule(fitted, options),
@@ -178,7 +195,7 @@ impl FitReport {
                 candidates: search.work.candidates_skipped,
                 segments: search.work.segments_skipped,
             },
-            warnings: [scan_warnings, &fitted.warnings].concat(),
+            warnings: sentences(scan_warnings, &fitted.warnings),
         }
     }
 }
@@ -242,13 +259,26 @@ impl fmt::Display for FitReport {
                 },
                 mirroring(symmetry)
             )?,
-            None => writeln!(
-                f,
-                "{} segments, {} coefficients, {:.0} per evaluation",
-                self.segments, self.coefficients, self.coefficients_touched
-            )?,
+            None if self.segments == 1 => {
+                writeln!(f, "the whole sphere, {}", self.evaluation)?;
+            }
+            None => writeln!(f, "{} segments, {}", self.segments, self.evaluation)?,
+        }
+        if let Some(whole) = &self.whole {
+            writeln!(f, "              as one expansion: {whole}")?;
         }
         writeln!(f, "chosen for    {}", self.rule)?;
+        if let Some(estimate) = &self.estimate {
+            writeln!(
+                f,
+                "estimate      degree {}, known to {}",
+                estimate.degree,
+                of_radius(estimate.deviation)
+            )?;
+        }
+        if let Some(rms) = self.estimate_rms {
+            writeln!(f, "difference    RMS {} from the estimate", of_radius(rms))?;
+        }
         writeln!(f, "reference     {}", self.reference.description())?;
         writeln!(
             f,
@@ -290,8 +320,8 @@ impl fmt::Display for FitReport {
         if let Some(asymmetry) = self.asymmetry {
             writeln!(f, "asymmetry     RMS {}", of_radius(asymmetry))?;
         }
-        if self.noise > 0.0 {
-            writeln!(f, "noise         {}", of_radius(self.noise))?;
+        if let Some(noise) = self.noise {
+            writeln!(f, "noise         {}", of_radius(noise))?;
         }
         writeln!(f, "mean radius   {}", short(self.mean_radius))?;
         if self.reduced_segments > 0 {

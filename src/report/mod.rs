@@ -6,6 +6,7 @@
 //! a person. Errors of area and volume are signed and relative; lengths are in the scan's unit.
 
 mod contact;
+mod estimate;
 mod fit;
 mod harmonics;
 mod measure;
@@ -13,8 +14,10 @@ mod number;
 mod rule;
 mod search;
 mod synth;
+mod warning;
 
 pub use contact::{ContactReport, Load, TouchRecord};
+pub use estimate::{EstimateRecord, EvaluationRecord};
 pub use fit::{FitReport, ReferenceRecord, Seconds, Skipped};
 pub use harmonics::{largest_loss, write_harmonics};
 pub use measure::{
@@ -24,3 +27,4 @@ pub use measure::{
 pub use number::{percent, short};
 pub use search::{CandidateRecord, SearchReport};
 pub use synth::SynthReport;
+pub(crate) use warning::sentences;

@@ -1,42 +1,52 @@
 //! Why a candidate was chosen, in one sentence.
 
 use super::number::short;
-use crate::fit::{FitOptions, Fitted, Seams, Tolerance};
-use crate::sphere::Symmetry;
+use crate::fit::{FitOptions, Fitted, Tolerance};
 
 /// The rule of [`crate::fit`] as it decided here.
 pub(super) fn rule(fitted: &Fitted, options: &FitOptions) -> String {
     let search = &fitted.search;
     let choice = search.choice();
-    if search.candidates.len() == 1 {
+    if search.candidates.len() == 1 && fitted.estimate.is_none() {
         return "the only candidate asked for".into();
     }
-    let is_refined = options.seams == Seams::Blended && options.symmetry == Symmetry::NONE;
-    if choice.rejected.is_some() && !is_refined {
+    if choice.rejected.is_some() {
         return "every candidate was rejected; this one has the least held-out RMS".into();
     }
     let tolerance = options.tolerance.length(fitted.mean_radius);
+    let share = round(100.0 * search.limit / fitted.mean_radius);
+    if let (Some(estimate), Some(rms)) = (&fitted.estimate, choice.estimate_rms) {
+        let source = match (search.limit > tolerance, options.tolerance) {
+            (true, _) => format!(
+                "half of the estimate's standard deviation of {}",
+                short(estimate.deviation)
+            ),
+            (false, Tolerance::Length(_)) => "the tolerance".into(),
+            (false, _) => format!("{share} % of the mean radius"),
+        };
+        let limit = format!("{} ({source})", short(search.limit));
+        return match () {
+            () if choice.segments == 1 => {
+                format!("the lowest degree within {limit} of the estimate")
+            }
+            () if rms <= search.limit => format!(
+                "the fewest coefficients among {} covers within {limit} of the estimate",
+                search.work.candidates
+            ),
+            () => format!(
+                "the smallest difference from the estimate; the limit of {limit} is not met"
+            ),
+        };
+    }
     let source = match options.tolerance {
+        _ if search.limit > tolerance => "what the scan's noise allows".into(),
         Tolerance::Length(_) => "the tolerance".into(),
-        Tolerance::Auto | Tolerance::OfMeanRadius(_) => {
-            let share = round(100.0 * tolerance / fitted.mean_radius);
-            format!("{share} % of the mean radius")
-        }
-    };
-    let source = match options.seams {
-        _ if search.limit <= tolerance => source,
-        Seams::Blended => format!("{source} and the scan's noise of {}", short(search.noise)),
-        Seams::None => "what the scan's noise allows".into(),
+        _ => format!("{share} % of the mean radius"),
     };
     let limit = format!("the limit of {} ({source})", short(search.limit));
     match choice.heldout_rms {
         Some(rms) if rms <= search.limit => {
             format!("the fewest coefficients whose held-out RMS is within {limit}")
-        }
-        _ if is_refined => {
-            format!(
-                "splitting segments further does not lower the held-out RMS; {limit} is not met"
-            )
         }
         _ => format!("no candidate is within {limit}; this one has the least held-out RMS"),
     }

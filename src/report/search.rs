@@ -1,6 +1,7 @@
 //! What `grainform search` tells: every candidate.
 
 use super::rule::rule;
+use super::warning::sentences;
 use super::{ReferenceRecord, Seconds};
 use crate::fit::{Candidate, FitOptions, Fitted};
 use serde::Serialize;
@@ -19,10 +20,11 @@ pub struct SearchReport {
     pub chosen: usize,
     /// Why it was chosen: half a sentence.
     pub rule: String,
-    /// The held-out RMS that was good enough.
+    /// The error that was good enough: the difference from the estimate, or the held-out RMS of independent
+    /// segments and mirrored fits.
     pub limit: f64,
-    /// Standard deviation of the points round a local fit.
-    pub noise: f64,
+    /// Standard deviation of the points' noise; `null` where it was not estimated.
+    pub noise: Option<f64>,
     /// Mean radius over all directions.
     pub mean_radius: f64,
     /// What the candidates are compared with.
@@ -48,6 +50,9 @@ pub struct CandidateRecord {
     pub volume_error: Option<f64>,
     /// Root mean square of the radial errors of points that were left out one by one.
     pub heldout_rms: Option<f64>,
+    /// Root mean square difference of the radius from the estimate, over all directions; `null` of candidates that
+    /// are fitted to the points themselves.
+    pub estimate_rms: Option<f64>,
     /// Segments fitted at a lower degree because they hold too few points.
     pub reduced_segments: usize,
     /// Why this candidate cannot be chosen, if so.
@@ -74,7 +79,7 @@ impl SearchReport {
             mean_radius: fitted.mean_radius,
             reference: fitted.reference.into(),
             seconds: Seconds::default(),
-            warnings: [scan_warnings, &fitted.warnings].concat(),
+            warnings: sentences(scan_warnings, &fitted.warnings),
         }
     }
 
@@ -85,20 +90,21 @@ impl SearchReport {
     pub fn write_csv(&self, writer: &mut impl Write) -> io::Result<()> {
         writeln!(
             writer,
-            "degree,segments,coefficients,area_error,volume_error,heldout_rms,reduced_segments,\
-             rejected"
+            "degree,segments,coefficients,area_error,volume_error,heldout_rms,estimate_rms,\
+             reduced_segments,rejected"
         )?;
         let number = |value: Option<f64>| value.map_or(String::new(), |value| value.to_string());
         for row in &self.candidates {
             writeln!(
                 writer,
-                "{},{},{},{},{},{},{},{}",
+                "{},{},{},{},{},{},{},{},{}",
                 row.degree,
                 row.segments,
                 row.coefficients,
                 number(row.area_error),
                 number(row.volume_error),
                 number(row.heldout_rms),
+                number(row.estimate_rms),
                 row.reduced_segments,
                 quoted(row.rejected.as_deref()),
             )?;
@@ -122,6 +128,7 @@ impl From<&Candidate> for CandidateRecord {
             area_error: candidate.area_error,
             volume_error: candidate.volume_error,
             heldout_rms: candidate.heldout_rms,
+            estimate_rms: candidate.estimate_rms,
             reduced_segments: candidate.reduced_segments,
             rejected: candidate.rejected.map(|reason| reason.to_string()),
         }

@@ -1,6 +1,6 @@
 //! The points that an estimate rests on, in a space in which the grain is rounder.
 
-use crate::fit::samples::Sample;
+use crate::fit::prepare::Sample;
 use nalgebra::Vector3;
 
 /// Directions and radii of points after the linear map T = diag(`stretch`), radii in units of their mean.

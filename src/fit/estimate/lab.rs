@@ -1,5 +1,5 @@
 use super::*;
-use crate::fit::{FitOptions, PreparedScan};
+use crate::fit::{PreparedScan, prepare::CellGrid};
 use crate::scan::{Scan, read_scan};
 use crate::sphere::{HarmonicBasis, harmonic_index};
 use nalgebra::Point3;
@@ -101,16 +101,7 @@ pub(crate) fn noisy(
         })
         .collect()
 }
-pub(crate) fn prepare(points: Vec<Point3<f64>>) -> PreparedScan {
-    PreparedScan::new(
-        &Scan {
-            points,
-            ..Scan::default()
-        },
-        &FitOptions::default(),
-    )
-    .unwrap()
-}
+
 impl Estimate {
     /// points on the surface, scan frame, for own-frame directions
     pub(crate) fn radii_at(&self, dirs: &[Vector3<f64>]) -> Vec<f64> {

@@ -11,8 +11,6 @@
 //! The posterior covariance says how well every functional of the radius is known.
 
 mod cloud;
-#[cfg(test)]
-mod lab;
 mod likelihood;
 mod neighbours;
 mod newton;
@@ -21,8 +19,9 @@ mod patches;
 mod posterior;
 mod spectrum;
 mod spectrum_fit;
+mod surface;
 
-use super::samples::Sample;
+use crate::fit::prepare::Sample;
 use crate::sphere::{ScatteredHarmonics, coefficient_count};
 use cloud::Cloud;
 use nalgebra::Vector3;
@@ -117,9 +116,7 @@ pub(crate) fn estimate(samples: &[Sample], axes: Vector3<f64>) -> Estimate {
         let alone = match rounds < OUTLIER_ROUNDS && patches.is_none() {
             true => {
                 // Errors of predictions from all other points, were the points spread evenly.
-                let orders = fit.unlearnt.iter().enumerate();
-                let learnt: f64 = orders.map(|(l, q)| (2 * l + 1) as f64 * (1.0 - q)).sum();
-                let spare = (1.0 - learnt / cloud.len() as f64).max(LEAST_SPARE);
+                let spare = spare(&fit.unlearnt, cloud.len() as f64);
                 let mut errors = posterior.residuals(&fit.coefficients);
                 errors.iter_mut().for_each(|e| *e /= spare);
                 outliers::outliers(&cloud.directions, &errors)
@@ -226,6 +223,13 @@ fn next_degree(
     let variance = variance(&fit.spectrum, &fit.unlearnt);
     let sphere = 4.0 * std::f64::consts::PI;
     (tail / sphere > (TAIL * TAIL * variance).max(LEAST_TAIL * LEAST_TAIL)).then_some(next)
+}
+
+/// Share of the points that is not spent on coefficients: 1 - the mean leverage.
+fn spare(unlearnt: &[f64], points: f64) -> f64 {
+    let orders = unlearnt.iter().enumerate();
+    let learnt: f64 = orders.map(|(l, q)| (2 * l + 1) as f64 * (1.0 - q)).sum();
+    (1.0 - learnt / points).max(LEAST_SPARE)
 }
 
 /// Mean posterior variance of the radius: sum of (2l + 1) C_l / 4 pi.

@@ -4,7 +4,7 @@
 //! means of all points' residuals against a first estimate are added to what it says at the patches.
 
 use super::outliers::{median, robust_deviation};
-use crate::fit::samples::Sample;
+use crate::fit::prepare::Sample;
 use nalgebra::Vector3;
 use std::f64::consts::FRAC_PI_4;
 

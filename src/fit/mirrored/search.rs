@@ -7,16 +7,16 @@
 //!
 //! **Held-out error.** Every point is predicted from all others, its images included.
 
-use crate::fit::Residuals;
-use crate::fit::factor::Factorization;
-use crate::fit::held_out::{HeldOut, leave_one_out};
-use crate::fit::joint::ROOT_DEGREES;
-use crate::fit::level::{FittedLevel, LARGEST_MISS};
-use crate::fit::options::Seams;
-use crate::fit::prepare::PreparedScan;
-use crate::fit::samples::Sample;
-use crate::fit::search::{Candidate, Found, FoundFit, Rejection, Search, Work, choose, skipped};
-use crate::fit::segment::SAMPLES_PER_COEFFICIENT;
+use crate::fit::candidate::{Candidate, Rejection, Search, Work, choose};
+use crate::fit::context::{Context, Stage};
+use crate::fit::error::FitError;
+use crate::fit::linear::Factorization;
+use crate::fit::options::{FitOptions, Seams};
+use crate::fit::outcome::Residuals;
+use crate::fit::prepare::{CellGrid, PreparedScan, Sample};
+use crate::fit::segments::{
+    FittedLevel, HeldOut, LARGEST_MISS, Levels, SAMPLES_PER_COEFFICIENT, leave_one_out,
+};
 use crate::measure::mirrored_properties;
 use crate::model::{Mirrored, StarSurface};
 use crate::sphere::{CapBasis, Places, Symmetry, coefficient_count};
@@ -25,60 +25,67 @@ use nalgebra::Vector3;
 /// Degree of the local fits that tell of the noise, and of those that tell of the asymmetry.
 pub(crate) const LOCAL_DEGREE: usize = 3;
 
-/// Difference of mirror images, as a share of the mean radius, above which a scan is not symmetric.
-const LARGEST_ASYMMETRY: f64 = 0.01;
+/// Degrees up to which the expansion is fitted at first: each costs half as much as the next.
+const STEPS: [usize; 5] = [4, 6, 9, 12, 16];
 
 /// Distance from a mirror, in radians, within which a sample lies on it: rounding makes 1e-15.
 const ON_MIRROR: f64 = 1e-9;
 
-/// A fitted expansion with mirror images.
+/// The expansion with mirror images that a search chose.
 pub(crate) struct MirroredFit {
     pub(crate) surface: Mirrored,
     pub(crate) residuals: Residuals,
     /// Root mean square difference between the images, in the scan's unit.
     pub(crate) asymmetry: f64,
+    pub(crate) search: Search,
 }
 
 /// Searches the degrees asked for.
-pub(crate) fn search(prepared: &PreparedScan) -> Found {
-    let samples = prepared.samples().rows();
-    let symmetry = prepared.symmetry;
+pub(crate) fn search(
+    prepared: &PreparedScan<'_>,
+    options: &FitOptions,
+    context: &Context<'_>,
+) -> Result<MirroredFit, FitError> {
+    context.enter(Stage::Searching { done: 0 })?;
+    let whole = CellGrid::new([1]);
+    let samples = prepared.samples(&whole);
+    let samples = samples.rows();
+    let symmetry = options.symmetry;
     let folded = fold(samples, symmetry);
-    let probes = match prepared.thinned() {
+    let probes = match prepared.probes(&whole) {
         Some(thinned) => &fold(thinned.rows(), symmetry),
         None => &folded,
     };
-    let top = prepared.top_degree();
-    let noise = match prepared.degree {
-        Some(_) => 0.0,
-        None => {
-            let level = prepared.level(prepared.noise_parts, top.min(LOCAL_DEGREE));
-            FittedLevel::new(&level).residual_variance().sqrt()
-        }
-    };
-    let limit = prepared.tolerance.hypot(noise);
+    let (degrees, top) = (options.degrees(), options.top_degree());
+    let noise = options.degree.is_none().then(|| {
+        let degree = top.min(LOCAL_DEGREE);
+        let levels = Levels::new(prepared, &[1], degree);
+        let level = levels.level(levels.noise_parts, degree);
+        FittedLevel::new(&level).residual_variance().sqrt()
+    });
+    let tolerance = options.tolerance.length(prepared.mean_radius);
+    let limit = tolerance.hypot(noise.unwrap_or(0.0));
 
-    let is_step = |&step: &usize| step < top && !prepared.exhaustive && prepared.degree.is_none();
-    let mut steps = ROOT_DEGREES.into_iter().filter(is_step).chain([top]);
+    let is_step = |&step: &usize| step < top && !options.exhaustive && options.degree.is_none();
+    let mut steps = STEPS.into_iter().filter(is_step).chain([top]);
     let mut up_to = |degree: usize| {
         let step = steps.find(|&step| step >= degree).unwrap_or(top);
-        let basis = &prepared.bases(step)[step];
-        Expansions::new(&folded, probes, symmetry, basis)
+        Expansions::new(&folded, probes, symmetry, &CapBasis::new(step))
     };
-    let mut expansions = up_to(prepared.degrees[0]);
+    let mut expansions = up_to(degrees[0]);
     let mut candidates: Vec<Candidate> = Vec::new();
     let is_enough = |c: &Candidate| {
         c.rejected.is_none() && c.heldout_rms.is_some_and(|heldout| heldout <= limit)
     };
-    for &degree in &prepared.degrees {
-        let can_win = prepared.exhaustive || !candidates.iter().any(is_enough);
+    for &degree in &degrees {
+        let can_win = options.exhaustive || !candidates.iter().any(is_enough);
         if can_win && degree > expansions.degree {
             expansions = up_to(degree);
         }
         candidates.push(if can_win {
             expansions.candidate(degree, prepared)
         } else {
-            skipped(degree, 1)
+            Candidate::skipped(degree, 1)
         });
     }
     let chosen = choose(&candidates, limit);
@@ -91,35 +98,18 @@ pub(crate) fn search(prepared: &PreparedScan) -> Found {
         segments: 1,
         segments_skipped: 0,
     };
-    let fit = MirroredFit {
+    Ok(MirroredFit {
         residuals: residuals(&surface, samples),
         surface,
         asymmetry: asymmetry(samples, symmetry),
-    };
-    let search = Search {
-        seams: Seams::Blended,
-        candidates,
-        chosen,
-        limit,
-        noise,
-        outliers: 0,
-        work,
-    };
-    Found {
-        search,
-        fit: FoundFit::Mirrored(fit),
-    }
-}
-
-/// What a user should know of an asymmetry, given as a share of the mean radius.
-pub(crate) fn warning(asymmetry: f64) -> Option<String> {
-    (asymmetry > LARGEST_ASYMMETRY).then(|| {
-        format!(
-            "The scan is not symmetric about these planes: its mirror images differ by {:.1} % of the \
-             mean radius (RMS), and the surface is their mean. Turn the scan so that its axes are \
-             normal to its planes of symmetry, or fit it without mirrors.",
-            100.0 * asymmetry
-        )
+        search: Search {
+            seams: Seams::Blended,
+            candidates,
+            chosen,
+            limit,
+            noise,
+            work,
+        },
     })
 }
 
@@ -173,7 +163,7 @@ impl Expansions {
             .expect("finite samples give finite coefficients, (L + 1)^2 of them")
     }
 
-    fn candidate(&self, degree: usize, prepared: &PreparedScan) -> Candidate {
+    fn candidate(&self, degree: usize, prepared: &PreparedScan<'_>) -> Candidate {
         let fitted = self.at_most(degree);
         let held_out = self.held_out[fitted];
         let found = mirrored_properties(&self.surface(fitted)).properties;
@@ -186,7 +176,7 @@ impl Expansions {
                 worst if worst > LARGEST_MISS => Some(Rejection::Misses { worst }),
                 _ => None,
             },
-            ..skipped(degree, 1)
+            ..Candidate::unfitted(degree, 1, coefficient_count(degree))
         }
     }
 }

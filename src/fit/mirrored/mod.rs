@@ -8,9 +8,9 @@
 
 mod search;
 
-pub(crate) use search::{LOCAL_DEGREE, MirroredFit, search, warning};
+pub(crate) use search::search;
 
-use super::factor::{Factorization, Triangle};
+use super::linear::{Factorization, Triangle};
 use super::options::MAX_DEGREE;
 use crate::model::{InvalidGrain, Mirrored, StarSurface};
 use crate::sphere::{CapBasis, Places, Symmetry, coefficient_count};

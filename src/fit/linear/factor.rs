@@ -8,7 +8,7 @@
 //! never the normal equations.
 
 use super::householder::{WIDE, padded, triangularise};
-use super::samples::Sample;
+use crate::fit::prepare::Sample;
 use crate::sphere::{Cap, CapBasis, Places, coefficient_count};
 use crate::vectorize::vectorize;
 use faer::linalg::triangular_solve::solve_lower_triangular_in_place;

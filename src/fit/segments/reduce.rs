@@ -7,8 +7,8 @@
 //! to the segment are C B'(N) with C = R pinv(B(N)), an exact identity. C is kept per cell; a level
 //! of the search then costs the same whether a cell holds a hundred samples or a hundred thousand.
 
-use super::factor::Factorization;
-use super::samples::{CellGrid, Sample, Samples};
+use crate::fit::linear::Factorization;
+use crate::fit::prepare::{CellGrid, Sample, Samples};
 use crate::sphere::{AngleRectangle, Cap, CapBasis, Places, coefficient_count};
 use faer::linalg::solvers::SolveLstsq;
 use faer::{Accum, Mat, MatMut, MatRef, Par};

@@ -1,11 +1,11 @@
 //! The fit of one segment: every degree from one factorization, with its held-out error.
 
-use super::Residuals;
-use super::factor::{Factorization, Triangle};
 use super::held_out::{HeldOut, leave_one_out};
 use super::reduce::ReducedCell;
 use super::row::{LATTICE, Row};
-use super::samples::{CellGrid, Sample, Samples};
+use crate::fit::linear::{Factorization, Triangle};
+use crate::fit::outcome::Residuals;
+use crate::fit::prepare::{CellGrid, Sample, Samples};
 use crate::sphere::{AngularPartition, Cap, CapBasis, Places, coefficient_count};
 use rayon::prelude::*;
 

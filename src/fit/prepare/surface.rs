@@ -1,10 +1,11 @@
 //! The surface that a scan draws: a closed mesh through its points, by its own faces or by the
 //! triangulation of their directions.
 
-use super::options::FitError;
 use super::reference::ReferenceKind;
 use super::strays::{LEAST_STRAY, find_strays};
 use super::thin::{Thinned, WHOLE_CLOUD, thin};
+use crate::fit::error::FitError;
+use crate::fit::warning::FitWarning;
 use crate::mesh::Mesh;
 use crate::scan::Scan;
 use crate::sphere::triangulate_directions;
@@ -32,8 +33,8 @@ pub struct ScannedSurface<'a> {
     pub(crate) points: Cow<'a, [Point3<f64>]>,
     /// One point per small patch of directions, where the cloud is large.
     pub(crate) representatives: Option<Vec<Point3<f64>>>,
-    /// What a user should know: whole sentences.
-    pub warnings: Vec<String>,
+    /// What a user should know.
+    pub warnings: Vec<FitWarning>,
 }
 
 /// Finds the surface that a scan draws: its own faces if they enclose one body, else the
@@ -56,11 +57,7 @@ pub fn scanned_surface(scan: &Scan) -> Result<ScannedSurface<'_>, FitError> {
         }
         Some(_) => {
             let mut surface = from_directions(scan)?;
-            surface.warnings.push(
-                "The faces do not enclose one body, so the reference surface is the triangulation \
-                 of the points' directions."
-                    .into(),
-            );
+            surface.warnings.push(FitWarning::FacesNotClosed);
             Ok(surface)
         }
         None => from_directions(scan),
@@ -180,26 +177,18 @@ fn mesh_of_directions(points: Vec<Point3<f64>>, centre: &Point3<f64>) -> Result<
     })
 }
 
-fn warnings(mesh: &Mesh, centre: &Point3<f64>, strays: usize, points: usize) -> Vec<String> {
+fn warnings(mesh: &Mesh, centre: &Point3<f64>, strays: usize, points: usize) -> Vec<FitWarning> {
     let mut warnings = Vec::new();
     if strays > 0 {
-        warnings.push(format!(
-            "{strays} of {points} points stand apart from their neighbours by more than {:.0} % of \
-             the radius and were left out.",
-            100.0 * LEAST_STRAY
-        ));
+        warnings.push(FitWarning::Strays { strays, points });
     }
-    let (gap, direction) = widest_gap(mesh, centre);
+    let (half_angle, direction) = widest_gap(mesh, centre);
     let spacing = (4.0 * std::f64::consts::PI / mesh.vertices.len() as f64).sqrt();
-    if gap > WIDE_GAP.max(3.0 * spacing) {
-        warnings.push(format!(
-            "No point lies within {:.0} degrees of the direction ({:.2}, {:.2}, {:.2}): the \
-             surface there is a guess.",
-            gap.to_degrees(),
-            direction.x,
-            direction.y,
-            direction.z
-        ));
+    if half_angle > WIDE_GAP.max(3.0 * spacing) {
+        warnings.push(FitWarning::Gap {
+            half_angle,
+            direction,
+        });
     }
     warnings
 }

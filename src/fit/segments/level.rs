@@ -1,10 +1,10 @@
 //! One level of a search: all segments of one partition, at every degree at once.
 
 use super::held_out::HeldOut;
-use super::reference::Reference;
 use super::row::rows;
-use super::search::{Candidate, Rejection};
 use super::segment::{DegreeFit, Level, SegmentFit, Workspace};
+use crate::fit::candidate::{Candidate, Rejection};
+use crate::fit::prepare::Reference;
 use crate::sphere::coefficient_count;
 use rayon::prelude::*;
 
@@ -67,6 +67,7 @@ impl FittedLevel {
             area_error: Some(area / reference.area - 1.0),
             volume_error: Some(volume / reference.volume - 1.0),
             heldout_rms: Some((held_out.squared / held_out.count.max(1) as f64).sqrt()),
+            estimate_rms: None,
             rejected,
         }
     }

@@ -4,8 +4,8 @@
 //! residual and h its leverage, the squared length of z = R^-T b; exact for least squares. The
 //! columns of z are ordered by degree, so one pass gives the errors of every degree.
 
-use super::factor::Triangle;
-use super::samples::Sample;
+use crate::fit::linear::Triangle;
+use crate::fit::prepare::Sample;
 use crate::sphere::coefficient_count;
 use crate::vectorize::vectorize;
 

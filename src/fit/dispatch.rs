@@ -1,0 +1,237 @@
+//! The only place that knows all families of models: which one the options ask for, and how what it
+//! gives becomes a fitted grain.
+
+use super::blended::{self, Settings, Target};
+use super::candidate::{Candidate, Search, Work};
+use super::context::{Context, Stage};
+use super::error::FitError;
+use super::estimate::{Estimate, estimate};
+use super::mirrored;
+use super::options::{FitOptions, Seams, Tolerance};
+use super::outcome::{EstimateSummary, Fitted, Residuals};
+use super::prepare::{CellGrid, PreparedScan, Sample};
+use super::segments;
+use super::warning::FitWarning;
+use crate::model::{Frame, Grain, Stretch, Surface};
+use crate::sphere::Symmetry;
+use nalgebra::Vector3;
+
+/// An expansion of the whole sphere with no more coefficients than this needs no cells: they would touch as many.
+const FEW_COEFFICIENTS: usize = 64;
+
+/// Parts per angle of the grid in which samples are sorted.
+const SORTED_PARTS: usize = 32;
+
+impl PreparedScan<'_> {
+    /// Fits the model that the options ask for.
+    ///
+    /// # Errors
+    /// [`FitError`] if the options are out of range, or the fit was cancelled.
+    pub fn fit(&self, options: &FitOptions, context: &Context<'_>) -> Result<Fitted, FitError> {
+        options.check()?;
+        context.run(|| match options.seams {
+            _ if options.symmetry != Symmetry::NONE => mirrored(self, options, context),
+            Seams::None => independent(self, options, context),
+            Seams::Blended => estimated(self, options, context),
+        })
+    }
+
+    /// What is known before any fit.
+    fn fitted(&self, grain: Grain, search: Search, residuals: Residuals) -> Fitted {
+        Fitted {
+            grain,
+            search,
+            reference: self.reference,
+            points: self.points().len(),
+            mean_radius: self.mean_radius,
+            residuals,
+            asymmetry: None,
+            estimate: None,
+            whole: None,
+            warnings: self.warnings.clone(),
+        }
+    }
+}
+
+/// Difference of mirror images, as a share of the mean radius, above which a scan is not symmetric.
+const LARGEST_ASYMMETRY: f64 = 0.01;
+
+fn mirrored(
+    prepared: &PreparedScan<'_>,
+    options: &FitOptions,
+    context: &Context<'_>,
+) -> Result<Fitted, FitError> {
+    let fit = mirrored::search(prepared, options, context)?;
+    let grain = grain(
+        prepared.frame(),
+        Stretch::NONE,
+        Surface::Mirrored(fit.surface),
+    );
+    let mut fitted = prepared.fitted(grain, fit.search, fit.residuals);
+    fitted.warnings.extend(rejected(&fitted.search));
+    let share = fit.asymmetry / prepared.mean_radius;
+    if share > LARGEST_ASYMMETRY {
+        fitted.warnings.push(FitWarning::Asymmetric { share });
+    }
+    fitted.asymmetry = Some(fit.asymmetry);
+    Ok(fitted)
+}
+
+fn independent(
+    prepared: &PreparedScan<'_>,
+    options: &FitOptions,
+    context: &Context<'_>,
+) -> Result<Fitted, FitError> {
+    let fit = segments::search(prepared, options, context)?;
+    let grain = grain(
+        prepared.frame(),
+        Stretch::NONE,
+        Surface::Segmented(fit.surface),
+    );
+    let mut fitted = prepared.fitted(grain, fit.search, fit.residuals);
+    fitted.warnings.extend(rejected(&fitted.search));
+    Ok(fitted)
+}
+
+fn rejected(search: &Search) -> Option<FitWarning> {
+    let choice = search.choice();
+    Some(FitWarning::Rejected {
+        reason: choice.rejected?,
+        segments: choice.segments,
+        is_only: search.candidates.len() == 1,
+    })
+}
+
+/// Estimates the radius, then approximates the estimate.
+fn estimated(
+    prepared: &PreparedScan<'_>,
+    options: &FitOptions,
+    context: &Context<'_>,
+) -> Result<Fitted, FitError> {
+    context.enter(Stage::Estimating)?;
+    let samples = prepared.samples(&CellGrid::new([SORTED_PARTS]));
+    let estimate = estimate(samples.rows(), prepared.semi_axes);
+    let tolerance = options.tolerance.length(prepared.mean_radius);
+    let limit = tolerance.max(0.5 * estimate.deviation());
+    let stretch = estimate.stretch();
+    let frame = prepared.frame();
+    let whole = |degree: usize| grain(frame, stretch, Surface::Whole(estimate.expansion(degree)));
+
+    // The estimate itself, unless a tolerance asks for less of it.
+    let own_limit = match options.tolerance {
+        Tolerance::Auto => estimate.resolution(),
+        _ => limit,
+    };
+    let asked = (options.segments == Some(1)).then(|| {
+        options
+            .degree
+            .unwrap_or_else(|| estimate.least_degree(own_limit))
+            .min(estimate.degree)
+    });
+    let degree = asked.unwrap_or_else(|| estimate.least_degree(limit));
+    let held_out = estimate.held_out();
+    let near = |rms: f64, candidate: Candidate| Candidate {
+        estimate_rms: Some(rms),
+        heldout_rms: Some(rms.hypot(held_out)),
+        ..candidate
+    };
+    let of_whole = Candidate::unfitted(degree, 1, (degree + 1).pow(2));
+    let is_whole = asked.is_some()
+        || options.most_segments() < 6
+        || (options.segments.is_none()
+            && options.degree.is_none()
+            && (degree + 1).pow(2) <= FEW_COEFFICIENTS);
+    let mut candidates = vec![near(estimate.truncation(degree), of_whole)];
+    let mut work = Work::default();
+    let mut warnings = Vec::new();
+    let (chosen, rival) = match is_whole {
+        true => (whole(degree), None),
+        false => {
+            context.enter(Stage::Searching { done: 0 })?;
+            let settings = Settings {
+                degree: options.degree,
+                max_degree: options.top_degree(),
+                segments: options.segments,
+                max_segments: options.most_segments(),
+                limit,
+            };
+            let outcome = blended::approximate(&Plain(&estimate), &settings);
+            work.candidates = outcome.rounds.len();
+            work.segments = outcome.rounds.iter().map(|round| round.cells).sum();
+            candidates.extend(outcome.rounds.iter().map(|round| {
+                let size = Candidate::unfitted(round.degree, round.cells, round.coefficients);
+                near(round.rms, size)
+            }));
+            if options.segments.is_none() && !outcome.met {
+                warnings.push(FitWarning::LimitNotMet {
+                    rms: outcome.rms,
+                    limit,
+                });
+            }
+            let cells = grain(frame, stretch, Surface::Blended(outcome.surface));
+            (cells, Some(whole(degree)))
+        }
+    };
+    let search = Search {
+        seams: Seams::Blended,
+        chosen: candidates.len() - 1,
+        candidates,
+        limit: if asked.is_some() { own_limit } else { limit },
+        noise: Some(estimate.noise()),
+        work,
+    };
+    let residuals = residuals(&chosen, samples.rows());
+    let mut fitted = prepared.fitted(chosen, search, residuals);
+    fitted.points = samples.rows().len() - estimate.outliers;
+    fitted.whole = rival;
+    fitted.warnings.extend(warnings);
+    if estimate.outliers > 0 {
+        fitted.warnings.push(FitWarning::Outliers {
+            outliers: estimate.outliers,
+        });
+    }
+    fitted.estimate = Some(EstimateSummary {
+        degree: estimate.degree,
+        deviation: estimate.deviation(),
+        noise: estimate.noise(),
+        slope: estimate.spectrum.slope(),
+        outliers: estimate.outliers,
+    });
+    Ok(fitted)
+}
+
+/// The estimate in its stretched space, its errors weighed as those of the plain radius over all plain directions.
+struct Plain<'a>(&'a Estimate);
+
+impl Target for Plain<'_> {
+    fn radii(&self, directions: &[Vector3<f64>]) -> Vec<f64> {
+        self.0.stretched_radii(directions)
+    }
+
+    fn weight(&self, n: &Vector3<f64>) -> f64 {
+        self.0.weight(n)
+    }
+}
+
+fn grain(frame: &Frame, stretch: Stretch, surface: Surface) -> Grain {
+    Grain::stretched(*frame, stretch, surface).expect("the axes are orthonormal")
+}
+
+/// Residuals of all samples, in the grain's own frame.
+fn residuals(grain: &Grain, samples: &[Sample]) -> Residuals {
+    let directions: Vec<Vector3<f64>> = samples
+        .iter()
+        .map(|&[x, y, z, _]| Vector3::new(x, y, z))
+        .collect();
+    let fitted = grain.local_radii(&directions);
+    let (mut squared, mut max) = (0.0, 0.0_f64);
+    for (sample, radius) in samples.iter().zip(fitted) {
+        let residual = sample[3] - radius;
+        squared += residual * residual;
+        max = max.max(residual.abs());
+    }
+    Residuals {
+        rms: (squared / samples.len() as f64).sqrt(),
+        max,
+    }
+}

@@ -1,0 +1,125 @@
+//! Why a fit cannot be made.
+
+use super::context::Cancelled;
+
+/// Why a fit cannot be made.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum FitError {
+    /// The number of segments is not a square: each angle is cut in the same number of parts.
+    #[error(
+        "{segments} segments cannot be made: both angles are cut in k equal parts, so ask for a \
+         square, {below} or {above}"
+    )]
+    SegmentsNotSquare {
+        /// The number asked for.
+        segments: usize,
+        /// The nearest square below.
+        below: usize,
+        /// The nearest square above.
+        above: usize,
+    },
+    /// No uniform cover of the cube's faces has this number of cells.
+    #[error(
+        "{segments} segments cannot be blended: ask for 1, or for 6 n^2 cells on the faces of a cube \
+         such as {below} or {above}, or for independent segments"
+    )]
+    SegmentsNotOfCube {
+        /// The number asked for.
+        segments: usize,
+        /// The nearest possible number below.
+        below: usize,
+        /// The nearest possible number above.
+        above: usize,
+    },
+    /// Segments are asked for, and mirrors too.
+    #[error(
+        "a fit with mirror planes is one expansion: neither independent segments nor a number of \
+         segments can be asked for with it"
+    )]
+    SymmetryOfSegments,
+    /// A setting is outside of its range.
+    #[error("{setting} is {value}; it must be from {least} to {most}")]
+    OutOfRange {
+        /// Name of the setting.
+        setting: &'static str,
+        /// The value asked for.
+        value: usize,
+        /// The smallest allowed.
+        least: usize,
+        /// The largest allowed.
+        most: usize,
+    },
+    /// The tolerance is not a positive number.
+    #[error("the tolerance is {value}; it must be a positive length")]
+    Tolerance {
+        /// The value asked for.
+        value: f64,
+    },
+    /// The scan has too few distinct points, or they enclose no volume.
+    #[error(
+        "the scan's {points} points do not enclose a volume; a closed surface needs at least 4 \
+         points that do not lie in one plane"
+    )]
+    NoVolume {
+        /// Number of points.
+        points: usize,
+    },
+    /// The numbers of the scan are too large or too small to compute with.
+    #[error(
+        "the scan is {size:e} of its units across; moments of inertia of such a size cannot be \
+         written as numbers: scale the scan to another unit"
+    )]
+    Scale {
+        /// Cube root of the volume.
+        size: f64,
+    },
+    /// A coordinate is not finite.
+    #[error("point {index} is not finite; remove it from the scan")]
+    NotFinite {
+        /// Index of the point.
+        index: usize,
+    },
+    /// No centre sees (nearly) the whole surface.
+    #[error(
+        "the surface is not star-shaped: seen from the best centre, {:.1} % of its area faces away, \
+         so the radius is not a function of the direction; rings, hooks and several bodies cannot \
+         be fitted, a whole grain can",
+        100.0 * share
+    )]
+    NotStarShaped {
+        /// Share of the area that faces away from the best centre.
+        share: f64,
+    },
+    /// Too many points do not belong to the surface that the others draw.
+    #[error(
+        "{:.0} % of the points stand apart from their neighbours by more than a tenth of the \
+         radius; a scan of one grain has below 1 % of such outliers: remove the background, or cut \
+         out one grain",
+        100.0 * share
+    )]
+    Strays {
+        /// Share of such points.
+        share: f64,
+    },
+    /// Points seen in nearly the same direction lie at very different distances.
+    #[error(
+        "the points are not one surface round a centre: in neighbouring directions their distance \
+         from it differs by {:.0} % (median), where a scanned grain shows below 5 %; it may be \
+         a ring, several bodies, or a scene with its background: cut out one grain",
+        100.0 * scatter
+    )]
+    Scattered {
+        /// Standard deviation of the radius against the neighbours' median.
+        scatter: f64,
+    },
+    /// The fit was asked to stop.
+    #[error("the fit was cancelled")]
+    Cancelled,
+}
+
+impl From<Cancelled> for FitError {
+    fn from(_: Cancelled) -> Self {
+        Self::Cancelled
+    }
+}

@@ -1,0 +1,120 @@
+//! An estimate as a surface: its radii, its expansion cut at a degree, and how sure it is as a whole.
+
+use super::Estimate;
+use super::posterior::Posterior;
+use crate::model::{Stretch, Whole};
+use crate::sphere::{RingGrid, ScatteredHarmonics, coefficient_count};
+use nalgebra::Vector3;
+use std::f64::consts::PI;
+
+/// An expansion resolves its points when what it leaves out is below this share of the estimate's own standard deviation ...
+const RESOLVED: f64 = 0.1;
+
+/// ... or below this share of the mean radius.
+const LEAST_RESOLUTION: f64 = 1e-6;
+
+impl Estimate {
+    /// The linear map of the space in which the radius is expanded.
+    pub(crate) fn stretch(&self) -> Stretch {
+        Stretch::new(self.cloud.stretch).expect("the axes of a solid are finite and positive")
+    }
+
+    /// Standard deviation of the noise of one point, as a mean over all directions, in the scan's unit.
+    pub(crate) fn noise(&self) -> f64 {
+        self.spectrum.noise() * self.plain_length()
+    }
+
+    /// Standard deviation of the radius, as root mean square over all directions, in the scan's unit.
+    pub(crate) fn deviation(&self) -> f64 {
+        super::variance(&self.spectrum, &self.unlearnt).sqrt() * self.plain_length()
+    }
+
+    /// Error of predictions of a point from all others, as root mean square, in the scan's unit: by generalised
+    /// cross-validation, that is with the mean of the points' leverages.
+    pub(crate) fn held_out(&self) -> f64 {
+        let posterior = Posterior::new(&self.cloud, self.degree, false);
+        let residuals = posterior.residuals(&self.coefficients);
+        let weighted = residuals.iter().zip(&self.cloud.weights);
+        let squared: f64 = weighted.map(|(e, w)| w * e * e).sum();
+        let points = self.cloud.len() as f64;
+        let rms = (squared / points).sqrt() / super::spare(&self.unlearnt, points);
+        rms * self.plain_length()
+    }
+
+    /// What an expansion may leave out and still be the estimate itself, in the scan's unit.
+    pub(crate) fn resolution(&self) -> f64 {
+        (RESOLVED * self.deviation()).max(LEAST_RESOLUTION * self.cloud.mean)
+    }
+
+    /// Radii in directions of the stretched space, in the scan's unit there.
+    pub(crate) fn stretched_radii(&self, directions: &[Vector3<f64>]) -> Vec<f64> {
+        let mut radii = vec![0.0; directions.len()];
+        ScatteredHarmonics::new(self.degree, directions).synthesis(&self.coefficients, &mut radii);
+        radii
+            .iter_mut()
+            .for_each(|radius| *radius *= self.cloud.mean);
+        radii
+    }
+
+    /// The expansion up to a degree.
+    pub(crate) fn expansion(&self, degree: usize) -> Whole {
+        let kept = &self.coefficients[..coefficient_count(degree.min(self.degree))];
+        let scaled = kept.iter().map(|x| x * self.cloud.mean).collect();
+        Whole::new(scaled).expect("finite radii give finite coefficients")
+    }
+
+    /// Root mean square, over all plain directions, of what the expansion up to a degree leaves out of the radius.
+    pub(crate) fn truncation(&self, degree: usize) -> f64 {
+        self.truncation_on(&self.grid(), degree)
+    }
+
+    /// The lowest degree whose expansion leaves out no more than `limit`.
+    pub(crate) fn least_degree(&self, limit: f64) -> usize {
+        let grid = self.grid();
+        let (mut low, mut high) = (0, self.degree);
+        while low < high {
+            let middle = (low + high) / 2;
+            match self.truncation_on(&grid, middle) <= limit {
+                true => high = middle,
+                false => low = middle + 1,
+            }
+        }
+        high
+    }
+
+    fn grid(&self) -> RingGrid {
+        RingGrid::new(self.degree, self.degree + 1)
+    }
+
+    fn truncation_on(&self, grid: &RingGrid, degree: usize) -> f64 {
+        let mut tail = self.coefficients.clone();
+        tail[..coefficient_count(degree.min(self.degree))].fill(0.0);
+        let values = grid.synthesis(&tail);
+        let squares = grid.nodes().into_iter().zip(values);
+        let sum: f64 = squares
+            .map(|((n, solid_angle), (value, _))| solid_angle * self.weight(&n) * value * value)
+            .sum();
+        (sum / (4.0 * PI)).sqrt() * self.cloud.mean
+    }
+
+    /// Weight of a squared error of the stretched radius per solid angle of the stretched space, so that its integral is
+    /// that of the squared error of the plain radius over plain directions: a difference d' of the stretched radius is one of
+    /// d' |T^-1 n'| of the plain one, and the solid angle is det(T^-1) / |T^-1 n'|^3 times as large.
+    pub(crate) fn weight(&self, n: &Vector3<f64>) -> f64 {
+        let stretch = &self.cloud.stretch;
+        1.0 / (n.component_div(stretch).norm() * stretch.product())
+    }
+
+    /// Root mean square plain length, over all plain directions, of the mean radius of the stretched space.
+    fn plain_length(&self) -> f64 {
+        let grid = RingGrid::new(0, MEAN_RINGS);
+        let nodes = grid.nodes().into_iter();
+        let sum: f64 = nodes
+            .map(|(n, solid_angle)| solid_angle * self.weight(&n))
+            .sum();
+        (sum / (4.0 * PI)).sqrt() * self.cloud.mean
+    }
+}
+
+/// Rings by which the mean weight is found: to 1e-6 of bodies three times as long as wide.
+const MEAN_RINGS: usize = 24;

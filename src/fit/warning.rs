@@ -1,0 +1,57 @@
+//! What a user should know of a scan and its fit, as data; sentences are made where they are shown.
+
+use super::candidate::Rejection;
+use nalgebra::Vector3;
+
+/// Something odd about a scan or its fit that did not stop it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub enum FitWarning {
+    /// The scan's faces do not enclose one body: the reference is the triangulation of the points' directions.
+    FacesNotClosed,
+    /// Points that stand apart from their neighbours were left out.
+    Strays {
+        /// Their number.
+        strays: usize,
+        /// Points of the scan.
+        points: usize,
+    },
+    /// Points that stand alone, far from the estimate, were left out.
+    Outliers {
+        /// Their number.
+        outliers: usize,
+    },
+    /// No point lies within an angle of some direction: the surface there is a guess.
+    Gap {
+        /// The angle, in radians.
+        half_angle: f64,
+        /// The direction, in the scan's frame.
+        direction: Vector3<f64>,
+    },
+    /// Part of the surface faces away from the best centre and is smoothed over.
+    NotStarShaped {
+        /// Its share of the area.
+        share: f64,
+    },
+    /// The mirror images of the scan differ.
+    Asymmetric {
+        /// Root mean square difference, as a share of the mean radius.
+        share: f64,
+    },
+    /// The candidate that was chosen had been rejected, for want of a better one.
+    Rejected {
+        /// Why.
+        reason: Rejection,
+        /// Its number of segments.
+        segments: usize,
+        /// Whether it was the only candidate.
+        is_only: bool,
+    },
+    /// The segments do not come within the limit of the estimate.
+    LimitNotMet {
+        /// Root mean square difference from the estimate, in the scan's unit.
+        rms: f64,
+        /// The limit.
+        limit: f64,
+    },
+}

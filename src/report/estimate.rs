@@ -1,0 +1,97 @@
+//! What a fit tells of its estimate, and of what an evaluation costs.
+
+use crate::fit::EstimateSummary;
+use crate::model::{Grain, StarSurface};
+use crate::sphere::cube_grid;
+use serde::Serialize;
+use std::fmt;
+use std::hint::black_box;
+use std::time::Instant;
+
+/// What the points say of the radius before it is cut in segments: lengths in the scan's unit.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct EstimateRecord {
+    /// Largest degree of its expansion.
+    pub degree: usize,
+    /// Standard deviation of the radius, as root mean square over all directions.
+    pub deviation: f64,
+    /// Standard deviation of the noise of one point (of the mean of a patch, of clouds of more than 30 000 points).
+    pub noise: f64,
+    /// Exponent of the power law by which the variance of its harmonics falls with their degree.
+    pub slope: f64,
+    /// Points that stand alone and were left out.
+    pub outliers: usize,
+}
+
+impl From<EstimateSummary> for EstimateRecord {
+    fn from(summary: EstimateSummary) -> Self {
+        let EstimateSummary {
+            degree,
+            deviation,
+            noise,
+            slope,
+            outliers,
+            ..
+        } = summary;
+        Self {
+            degree,
+            deviation,
+            noise,
+            slope,
+            outliers,
+        }
+    }
+}
+
+/// What an evaluation of a surface costs.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct EvaluationRecord {
+    /// Largest degree.
+    pub degree: usize,
+    /// Coefficients of all segments.
+    pub coefficients: usize,
+    /// Coefficients that one evaluation touches, as a mean over all directions.
+    pub touched: f64,
+    /// Nanoseconds of one radius, measured here and now.
+    pub nanoseconds: f64,
+}
+
+/// Cells along a cube's edge of the directions that are timed: 602 directions.
+const TIMED: usize = 10;
+
+/// Times that they are evaluated: the least is told.
+const REPEATS: usize = 3;
+
+impl EvaluationRecord {
+    pub(super) fn new(grain: &Grain) -> Self {
+        let (directions, _) = cube_grid(TIMED);
+        let seconds = (0..REPEATS).map(|_| {
+            let started = Instant::now();
+            for n in &directions {
+                black_box(grain.radius(black_box(n)));
+            }
+            started.elapsed().as_secs_f64()
+        });
+        let least = seconds.fold(f64::INFINITY, f64::min);
+        Self {
+            degree: grain.degree(),
+            coefficients: grain.coefficient_count(),
+            touched: grain.coefficients_touched(),
+            nanoseconds: 1e9 * least / directions.len() as f64,
+        }
+    }
+}
+
+impl fmt::Display for EvaluationRecord {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let coefficients = match self.coefficients {
+            1 => "coefficient",
+            _ => "coefficients",
+        };
+        write!(
+            f,
+            "{} {coefficients}, {:.0} per evaluation ({:.0} ns)",
+            self.coefficients, self.touched, self.nanoseconds
+        )
+    }
+}

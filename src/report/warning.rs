@@ -1,0 +1,121 @@
+//! Warnings and reasons as sentences.
+
+use super::number::short;
+use crate::fit::{FitWarning, Rejection};
+use std::fmt;
+
+impl fmt::Display for Rejection {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Skipped => write!(
+                f,
+                "skipped: one with fewer coefficients is within the limit"
+            ),
+            Self::Unsupported { degree } => {
+                write!(f, "too few points for degree {degree}")
+            }
+            Self::Misses { worst } => {
+                write!(f, "misses a point by {:.0} % of its radius", 100.0 * worst)
+            }
+            Self::Tears { by } => write!(f, "tears at a seam by {:.0} % of the radius", 100.0 * by),
+        }
+    }
+}
+
+impl fmt::Display for FitWarning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::FacesNotClosed => write!(
+                f,
+                "The faces do not enclose one body, so the reference surface is the triangulation of \
+                 the points' directions."
+            ),
+            Self::Strays { strays, points } => write!(
+                f,
+                "{strays} of {points} points stand apart from their neighbours by more than 10 % of the \
+                 radius and were left out."
+            ),
+            Self::Outliers { outliers: 1 } => {
+                write!(
+                    f,
+                    "1 point stands alone, far from the surface, and was left out."
+                )
+            }
+            Self::Outliers { outliers } => write!(
+                f,
+                "{outliers} points stand alone, far from the surface, and were left out."
+            ),
+            Self::Gap {
+                half_angle,
+                direction,
+            } => write!(
+                f,
+                "No point lies within {:.0} degrees of the direction ({:.2}, {:.2}, {:.2}): the surface \
+                 there is a guess.",
+                half_angle.to_degrees(),
+                direction.x,
+                direction.y,
+                direction.z
+            ),
+            Self::NotStarShaped { share } => write!(
+                f,
+                "The surface is not quite star-shaped: {:.2} % of its area faces away from the best \
+                 centre and is smoothed over.",
+                100.0 * share
+            ),
+            Self::Asymmetric { share } => write!(
+                f,
+                "The scan is not symmetric about these planes: its mirror images differ by {:.1} % of \
+                 the mean radius (RMS), and the surface is their mean. Turn the scan so that its axes \
+                 are normal to its planes of symmetry, or fit it without mirrors.",
+                100.0 * share
+            ),
+            Self::Rejected {
+                reason,
+                segments,
+                is_only,
+            } => rejected(f, reason, segments, is_only),
+            Self::LimitNotMet { rms, limit } => write!(
+                f,
+                "The segments differ from the estimate by {} (RMS), more than the limit of {}: allow more \
+                 of them (--max-segments) or a larger error (--tolerance).",
+                short(rms),
+                short(limit)
+            ),
+        }
+    }
+}
+
+fn rejected(
+    f: &mut fmt::Formatter<'_>,
+    reason: Rejection,
+    segments: usize,
+    is_only: bool,
+) -> fmt::Result {
+    let advice = "Its area, volume and inertia are as good as their deviations say, but look at the \
+                  mesh before relying on details of the surface.";
+    match reason {
+        Rejection::Unsupported { degree } if segments == 1 => write!(
+            f,
+            "There are too few points for degree {degree}; the surface was fitted at the largest degree \
+             that they support."
+        ),
+        Rejection::Unsupported { degree } => write!(
+            f,
+            "No segment holds the points that degree {degree} needs; each was fitted at the largest \
+             degree that its points support."
+        ),
+        _ if is_only => write!(f, "This fit {reason}. {advice}"),
+        _ => write!(
+            f,
+            "Every candidate misses a point or tears at a seam by more than 8 % of the radius; the one \
+             with the least held-out error was taken, and it {reason}. {advice}"
+        ),
+    }
+}
+
+/// The sentences of a reader's and a fit's warnings.
+pub(crate) fn sentences(of_scan: &[String], of_fit: &[FitWarning]) -> Vec<String> {
+    let of_fit = of_fit.iter().map(ToString::to_string);
+    of_scan.iter().cloned().chain(of_fit).collect()
+}
