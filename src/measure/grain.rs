@@ -47,8 +47,7 @@ pub fn grain_properties(grain: &Grain) -> Integrals {
 
 /// Those of a blended surface in the grain's own frame.
 pub(crate) fn blended_properties(surface: &Blended) -> Integrals {
-    let cells = surface.cover().cells().iter();
-    let zones = cells.flat_map(|cell| cell.zones()).collect();
+    let zones = surface.cover().zones();
     integrate_pieces(zones, BLENDED_ORDERS, BLENDED_TOLERANCE, |_, directions| {
         surface.radii_and_gradients(directions)
     })

@@ -1,10 +1,11 @@
 //! A grain as JSON: versioned, exact to the last bit, and refused where it is not sound.
 //!
 //! Version 2 holds one of `cells` (blended), `segments` (independent) and `symmetry` (mirrored).
+//! `margin` goes with `cells`.
 //! Version 1, which knew segments only, is still read.
 
 use super::{Blended, Frame, Grain, InvalidGrain, Mirrored, Segmented, Surface};
-use crate::sphere::{AngularPartition, Cover, CoverError, CubeCell, Symmetry};
+use crate::sphere::{AngularPartition, Cover, CoverError, CubeCell, MARGIN, Symmetry};
 use nalgebra::{Matrix3, Point3, Vector3};
 use serde::{Deserialize, Serialize};
 
@@ -30,6 +31,9 @@ struct GrainFile {
     /// Overlapping cells of the faces of a cube, blended.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     cells: Option<Vec<CellRecord>>,
+    /// How far cells blend, in widths of a cell; absent where it is [`MARGIN`].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    margin: Option<f64>,
     /// Parts per angle of independent segments: n_s is its square.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     parts_per_angle: Option<usize>,
@@ -105,6 +109,7 @@ pub fn save_grain(grain: &Grain) -> String {
         centre: centre.coords.into(),
         axes: [0, 1, 2].map(|i| axes.column(i).into_owned().into()),
         cells: None,
+        margin: None,
         parts_per_angle: None,
         segments: None,
         symmetry: None,
@@ -121,6 +126,8 @@ pub fn save_grain(grain: &Grain) -> String {
                 coefficients: coefficients.clone(),
             };
             file.cells = Some(cells.map(record).collect());
+            let margin = surface.cover().margin();
+            file.margin = (margin != MARGIN).then_some(margin);
         }
         Surface::Segmented(surface) => {
             file.parts_per_angle = Some(surface.partition().per_angle());
@@ -150,8 +157,8 @@ pub fn parse_grain(text: &str) -> Result<Grain, LoadError> {
     }
     let independent = (file.parts_per_angle, file.segments);
     let mirrored = (file.symmetry, file.coefficients);
-    let surface = match (file.cells, independent, mirrored) {
-        (Some(cells), (None, None), (None, None)) => {
+    let surface = match ((file.cells, file.margin), independent, mirrored) {
+        ((Some(cells), margin), (None, None), (None, None)) => {
             let place = |record: CellRecord| {
                 let cell = CubeCell {
                     face: record.face,
@@ -162,15 +169,16 @@ pub fn parse_grain(text: &str) -> Result<Grain, LoadError> {
                 (cell, record.coefficients)
             };
             let (cells, coefficients) = cells.into_iter().map(place).unzip();
-            Surface::Blended(Blended::new(Cover::new(cells)?, coefficients)?)
+            let cover = Cover::with_margin(cells, margin.unwrap_or(MARGIN))?;
+            Surface::Blended(Blended::new(cover, coefficients)?)
         }
-        (None, (Some(found), Some(segments)), (None, None)) => {
+        ((None, None), (Some(found), Some(segments)), (None, None)) => {
             if found > LARGEST_PARTITION {
                 return Err(LoadError::Partition { found });
             }
             Surface::Segmented(Segmented::new(AngularPartition::new(found), segments)?)
         }
-        (None, (None, None), (Some(symmetry), Some(coefficients))) => {
+        ((None, None), (None, None), (Some(symmetry), Some(coefficients))) => {
             Surface::Mirrored(Mirrored::new(symmetry, coefficients)?)
         }
         _ => return Err(LoadError::Surface),
