@@ -10,6 +10,14 @@
 //! ```
 
 mod axes;
+#[cfg_attr(
+    not(test),
+    expect(
+        dead_code,
+        reason = "the fit to an estimate is its only user, and to come"
+    )
+)]
+mod blended;
 mod centre;
 mod factor;
 mod held_out;

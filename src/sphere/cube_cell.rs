@@ -167,13 +167,6 @@ impl CubeCell {
         FaceRectangle { cell: *self, b, c }
     }
 
-    /// The cell and a margin of so many widths.
-    pub(crate) fn widened(&self, margin: f64) -> FaceRectangle {
-        let reach = self.reach(margin);
-        let [b, c] = self.angles().map(|[low, high]| [low - reach, high + reach]);
-        FaceRectangle { cell: *self, b, c }
-    }
-
     /// The cell in up to 3 x 3 rectangles, cut where its own margin ends and those of neighbours of its
     /// size do: within each of them, weights are smooth functions (but for neighbours of other sizes or
     /// faces). Margins of half a width meet in the middle; wider ones cross, so that the ends change

@@ -29,7 +29,7 @@ mod sparse;
 mod system;
 mod uniform;
 
-pub(crate) use sparse::BlockFactor;
+pub(crate) use sparse::{BlockFactor, BlockMatrix};
 pub(crate) use system::Coefficients;
 
 use super::Residuals;
