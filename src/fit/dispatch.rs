@@ -1,7 +1,7 @@
 //! The only place that knows all families of models: which one the options ask for, and how what it
 //! gives becomes a fitted grain.
 
-use super::blended::{self, Settings, Target};
+use super::blended::{self, Round, Settings, Target};
 use super::candidate::{Candidate, Search, Work};
 use super::context::{Context, Stage};
 use super::error::FitError;
@@ -144,7 +144,8 @@ fn estimated(
     let mut candidates = vec![near(estimate.truncation(degree), of_whole)];
     let mut work = Work::default();
     let mut warnings = Vec::new();
-    let (chosen, rival) = match is_whole {
+    let mut chosen = 0;
+    let (grain, rival) = match is_whole {
         true => (whole(degree), None),
         false => {
             context.enter(Stage::Searching { done: 0 })?;
@@ -155,7 +156,11 @@ fn estimated(
                 max_segments: options.most_segments(),
                 limit,
             };
-            let outcome = blended::approximate(&Plain(&estimate), &settings);
+            let outcome =
+                blended::approximate(&Plain(&estimate), &settings).ok_or(FitError::NoEstimate)?;
+            let size: usize = outcome.surface.coefficients().iter().map(Vec::len).sum();
+            let is_it = |round: &Round| round.coefficients == size;
+            chosen = 1 + outcome.rounds.iter().rposition(is_it).unwrap_or(0);
             work.candidates = outcome.rounds.len();
             work.segments = outcome.rounds.iter().map(|round| round.cells).sum();
             candidates.extend(outcome.rounds.iter().map(|round| {
@@ -174,14 +179,14 @@ fn estimated(
     };
     let search = Search {
         seams: Seams::Blended,
-        chosen: candidates.len() - 1,
+        chosen,
         candidates,
         limit: if asked.is_some() { own_limit } else { limit },
         noise: Some(estimate.noise()),
         work,
     };
-    let residuals = residuals(&chosen, samples.rows());
-    let mut fitted = prepared.fitted(chosen, search, residuals);
+    let residuals = residuals(&grain, samples.rows());
+    let mut fitted = prepared.fitted(grain, search, residuals);
     fitted.points = samples.rows().len() - estimate.outliers;
     fitted.whole = rival;
     fitted.warnings.extend(warnings);

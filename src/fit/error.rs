@@ -113,6 +113,11 @@ pub enum FitError {
         /// Standard deviation of the radius against the neighbours' median.
         scatter: f64,
     },
+    /// The points do not determine a surface in numbers.
+    #[error(
+        "the points do not determine a radius in every direction; look at the scan, or fit independent segments"
+    )]
+    NoEstimate,
     /// The fit was asked to stop.
     #[error("the fit was cancelled")]
     Cancelled,

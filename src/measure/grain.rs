@@ -60,8 +60,7 @@ pub(crate) fn blended_properties(surface: &Blended) -> Integrals {
 }
 
 fn blended(surface: &Blended, stretch: &Stretch) -> Integrals {
-    let cells = surface.cover().cells().iter();
-    let zones = cells.flat_map(|cell| cell.zones()).collect();
+    let zones = surface.cover().zones();
     let evaluate = |_: &[_], directions: &[_]| surface.radii_and_gradients(directions);
     integrate_pieces(zones, stretch, BLENDED_ORDERS, BLENDED_TOLERANCE, evaluate)
 }

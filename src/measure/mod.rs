@@ -41,7 +41,7 @@ pub use extents::extents;
 pub use form::Form;
 pub use four_triangles::four_triangles;
 pub use grain::grain_properties;
-pub(crate) use grain::{blended_properties, mirrored_properties};
+pub(crate) use grain::mirrored_properties;
 pub use hull::{HullError, convex_hull};
 pub use inscribed_ball::{InscribedBallError, inscribed_ball};
 pub use integrals::{Integrals, MAX_EVALUATIONS, integrate};

@@ -41,11 +41,7 @@ pub(super) fn grain_nodes(grain: &Grain, integrand: Integrand) -> Vec<(Vector3<f
     let axes = grain.frame().axes;
     let cuts = integrand.cuts();
     let local = match grain.surface() {
-        Surface::Blended(surface) => {
-            let cells = surface.cover().cells().iter();
-            let zones = cells.flat_map(|cell| cell.zones()).collect();
-            nodes(zones, cuts, BLENDED_ORDERS[0])
-        }
+        Surface::Blended(surface) => nodes(surface.cover().zones(), cuts, BLENDED_ORDERS[0]),
         Surface::Segmented(surface) => nodes(segment_parts(surface), 1 + cuts, ORDERS[0]),
         Surface::Mirrored(_) => octant_nodes(integrand),
         Surface::Whole(surface) => ring_nodes(integrand.rings(surface.degree())),

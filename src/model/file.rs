@@ -2,11 +2,11 @@
 //!
 //! Version 3 holds one of `cells` (blended), `segments` (independent), `symmetry` (mirrored) and
 //! `harmonics` (the whole sphere), of the grain stretched along its axes by `stretch`, if that is there.
-//! Version 2, which knew neither `harmonics` nor `stretch`, and version 1, which knew segments only, are
-//! still read.
+//! `margin` goes with `cells`. Version 2, which knew none of `harmonics`, `stretch` and `margin`, and version 1,
+//! which knew segments only, are still read.
 
 use super::{Blended, Frame, Grain, InvalidGrain, Mirrored, Segmented, Stretch, Surface, Whole};
-use crate::sphere::{AngularPartition, Cover, CoverError, CubeCell, Symmetry};
+use crate::sphere::{AngularPartition, Cover, CoverError, CubeCell, MARGIN, Symmetry};
 use nalgebra::{Matrix3, Point3, Vector3};
 use serde::{Deserialize, Serialize};
 
@@ -36,6 +36,9 @@ struct GrainFile {
     /// Overlapping cells of the faces of a cube, blended.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     cells: Option<Vec<CellRecord>>,
+    /// How far cells blend, in widths of a cell; absent where it is [`MARGIN`].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    margin: Option<f64>,
     /// Parts per angle of independent segments: n_s is its square.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     parts_per_angle: Option<usize>,
@@ -116,6 +119,7 @@ pub fn save_grain(grain: &Grain) -> String {
         axes: [0, 1, 2].map(|i| axes.column(i).into_owned().into()),
         stretch: (!stretch.is_none()).then(|| (*stretch.factors()).into()),
         cells: None,
+        margin: None,
         parts_per_angle: None,
         segments: None,
         symmetry: None,
@@ -133,6 +137,8 @@ pub fn save_grain(grain: &Grain) -> String {
                 coefficients: coefficients.clone(),
             };
             file.cells = Some(cells.map(record).collect());
+            let margin = surface.cover().margin();
+            file.margin = (margin != MARGIN).then_some(margin);
         }
         Surface::Segmented(surface) => {
             file.parts_per_angle = Some(surface.partition().per_angle());
@@ -163,8 +169,9 @@ pub fn parse_grain(text: &str) -> Result<Grain, LoadError> {
     }
     let independent = (file.parts_per_angle, file.segments);
     let mirrored = (file.symmetry, file.coefficients);
-    let surface = match (file.cells, independent, mirrored, file.harmonics) {
-        (Some(cells), (None, None), (None, None), None) => {
+    let cells = (file.cells, file.margin);
+    let surface = match (cells, independent, mirrored, file.harmonics) {
+        ((Some(cells), margin), (None, None), (None, None), None) => {
             let place = |record: CellRecord| {
                 let cell = CubeCell {
                     face: record.face,
@@ -175,18 +182,19 @@ pub fn parse_grain(text: &str) -> Result<Grain, LoadError> {
                 (cell, record.coefficients)
             };
             let (cells, coefficients) = cells.into_iter().map(place).unzip();
-            Surface::Blended(Blended::new(Cover::new(cells)?, coefficients)?)
+            let cover = Cover::with_margin(cells, margin.unwrap_or(MARGIN))?;
+            Surface::Blended(Blended::new(cover, coefficients)?)
         }
-        (None, (Some(found), Some(segments)), (None, None), None) => {
+        ((None, None), (Some(found), Some(segments)), (None, None), None) => {
             if found > LARGEST_PARTITION {
                 return Err(LoadError::Partition { found });
             }
             Surface::Segmented(Segmented::new(AngularPartition::new(found), segments)?)
         }
-        (None, (None, None), (Some(symmetry), Some(coefficients)), None) => {
+        ((None, None), (None, None), (Some(symmetry), Some(coefficients)), None) => {
             Surface::Mirrored(Mirrored::new(symmetry, coefficients)?)
         }
-        (None, (None, None), (None, None), Some(harmonics)) => {
+        ((None, None), (None, None), (None, None), Some(harmonics)) => {
             Surface::Whole(Whole::new(harmonics)?)
         }
         _ => return Err(LoadError::Surface),

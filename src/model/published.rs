@@ -28,8 +28,13 @@ pub struct PublishedExpansion {
 pub enum Region {
     /// A segment of the angle domain, alone; or all of it.
     Rectangle(AngleRectangle),
-    /// A cell of a cube's face and its margin, blended with its neighbours.
-    Cell(CubeCell),
+    /// A cell of a cube's face, blended with its neighbours.
+    Cell {
+        /// The cell.
+        cell: CubeCell,
+        /// How far it blends on both sides of its border, in widths of the cell.
+        margin: f64,
+    },
     /// The region into which mirrors fold all directions, and its images.
     Mirrored(Symmetry),
 }
@@ -38,7 +43,7 @@ impl Region {
     fn direction(&self, s: f64, t: f64) -> Vector3<f64> {
         match self {
             Self::Rectangle(rectangle) => rectangle.direction(s, t),
-            Self::Cell(cell) => cell.at(s, t),
+            Self::Cell { cell, .. } => cell.at(s, t),
             Self::Mirrored(symmetry) => symmetry.rectangle().direction(s, t),
         }
     }
@@ -51,8 +56,9 @@ impl Grain {
     pub fn published(&self) -> Vec<PublishedExpansion> {
         let place = |segment: usize| match self.surface() {
             Surface::Blended(surface) => {
-                let cell = surface.cover().cells()[segment];
-                Some((Region::Cell(cell), *surface.cover().cap(segment)))
+                let cover = surface.cover();
+                let (cell, margin) = (cover.cells()[segment], cover.margin());
+                Some((Region::Cell { cell, margin }, *cover.cap(segment)))
             }
             Surface::Segmented(surface) => {
                 let rectangle = surface.partition().rectangle(segment);

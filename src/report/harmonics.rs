@@ -1,7 +1,7 @@
 //! The published coefficients a_l^m as CSV.
 
 use crate::model::{Grain, PublishedExpansion, Region, Stretch};
-use crate::sphere::{AngleRectangle, MARGIN, Symmetry};
+use crate::sphere::{AngleRectangle, Symmetry};
 use std::io::{self, Write};
 
 /// The largest loss of the conversion over all segments, in the scan's unit.
@@ -23,7 +23,7 @@ pub fn write_harmonics(
     let [x, y, z] = [0, 1, 2].map(|i| row(frame.axes.column(i).into_owned().into()));
     let angles = "theta_min,theta_max,phi_min,phi_max";
     let (how, columns) = match segments.first().map(|s| s.region) {
-        Some(Region::Cell(_)) => (blending(), "face,parts,row,column"),
+        Some(Region::Cell { margin, .. }) => (blending(margin), "face,parts,row,column"),
         Some(Region::Mirrored(symmetry)) => (mirroring(symmetry), angles),
         _ => ("in each segment".into(), angles),
     };
@@ -50,7 +50,9 @@ pub fn write_harmonics(
         let region = match segment.region {
             Region::Rectangle(rectangle) => bounds(&rectangle),
             Region::Mirrored(symmetry) => bounds(&symmetry.rectangle()),
-            Region::Cell(c) => format!("{},{},{},{}", c.face, c.parts, c.row, c.column),
+            Region::Cell { cell: c, .. } => {
+                format!("{},{},{},{}", c.face, c.parts, c.row, c.column)
+            }
         };
         for (index, a) in segment.coefficients.iter().enumerate() {
             let l = index.isqrt();
@@ -96,7 +98,7 @@ fn mirroring(symmetry: Symmetry) -> String {
 }
 
 /// How the expansions of cells make a radius.
-fn blending() -> String {
+fn blending(margin: f64) -> String {
     format!(
         "f of all cells, blended:\n\
          #   r = sum of w f / sum of w over the cells, w = S(beta) S(gamma) on the half sphere of \
@@ -104,7 +106,7 @@ fn blending() -> String {
          #   face 2a + s: axis a (0: x, 1: y, 2: z), side s (0: +, 1: -); tan(beta) = n_b / |n_a|, \
          tan(gamma) = n_c / |n_a| with b, c the axes after a;\n\
          #   the cell spans beta = (row + 0..1) pi / (2 parts) - pi/4 and gamma likewise by column; \
-         S rises from 0 to 1 and falls again over h = {MARGIN} widths on both sides of its borders,\n\
-         #   as s^3 (10 - 15 s + 6 s^2), s linear in tan(beta / 2)"
+         S rises from 0 to 1 over {margin} widths, at most 36 degrees, on both sides of one border,\n\
+         #   as s^3 (10 - 15 s + 6 s^2), s linear in tan(beta / 2), times the like that falls at the other"
     )
 }

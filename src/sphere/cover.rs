@@ -1,7 +1,7 @@
 //! A cover of the sphere by overlapping cells with weights that make a partition of unity.
 
 use super::cell_weight::{CellWeight, place};
-use super::{Cap, CubeCell};
+use super::{Cap, CubeCell, FaceRectangle, MARGIN};
 use nalgebra::Vector3;
 use std::ops::Range;
 
@@ -10,6 +10,7 @@ use std::ops::Range;
 #[derive(Debug, Clone)]
 pub struct Cover {
     cells: Vec<CubeCell>,
+    margin: f64,
     caps: Vec<Cap>,
     weights: Vec<CellWeight>,
     /// Faces are cut in this many equal tangents along each edge, for looking up what is near.
@@ -40,7 +41,13 @@ pub enum CoverError {
     /// The cells leave a gap.
     #[error("the cells do not cover the sphere")]
     Gap,
+    /// A margin that no cover can have.
+    #[error("the margin must be from {LEAST_MARGIN} to 1 of the width of a cell")]
+    Margin,
 }
+
+/// Least margin: that of a finest cell is 2.5e-4 radians wide, which directions still resolve.
+const LEAST_MARGIN: f64 = 0.01;
 
 /// Least number of buckets per edge of a face.
 const LEAST_BUCKETS: usize = 4;
@@ -55,9 +62,25 @@ impl Cover {
     /// # Errors
     /// [`CoverError`] if they do not tile the sphere in this way.
     pub fn new(cells: Vec<CubeCell>) -> Result<Self, CoverError> {
+        Self::with_margin(cells, MARGIN)
+    }
+
+    /// As [`Self::new`], where neighbours blend within so many widths of a cell on both sides of its
+    /// border, but at most within 36 degrees. Beyond .5 a direction touches many cells: 17 at margin 1
+    /// where sizes mix.
+    ///
+    /// # Errors
+    /// [`CoverError`] if the cells do not tile the sphere, or the margin is not one from .01 to 1.
+    pub fn with_margin(cells: Vec<CubeCell>, margin: f64) -> Result<Self, CoverError> {
+        if !(LEAST_MARGIN..=1.0).contains(&margin) {
+            return Err(CoverError::Margin);
+        }
         check(&cells)?;
-        let caps: Vec<Cap> = cells.iter().map(CubeCell::cap).collect();
-        let weights: Vec<CellWeight> = cells.iter().map(CellWeight::new).collect();
+        let caps: Vec<Cap> = cells.iter().map(|cell| cell.cap(margin)).collect();
+        let weights: Vec<CellWeight> = cells
+            .iter()
+            .map(|cell| CellWeight::new(cell, margin))
+            .collect();
         let finest = cells.iter().map(|cell| cell.parts).max().unwrap_or(1);
         let bucket_parts = usize::from(finest).max(LEAST_BUCKETS);
         let per_bucket = 0.5 * bucket_parts as f64;
@@ -81,6 +104,7 @@ impl Cover {
         }
         Ok(Self {
             cells,
+            margin,
             caps,
             weights,
             bucket_parts,
@@ -95,6 +119,11 @@ impl Cover {
         &self.cells
     }
 
+    /// How far neighbours blend on both sides of a cell's border, in widths of the cell.
+    pub fn margin(&self) -> f64 {
+        self.margin
+    }
+
     /// The cap in which the expansion of a cell lives.
     pub fn cap(&self, cell: usize) -> &Cap {
         &self.caps[cell]
@@ -103,6 +132,12 @@ impl Cover {
     /// The weight of a cell, ready to be evaluated.
     pub(crate) fn weight(&self, cell: usize) -> &CellWeight {
         &self.weights[cell]
+    }
+
+    /// The cells in pieces, cut where weights stop being smooth.
+    pub(crate) fn zones(&self) -> Vec<FaceRectangle> {
+        let cells = self.cells.iter();
+        cells.flat_map(|cell| cell.zones(self.margin)).collect()
     }
 
     /// The number of buckets in which directions have the same cells near them.

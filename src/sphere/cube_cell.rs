@@ -9,6 +9,13 @@ use super::{Cap, MARGIN};
 use nalgebra::Vector3;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
+/// The widest margin, in radians: that of a whole face where the margin is [`MARGIN`], 36 degrees. So a
+/// face's cell ends 9 degrees before the rim of its half sphere, where its weight is not defined.
+const LARGEST_REACH: f64 = MARGIN * FRAC_PI_2;
+
+/// Zones thinner than this, in widths of the cell, hold nothing but rounding.
+const THINNEST_ZONE: f64 = 1e-12;
+
 /// A cell on one of the six faces of the cube.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct CubeCell {
@@ -71,10 +78,15 @@ impl CubeCell {
         FRAC_PI_2 / f64::from(self.parts)
     }
 
+    /// Half the width, in radians, of the strip along a border in which this cell blends with others,
+    /// where the cover's margin is `margin` of the cell's width.
+    pub(super) fn reach(&self, margin: f64) -> f64 {
+        (margin * self.width()).min(LARGEST_REACH)
+    }
+
     /// Solid angle of the cell, without its margin.
     pub fn solid_angle(&self) -> f64 {
-        let [b, c] = self.angles();
-        FaceRectangle { cell: *self, b, c }.solid_angle()
+        self.rectangle().solid_angle()
     }
 
     /// Axis of the face, and its side.
@@ -126,13 +138,13 @@ impl CubeCell {
         self.at(0.5, 0.5)
     }
 
-    /// The cap round the middle that holds the cell and its margin.
-    pub fn cap(&self) -> Cap {
+    /// The cap round the middle that holds the cell and a margin of so many widths.
+    pub fn cap(&self, margin: f64) -> Cap {
         let centre = self.middle();
         let (a, _) = self.axis();
         let along = Vector3::ith((a + 1) % 3, 1.0);
         let first = (along - centre * centre.dot(&along)).normalize();
-        let reach = MARGIN * self.width();
+        let reach = self.reach(margin);
         let [b, c] = self.angles();
         let height = [(0, 0), (0, 1), (1, 0), (1, 1)]
             .map(|(i, j)| {
@@ -149,18 +161,28 @@ impl CubeCell {
         }
     }
 
-    /// The cell in 3 x 3 rectangles, cut where the margins of neighbours of its size end: within
-    /// each of them, weights are smooth functions (but for neighbours of other sizes or faces).
-    pub(crate) fn zones(&self) -> impl Iterator<Item = FaceRectangle> {
+    /// The cell without its margin.
+    pub(crate) fn rectangle(&self) -> FaceRectangle {
+        let [b, c] = self.angles();
+        FaceRectangle { cell: *self, b, c }
+    }
+
+    /// The cell in up to 3 x 3 rectangles, cut where its own margin ends and those of neighbours of its
+    /// size do: within each of them, weights are smooth functions (but for neighbours of other sizes or
+    /// faces). Margins of half a width meet in the middle; wider ones cross, so that the ends change
+    /// places. Beyond a whole width the margins of the next but one neighbours would cut too.
+    pub(crate) fn zones(&self, margin: f64) -> impl Iterator<Item = FaceRectangle> {
         let cell = *self;
-        let cuts = self.angles().map(|[low, high]| {
-            let margin = MARGIN * (high - low);
-            [low, low + margin, high - margin, high]
+        let reach = self.reach(margin);
+        let [along_b, along_c] = self.angles().map(|[low, high]| {
+            let ends = [low + reach, high - reach];
+            let (first, second) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
+            [[low, first], [first, second], [second, high]]
         });
-        (0..9).map(move |i| FaceRectangle {
-            cell,
-            b: [cuts[0][i / 3], cuts[0][i / 3 + 1]],
-            c: [cuts[1][i % 3], cuts[1][i % 3 + 1]],
+        let is_wide = move |[low, high]: &[f64; 2]| high - low > THINNEST_ZONE * cell.width();
+        along_b.into_iter().filter(is_wide).flat_map(move |b| {
+            let along_c = along_c.into_iter().filter(is_wide);
+            along_c.map(move |c| FaceRectangle { cell, b, c })
         })
     }
 }

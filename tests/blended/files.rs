@@ -1,6 +1,6 @@
 //! Blended grains as JSON.
 
-use crate::grains::{all, blended, plain, ragged, segmented, turned, whole};
+use crate::grains::{all, blended, blended_within, plain, ragged, segmented, turned, whole};
 use grainform::model::{LoadError, Stretch, parse_grain, save_grain};
 use grainform::sphere::CubeCell;
 use grainform::{Grain, StarSurface};
@@ -222,4 +222,23 @@ fn other_versions_and_unknown_fields_are_refused() {
     assert!(spoilt(&grain, |value| value["cells"][0]["colour"] = json!("brown")).is_err());
     let skewed = spoilt(&grain, |value| value["axes"][0] = json!([0.6, 0.0, 0.8]));
     assert!(matches!(skewed, Err(LoadError::Invalid(_))), "{skewed:?}");
+}
+
+#[test]
+fn margins_are_kept_checked_and_left_out_where_they_are_the_usual() {
+    let wide = blended_within(ragged(1, 9, 2), 0.6, turned());
+    let margin = |grain: &Grain| grain.surface().blended().map(|s| s.cover().margin());
+    let loaded = parse_grain(&save_grain(&wide)).expect("a model");
+    assert_eq!(margin(&loaded), Some(0.6));
+    let usual = blended(ragged(1, 9, 2), turned());
+    assert!(!save_grain(&usual).contains("margin"));
+    assert_eq!(margin(&usual), Some(grainform::sphere::MARGIN));
+    for number in [json!(0.0), json!(-0.4), json!(1.5), json!(1e300)] {
+        let found = spoilt(&wide, |value| value["margin"] = number.clone());
+        assert!(matches!(found, Err(LoadError::Cover(_))), "{found:?}");
+    }
+    let found = spoilt(&wide, |value| value["margin"] = json!("wide"));
+    assert!(matches!(found, Err(LoadError::Form(_))), "{found:?}");
+    let found = spoilt(&segmented(2, plain()), |value| value["margin"] = json!(0.4));
+    assert!(matches!(found, Err(LoadError::Surface)), "{found:?}");
 }

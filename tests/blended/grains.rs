@@ -64,7 +64,12 @@ pub(crate) fn plain() -> Frame {
 
 /// A grain of blended cells.
 pub(crate) fn blended(cells: Vec<CubeCell>, frame: Frame) -> Grain {
-    let cover = Cover::new(cells).expect("a cover");
+    blended_within(cells, grainform::sphere::MARGIN, frame)
+}
+
+/// A grain of cells that blend within so many widths.
+pub(crate) fn blended_within(cells: Vec<CubeCell>, margin: f64, frame: Frame) -> Grain {
+    let cover = Cover::with_margin(cells, margin).expect("a cover");
     let coefficients = coefficients(cover.cells().len(), 5);
     let surface = Blended::new(cover, coefficients).expect("sound");
     Grain::new(frame, Surface::Blended(surface)).expect("a frame")
@@ -96,10 +101,15 @@ pub(crate) fn all(frame: Frame) -> Vec<Grain> {
     let mut lists: Vec<Vec<CubeCell>> = [1, 2, 3].map(CubeCell::uniform).into();
     lists.extend((0..3).map(|seed| ragged(1, 14, seed)));
     lists.push(ragged(3, 10, 7));
-    lists
+    let mut grains: Vec<Grain> = lists
         .into_iter()
         .map(|cells| blended(cells, frame))
-        .collect()
+        .collect();
+    for (seed, margin) in (3..).zip([0.5, 0.6, 1.0]) {
+        grains.push(blended_within(CubeCell::uniform(2), margin, frame));
+        grains.push(blended_within(ragged(1, 14, seed), margin, frame));
+    }
+    grains
 }
 
 /// Where a blend may go wrong, in the grain's own frame: the axes, edges and corners of the cube,
@@ -117,11 +127,13 @@ pub(crate) fn critical(grain: &Grain) -> Vec<Vector3<f64>> {
         directions.push(Vector3::new(-1.0, along, 1.0).normalize());
         directions.push(Vector3::new(along, -1.0, -1.0).normalize());
     }
-    let cells = grain.surface().blended().map(|s| s.cover().cells());
-    for cell in cells.unwrap_or_default() {
-        let margin = grainform::sphere::MARGIN;
-        for s in [0.0, margin, 0.37, 1.0 - margin, 1.0] {
-            for t in [0.0, margin, 0.37, 1.0 - margin, 1.0] {
+    let Some(surface) = grain.surface().blended() else {
+        return directions;
+    };
+    for cell in surface.cover().cells() {
+        let margin = surface.cover().margin();
+        for s in [0.0, margin, 0.37, 0.5, 1.0 - margin, 1.0] {
+            for t in [0.0, margin, 0.37, 0.5, 1.0 - margin, 1.0] {
                 directions.push(cell.at(s, t));
             }
         }

@@ -53,10 +53,16 @@ fn covers() -> Vec<Cover> {
     lists.extend((0..4).map(|seed| ragged(1, 40, seed)));
     lists.push(ragged(3, 60, 9));
     lists.push(spike());
-    lists
+    let mut covers: Vec<Cover> = lists
         .into_iter()
         .map(|cells| Cover::new(cells).expect("a cover"))
-        .collect()
+        .collect();
+    for (seed, margin) in (0..).zip([0.01, 0.2, 0.5, 0.6, 0.75, 1.0]) {
+        for cells in [CubeCell::uniform(2), ragged(1, 40, seed)] {
+            covers.push(Cover::with_margin(cells, margin).expect("a cover"));
+        }
+    }
+    covers
 }
 
 /// Random directions, and those on and beside the edges, corners and axes of the cube and the
@@ -264,4 +270,59 @@ fn long_lists_are_refused_before_any_work() {
     many.extend_from_within(..);
     many.extend_from_within(..);
     assert!(Cover::new(many).is_err());
+}
+
+#[test]
+fn margins_that_no_cover_can_have_are_refused() {
+    for margin in [f64::NAN, f64::INFINITY, -0.4, 0.0, 1e-9, 0.009, 1.000_001] {
+        let found = Cover::with_margin(CubeCell::uniform(1), margin);
+        assert_eq!(found.map(|_| ()), Err(CoverError::Margin), "{margin}");
+    }
+    assert_eq!(
+        Cover::new(CubeCell::uniform(1)).map(|c| c.margin()),
+        Ok(MARGIN)
+    );
+}
+
+#[test]
+fn wide_margins_touch_few_cells_and_leave_no_direction_with_little_weight() {
+    for (margin, most) in [(0.4, 13), (0.5, 14), (0.6, 17), (1.0, 23)] {
+        let lists = [CubeCell::uniform(1), CubeCell::uniform(3), spike()];
+        let ragged = (0..4).map(|seed| ragged(1, 60, seed));
+        let (mut touched, mut weight) = (0, f64::INFINITY);
+        for cells in lists.into_iter().chain(ragged) {
+            let cover = Cover::with_margin(cells, margin).expect("a cover");
+            for n in directions(&cover) {
+                let weights: Vec<f64> = cover
+                    .near(cover.bucket(&n))
+                    .iter()
+                    .map(|&at| {
+                        cover
+                            .weight(at.into())
+                            .value(&place(cover.cells[usize::from(at)].face, &n.into()))
+                    })
+                    .collect();
+                touched = touched.max(weights.iter().filter(|&&w| w > 0.0).count());
+                weight = weights.iter().sum::<f64>().min(weight);
+            }
+        }
+        assert!(
+            touched <= most && weight > 0.5,
+            "{margin}: {touched} cells, {weight}"
+        );
+    }
+}
+
+#[test]
+fn zones_tile_cells_and_end_where_margins_do() {
+    for cover in covers() {
+        let zones = cover.zones();
+        let whole: f64 = zones.iter().map(FaceRectangle::solid_angle).sum();
+        assert!((whole / (4.0 * PI) - 1.0).abs() < 1e-12, "{whole}");
+        let count = zones.len() / cover.cells().len();
+        assert!(
+            count <= 9 && (cover.margin() != 0.5 || count < 6),
+            "{count}"
+        );
+    }
 }

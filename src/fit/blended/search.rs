@@ -1,0 +1,312 @@
+//! The rounds: forecast, joint fit, better forecast.
+
+use super::forest::{Bounds, Forest, Plan};
+use super::joint::{Joint, Solved};
+use super::local_fit::LocalFits;
+use super::nodes::{Sampler, nodes_per_side};
+use super::{Blend, Outcome, Round, Settings, Target};
+use crate::fit::MAX_COEFFICIENTS;
+use crate::model::Blended;
+use crate::sphere::{CapBasis, Cover, CubeCell, MAX_FACE_PARTS, coefficient_count};
+use std::f64::consts::PI;
+use std::ops::RangeInclusive;
+
+/// Degree of covers whose cells are all alike. They fit together better than their cells' own fits
+/// tell, so they are candidates of their own: of the bean, 18 cells of degree 3 meet .1 % of the mean
+/// radius, for which the cells chosen one by one need 414 coefficients instead of 288.
+const EVEN_DEGREE: usize = 3;
+
+/// A surface this far within the limit has coefficients to spare.
+const WIDE_OF_THE_LIMIT: f64 = 0.7;
+
+/// Most joint fits of covers that are forecast.
+const MOST_ROUNDS: usize = 8;
+
+/// Squared error of the joint fit per sum of the squared errors of the cells' own fits, before a fit has
+/// told: .1 to .35 on smooth grains and texture.
+const FIRST_RATIO: f64 = 0.25;
+
+/// Squared error between the directions of a fit per squared error at them, before it is known.
+const FIRST_UNSEEN: f64 = 1.05;
+
+/// Forecasts aim at this share of the squared error that is good enough: .975 of the RMS.
+const AIM: f64 = 0.95;
+
+/// A round more must save this share of the coefficients.
+const LEAST_SAVING: f64 = 0.03;
+
+/// Quadtrees grow from the cells of faces cut in so many parts: other numbers are these times powers of
+/// two, or cost more than 2916 coefficients from the start.
+const ROOTS: [u16; 5] = [1, 3, 5, 7, 9];
+
+/// The search for a surface.
+pub(super) struct Search<'a> {
+    target: &'a dyn Target,
+    settings: &'a Settings,
+    blend: Blend,
+    degrees: RangeInclusive<usize>,
+    bases: Vec<CapBasis>,
+    fits: LocalFits,
+    sampler: Sampler,
+    trees: Vec<Tree>,
+    rounds: Vec<Round>,
+    best: Option<Found>,
+    /// Squared error between the directions of a fit per squared error at them.
+    unseen: f64,
+}
+
+/// A quadtree and what is known of its covers.
+struct Tree {
+    forest: Forest,
+    /// Squared error of the joint fit per sum of the cells' own.
+    ratio: f64,
+    /// The cheapest cover that is forecast to be good enough.
+    plan: Plan,
+    fitted: Vec<Plan>,
+}
+
+/// A fitted surface.
+struct Found {
+    surface: Blended,
+    coefficients: usize,
+    rms: f64,
+    max: f64,
+}
+
+impl<'a> Search<'a> {
+    pub(super) fn new(target: &'a dyn Target, settings: &'a Settings, blend: Blend) -> Self {
+        let degrees = match settings.degree {
+            Some(degree) => degree..=degree,
+            None => settings.max_degree.min(1)..=settings.max_degree,
+        };
+        let most = *degrees.end();
+        Self {
+            target,
+            settings,
+            blend,
+            degrees,
+            bases: (0..=most).map(CapBasis::new).collect(),
+            fits: LocalFits::new(most),
+            sampler: Sampler::default(),
+            trees: Vec::new(),
+            rounds: Vec::new(),
+            best: None,
+            unseen: FIRST_UNSEEN,
+        }
+    }
+
+    /// Fits the cheapest cover forecast, and those that are cheaper still once the forecast is better.
+    pub(super) fn run(mut self) -> Option<Outcome> {
+        self.plant();
+        while self.rounds.len() < MOST_ROUNDS {
+            let Some(next) = self.cheapest() else { break };
+            self.fit(next)?;
+        }
+        if self.settings.segments.is_none() {
+            self.try_uniform()?;
+        }
+        let Found {
+            surface, rms, max, ..
+        } = self.best?;
+        Some(Outcome {
+            surface,
+            rounds: self.rounds,
+            rms,
+            max,
+            met: rms <= self.settings.limit,
+        })
+    }
+
+    /// The integral of the squared error that is good enough.
+    fn goal(&self) -> f64 {
+        4.0 * PI * self.settings.limit.max(0.0).powi(2)
+    }
+
+    fn bounds(&self) -> Bounds {
+        Bounds {
+            cells: self.settings.max_segments,
+            coefficients: MAX_COEFFICIENTS,
+        }
+    }
+
+    /// The degree of covers whose cells are all alike.
+    fn even_degree(&self) -> usize {
+        EVEN_DEGREE.clamp(*self.degrees.start(), *self.degrees.end())
+    }
+
+    /// Grows the quadtrees that may have the cheapest cover.
+    fn plant(&mut self) {
+        if let Some(segments) = self.settings.segments {
+            let parts = (segments / 6).isqrt() as u16;
+            self.add_tree(parts.clamp(1, MAX_FACE_PARTS), true, self.degrees.clone());
+            return;
+        }
+        for parts in ROOTS {
+            let cells = 6 * usize::from(parts).pow(2);
+            let least = cells * coefficient_count(*self.degrees.start());
+            let so_far = self.trees.iter().map(|tree| tree.plan.coefficients).min();
+            let bounds = self.bounds();
+            let is_within = cells <= bounds.cells && least <= bounds.coefficients;
+            if so_far.is_none_or(|cost| is_within && least < cost) {
+                self.add_tree(parts, false, self.degrees.clone());
+            }
+        }
+        let even = self.even_degree();
+        if self.degrees != (even..=even) {
+            self.add_tree(1, false, even..=even);
+        }
+    }
+
+    fn add_tree(&mut self, parts: u16, is_fixed: bool, degrees: RangeInclusive<usize>) {
+        let mut forest = Forest::new(self.target, &mut self.fits, parts, is_fixed, degrees);
+        let (goal, bounds) = (AIM * self.goal() / FIRST_RATIO, self.bounds());
+        let plan = forest.within(self.target, &mut self.fits, goal, &bounds);
+        self.trees.push(Tree {
+            forest,
+            ratio: FIRST_RATIO,
+            plan,
+            fitted: Vec::new(),
+        });
+    }
+
+    /// The tree with the cheapest cover that is worth a fit. Covers that the bounds keep from being good
+    /// enough come last.
+    fn cheapest(&self) -> Option<usize> {
+        let met = self.best.as_ref().filter(|found| self.is_met(found.rms));
+        let most = met.map(|found| (1.0 - LEAST_SAVING) * found.coefficients as f64);
+        let open = self.trees.iter().enumerate().filter(|(_, tree)| {
+            let is_new = !tree.fitted.contains(&tree.plan);
+            let is_cheap = most.is_none_or(|most| (tree.plan.coefficients as f64) < most);
+            is_new && is_cheap
+        });
+        let rank = |tree: &Tree| (!tree.plan.is_enough, tree.plan.coefficients);
+        open.min_by_key(|(_, tree)| rank(tree)).map(|(at, _)| at)
+    }
+
+    fn is_met(&self, rms: f64) -> bool {
+        rms <= self.settings.limit
+    }
+
+    /// Fits the plan of a tree, and makes its next one.
+    fn fit(&mut self, at: usize) -> Option<()> {
+        let plan = self.trees[at].plan.clone();
+        let rms = self.solve(&plan.cells, &plan.degrees)?;
+        let (goal, bounds) = (self.goal(), self.bounds());
+        let tree = &mut self.trees[at];
+        if plan.error > 0.0 {
+            tree.ratio = 4.0 * PI * rms * rms / plan.error;
+            let goal = AIM * goal / tree.ratio;
+            tree.plan = tree
+                .forest
+                .within(self.target, &mut self.fits, goal, &bounds);
+        }
+        tree.fitted.push(plan);
+        Some(())
+    }
+
+    /// Fits cells of one size and degree, and fewer of them as long as they do.
+    fn try_uniform(&mut self) -> Option<()> {
+        let degree = self.even_degree();
+        let worth = match self.settings.degree {
+            Some(_) => self.settings.limit,
+            None => WIDE_OF_THE_LIMIT * self.settings.limit,
+        };
+        while let Some(best) = self.best.as_ref().filter(|found| found.rms <= worth) {
+            let saving = (1.0 - LEAST_SAVING) * best.coefficients as f64;
+            let most = saving as usize / coefficient_count(degree);
+            let parts = (most / 6).isqrt().min(MAX_FACE_PARTS.into());
+            if parts == 0 {
+                break;
+            }
+            let cells = CubeCell::uniform(parts as u16);
+            let degrees = vec![degree; cells.len()];
+            let rms = self.solve(&cells, &degrees)?;
+            if !self.is_met(rms) {
+                break;
+            }
+        }
+        Some(())
+    }
+
+    /// Fits a cover, keeps the surface if it is the best so far, and gives its error.
+    fn solve(&mut self, cells: &[CubeCell], degrees: &[usize]) -> Option<f64> {
+        let sides: Vec<(CubeCell, usize)> = cells
+            .iter()
+            .zip(degrees)
+            .map(|(cell, &degree)| (*cell, nodes_per_side(cell, degree)))
+            .collect();
+        self.sampler.sample(self.target, &sides);
+        let samples: Vec<_> = sides
+            .iter()
+            .map(|(cell, side)| self.sampler.of(cell, *side))
+            .collect();
+        let cover = Cover::with_margin(cells.to_vec(), self.blend.margin).ok()?;
+        let joint = Joint::new(&cover, degrees, &self.bases, &samples, self.blend.own);
+        let Solved {
+            coefficients,
+            squared,
+        } = joint.solve()?;
+        let count = coefficients.iter().map(Vec::len).sum();
+        let seen = (squared / (4.0 * PI)).sqrt();
+        let surface = Blended::new(cover, coefficients).ok()?;
+        let (mut rms, mut max) = (seen * self.unseen.sqrt(), f64::NAN);
+        let is_last = self.best.is_none();
+        if self.is_met(seen) || is_last {
+            (rms, max) = self.unseen_error(&surface, &sides);
+            if seen > 0.0 {
+                self.unseen = (rms / seen).powi(2).clamp(1.0, 4.0);
+            }
+        }
+        self.rounds.push(Round {
+            cells: cells.len(),
+            degree: degrees.iter().copied().max().unwrap_or(0),
+            coefficients: count,
+            rms,
+        });
+        let is_better =
+            self.best
+                .as_ref()
+                .is_none_or(|best| match (self.is_met(best.rms), self.is_met(rms)) {
+                    (true, true) => count < best.coefficients,
+                    (met, is_met) => is_met || (!met && rms < best.rms),
+                });
+        if is_better {
+            if max.is_nan() {
+                (rms, max) = self.unseen_error(&surface, &sides);
+            }
+            self.best = Some(Found {
+                surface,
+                coefficients: count,
+                rms,
+                max,
+            });
+        }
+        Some(rms)
+    }
+
+    /// The RMS and the largest difference from the target at the nodes of other Gauss rules.
+    fn unseen_error(&mut self, surface: &Blended, sides: &[(CubeCell, usize)]) -> (f64, f64) {
+        let sides: Vec<(CubeCell, usize)> = sides.iter().map(|(c, side)| (*c, side - 1)).collect();
+        self.sampler.sample(self.target, &sides);
+        let samples = sides
+            .iter()
+            .map(|(cell, side)| self.sampler.of(cell, *side));
+        let directions: Vec<_> = samples
+            .clone()
+            .flat_map(|samples| &samples.directions)
+            .copied()
+            .collect();
+        let found = surface.radii_and_gradients(&directions);
+        let known = samples.flat_map(|samples| {
+            let weights = samples.weights.iter().zip(&samples.solid_angles);
+            samples.radii.iter().zip(weights)
+        });
+        let (mut sum, mut max) = (0.0, 0.0_f64);
+        for ((radius, _), (exact, (weight, solid_angle))) in found.iter().zip(known) {
+            let squared = weight * (radius - exact).powi(2);
+            sum += squared;
+            max = max.max(squared / solid_angle);
+        }
+        ((sum / (4.0 * PI)).sqrt(), max.sqrt())
+    }
+}
