@@ -42,7 +42,7 @@ impl<const D: usize> Order<D> {
 
 impl HarmonicBasis {
     /// The value of an expansion in the direction of the unit vector `n`.
-    pub(crate) fn value(&self, coefficients: &[f64], n: &Vector3<f64>) -> f64 {
+    pub fn value(&self, coefficients: &[f64], n: &Vector3<f64>) -> f64 {
         let mut sum = 0.0;
         self.for_each_order::<1>(coefficients, n, |order| sum += order.along_x(0, 0));
         sum
