@@ -4,7 +4,7 @@
 //! the neighbours' coefficients too: its squared error is .1 to .35 of the sum over the cells, about the
 //! same for all covers of a target. (Fits over the margins as well would bound the error of the blend,
 //! but by a factor of 3 to 150 that depends on the degree and the size of cells: forecasts with it need
-//! up to half more coefficients.)
+//! up to a quarter more coefficients.)
 //!
 //! Cells that are turned or mirrored images of each other have the same orthonormal basis: 6 faces and
 //! 8 images on each share it.
