@@ -2,7 +2,7 @@
 
 use crate::stats::median;
 use grainform::scan::{Scan, read_scan};
-use grainform::{FitOptions, FitError, StarSurface, fit};
+use grainform::{FitError, FitOptions, StarSurface, fit};
 use nalgebra::Point3;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};

@@ -25,7 +25,11 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let every = arguments.iter().find_map(|a| a.parse().ok()).unwrap_or(1);
-    let wants = |name: &str| !arguments.iter().any(|a| a != name && a.parse::<usize>().is_err());
+    let wants = |name: &str| {
+        !arguments
+            .iter()
+            .any(|a| a != name && a.parse::<usize>().is_err())
+    };
     if wants("truth") {
         truth::print(Path::new(SCANS), every)?;
     }

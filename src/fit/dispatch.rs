@@ -19,6 +19,10 @@ use nalgebra::Vector3;
 /// An expansion of the whole sphere with no more coefficients than this needs no cells: they would touch as many.
 const FEW_COEFFICIENTS: usize = 64;
 
+/// Difference from the estimate that is always good enough, as a share of the estimate's own standard deviation:
+/// it adds 5 % to the error.
+const GOOD_ENOUGH: f64 = 1.0 / 3.0;
+
 /// Parts per angle of the grid in which samples are sorted.
 const SORTED_PARTS: usize = 32;
 
@@ -112,7 +116,7 @@ fn estimated(
     let samples = prepared.samples(&CellGrid::new([SORTED_PARTS]));
     let estimate = estimate(samples.rows(), prepared.semi_axes);
     let tolerance = options.tolerance.length(prepared.mean_radius);
-    let limit = tolerance.max(0.5 * estimate.deviation());
+    let limit = tolerance.max(GOOD_ENOUGH * estimate.deviation());
     let stretch = estimate.stretch();
     let frame = prepared.frame();
     let whole = |degree: usize| grain(frame, stretch, Surface::Whole(estimate.expansion(degree)));

@@ -18,7 +18,7 @@ pub(super) fn rule(fitted: &Fitted, options: &FitOptions) -> String {
     if let (Some(estimate), Some(rms)) = (&fitted.estimate, choice.estimate_rms) {
         let source = match (search.limit > tolerance, options.tolerance) {
             (true, _) => format!(
-                "half of the estimate's standard deviation of {}",
+                "a third of the estimate's standard deviation of {}",
                 short(estimate.deviation)
             ),
             (false, Tolerance::Length(_)) => "the tolerance".into(),

@@ -10,8 +10,8 @@ use super::spectrum::{BOUNDS, STEPS};
 use nalgebra::{Matrix4, Vector4};
 
 /// The search ends where a step promises to lower the cost by less than this: a spectrum twenty times less likely
-/// would be told from it by three.
-const PROMISE: f64 = 0.05;
+/// would be told from it by three. Without an exact cost, gradients scatter by more.
+const PROMISE: [f64; 2] = [0.05, 0.3];
 
 /// Steps that move no logarithm by more than this end the search too.
 const SETTLED: f64 = 0.003;
@@ -85,7 +85,8 @@ impl Newton {
                 (next, -0.5 * moved.dot(&place.gradient))
             }
         };
-        match promise < PROMISE || is_settled(&place.spectrum, &next) {
+        let least = PROMISE[usize::from(place.cost.is_none())];
+        match promise < least || is_settled(&place.spectrum, &next) {
             true => Next::Here,
             false => Next::Try(next),
         }
