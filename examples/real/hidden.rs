@@ -1,9 +1,10 @@
 //! Fits of scans, judged by points that they have not seen.
 
-use crate::stats::median;
+use crate::rival;
+use crate::stats::{median, quantile};
 use grainform::scan::{Scan, read_scan};
-use grainform::{FitError, FitOptions, StarSurface, fit};
-use nalgebra::Point3;
+use grainform::{FitError, FitOptions, Grain, StarSurface, fit};
+use nalgebra::{Point3, Vector3};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use std::error::Error;
@@ -34,33 +35,65 @@ const SEEDS: u64 = 3;
 
 pub fn print(scans: &Path) -> Result<(), Box<dyn Error>> {
     println!(
-        "\n| scan | points | hidden RMS, default | --segments 1 | noise told | coefficients | touched | s |\n\
-         |---|---|---|---|---|---|---|---|"
+        "\n| scan | points | hidden RMS, default | --segments 1 | best least squares | told | coefficients | touched | \
+         s |\n|---|---|---|---|---|---|---|---|---|"
     );
     for name in SCANS {
         let scan = read_scan(&scans.join(name))?;
-        let mut rows = Vec::new();
-        for seed in 0..SEEDS {
-            rows.push(judge(&scan, seed)?);
-        }
-        let column = |i: usize| median(&rows.iter().map(|row| row[i]).collect::<Vec<_>>());
+        let rows: Result<Vec<Row>, FitError> = (0..SEEDS).map(|seed| judge(&scan, seed)).collect();
+        let rows = rows?;
+        let column = |of: fn(&Row) -> f64| median(&rows.iter().map(of).collect::<Vec<_>>());
         println!(
-            "| {name} | {} | {:.3} % | {:.3} % | {:.3} % | {:.0} | {:.0} | {:.2} |",
+            "| {name} | {} | {:.3} % | {:.3} % | {:.3} % | {:.3} % | {:.0} | {:.0} | {:.2} |",
             scan.points.len(),
-            column(0),
-            column(1),
-            column(2),
-            column(3),
-            column(4),
-            column(5)
+            column(|row| row.cells),
+            column(|row| row.estimate),
+            column(|row| row.rival),
+            column(|row| row.told),
+            column(|row| row.coefficients),
+            column(|row| row.touched),
+            column(|row| row.seconds)
         );
     }
     Ok(())
 }
 
-/// Hidden RMS in % of the mean radius of the default fit and of the estimate, noise told in %, coefficients,
-/// touched, seconds.
-fn judge(scan: &Scan, seed: u64) -> Result<[f64; 6], FitError> {
+/// Kernels of the batch, one in so many.
+const EVERY_KERNEL: usize = 4;
+
+pub fn print_batch(scans: &Path) -> Result<(), Box<dyn Error>> {
+    let folder = scans.join("barley_batch");
+    let mut files: Vec<_> = std::fs::read_dir(folder)?
+        .filter_map(|entry| Some(entry.ok()?.path()))
+        .filter(|path| path.extension().is_some_and(|extension| extension == "ply"))
+        .collect();
+    files.sort();
+    let mut ratios = [Vec::new(), Vec::new()];
+    for path in files.iter().step_by(EVERY_KERNEL) {
+        let row = judge(&read_scan(path)?, 0)?;
+        ratios[0].push(row.cells / row.rival);
+        ratios[1].push(row.estimate / row.rival);
+    }
+    println!("\n| {} kernels: hidden RMS over that of the best least squares | median | largest |", ratios[0].len());
+    println!("|---|---|---|");
+    for (name, ratios) in ["default", "--segments 1"].iter().zip(&ratios) {
+        println!("| {name} | {:.2} | {:.2} |", median(ratios), quantile(ratios, 1.0));
+    }
+    Ok(())
+}
+
+/// Hidden RMS in % of the mean radius, and what the default fit says and needs.
+struct Row {
+    cells: f64,
+    estimate: f64,
+    rival: f64,
+    told: f64,
+    coefficients: f64,
+    touched: f64,
+    seconds: f64,
+}
+
+fn judge(scan: &Scan, seed: u64) -> Result<Row, FitError> {
     let mut points = scan.points.clone();
     points.sort_by(|a, b| {
         let order = a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y));
@@ -68,39 +101,40 @@ fn judge(scan: &Scan, seed: u64) -> Result<[f64; 6], FitError> {
     });
     points.dedup();
     let mut random = ChaCha8Rng::seed_from_u64(seed);
-    let (hidden, seen): (Vec<Point3<f64>>, Vec<_>) = points
+    let (hidden, points): (Vec<Point3<f64>>, Vec<_>) = points
         .into_iter()
         .partition(|_| random.next_u32() % ONE_IN == 0);
     let seen = Scan {
-        points: seen,
+        points,
         ..Scan::default()
     };
     let started = Instant::now();
     let fitted = fit(&seen, &FitOptions::default())?;
     let seconds = started.elapsed().as_secs_f64();
-    let whole = fit(
-        &seen,
-        &FitOptions {
-            segments: Some(1),
-            ..FitOptions::default()
-        },
-    )?;
-    let rms = |grain: &grainform::Grain| {
-        let squared: f64 = hidden
-            .iter()
-            .map(|point| {
-                let ray = point - grain.frame().centre;
-                (ray.norm() - grain.radius(&ray.normalize())).powi(2)
-            })
-            .sum();
-        100.0 * (squared / hidden.len() as f64).sqrt() / fitted.mean_radius
+    let whole = FitOptions {
+        segments: Some(1),
+        ..FitOptions::default()
     };
-    Ok([
-        rms(&fitted.grain),
-        rms(&whole.grain),
-        100.0 * fitted.search.noise.unwrap_or(f64::NAN) / fitted.mean_radius,
-        fitted.grain.coefficient_count() as f64,
-        fitted.grain.coefficients_touched(),
+    let whole = fit(&seen, &whole)?;
+
+    let rays = |grain: &Grain, points: &[Point3<f64>]| -> Vec<(Vector3<f64>, f64)> {
+        let rays = points.iter().map(|point| point - grain.frame().centre);
+        rays.map(|ray| (ray.normalize(), ray.norm())).collect()
+    };
+    let rms = |grain: &Grain| {
+        let rays = rays(grain, &hidden);
+        let errors = rays.iter().map(|(n, radius)| radius - grain.radius(n));
+        (errors.map(|e| e * e).sum::<f64>() / rays.len() as f64).sqrt()
+    };
+    let percent = 100.0 / fitted.mean_radius;
+    let grain = &fitted.grain;
+    Ok(Row {
+        cells: percent * rms(grain),
+        estimate: percent * rms(&whole.grain),
+        rival: percent * rival::best(&rays(grain, &seen.points), &rays(grain, &hidden)),
+        told: percent * fitted.search.choice().heldout_rms.unwrap_or(f64::NAN),
+        coefficients: grain.coefficient_count() as f64,
+        touched: grain.coefficients_touched(),
         seconds,
-    ])
+    })
 }
