@@ -74,10 +74,17 @@ pub fn print_batch(scans: &Path) -> Result<(), Box<dyn Error>> {
         ratios[0].push(row.cells / row.rival);
         ratios[1].push(row.estimate / row.rival);
     }
-    println!("\n| {} kernels: hidden RMS over that of the best least squares | median | largest |", ratios[0].len());
+    println!(
+        "\n| {} kernels: hidden RMS over that of the best least squares | median | largest |",
+        ratios[0].len()
+    );
     println!("|---|---|---|");
     for (name, ratios) in ["default", "--segments 1"].iter().zip(&ratios) {
-        println!("| {name} | {:.2} | {:.2} |", median(ratios), quantile(ratios, 1.0));
+        println!(
+            "| {name} | {:.2} | {:.2} |",
+            median(ratios),
+            quantile(ratios, 1.0)
+        );
     }
     Ok(())
 }

@@ -64,6 +64,21 @@ impl Cloud {
         self.radii.len()
     }
 
+    /// Every so many points of the cloud: samples are sorted by place, so these are spread like all.
+    pub(crate) fn every(&self, step: usize) -> Self {
+        fn keep<T: Copy>(values: &[T], step: usize) -> Vec<T> {
+            values.iter().step_by(step).copied().collect()
+        }
+        let radii = keep(&self.radii, step);
+        Self {
+            compression: self.compression * radii.len() as f64 / self.len() as f64,
+            directions: keep(&self.directions, step),
+            radii,
+            weights: keep(&self.weights, step),
+            ..*self
+        }
+    }
+
     /// The cloud without the points at the given ascending positions.
     pub(crate) fn without(&self, left_out: &[usize]) -> Self {
         fn keep<T: Copy>(values: &[T], left_out: &[usize]) -> Vec<T> {

@@ -27,6 +27,7 @@ use cloud::Cloud;
 use nalgebra::Vector3;
 use patches::{Patches, WHOLE_CLOUD};
 use posterior::{Posterior, SETTLED};
+use rayon::prelude::*;
 use spectrum::Spectrum;
 use spectrum_fit::{Count, SpectrumFit, fit_spectrum};
 
@@ -82,9 +83,15 @@ const WORTH_A_DEGREE: f64 = 5.0;
 /// Coefficients per point beyond which a higher degree is not tried.
 const MOST_PER_POINT: f64 = 0.9;
 
-/// Clouds up to this size have their matrix factored at degree 36: at more than .6 coefficients per point the
-/// cheap way fails on uneven clouds.
-const FACTORED: usize = 2500;
+/// The matrix is factored where there are more coefficients per point than this: beyond .6 the cheap way fails on
+/// uneven clouds; ...
+const FACTORED: f64 = 0.45;
+
+/// ... but only of clouds up to this size, whose matrices of degree 36 take 30 ms.
+const MOST_FACTORED: usize = 3000;
+
+/// Points on which maps are compared.
+const COMPARED_POINTS: usize = 2000;
 
 /// Floor of the share of the points that is not spent on coefficients.
 const LEAST_SPARE: f64 = 0.3;
@@ -107,8 +114,8 @@ pub(crate) fn estimate(samples: &[Sample], axes: Vector3<f64>) -> Estimate {
     let mut rounds = 0;
     let mut lower: Option<(usize, SpectrumFit)> = None;
     let mut fit = start;
-    let is_factored = cloud.len() <= FACTORED;
     loop {
+        let is_factored = is_factored(cloud.len(), degree);
         let posterior = Posterior::new(&cloud, degree, is_factored);
         let mut coefficients = std::mem::take(&mut fit.coefficients);
         coefficients.resize(coefficient_count(degree), 0.0);
@@ -143,6 +150,7 @@ pub(crate) fn estimate(samples: &[Sample], axes: Vector3<f64>) -> Estimate {
             None => break,
         }
     }
+    let is_factored = is_factored(cloud.len(), degree);
     if let Some(patches) = &patches {
         correct(&mut cloud, samples, patches, degree, &mut fit);
     }
@@ -155,6 +163,10 @@ pub(crate) fn estimate(samples: &[Sample], axes: Vector3<f64>) -> Estimate {
         outliers,
         is_factored,
     }
+}
+
+fn is_factored(points: usize, degree: usize) -> bool {
+    points <= MOST_FACTORED && coefficient_count(degree) as f64 > FACTORED * points as f64
 }
 
 /// The degree that a cloud of so many points is first fitted at.
@@ -171,7 +183,7 @@ fn rounder(
     samples: &[Sample],
     counts: Option<&[f64]>,
     axes: Vector3<f64>,
-    degree: usize,
+    first: usize,
 ) -> (Cloud, SpectrumFit) {
     let mean = (axes.x * axes.y * axes.z).cbrt();
     let strengths = match axes.max() > ROUND * axes.min() {
@@ -180,7 +192,9 @@ fn rounder(
     };
     let fit = |k: f64, degree: usize, start: Option<SpectrumFit>| {
         let cloud = Cloud::new(samples, counts, axes.map(|axis| (mean / axis).powf(k)));
-        let posterior = Posterior::new(&cloud, degree, cloud.len() <= FACTORED);
+        let part = (degree < first).then(|| cloud.every(cloud.len().div_ceil(COMPARED_POINTS)));
+        let judged = part.as_ref().unwrap_or(&cloud);
+        let posterior = Posterior::new(judged, degree, is_factored(judged.len(), degree));
         let spectrum = start.map_or_else(Spectrum::start, |fit| fit.spectrum);
         let fit = fit_spectrum(&posterior, spectrum, None, Count::Even);
         (cloud, fit)
@@ -189,17 +203,17 @@ fn rounder(
         let costs = fits.iter().map(|(_, (_, fit))| fit.cost);
         costs.fold(f64::INFINITY, f64::min)
     };
-    let compared = degree.min(COMPARED_DEGREE);
+    let compared = first.min(COMPARED_DEGREE);
     let mut fits: Vec<_> = strengths
         .iter()
         .map(|&k| (k, fit(k, compared, None)))
         .collect();
-    let close = least(&fits) + CLOSE * samples.len() as f64;
+    let close = least(&fits) + CLOSE * samples.len().min(COMPARED_POINTS) as f64;
     fits.retain(|(_, (_, fit))| fit.cost <= close);
-    if fits.len() > 1 && compared < degree {
+    if fits.len() > 1 && compared < first {
         let again = fits
             .into_iter()
-            .map(|(k, (_, start))| (k, fit(k, degree, Some(start))));
+            .map(|(k, (_, start))| (k, fit(k, first, Some(start))));
         fits = again.collect();
     }
     let best = least(&fits);
@@ -243,7 +257,7 @@ fn variance(spectrum: &Spectrum, unlearnt: &[f64]) -> f64 {
 }
 
 /// Points evaluated at once.
-const CHUNK: usize = 1 << 16;
+const CHUNK: usize = 1 << 15;
 
 /// Adds the patch means of the points' residuals, and solves again.
 fn correct(
@@ -253,16 +267,21 @@ fn correct(
     degree: usize,
     fit: &mut SpectrumFit,
 ) {
+    let chunks = samples.par_chunks(CHUNK);
+    let residuals: Vec<Vec<f64>> = chunks
+        .map(|samples| {
+            let points = Cloud::mapped(samples, cloud.stretch, cloud.mean);
+            let (directions, measured): (Vec<_>, Vec<_>) = points.into_iter().unzip();
+            let mut fitted = vec![0.0; samples.len()];
+            ScatteredHarmonics::new(degree, &directions).synthesis(&fit.coefficients, &mut fitted);
+            let pairs = measured.iter().zip(fitted);
+            pairs.map(|(measured, fitted)| measured - fitted).collect()
+        })
+        .collect();
     let mut sums = vec![0.0; patches.means.len()];
-    for (samples, patch_of) in samples.chunks(CHUNK).zip(patches.patch_of.chunks(CHUNK)) {
-        let points = Cloud::mapped(samples, cloud.stretch, cloud.mean);
-        let directions: Vec<Vector3<f64>> = points.iter().map(|(n, _)| *n).collect();
-        let mut radii = vec![0.0; samples.len()];
-        ScatteredHarmonics::new(degree, &directions).synthesis(&fit.coefficients, &mut radii);
-        for ((patch, (_, measured)), fitted) in patch_of.iter().zip(points).zip(radii) {
-            if let Some(patch) = patch {
-                sums[*patch as usize] += measured - fitted;
-            }
+    for (patch, residual) in patches.patch_of.iter().zip(residuals.iter().flatten()) {
+        if let Some(patch) = patch {
+            sums[*patch as usize] += residual;
         }
     }
     let posterior = Posterior::new(cloud, degree, false);
