@@ -21,6 +21,12 @@ fn try_fit(path: &Path) -> Result<Fitted, FitError> {
     )
 }
 
+/// Whether a warning has these words.
+fn told(fitted: &Fitted, words: &str) -> bool {
+    let mut warnings = fitted.warnings.iter().map(ToString::to_string);
+    warnings.any(|warning| warning.contains(words))
+}
+
 /// Fits a scan and returns the deviations of area and volume from its reference surface.
 fn deviations(path: &Path) -> (f64, f64) {
     let fitted = try_fit(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
@@ -92,7 +98,7 @@ fn what_is_not_star_shaped_is_refused_with_the_reason() {
 fn folds_are_told_of() {
     let Some(scans) = scans() else { return };
     let fitted = try_fit(&scans.join("stone/low_res_E34.ply")).expect("nearly star-shaped");
-    assert!(fitted.warnings.iter().any(|w| w.contains("faces away")));
+    assert!(told(&fitted, "faces away"));
 }
 
 #[test]
@@ -102,12 +108,8 @@ fn odd_clouds_of_the_hostile_folder_end_as_they_should() {
     let error = try_fit(&made.join("ply_082_torus.ply")).expect_err("a torus");
     assert!(error.to_string().contains("faces away"), "{error}");
     let outliers = try_fit(&made.join("ply_084_outliers_1pct.ply")).expect("a grain");
-    assert!(outliers.warnings[0].contains("stand apart"));
+    assert!(told(&outliers, "stand apart"));
     let half = try_fit(&made.join("ply_085_half_scan.ply")).expect("half a grain");
-    assert!(
-        half.warnings[0].contains("is a guess"),
-        "{:?}",
-        half.warnings
-    );
+    assert!(told(&half, "is a guess"), "{:?}", half.warnings);
     assert!(try_fit(&made.join("ply_078_two_bodies.ply")).is_err());
 }

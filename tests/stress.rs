@@ -20,7 +20,7 @@ fn try_fit(points: Vec<Point3<f64>>, options: &FitOptions) -> Result<Fitted, Fit
 /// Everything that is told of a grain is finite, and its surface is where the points are.
 fn assert_sound(fitted: &Fitted) {
     let search = &fitted.search;
-    assert!(search.limit.is_finite() && search.noise.is_finite());
+    assert!(search.limit.is_finite() && search.noise.is_none_or(f64::is_finite));
     assert!(fitted.residuals.rms.is_finite() && fitted.residuals.max.is_finite());
     assert!(fitted.reference.area > 0.0 && fitted.reference.volume > 0.0);
     for candidate in &search.candidates {
@@ -28,6 +28,7 @@ fn assert_sound(fitted: &Fitted) {
             candidate.area_error,
             candidate.volume_error,
             candidate.heldout_rms,
+            candidate.estimate_rms,
         ] {
             assert!(figure.is_none_or(f64::is_finite), "{candidate:?}");
         }
@@ -107,7 +108,7 @@ fn adaptive_covers_keep_to_the_bounds_asked_for() {
     for (max_segments, max_degree) in [(6, 0), (6, 6), (9, 3), (30, 1), (100, 2), (600, 8)] {
         let options = FitOptions {
             max_segments: Some(max_segments),
-            max_degree,
+            max_degree: Some(max_degree),
             tolerance: Tolerance::OfMeanRadius(1e-4),
             ..FitOptions::default()
         };

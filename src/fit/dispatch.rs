@@ -26,9 +26,13 @@ impl PreparedScan<'_> {
     /// Fits the model that the options ask for.
     ///
     /// # Errors
-    /// [`FitError`] if the options are out of range, or the fit was cancelled.
+    /// [`FitError`] if the options are out of range or ask for other mirror planes than the scan was
+    /// prepared for, or if the fit was cancelled.
     pub fn fit(&self, options: &FitOptions, context: &Context<'_>) -> Result<Fitted, FitError> {
         options.check()?;
+        if options.symmetry != self.symmetry {
+            return Err(FitError::OtherSymmetry);
+        }
         context.run(|| match options.seams {
             _ if options.symmetry != Symmetry::NONE => mirrored(self, options, context),
             Seams::None => independent(self, options, context),
