@@ -1,6 +1,4 @@
-use crate::fit::{
-    FitError, FitOptions, FitWarning, Fitted, Rejection, Seams, Tolerance, fit,
-};
+use crate::fit::{FitError, FitOptions, FitWarning, Fitted, Rejection, Seams, Tolerance, fit};
 use crate::measure::grain_properties;
 use crate::model::{Mirrored, StarSurface};
 use crate::scan::Scan;
