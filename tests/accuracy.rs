@@ -61,6 +61,7 @@ fn check(options: &FitOptions, samplings: &[Sampling], noise: f64, bounds: &Boun
             let rms = distance(&fitted, body) / synthetic.truth.mean_radius;
             let what =
                 format!("{body} {sampling} {noise}: area {area}, volume {volume}, RMS {rms}");
+            println!("{what}");
             assert!(area.abs() <= bounds.area, "{what}");
             assert!(volume.abs() <= bounds.volume, "{what}");
             assert!(rms <= bounds.rms, "{what}");
@@ -163,20 +164,24 @@ fn no_candidate_that_passes_misses_the_true_radius_by_more_than_a_tenth_anywhere
 }
 
 #[test]
-fn no_blended_cover_that_passes_misses_the_true_radius_by_more_than_a_tenth_anywhere() {
+fn every_blended_cover_misses_the_true_radius_by_what_it_tells() {
     for body in GRAINS {
         for sampling in Sampling::ALL {
-            let (scan, _) = made(body, sampling, 0.0);
+            let (scan, synthetic) = made(body, sampling, 0.0);
             assert_near_everywhere(body, sampling, &scan, &FitOptions::default());
-            for segments in [1, 6, 24, 54, 96] {
-                for degree in 0..=3 {
-                    let options = FitOptions {
-                        degree: Some(degree),
-                        segments: Some(segments),
-                        ..FitOptions::default()
-                    };
-                    assert_near_everywhere(body, sampling, &scan, &options);
-                }
+            for (segments, degree) in [(1, 0), (1, 6), (6, 3), (24, 1), (54, 2), (96, 3)] {
+                let options = FitOptions {
+                    degree: Some(degree),
+                    segments: Some(segments),
+                    ..FitOptions::default()
+                };
+                let fitted = fit(&scan, &options).expect("a grain");
+                let told = fitted.search.choice().heldout_rms.expect("an estimate");
+                let missed = distance(&fitted, body);
+                let what = format!("{body} {sampling} {segments} x {degree}: {missed} not {told}");
+                println!("{what}, {:.3}", missed / told);
+                let rounding = 2e-5 * synthetic.truth.mean_radius;
+                assert!((missed - told).abs() < 0.1 * told + rounding, "{what}");
             }
         }
     }

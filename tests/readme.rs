@@ -77,8 +77,21 @@ fn the_main_job_of_the_readme_runs() {
     assert!(folder.path().join("maize.stl").is_file());
 }
 
+/// A summary without the times of an evaluation, which differ from run to run.
+fn timeless(summary: &str) -> String {
+    let mut parts = summary.split(" ns)");
+    let last = parts.next_back().unwrap_or_default();
+    let without = |part: &str| {
+        part.trim_end_matches(|c: char| c.is_ascii_digit())
+            .to_owned()
+            + "- ns)"
+    };
+    parts.map(without).chain([last.to_owned()]).collect()
+}
+
 #[test]
 fn the_summary_of_the_readme_is_what_fit_prints() {
     let printed = run("grainform fit grains/maize.ply", folder().path());
-    assert_eq!(blocks("text").next(), Some(printed.as_str()));
+    let told = blocks("text").next().expect("a summary");
+    assert_eq!(timeless(told), timeless(&printed));
 }
