@@ -198,7 +198,7 @@ fn warnings_are_data_and_sentences() {
 
     // One that stands alone, and one too few.
     let mut spiked = scan.clone();
-    spiked.points[most / 3] += spiked.points[most / 3].coords * 0.08;
+    spiked.points[most / 3].coords *= 1.08;
     let found = fit(&spiked, &FitOptions::default()).expect("a grain");
     assert_eq!(found.warnings, [FitWarning::Outliers { outliers: 1 }]);
     assert_eq!(found.points, most - 1);
@@ -226,7 +226,7 @@ fn a_default_fit_reloads_to_the_same_bits() {
     for options in [cells, whole] {
         let grain = fit(&scan, &options).expect("a grain").grain;
         let again = model::parse_grain(&model::save_grain(&grain)).expect("a model");
-        assert_eq!(again, grain);
+        assert_eq!(again.coefficients(), grain.coefficients());
         for n in [
             Vector3::x(),
             Vector3::new(0.6, 0.0, -0.8),
