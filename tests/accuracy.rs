@@ -49,9 +49,9 @@ struct Bounds {
     rms: f64,
 }
 
-fn check(options: &FitOptions, samplings: &[Sampling], noise: f64, bounds: &Bounds) {
-    for body in GRAINS {
-        for &sampling in samplings {
+fn check(options: &FitOptions, bodies: &[Body], noise: f64, bounds: &Bounds) {
+    for &body in bodies {
+        for sampling in Sampling::ALL {
             let (scan, synthetic) = made(body, sampling, noise);
             let fitted = fit(&scan, options).expect("a grain");
             let found = grain_properties(&fitted.grain).properties;
@@ -82,35 +82,33 @@ fn distance(fitted: &Fitted, body: Body) -> f64 {
 }
 
 #[test]
-fn clean_even_scans_are_met_within_a_tenth_of_a_percent_of_area_and_a_fiftieth_of_volume() {
+fn clean_scans_are_met_within_the_tolerance_however_their_points_are_spread() {
+    // Measured: 3.1e-5, 3.0e-6, and 4.5e-4 of the 5e-4 asked for.
     let bounds = Bounds {
-        area: 0.001,
-        volume: 0.0002,
-        rms: 0.003,
+        area: 5e-5,
+        volume: 5e-6,
+        rms: 5e-4,
     };
-    let even = [Sampling::Cube, Sampling::Fibonacci];
-    check(&FitOptions::default(), &even, 0.0, &bounds);
+    check(&FitOptions::default(), &GRAINS, 0.0, &bounds);
 }
 
 #[test]
-fn clean_uneven_scans_are_met_within_half_a_percent_of_area_and_a_tenth_of_volume() {
-    let bounds = Bounds {
-        area: 0.005,
-        volume: 0.001,
-        rms: 0.005,
+fn noisy_grains_are_met_within_a_fraction_of_the_noise() {
+    // Measured: 2.7e-4, 1.6e-4 and 1.25e-3; of the bean, with a quarter of the points, 6.5e-4, 8.0e-4
+    // and 2.1e-3.
+    let many = Bounds {
+        area: 4e-4,
+        volume: 2.4e-4,
+        rms: 1.5e-3,
     };
-    let uneven = [Sampling::Random, Sampling::Rings];
-    check(&FitOptions::default(), &uneven, 0.0, &bounds);
-}
-
-#[test]
-fn noisy_grains_are_met_within_one_percent_of_area_and_three_tenths_of_volume() {
-    let bounds = Bounds {
-        area: 0.01,
-        volume: 0.003,
-        rms: 0.005,
+    let few = Bounds {
+        area: 1e-3,
+        volume: 1.2e-3,
+        rms: 2.5e-3,
     };
-    check(&FitOptions::default(), &Sampling::ALL, 0.005, &bounds);
+    let options = FitOptions::default();
+    check(&options, &[Body::Chickpea, Body::Maize], 0.005, &many);
+    check(&options, &[Body::Bean], 0.005, &few);
 }
 
 #[test]
@@ -121,12 +119,18 @@ fn independent_segments_meet_clean_and_noisy_grains() {
             volume,
             rms: 0.01,
         };
-        check(&independent(), &Sampling::ALL, noise, &bounds);
+        check(&independent(), &GRAINS, noise, &bounds);
     }
 }
 
-/// Fits every setting of some options; none may miss the true radius by a tenth.
-fn assert_near_everywhere(body: Body, sampling: Sampling, scan: &Scan, options: &FitOptions) {
+/// Fits with some options; nowhere may the surface miss the true radius by more than a share `most` of it.
+fn assert_near_everywhere(
+    body: Body,
+    sampling: Sampling,
+    scan: &Scan,
+    options: &FitOptions,
+    most: f64,
+) {
     let (directions, _) = cube_grid(24);
     let surface = body.surface();
     let fitted = fit(scan, options).expect("a grain");
@@ -137,7 +141,7 @@ fn assert_near_everywhere(body: Body, sampling: Sampling, scan: &Scan, options: 
         let point = fitted.grain.point(direction).coords;
         let truth = surface.radius(&point.normalize());
         let miss = (point.norm() / truth - 1.0).abs();
-        assert!(miss < 0.1, "{body} {sampling} {options:?}: {miss}");
+        assert!(miss < most, "{body} {sampling} {options:?}: {miss}");
     }
 }
 
@@ -157,32 +161,40 @@ fn no_candidate_that_passes_misses_the_true_radius_by_more_than_a_tenth_anywhere
                     segments: Some(candidate.segments),
                     ..independent()
                 };
-                assert_near_everywhere(body, sampling, &scan, &options);
+                assert_near_everywhere(body, sampling, &scan, &options, 0.1);
             }
         }
     }
 }
 
 #[test]
-fn every_blended_cover_misses_the_true_radius_by_what_it_tells() {
+fn default_fits_are_near_everywhere() {
     for body in GRAINS {
         for sampling in Sampling::ALL {
-            let (scan, synthetic) = made(body, sampling, 0.0);
-            assert_near_everywhere(body, sampling, &scan, &FitOptions::default());
-            for (segments, degree) in [(1, 0), (1, 6), (6, 3), (24, 1), (54, 2), (96, 3)] {
-                let options = FitOptions {
-                    degree: Some(degree),
-                    segments: Some(segments),
-                    ..FitOptions::default()
-                };
-                let fitted = fit(&scan, &options).expect("a grain");
-                let told = fitted.search.choice().heldout_rms.expect("an estimate");
-                let missed = distance(&fitted, body);
-                let what = format!("{body} {sampling} {segments} x {degree}: {missed} not {told}");
-                println!("{what}, {:.3}", missed / told);
-                let rounding = 2e-5 * synthetic.truth.mean_radius;
-                assert!((missed - told).abs() < 0.1 * told + rounding, "{what}");
-            }
+            let (scan, _) = made(body, sampling, 0.0);
+            // Measured: .43 % at most, at the beak of the chickpea.
+            assert_near_everywhere(body, sampling, &scan, &FitOptions::default(), 0.006);
+        }
+    }
+}
+
+#[test]
+fn blended_covers_miss_the_true_radius_by_what_they_tell() {
+    for body in GRAINS {
+        let (scan, synthetic) = made(body, Sampling::Random, 0.0);
+        for (segments, degree) in [(1, 0), (6, 3), (24, 1), (54, 2)] {
+            let options = FitOptions {
+                degree: Some(degree),
+                segments: Some(segments),
+                ..FitOptions::default()
+            };
+            let fitted = fit(&scan, &options).expect("a grain");
+            let told = fitted.search.choice().heldout_rms.expect("an estimate");
+            let missed = distance(&fitted, body);
+            let what = format!("{body} {segments} x {degree}: {missed} not {told}");
+            // Measured: .92 to 1.00 of what is told.
+            let rounding = 2e-5 * synthetic.truth.mean_radius;
+            assert!((missed - told).abs() < 0.1 * told + rounding, "{what}");
         }
     }
 }
