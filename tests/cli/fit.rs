@@ -27,7 +27,10 @@ fn prints_a_summary_and_writes_nothing_unless_asked_to() {
         "(0.05 % of the mean radius) of the estimate",
         "\ndifference    RMS ",
     ];
-    let of_segments = [", 256 coefficients", "held-out RMS is within the limit"];
+    let of_segments = [
+        "36 segments, 576 coefficients",
+        "held-out RMS is within the limit",
+    ];
     for (options, own) in [
         (&[][..], &of_estimate[..]),
         (&INDEPENDENT[..], &of_segments[..]),
