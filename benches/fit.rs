@@ -1,19 +1,19 @@
-//! Time of each stage of a fit on one thread, against the floor that this machine's matrix products
-//! set, so that figures from different machines and releases can be compared: `cargo bench`.
+//! Time of each stage of a fit on one thread, against the rate of a large matrix product measured in
+//! the same run, so that figures from different machines and releases can be compared: `cargo bench`.
 //!
-//! The floor of the adaptive fit counts the products A^T A of its final round, with the cells that a
-//! sample touches, at the rate of a large matrix product measured in the same run; that of the search
-//! over independent segments one QR per segment and level, 2 n (p + 1)^2 operations for n samples and
-//! p coefficients. Both leave out evaluating the bases, held-out errors, earlier rounds, area and
-//! volume.
+//! "estimate" is a fit with one segment, "cells" the default fit, which contains the estimate. The floor
+//! of the search over independent segments is one QR per segment and level, 2 n (p + 1)^2 operations for
+//! n samples and p coefficients, at that rate; it leaves out evaluating the bases, held-out errors, area
+//! and volume.
 
 mod timing;
 
 use faer::{Accum, Mat, Par};
-use grainform::fit::PreparedScan;
+use grainform::fit::{Context, PreparedScan};
 use grainform::measure::grain_properties;
 use grainform::scan::Scan;
 use grainform::shapes::{Body, Sampling, SynthOptions, synthesize};
+use grainform::sphere::Symmetry;
 use grainform::{FitOptions, Seams};
 use timing::median;
 
@@ -28,15 +28,16 @@ fn main() {
         let columns = [
             "points",
             "prepare",
-            "adaptive",
-            "/floor",
+            "estimate",
+            "cells",
             "measure",
             "errors",
             "1e6 radii",
+            "as one",
             "independent",
             "/floor",
         ];
-        println!("{}", columns.map(|name| format!("{name:>11}")).concat());
+        println!("{}", columns.map(|name| format!("{name:>12}")).concat());
         for (points, runs) in [(1_538, 20), (6_146, 20), (98_306, 5), (1_000_000, 3)] {
             stages(points, runs, rate);
         }
@@ -64,42 +65,48 @@ fn stages(points: usize, runs: usize, rate: f64) {
         ..Scan::default()
     };
     let samples = scan.points.len() as f64;
-    let prepare = |options: &FitOptions| PreparedScan::new(&scan, options).expect("a grain");
-    let adaptive = FitOptions::default();
+    let prepare = || PreparedScan::new(&scan, Symmetry::NONE).expect("a grain");
+    let cells = FitOptions::default();
+    let estimate = FitOptions {
+        segments: Some(1),
+        ..FitOptions::default()
+    };
     let independent = FitOptions {
         seams: Seams::None,
         exhaustive: true,
         ..FitOptions::default()
     };
 
-    let preparing = median(runs, || prepare(&adaptive));
-    let prepared = prepare(&adaptive);
-    let fitting = median(runs, || prepared.search(&|_| ()));
-    let found = prepared.search(&|_| ());
-    let fitted = prepared.finish(found);
+    let preparing = median(runs, prepare);
+    let prepared = prepare();
+    let fit = |options: &FitOptions| prepared.fit(options, &Context::default()).expect("a fit");
+    let estimating = median(runs, || fit(&estimate));
+    let fitting = median(runs, || fit(&cells));
+    let fitted = fit(&cells);
     let measuring = median(runs, || grain_properties(&fitted.grain));
     let drawing = median(runs, || fitted.standard_errors());
     let directions = Sampling::Random
         .directions(1_000_000, 0)
         .expect("enough directions");
     let evaluating = median(3, || fitted.grain.radii(&directions));
-    let floor = samples * fitted.grain.coefficients_touched().powi(2) / rate;
+    let whole = fitted.whole.as_ref().unwrap_or(&fitted.grain);
+    let evaluating_whole = median(3, || whole.radii(&directions));
 
-    let segments = prepare(&independent);
-    let searching = median(runs, || segments.search(&|_| ()));
+    let searching = median(runs, || fit(&independent));
     let levels = 10.0;
-    let segments_floor = levels * 2.0 * samples * 17.0 * 17.0 / rate;
-    let milliseconds = |seconds: f64| format!("{:>11.1}", 1e3 * seconds);
+    let floor = levels * 2.0 * samples * 17.0 * 17.0 / rate;
+    let milliseconds = |seconds: f64| format!("{:>12.1}", 1e3 * seconds);
     println!(
-        "{:>11}{}{}{:>11.1}{}{}{}{}{:>11.1}",
+        "{:>12}{}{}{}{}{}{}{}{}{:>12.1}",
         samples,
         milliseconds(preparing),
+        milliseconds(estimating),
         milliseconds(fitting),
-        fitting / floor,
         milliseconds(measuring),
         milliseconds(drawing),
         milliseconds(evaluating),
+        milliseconds(evaluating_whole),
         milliseconds(searching),
-        searching / segments_floor,
+        searching / floor,
     );
 }

@@ -31,7 +31,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let mut columns = Vec::new();
         for body in [Body::Bean, Body::Chickpea, Body::Maize] {
             let solid = body.surface();
-            let truth = figures(&Survey::of_solid(solid.as_ref()))?;
+            let known = solid.integrals().properties;
+            let truth = figures(&Survey::of_surface(solid.as_ref(), known))?;
             let points = synthesize(&SynthOptions {
                 noise,
                 seed: 1,

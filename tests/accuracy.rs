@@ -1,5 +1,6 @@
 //! The fit against the exact truth of closed-form grains.
 
+use grainform::fit::FitWarning;
 use grainform::measure::grain_properties;
 use grainform::scan::Scan;
 use grainform::shapes::{Body, Sampling, SynthOptions, SyntheticScan, synthesize};
@@ -31,6 +32,15 @@ fn independent() -> FitOptions {
     }
 }
 
+/// Points that a warning says were left out.
+fn left_out(warning: &FitWarning) -> usize {
+    match *warning {
+        FitWarning::Strays { strays, .. } => strays,
+        FitWarning::Outliers { outliers } => outliers,
+        _ => 0,
+    }
+}
+
 /// Errors that a fit may have: of the area and the volume, relative, and the root mean square of
 /// the radius as a share of the mean radius.
 struct Bounds {
@@ -39,9 +49,9 @@ struct Bounds {
     rms: f64,
 }
 
-fn check(options: &FitOptions, samplings: &[Sampling], noise: f64, bounds: &Bounds) {
-    for body in GRAINS {
-        for &sampling in samplings {
+fn check(options: &FitOptions, bodies: &[Body], noise: f64, bounds: &Bounds) {
+    for &body in bodies {
+        for sampling in Sampling::ALL {
             let (scan, synthetic) = made(body, sampling, noise);
             let fitted = fit(&scan, options).expect("a grain");
             let found = grain_properties(&fitted.grain).properties;
@@ -51,6 +61,7 @@ fn check(options: &FitOptions, samplings: &[Sampling], noise: f64, bounds: &Boun
             let rms = distance(&fitted, body) / synthetic.truth.mean_radius;
             let what =
                 format!("{body} {sampling} {noise}: area {area}, volume {volume}, RMS {rms}");
+            println!("{what}");
             assert!(area.abs() <= bounds.area, "{what}");
             assert!(volume.abs() <= bounds.volume, "{what}");
             assert!(rms <= bounds.rms, "{what}");
@@ -71,35 +82,33 @@ fn distance(fitted: &Fitted, body: Body) -> f64 {
 }
 
 #[test]
-fn clean_even_scans_are_met_within_a_tenth_of_a_percent_of_area_and_a_fiftieth_of_volume() {
+fn clean_scans_are_met_within_the_tolerance_however_their_points_are_spread() {
+    // Measured: 3.1e-5, 3.0e-6, and 4.5e-4 of the 5e-4 asked for.
     let bounds = Bounds {
-        area: 0.001,
-        volume: 0.0002,
-        rms: 0.003,
+        area: 5e-5,
+        volume: 5e-6,
+        rms: 5e-4,
     };
-    let even = [Sampling::Cube, Sampling::Fibonacci];
-    check(&FitOptions::default(), &even, 0.0, &bounds);
+    check(&FitOptions::default(), &GRAINS, 0.0, &bounds);
 }
 
 #[test]
-fn clean_uneven_scans_are_met_within_half_a_percent_of_area_and_a_tenth_of_volume() {
-    let bounds = Bounds {
-        area: 0.005,
-        volume: 0.001,
-        rms: 0.005,
+fn noisy_grains_are_met_within_a_fraction_of_the_noise() {
+    // Measured: 2.7e-4, 1.6e-4 and 1.25e-3; of the bean, with a quarter of the points, 6.5e-4, 8.0e-4
+    // and 2.1e-3.
+    let many = Bounds {
+        area: 4e-4,
+        volume: 2.4e-4,
+        rms: 1.5e-3,
     };
-    let uneven = [Sampling::Random, Sampling::Rings];
-    check(&FitOptions::default(), &uneven, 0.0, &bounds);
-}
-
-#[test]
-fn noisy_grains_are_met_within_one_percent_of_area_and_three_tenths_of_volume() {
-    let bounds = Bounds {
-        area: 0.01,
-        volume: 0.003,
-        rms: 0.005,
+    let few = Bounds {
+        area: 1e-3,
+        volume: 1.2e-3,
+        rms: 2.5e-3,
     };
-    check(&FitOptions::default(), &Sampling::ALL, 0.005, &bounds);
+    let options = FitOptions::default();
+    check(&options, &[Body::Chickpea, Body::Maize], 0.005, &many);
+    check(&options, &[Body::Bean], 0.005, &few);
 }
 
 #[test]
@@ -110,12 +119,18 @@ fn independent_segments_meet_clean_and_noisy_grains() {
             volume,
             rms: 0.01,
         };
-        check(&independent(), &Sampling::ALL, noise, &bounds);
+        check(&independent(), &GRAINS, noise, &bounds);
     }
 }
 
-/// Fits every setting of some options; none may miss the true radius by a tenth.
-fn assert_near_everywhere(body: Body, sampling: Sampling, scan: &Scan, options: &FitOptions) {
+/// Fits with some options; nowhere may the surface miss the true radius by more than a share `most` of it.
+fn assert_near_everywhere(
+    body: Body,
+    sampling: Sampling,
+    scan: &Scan,
+    options: &FitOptions,
+    most: f64,
+) {
     let (directions, _) = cube_grid(24);
     let surface = body.surface();
     let fitted = fit(scan, options).expect("a grain");
@@ -126,7 +141,7 @@ fn assert_near_everywhere(body: Body, sampling: Sampling, scan: &Scan, options: 
         let point = fitted.grain.point(direction).coords;
         let truth = surface.radius(&point.normalize());
         let miss = (point.norm() / truth - 1.0).abs();
-        assert!(miss < 0.1, "{body} {sampling} {options:?}: {miss}");
+        assert!(miss < most, "{body} {sampling} {options:?}: {miss}");
     }
 }
 
@@ -146,28 +161,40 @@ fn no_candidate_that_passes_misses_the_true_radius_by_more_than_a_tenth_anywhere
                     segments: Some(candidate.segments),
                     ..independent()
                 };
-                assert_near_everywhere(body, sampling, &scan, &options);
+                assert_near_everywhere(body, sampling, &scan, &options, 0.1);
             }
         }
     }
 }
 
 #[test]
-fn no_blended_cover_that_passes_misses_the_true_radius_by_more_than_a_tenth_anywhere() {
+fn default_fits_are_near_everywhere() {
     for body in GRAINS {
         for sampling in Sampling::ALL {
             let (scan, _) = made(body, sampling, 0.0);
-            assert_near_everywhere(body, sampling, &scan, &FitOptions::default());
-            for segments in [1, 6, 24, 54, 96] {
-                for degree in 0..=3 {
-                    let options = FitOptions {
-                        degree: Some(degree),
-                        segments: Some(segments),
-                        ..FitOptions::default()
-                    };
-                    assert_near_everywhere(body, sampling, &scan, &options);
-                }
-            }
+            // Measured: .43 % at most, at the beak of the chickpea.
+            assert_near_everywhere(body, sampling, &scan, &FitOptions::default(), 0.006);
+        }
+    }
+}
+
+#[test]
+fn blended_covers_miss_the_true_radius_by_what_they_tell() {
+    for body in GRAINS {
+        let (scan, synthetic) = made(body, Sampling::Random, 0.0);
+        for (segments, degree) in [(1, 0), (6, 3), (24, 1), (54, 2)] {
+            let options = FitOptions {
+                degree: Some(degree),
+                segments: Some(segments),
+                ..FitOptions::default()
+            };
+            let fitted = fit(&scan, &options).expect("a grain");
+            let told = fitted.search.choice().heldout_rms.expect("an estimate");
+            let missed = distance(&fitted, body);
+            let what = format!("{body} {segments} x {degree}: {missed} not {told}");
+            // Measured: .92 to 1.00 of what is told.
+            let rounding = 2e-5 * synthetic.truth.mean_radius;
+            assert!((missed - told).abs() < 0.1 * told + rounding, "{what}");
         }
     }
 }
@@ -222,7 +249,7 @@ fn a_missing_cap_is_told_of_and_bridged() {
         };
         let fitted = fit(&scan, &FitOptions::default()).expect("a grain");
         assert!(
-            fitted.warnings.iter().any(|w| w.contains("is a guess")),
+            matches!(fitted.warnings[..], [FitWarning::Gap { .. }]),
             "{:?}",
             fitted.warnings
         );
@@ -252,11 +279,8 @@ fn gross_outliers_are_left_out_and_counted() {
         ..Scan::default()
     };
     let fitted = fit(&scan, &FitOptions::default()).expect("a grain");
-    assert!(
-        fitted.warnings[0].starts_with(&moved.to_string()),
-        "{moved} {:?}",
-        fitted.warnings
-    );
+    let left_out: usize = fitted.warnings.iter().map(left_out).sum();
+    assert_eq!(left_out, moved, "{:?}", fitted.warnings);
     let found = grain_properties(&fitted.grain).properties;
     assert!((found.volume / synthetic.truth.properties.volume - 1.0).abs() < 0.001);
 }

@@ -20,7 +20,7 @@ fn try_fit(points: Vec<Point3<f64>>, options: &FitOptions) -> Result<Fitted, Fit
 /// Everything that is told of a grain is finite, and its surface is where the points are.
 fn assert_sound(fitted: &Fitted) {
     let search = &fitted.search;
-    assert!(search.limit.is_finite() && search.noise.is_finite());
+    assert!(search.limit.is_finite() && search.noise.is_none_or(f64::is_finite));
     assert!(fitted.residuals.rms.is_finite() && fitted.residuals.max.is_finite());
     assert!(fitted.reference.area > 0.0 && fitted.reference.volume > 0.0);
     for candidate in &search.candidates {
@@ -28,6 +28,7 @@ fn assert_sound(fitted: &Fitted) {
             candidate.area_error,
             candidate.volume_error,
             candidate.heldout_rms,
+            candidate.estimate_rms,
         ] {
             assert!(figure.is_none_or(f64::is_finite), "{candidate:?}");
         }
@@ -46,9 +47,6 @@ fn assert_sound(fitted: &Fitted) {
     }
     fitted.grain.mesh(5).check_closed().expect("closed");
 }
-
-/// Coefficients of the largest blended fits tried.
-const MOST_COEFFICIENTS: usize = 6144;
 
 fn cloud(body: Body, points: usize, sampling: Sampling) -> Vec<Point3<f64>> {
     let options = SynthOptions {
@@ -84,19 +82,23 @@ fn every_blended_cover_and_degree_gives_a_sound_grain() {
         (Body::Maize, 20_000, Sampling::Rings),
     ] {
         let points = cloud(body, points, sampling);
-        for segments in [1, 6, 24, 54, 96, 384, 1536] {
-            for degree in [0, 1, 3, 6] {
-                // Beyond some ten thousand coefficients a fit takes minutes.
-                if segments * (degree + 1_usize).pow(2) > MOST_COEFFICIENTS {
-                    continue;
-                }
-                let options = FitOptions {
-                    degree: Some(degree),
-                    segments: Some(segments),
-                    ..FitOptions::default()
-                };
-                assert_sound(&try_fit(points.clone(), &options).expect("a grain"));
-            }
+        for (segments, degree) in [
+            (1, 0),
+            (1, 80),
+            (6, 0),
+            (6, 12),
+            (24, 3),
+            (54, 1),
+            (96, 6),
+            (384, 3),
+            (1536, 1),
+        ] {
+            let options = FitOptions {
+                degree: Some(degree),
+                segments: Some(segments),
+                ..FitOptions::default()
+            };
+            assert_sound(&try_fit(points.clone(), &options).expect("a grain"));
         }
     }
 }
@@ -107,7 +109,7 @@ fn adaptive_covers_keep_to_the_bounds_asked_for() {
     for (max_segments, max_degree) in [(6, 0), (6, 6), (9, 3), (30, 1), (100, 2), (600, 8)] {
         let options = FitOptions {
             max_segments: Some(max_segments),
-            max_degree,
+            max_degree: Some(max_degree),
             tolerance: Tolerance::OfMeanRadius(1e-4),
             ..FitOptions::default()
         };
@@ -192,7 +194,7 @@ fn a_thin_disc_is_sound() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(24))]
+    #![proptest_config(ProptestConfig::with_cases(12))]
 
     #[test]
     fn slender_and_flat_bodies_are_sound(a in 1.0..100.0_f64, b in 1.0..100.0_f64) {

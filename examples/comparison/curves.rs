@@ -5,26 +5,26 @@ use crate::table::LEVELS;
 use grainform::FitError;
 use grainform::bench::{BenchRow, Family, Setting, Subject, measure};
 
-/// Steps per decade of the ladder of tolerances that adaptive fits climb.
+/// Steps per decade of the ladder of tolerances that fits to the estimate climb.
 const STEPS: i32 = 10;
 
 /// The ladder's ends, in decades of the mean radius: 2 % and 0.005 %.
 const LADDER: [f64; 2] = [-1.7, -4.3];
 
-/// Largest degree of the fits that are bound to few coefficients per segment.
+/// Largest degree of k x k segments that touch few coefficients per evaluation.
 pub(crate) const LOW_DEGREE: usize = 3;
 
 /// All fits of one scan.
 pub(crate) struct Curves {
     pub(crate) scan: String,
-    /// Of the whole surface.
+    /// Of the whole surface, by least squares.
     pub(crate) whole: Vec<BenchRow>,
     /// Independent segments of any degree.
     pub(crate) uniform: Vec<BenchRow>,
-    /// Adaptive cells of degree 3 or less.
+    /// The estimate, an expansion of the whole sphere cut at a lower degree.
+    pub(crate) estimate: Vec<BenchRow>,
+    /// Cells fitted to the estimate.
     pub(crate) adaptive: Vec<BenchRow>,
-    /// Adaptive cells of free degree.
-    pub(crate) free: Vec<BenchRow>,
     /// Seconds of a plain least-squares fit of the whole surface, by degree less one.
     dense: Vec<f64>,
 }
@@ -45,8 +45,8 @@ impl Curves {
                 .collect(),
             whole,
             uniform: rows(Family::Uniform.settings())?,
+            estimate: rows(ladder(|tolerance| Setting::Estimate { tolerance }))?,
             adaptive: rows(ladder(|tolerance| Setting::Adaptive { tolerance }))?,
-            free: rows(ladder(|tolerance| Setting::AdaptiveFree { tolerance }))?,
         };
         if !curves.reach(LEVELS[0]) {
             curves.accept_all();
@@ -60,8 +60,8 @@ impl Curves {
         let families = [
             &mut self.whole,
             &mut self.uniform,
+            &mut self.estimate,
             &mut self.adaptive,
-            &mut self.free,
         ];
         for row in families.into_iter().flatten() {
             row.rejected = None;
@@ -70,18 +70,18 @@ impl Curves {
 
     /// Whether any fit is within the level.
     pub(crate) fn reach(&self, level: f64) -> bool {
-        let families = [&self.whole, &self.uniform, &self.adaptive, &self.free];
+        let families = [&self.whole, &self.uniform, &self.estimate, &self.adaptive];
         cheapest(families.into_iter().flatten(), level).is_some()
     }
 
-    /// The independent fits of degree 3 or less.
+    /// The fits of k x k segments of degree 3 or less.
     pub(crate) fn low(&self) -> impl Iterator<Item = &BenchRow> {
         let is_low = |row: &&BenchRow| row.degree.is_some_and(|degree| degree <= LOW_DEGREE);
         self.uniform.iter().filter(is_low)
     }
 
     /// Seconds of a plain least-squares fit of the whole surface at the level; of the largest degree
-    /// where none reaches it, which is too few.
+    /// where none reaches it, which are too few.
     pub(crate) fn dense_seconds(&self, level: f64) -> f64 {
         let degree = cheapest(&self.whole, level).and_then(|row| row.degree);
         self.dense[degree.unwrap_or(self.dense.len()) - 1]

@@ -1,6 +1,6 @@
 //! What fits of the same accuracy cost: prints, for grains, edged bodies and scanned stones, tables
-//! of the cheapest fit of every family at a few levels of the held-out RMS, and whether the goals
-//! set for overlapping, adaptive cells are met.
+//! of the cheapest fit of every family at a few levels of the held-out RMS, and how cells compare with
+//! the whole sphere and with k x k segments.
 //!
 //! `cargo run --release --example comparison` takes some ten minutes, on one thread.
 

@@ -12,16 +12,16 @@ Fewest coefficients within a level of held-out RMS (% of the mean radius), coeff
 evaluation, and milliseconds of the fit; - where no fit is within the level. Fits that miss a point by
 more than the search accepts do not count, but for scans marked *, of which no fit does better.
 
-| scan | RMS | whole, L <= 20 | uniform, L <= 3 | uniform, L <= 6 | adaptive, L <= 3 | adaptive, free | plain dense |
+| scan | RMS | least squares, L <= 20 | k x k, L <= 3 | k x k, L <= 6 | estimate | cells | plain dense |
 |---|---|---|---|---|---|---|---|";
 
 /// Head of the table of verdicts.
 pub(crate) const VERDICTS: &str = "\
-Ratios at equal held-out RMS, and whether the goal holds. Where the rival is not within the level, its
-largest fit stands in for it, marked <: the true ratio is lower.
+Cells against their rivals at equal held-out RMS, and whether the goal holds. Where the rival is not
+within the level, its largest fit stands in for it, marked <: the true ratio is lower.
 
-| scan | RMS | free / min(whole, uniform) <= 1.1 | adaptive / uniform, L <= 3: <= 0.5 | touched / whole <= 0.2 | seconds / whole <= 0.1 | seconds / plain dense <= 0.1 |
-|---|---|---|---|---|---|---|";
+| scan | RMS | coefficients / k x k, L <= 3: <= 0.5 | touched / estimate <= 0.5 | seconds / plain dense <= 1 |
+|---|---|---|---|---|";
 
 /// The cheapest fits within a level.
 pub(crate) fn costs(curves: &Curves, level: f64) -> String {
@@ -29,8 +29,8 @@ pub(crate) fn costs(curves: &Curves, level: f64) -> String {
         cheapest(&curves.whole, level),
         cheapest(curves.low(), level),
         cheapest(&curves.uniform, level),
+        cheapest(&curves.estimate, level),
         cheapest(&curves.adaptive, level),
-        cheapest(&curves.free, level),
     ]
     .map(|row| row.map_or("-".into(), cost));
     let dense = 1e3 * curves.dense_seconds(level);
@@ -51,29 +51,21 @@ fn cost(row: &BenchRow) -> String {
     )
 }
 
-/// How the fits within a level compare.
+/// How the cells within a level compare.
 pub(crate) fn verdicts(curves: &Curves, level: f64) -> String {
-    let whole = cheapest(&curves.whole, level);
-    let low = cheapest(curves.low(), level);
     let adaptive = cheapest(&curves.adaptive, level);
-    let free = cheapest(&curves.free, level);
-    let fewest = cheapest(curves.whole.iter().chain(&curves.uniform), level);
-    let coefficients = |row: &BenchRow| row.coefficients as f64;
-    let seconds = |row: &BenchRow| row.seconds;
-    let largest = curves.whole.last();
-    let largest_low = curves.low().max_by_key(|row| row.coefficients);
-    let rival = Rival::new(fewest, largest);
+    let low = Rival::new(
+        cheapest(curves.low(), level),
+        curves.low().max_by_key(|row| row.coefficients),
+    );
+    let estimate = Rival::new(cheapest(&curves.estimate, level), curves.estimate.last());
     let cells = [
-        rival.compare(free, coefficients, 1.1),
-        Rival::new(low, largest_low).compare(adaptive, coefficients, 0.5),
-        match (adaptive, Rival::new(whole, largest)) {
-            (Some(row), rival) => rival.judge(row.touched, coefficients, 0.2),
-            (None, _) => "-".into(),
-        },
-        Rival::new(whole, largest).compare(adaptive, seconds, 0.1),
+        low.compare(adaptive, |row| row.coefficients as f64, 0.5),
+        estimate.compare(adaptive, |row| row.touched, 0.5),
         adaptive.map_or("-".into(), |row| {
             let ratio = row.seconds / curves.dense_seconds(level);
-            verdict(ratio, whole.is_none(), 0.1)
+            let is_bound = cheapest(&curves.whole, level).is_none();
+            verdict(ratio, is_bound, 1.0)
         }),
     ];
     let (scan, level) = (&curves.scan, 100.0 * level);
@@ -96,13 +88,10 @@ impl<'a> Rival<'a> {
     }
 
     fn compare(&self, row: Option<&BenchRow>, cost: fn(&BenchRow) -> f64, most: f64) -> String {
-        row.map_or("-".into(), |row| self.judge(cost(row), cost, most))
-    }
-
-    fn judge(&self, own: f64, cost: fn(&BenchRow) -> f64, most: f64) -> String {
-        self.row.map_or("-".into(), |rival| {
-            verdict(own / cost(rival), self.falls_short, most)
-        })
+        match (row, self.row) {
+            (Some(row), Some(rival)) => verdict(cost(row) / cost(rival), self.falls_short, most),
+            _ => "-".into(),
+        }
     }
 }
 

@@ -222,10 +222,16 @@ mod tests {
         for family in Family::ALL {
             for setting in family.settings() {
                 assert_eq!(setting.family(), family);
-                let (degrees, parts) = options(&setting).candidates().unwrap();
-                match setting.degree() {
-                    Some(degree) => assert_eq!((degrees, parts.len()), (vec![degree], 1)),
-                    None => assert!(degrees.len() > 1 && parts.is_empty(), "{setting}"),
+                let options = options(&setting);
+                options.check().expect("in range");
+                assert_eq!(options.degree, setting.degree(), "{setting}");
+                match setting.tolerance() {
+                    Some(share) => {
+                        assert_eq!(options.tolerance, Tolerance::OfMeanRadius(share));
+                        let of_whole = family == Family::Estimate;
+                        assert_eq!(options.segments, of_whole.then_some(1));
+                    }
+                    None => assert!(options.degree.is_some() && options.segments.is_some()),
                 }
             }
         }

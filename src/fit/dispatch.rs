@@ -30,9 +30,13 @@ impl PreparedScan<'_> {
     /// Fits the model that the options ask for.
     ///
     /// # Errors
-    /// [`FitError`] if the options are out of range, or the fit was cancelled.
+    /// [`FitError`] if the options are out of range or ask for other mirror planes than the scan was
+    /// prepared for, or if the fit was cancelled.
     pub fn fit(&self, options: &FitOptions, context: &Context<'_>) -> Result<Fitted, FitError> {
         options.check()?;
+        if options.symmetry != self.symmetry {
+            return Err(FitError::OtherSymmetry);
+        }
         context.run(|| match options.seams {
             _ if options.symmetry != Symmetry::NONE => mirrored(self, options, context),
             Seams::None => independent(self, options, context),
@@ -41,12 +45,12 @@ impl PreparedScan<'_> {
     }
 
     /// What is known before any fit.
-    fn fitted(&self, grain: Grain, search: Search, residuals: Residuals) -> Fitted {
+    fn fitted(&self, grain: Grain, search: Search, residuals: Residuals, points: usize) -> Fitted {
         Fitted {
             grain,
             search,
             reference: self.reference,
-            points: self.points().len(),
+            points,
             mean_radius: self.mean_radius,
             residuals,
             asymmetry: None,
@@ -71,7 +75,7 @@ fn mirrored(
         Stretch::NONE,
         Surface::Mirrored(fit.surface),
     );
-    let mut fitted = prepared.fitted(grain, fit.search, fit.residuals);
+    let mut fitted = prepared.fitted(grain, fit.search, fit.residuals, fit.points);
     fitted.warnings.extend(rejected(&fitted.search));
     let share = fit.asymmetry / prepared.mean_radius;
     if share > LARGEST_ASYMMETRY {
@@ -92,7 +96,7 @@ fn independent(
         Stretch::NONE,
         Surface::Segmented(fit.surface),
     );
-    let mut fitted = prepared.fitted(grain, fit.search, fit.residuals);
+    let mut fitted = prepared.fitted(grain, fit.search, fit.residuals, fit.points);
     fitted.warnings.extend(rejected(&fitted.search));
     Ok(fitted)
 }
@@ -126,13 +130,20 @@ fn estimated(
         Tolerance::Auto => estimate.resolution(),
         _ => limit,
     };
-    let asked = (options.segments == Some(1)).then(|| {
-        options
-            .degree
-            .unwrap_or_else(|| estimate.least_degree(own_limit))
-            .min(estimate.degree)
+    let most = options.max_degree.unwrap_or(estimate.degree);
+    let asked = (options.segments == Some(1)).then(|| match options.degree {
+        Some(degree) => degree.min(estimate.degree),
+        None => estimate.least_degree(own_limit).min(most),
     });
     let degree = asked.unwrap_or_else(|| estimate.least_degree(limit));
+    let are_cells_too_many = options.segments.is_none() && options.most_segments() < 6;
+    let degree = match are_cells_too_many {
+        true => options
+            .degree
+            .unwrap_or(degree.min(most))
+            .min(estimate.degree),
+        false => degree,
+    };
     let held_out = estimate.held_out();
     let near = |rms: f64, candidate: Candidate| Candidate {
         estimate_rms: Some(rms),
@@ -141,9 +152,10 @@ fn estimated(
     };
     let of_whole = Candidate::unfitted(degree, 1, (degree + 1).pow(2));
     let is_whole = asked.is_some()
-        || options.most_segments() < 6
+        || are_cells_too_many
         || (options.segments.is_none()
             && options.degree.is_none()
+            && degree <= most
             && (degree + 1).pow(2) <= FEW_COEFFICIENTS);
     let mut candidates = vec![near(estimate.truncation(degree), of_whole)];
     let mut work = Work::default();
@@ -190,8 +202,8 @@ fn estimated(
         work,
     };
     let residuals = residuals(&grain, samples.rows());
-    let mut fitted = prepared.fitted(grain, search, residuals);
-    fitted.points = samples.rows().len() - estimate.outliers;
+    let points = samples.rows().len() - estimate.outliers;
+    let mut fitted = prepared.fitted(grain, search, residuals, points);
     fitted.whole = rival;
     fitted.warnings.extend(warnings);
     if estimate.outliers > 0 {

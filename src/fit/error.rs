@@ -38,6 +38,9 @@ pub enum FitError {
          segments can be asked for with it"
     )]
     SymmetryOfSegments,
+    /// The axes of a prepared scan follow from its mirror planes.
+    #[error("the scan was prepared for other mirror planes than the fit asks for")]
+    OtherSymmetry,
     /// A setting is outside of its range.
     #[error("{setting} is {value}; it must be from {least} to {most}")]
     OutOfRange {

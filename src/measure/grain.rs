@@ -54,11 +54,6 @@ pub fn grain_properties(grain: &Grain) -> Integrals {
     }
 }
 
-/// Those of a blended surface in the grain's own frame.
-pub(crate) fn blended_properties(surface: &Blended) -> Integrals {
-    blended(surface, &Stretch::NONE)
-}
-
 fn blended(surface: &Blended, stretch: &Stretch) -> Integrals {
     let zones = surface.cover().zones();
     let evaluate = |_: &[_], directions: &[_]| surface.radii_and_gradients(directions);

@@ -11,7 +11,6 @@ use super::{
 };
 use crate::Mesh;
 use crate::model::{Grain, StarSurface};
-use crate::shapes::Solid;
 use nalgebra::{Matrix3, Vector3};
 use std::cell::OnceCell;
 use thiserror::Error;
@@ -41,7 +40,7 @@ pub struct Survey<'a> {
 
 enum Body<'a> {
     Grain(&'a Grain, Scheme),
-    Solid(&'a dyn Solid),
+    Surface(&'a (dyn StarSurface + Sync), MassProperties),
     Mesh(&'a Mesh, MassProperties),
 }
 
@@ -92,9 +91,9 @@ impl<'a> Survey<'a> {
         Self::new(Body::Grain(grain, scheme))
     }
 
-    /// Of a closed-form body, in its own frame; area, volume and moments are those that it knows.
-    pub fn of_solid(solid: &'a dyn Solid) -> Self {
-        Self::new(Body::Solid(solid))
+    /// Of a surface whose area, volume and moments are known, in its own frame.
+    pub fn of_surface(surface: &'a (dyn StarSurface + Sync), properties: MassProperties) -> Self {
+        Self::new(Body::Surface(surface, properties))
     }
 
     /// Of a closed mesh, wound counter-clockwise from outside.
@@ -131,8 +130,7 @@ impl<'a> Survey<'a> {
                     ..from_centre
                 }
             }
-            Body::Solid(solid) => solid.integrals().properties,
-            Body::Mesh(_, properties) => properties,
+            Body::Surface(_, properties) | Body::Mesh(_, properties) => properties,
         })
     }
 
@@ -221,7 +219,7 @@ impl<'a> Survey<'a> {
         };
         match self.body {
             Body::Grain(grain, _) => Ok(statistics(grain)),
-            Body::Solid(solid) => Ok(statistics(solid)),
+            Body::Surface(surface, _) => Ok(statistics(surface)),
             Body::Mesh(..) => Err(SurveyError::Flat),
         }
     }
@@ -296,9 +294,9 @@ impl<'a> Survey<'a> {
     fn mesh(&self) -> &Mesh {
         match self.body {
             Body::Grain(grain, _) => self.mesh.get_or_init(|| grain.mesh(RESOLUTION)),
-            Body::Solid(solid) => self
+            Body::Surface(surface, _) => self
                 .mesh
-                .get_or_init(|| Mesh::radial(RESOLUTION, |n| solid.radius(n))),
+                .get_or_init(|| Mesh::radial(RESOLUTION, |n| surface.radius(n))),
             Body::Mesh(mesh, _) => mesh,
         }
     }
@@ -314,7 +312,7 @@ impl<'a> Survey<'a> {
         };
         match self.body {
             Body::Grain(grain, _) => along(grain),
-            Body::Solid(solid) => along(solid),
+            Body::Surface(surface, _) => along(surface),
             Body::Mesh(mesh, _) => extents(mesh, axes),
         }
     }
@@ -333,7 +331,7 @@ impl<'a> Survey<'a> {
                     let shift = grain.frame().centre - centroid;
                     surface_elements(grain, &nodes(), &shift)
                 }
-                Body::Solid(solid) => surface_elements(solid, &nodes(), &-centroid.coords),
+                Body::Surface(surface, _) => surface_elements(surface, &nodes(), &-centroid.coords),
                 Body::Mesh(mesh, _) => mesh_elements(mesh, centroid),
             }
         })
@@ -342,7 +340,7 @@ impl<'a> Survey<'a> {
     fn nodes(&self, integrand: Integrand) -> Vec<(Vector3<f64>, f64)> {
         match self.body {
             Body::Grain(grain, _) => grain_nodes(grain, integrand),
-            Body::Solid(_) => octant_nodes(integrand),
+            Body::Surface(..) => octant_nodes(integrand),
             Body::Mesh(..) => Vec::new(),
         }
     }

@@ -241,7 +241,11 @@ impl fmt::Display for FitReport {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let of_radius = |length: f64| {
             let share = 100.0 * length / self.mean_radius;
-            format!("{} ({share:.3} % of the mean radius)", short(length))
+            let share = match share.abs() {
+                0.0 | 0.001.. => format!("{share:.3}"),
+                _ => format!("{share:.1e}"),
+            };
+            format!("{} ({share} % of the mean radius)", short(length))
         };
         let against =
             |error: f64, reference: f64| format!("{} against {}", percent(error), short(reference));

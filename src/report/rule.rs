@@ -7,7 +7,11 @@ use crate::fit::{FitOptions, Fitted, Tolerance};
 pub(super) fn rule(fitted: &Fitted, options: &FitOptions) -> String {
     let search = &fitted.search;
     let choice = search.choice();
-    if search.candidates.len() == 1 && fitted.estimate.is_none() {
+    let is_only = match fitted.estimate {
+        Some(_) => options.degree.is_some() && options.segments.is_some(),
+        None => search.candidates.len() == 1,
+    };
+    if is_only {
         return "the only candidate asked for".into();
     }
     if choice.rejected.is_some() {
@@ -25,16 +29,21 @@ pub(super) fn rule(fitted: &Fitted, options: &FitOptions) -> String {
             (false, _) => format!("{share} % of the mean radius"),
         };
         let limit = format!("{} ({source})", short(search.limit));
-        return match () {
-            () if choice.segments == 1 => {
+        let is_all = options.segments == Some(1) && options.tolerance == Tolerance::Auto;
+        return match search.work.candidates {
+            _ if rms > search.limit => format!(
+                "the smallest difference from the estimate; the limit of {limit} is not met"
+            ),
+            _ if is_all => format!(
+                "the lowest degree that leaves out no more than {} of the estimate",
+                short(search.limit)
+            ),
+            _ if choice.segments == 1 => {
                 format!("the lowest degree within {limit} of the estimate")
             }
-            () if rms <= search.limit => format!(
-                "the fewest coefficients among {} covers within {limit} of the estimate",
-                search.work.candidates
-            ),
-            () => format!(
-                "the smallest difference from the estimate; the limit of {limit} is not met"
+            1 => format!("the cheapest cover forecast, within {limit} of the estimate"),
+            covers => format!(
+                "the fewest coefficients among {covers} covers within {limit} of the estimate"
             ),
         };
     }

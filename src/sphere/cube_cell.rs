@@ -120,19 +120,6 @@ impl CubeCell {
         self.direction([b + s * (b_end - b), c + t * (c_end - c)])
     }
 
-    /// Which of `parts` x `parts` patches of the cell a direction lies in, or is nearest to: row times
-    /// `parts` plus column.
-    pub(crate) fn patch(&self, n: &[f64; 3], parts: usize) -> usize {
-        let (axis, side) = self.axis();
-        let place = |at: usize, [low, high]: [f64; 2]| {
-            let angle = n[(axis + at) % 3].atan2(side * n[axis]);
-            let share = (angle - low) / (high - low) * parts as f64;
-            (share.max(0.0) as usize).min(parts - 1)
-        };
-        let [b, c] = self.angles();
-        place(1, b) * parts + place(2, c)
-    }
-
     /// The direction of the middle.
     pub fn middle(&self) -> Vector3<f64> {
         self.at(0.5, 0.5)

@@ -22,8 +22,8 @@ struct Published {
     axes: Matrix3<f64>,
     /// t.
     stretch: Vector3<f64>,
-    /// h: share of a cell's width; nothing if no cells are blended.
-    margin: Option<f64>,
+    /// Share of a cell's width, and the largest angle; nothing if no cells are blended.
+    margin: Option<[f64; 2]>,
     loss: f64,
     cells: Vec<Cell>,
 }
@@ -55,7 +55,7 @@ fn read(text: &str) -> Published {
         let a = columns[7].parse().expect("a coefficient");
         cell.coefficients.push((whole(5), m, a));
     }
-    let is_blended = text.contains("over h = ");
+    let is_blended = text.contains("S rises from 0 to 1 over ");
     let is_stretched = text.contains("by t = ");
     Published {
         axes: Matrix3::from_rows(&[axis("x"), axis("y"), axis("z")]),
@@ -63,7 +63,10 @@ fn read(text: &str) -> Published {
             true => Vector3::from_column_slice(&numbers(after(text, "by t = "))[..3]),
             false => Vector3::repeat(1.0),
         },
-        margin: is_blended.then(|| numbers(after(text, "over h = "))[0]),
+        margin: is_blended.then(|| {
+            let numbers = numbers(after(text, "S rises from 0 to 1 over "));
+            [numbers[0], numbers[1].to_radians()]
+        }),
         loss: numbers(after(text, "largest loss of the conversion: "))[0],
         cells: cells.into_values().collect(),
     }
@@ -127,7 +130,7 @@ impl Published {
         radius / q.norm()
     }
 
-    fn blend(&self, margin: f64, n: &Vector3<f64>) -> f64 {
+    fn blend(&self, [margin, most]: [f64; 2], n: &Vector3<f64>) -> f64 {
         let (mut sum, mut weights) = (0.0, 0.0);
         for cell in &self.cells {
             let [face, parts, row, column] = cell.place;
@@ -140,7 +143,7 @@ impl Published {
             let along = |axis_across: usize, at: f64| {
                 let angle = (n[axis_across] / n[axis].abs()).atan();
                 let low = at * width - PI / 4.0;
-                profile(angle, low, low + width, margin * width)
+                profile(angle, low, low + width, (margin * width).min(most))
             };
             let weight = along((axis + 1) % 3, row) * along((axis + 2) % 3, column);
             if weight > 0.0 {

@@ -10,6 +10,7 @@ mod mesh;
 mod search;
 mod symmetry;
 mod synth;
+mod whole;
 
 use serde_json::Value;
 use std::path::{Path, PathBuf};

@@ -2,8 +2,7 @@
 //! factor and solution.
 //!
 //! A block row belongs to a cell, and a block is filled where two cells overlap. The factor has the
-//! pattern of the elimination in an order of least degree. (Sparse factorizations of libraries do not
-//! give the part of the inverse that [`super::inverse`] needs.)
+//! pattern of the elimination in an order of least degree.
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::{
@@ -24,13 +23,10 @@ pub(crate) struct BlockMatrix {
     pub(crate) blocks: BTreeMap<(u16, u16), Mat<f64>>,
 }
 
-/// Its Cholesky factor, or the inverse on the same pattern: block columns in the order of
-/// elimination.
+/// Its Cholesky factor: block columns in the order of elimination.
 #[derive(Debug, Clone)]
 pub(crate) struct BlockFactor {
     pub(super) sizes: Vec<usize>,
-    /// Block row k is eliminated at `position[k]`.
-    pub(super) position: Vec<usize>,
     pub(super) columns: Vec<Column>,
 }
 
@@ -132,7 +128,6 @@ impl BlockMatrix {
         }
         Some(BlockFactor {
             sizes: self.sizes.clone(),
-            position,
             columns,
         })
     }
@@ -242,9 +237,8 @@ impl BlockFactor {
         }
     }
 
-    /// Solves with the transposed factor: turns independent unit normal numbers into a draw whose
-    /// covariance is the inverse of the matrix.
-    pub(crate) fn backward(&self, right: &mut [Mat<f64>]) {
+    /// Solves with the transposed factor.
+    fn backward(&self, right: &mut [Mat<f64>]) {
         for column in self.columns.iter().rev() {
             let mut own = std::mem::replace(&mut right[column.index], Mat::new());
             for (&row, &start) in column.rows.iter().zip(&column.starts) {

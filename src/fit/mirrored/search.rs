@@ -34,6 +34,8 @@ const ON_MIRROR: f64 = 1e-9;
 /// The expansion with mirror images that a search chose.
 pub(crate) struct MirroredFit {
     pub(crate) surface: Mirrored,
+    /// Distinct points.
+    pub(crate) points: usize,
     pub(crate) residuals: Residuals,
     /// Root mean square difference between the images, in the scan's unit.
     pub(crate) asymmetry: f64,
@@ -101,6 +103,7 @@ pub(crate) fn search(
     Ok(MirroredFit {
         residuals: residuals(&surface, samples),
         surface,
+        points: samples.len(),
         asymmetry: asymmetry(samples, symmetry),
         search: Search {
             seams: Seams::Blended,

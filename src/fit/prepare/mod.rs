@@ -42,6 +42,7 @@ pub struct PreparedScan<'a> {
     pub(crate) mean_radius: f64,
     /// Semi-axes of the ellipsoid of equal second moments, along the grain's own axes.
     pub(crate) semi_axes: Vector3<f64>,
+    /// The mirror planes that the axes were chosen for.
     pub(crate) symmetry: Symmetry,
     pub(crate) warnings: Vec<FitWarning>,
     points: Cow<'a, [Point3<f64>]>,

@@ -42,6 +42,11 @@ impl Levels {
         }
     }
 
+    /// Distinct points.
+    pub(crate) fn points(&self) -> usize {
+        self.samples.rows().len()
+    }
+
     /// The level with `k` parts per angle, up to `degree`.
     pub(crate) fn level(&self, k: usize, degree: usize) -> Level<'_> {
         Level {

@@ -33,6 +33,8 @@ use crate::sphere::{AngularPartition, coefficient_count};
 /// The independent segments that a search chose.
 pub(crate) struct SegmentsFit {
     pub(crate) surface: Segmented,
+    /// Distinct points.
+    pub(crate) points: usize,
     pub(crate) residuals: Residuals,
     pub(crate) search: Search,
 }
@@ -109,6 +111,7 @@ pub(crate) fn search(
     let (surface, residuals) = surface(&levels, &candidates[chosen], segments);
     Ok(SegmentsFit {
         surface,
+        points: levels.points(),
         residuals,
         search: Search {
             seams: Seams::None,

@@ -2,7 +2,7 @@
 
 use super::*;
 use faer::Side;
-use faer::linalg::solvers::{DenseSolveCore, Solve};
+use faer::linalg::solvers::Solve;
 
 /// A small generator of numbers in [-1, 1).
 fn numbers(seed: u64) -> impl FnMut() -> f64 {
@@ -183,45 +183,6 @@ fn the_backward_solution_has_the_inverse_as_its_covariance() {
         let product = &x * x.transpose() * &dense;
         let difference = product - Mat::<f64>::identity(whole, whole);
         assert!(largest(&difference) < 1e-9, "{}", largest(&difference));
-    }
-}
-
-#[test]
-fn the_blocks_of_the_inverse_are_those_of_the_dense_inverse() {
-    for (seed, problem) in (0..).zip(problems()) {
-        let (blocks, dense) = problem.matrices(seed);
-        let inverse = blocks.factor().expect("positive definite").inverse();
-        let expected = dense.llt(Side::Lower).expect("positive definite").inverse();
-        let scale = largest(&expected);
-        let starts = problem.starts();
-        for (i, &size) in problem.sizes.iter().enumerate() {
-            let block = expected.submatrix(starts[i], starts[i], size, size);
-            let difference = inverse.diagonal(i) - block;
-            assert!(largest(&difference) < 1e-11 * scale);
-        }
-        for group in &problem.groups {
-            let found = inverse.dense(group);
-            let at: Vec<usize> = group
-                .iter()
-                .flat_map(|&i| starts[usize::from(i)]..starts[usize::from(i) + 1])
-                .collect();
-            let part = Mat::from_fn(at.len(), at.len(), |i, j| expected[(at[i], at[j])]);
-            assert_eq!(found.nrows(), at.len());
-            assert!(largest(&(found - part)) < 1e-11 * scale, "{group:?}");
-        }
-    }
-}
-
-#[test]
-fn the_dense_inverse_of_a_group_follows_the_order_of_its_cells() {
-    let problem = Problem::ring(&[2, 5, 3]);
-    let (blocks, _) = problem.matrices(3);
-    let inverse = blocks.factor().expect("positive definite").inverse();
-    let (forward, backward) = (inverse.dense(&[0, 2]), inverse.dense(&[2, 0]));
-    for i in 0..5 {
-        for j in 0..5 {
-            assert_eq!(forward[(i, j)], backward[((i + 3) % 5, (j + 3) % 5)]);
-        }
     }
 }
 

@@ -1,8 +1,8 @@
 //! Segments against independent routes to the same numbers.
 
 use super::*;
-use crate::fit::reduce::reduce_cells;
-use crate::fit::row::rows;
+use crate::fit::segments::reduce::reduce_cells;
+use crate::fit::segments::row::rows;
 use crate::model::Frame;
 use crate::shapes::{Body, Sampling, SynthOptions, synthesize};
 use crate::sphere::{CapBasis, harmonics};
