@@ -65,7 +65,7 @@ impl Seams {
 /// A radial RMS error.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Tolerance {
-    /// 0.05 % of the mean radius. In every case a third of the estimate's own standard deviation is good enough.
+    /// 0.03 % of the mean radius. In every case a third of the estimate's own standard deviation is good enough.
     Auto,
     /// In the scan's unit.
     Length(f64),
@@ -85,7 +85,7 @@ impl Tolerance {
 }
 
 /// The tolerance of [`Tolerance::Auto`] as a share of the mean radius.
-const AUTO_TOLERANCE: f64 = 0.0005;
+const AUTO_TOLERANCE: f64 = 0.0003;
 
 /// Largest degree that can be asked for: beyond it one segment holds more coefficients than most
 /// scans have points to give.

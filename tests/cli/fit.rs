@@ -24,7 +24,7 @@ fn prints_a_summary_and_writes_nothing_unless_asked_to() {
         model.as_str(),
         &whole,
         &estimate,
-        "(0.05 % of the mean radius) of the estimate",
+        "(0.03 % of the mean radius) of the estimate",
         "\ndifference    RMS ",
     ];
     let of_segments = [
@@ -201,7 +201,7 @@ fn tolerance_is_a_length_or_a_share_of_the_mean_radius() {
         let auto = fit("auto");
         let radius = number(&auto, "mean_radius");
         if seams == "blended" {
-            assert!((limit(&auto) / radius - 0.0005).abs() < 1e-12);
+            assert!((limit(&auto) / radius - 0.0003).abs() < 1e-12);
         }
         let tight = fit("0.3%");
         assert!((limit(&tight) / radius - 0.003).abs() < 1e-12);
