@@ -11,8 +11,14 @@
 //! The posterior covariance says how well every functional of the radius is known.
 
 mod cloud;
+mod dimensions;
+mod errors;
+mod figures;
+mod functionals;
 #[cfg(test)]
 mod lab;
+#[cfg(test)]
+mod lab_errors;
 mod likelihood;
 mod neighbours;
 mod newton;
@@ -234,6 +240,16 @@ fn variance(spectrum: &Spectrum, unlearnt: &[f64]) -> f64 {
     let terms = variances.iter().zip(unlearnt).enumerate();
     terms
         .map(|(l, (v, q))| (2 * l + 1) as f64 * v * q)
+        .sum::<f64>()
+        / (4.0 * std::f64::consts::PI)
+}
+
+/// Mean posterior variance of the surface gradient: sum of (2l + 1) l (l + 1) C_l / 4 pi.
+fn slope_variance(spectrum: &Spectrum, unlearnt: &[f64]) -> f64 {
+    let variances = spectrum.variances(unlearnt.len() - 1);
+    let terms = variances.iter().zip(unlearnt).enumerate();
+    terms
+        .map(|(l, (v, q))| ((2 * l + 1) * l * (l + 1)) as f64 * v * q)
         .sum::<f64>()
         / (4.0 * std::f64::consts::PI)
 }

@@ -163,6 +163,37 @@ const LOOK_BACK: usize = 8;
 /// Steps of a solution at most.
 pub(crate) const MOST_STEPS: usize = 1000;
 
+/// Systems for a variance are solved to this share of it, by the sum of the last [`LOOK_BACK`] steps but the first.
+const SHARE: f64 = 0.01;
+
+/// When conjugate gradients end.
+#[derive(Debug, Clone, Copy)]
+enum Enough {
+    /// When the energy that the last steps removed is below this.
+    Energy(f64),
+    /// When it is below this share of what all steps removed.
+    Share(f64),
+}
+
+impl Enough {
+    /// `energies` of the steps so far; `promise`: of the last one, by the preconditioner.
+    fn is_reached(self, energies: &[f64], promise: f64) -> bool {
+        let steps = energies.len();
+        match self {
+            Self::Energy(settled) => {
+                let recent = &energies[steps.saturating_sub(LOOK_BACK)..];
+                (steps >= LOOK_BACK || promise < 1e-6 * settled)
+                    && recent.iter().sum::<f64>() < settled
+            }
+            Self::Share(share) => {
+                let recent = &energies[steps.saturating_sub(LOOK_BACK).max(1)..];
+                let all: f64 = energies.iter().sum();
+                steps > 1 && recent.iter().sum::<f64>() < share * all
+            }
+        }
+    }
+}
+
 /// Random vectors by which traces are estimated.
 const PROBES: usize = 4;
 
@@ -196,23 +227,40 @@ impl Conditioned<'_> {
         )
     }
 
-    /// C g: the covariances of a linear functional g with every coefficient.
-    pub(crate) fn covariances(&self, g: &[f64], settled: f64) -> Vec<f64> {
-        self.solve(g, None, settled).0
+    /// C g: the covariances of linear functionals g with every coefficient, good to a few percent of the variances.
+    pub(crate) fn covariances(&self, functionals: &[Vec<f64>]) -> Vec<Vec<f64>> {
+        match &self.factor {
+            Some(factor) => self.solve_factored(factor, functionals),
+            None => functionals
+                .iter()
+                .map(|g| self.conjugate_gradients(g, None, Enough::Share(SHARE)).0)
+                .collect(),
+        }
     }
 
     fn solve(&self, right: &[f64], start: Option<&[f64]>, settled: f64) -> (Vec<f64>, usize) {
         let Some(factor) = &self.factor else {
-            return self.conjugate_gradients(right, start, settled);
+            return self.conjugate_gradients(right, start, Enough::Energy(settled));
         };
-        let scaled = right.iter().zip(&self.variances).map(|(b, v)| b * v.sqrt());
-        let mut x: Vec<f64> = scaled.collect();
-        let count = x.len();
-        factor.solve_in_place(MatMut::from_column_major_slice_mut(&mut x, count, 1));
-        for (x, v) in x.iter_mut().zip(&self.variances) {
-            *x *= v.sqrt();
-        }
-        (x, 0)
+        let found = self.solve_factored(factor, &[right]);
+        (found.into_iter().next().unwrap_or_default(), 0)
+    }
+
+    fn solve_factored(&self, factor: &Llt<f64>, rights: &[impl AsRef<[f64]>]) -> Vec<Vec<f64>> {
+        let count = self.variances.len();
+        let roots: Vec<f64> = self.variances.iter().map(|v| v.sqrt()).collect();
+        let mut all: Vec<f64> = rights
+            .iter()
+            .flat_map(|right| right.as_ref().iter().zip(&roots).map(|(b, root)| b * root))
+            .collect();
+        factor.solve_in_place(MatMut::from_column_major_slice_mut(
+            &mut all,
+            count,
+            rights.len(),
+        ));
+        all.chunks_exact(count)
+            .map(|x| x.iter().zip(&roots).map(|(x, root)| x * root).collect())
+            .collect()
     }
 
     /// (Y'WY / s^2 + V^-1) x.
@@ -234,7 +282,7 @@ impl Conditioned<'_> {
         &self,
         right: &[f64],
         start: Option<&[f64]>,
-        settled: f64,
+        enough: Enough,
     ) -> (Vec<f64>, usize) {
         let count = right.len();
         let even = self.posterior.cloud.weights.iter().sum::<f64>() / (4.0 * PI * self.noise);
@@ -265,10 +313,7 @@ impl Conditioned<'_> {
                 z[i] = r[i] * preconditioner[i];
             }
             energies.push(step * rz);
-            let recent = &energies[energies.len().saturating_sub(LOOK_BACK)..];
-            if (energies.len() >= LOOK_BACK || rz < 1e-6 * settled)
-                && recent.iter().sum::<f64>() < settled
-            {
+            if enough.is_reached(&energies, rz) {
                 break;
             }
             let next = dot(&r, &z);

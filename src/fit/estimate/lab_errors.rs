@@ -1,0 +1,128 @@
+use super::errors::Best;
+use super::figures::Figures;
+use super::lab::*;
+use super::*;
+use crate::measure::{MassProperties, grain_properties, support};
+use crate::model::{Frame, Grain, StarSurface, Surface, Whole};
+use crate::shapes::{Body, Sampling};
+use nalgebra::{Matrix3, Point3};
+use std::time::Instant;
+
+pub(crate) fn truth(p: &MassProperties, surface: &(impl StarSurface + ?Sized)) -> Figures {
+    let pr = p.principal().unwrap();
+    Figures {
+        area: p.area,
+        volume: p.volume,
+        centroid: p.centroid.coords,
+        inertia: p.inertia,
+        moments: pr.moments,
+        dimensions: Vector3::from_fn(|i, _| {
+            let a = pr.axes.column(i).into_owned();
+            support(surface, &a).point.dot(&a) - support(surface, &-a).point.dot(&a)
+        }),
+    }
+}
+pub(crate) fn nist_truth(g: &Nist) -> Figures {
+    let whole = Whole::new(g.c.clone()).unwrap();
+    let frame = Frame { centre: Point3::origin(), axes: Matrix3::identity() };
+    let grain = Grain::new(frame, Surface::Whole(whole)).unwrap();
+    truth(&grain_properties(&grain).properties, &grain)
+}
+#[derive(Default)]
+pub(crate) struct Cover(pub Vec<[f64; 8]>);
+impl Cover {
+    pub(crate) fn print(&self, name: &str, seconds: f64) {
+        let n = self.0.len();
+        let mut line = format!("== {name:28} n {n:3}");
+        for (i, what) in ["S", "V", "I1", "I2", "I3", "len", "wid", "thi"].iter().enumerate() {
+            let mut z: Vec<f64> = self.0.iter().map(|z| z[i]).collect();
+            let mean = z.iter().sum::<f64>() / n as f64;
+            let rms = (z.iter().map(|z| z * z).sum::<f64>() / n as f64).sqrt();
+            let cover = z.iter().filter(|z| z.abs() < 1.96).count() as f64 / n as f64;
+            z.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
+            line += &format!(" | {what} {:.2} ({mean:+.2} {rms:.2})", cover);
+        }
+        println!("{line} | {seconds:.3} s");
+    }
+}
+pub(crate) fn zs(e: &Estimate, truth: &Figures) -> ([f64; 8], f64, StandardErrors) {
+    let t = Instant::now();
+    let best = Best::new(e).unwrap();
+    let f = best.figures;
+    let se = best.errors(&f);
+    let t = t.elapsed().as_secs_f64();
+    let mut z = [0.0; 8];
+    z[0] = (f.area - truth.area) / se.area;
+    z[1] = (f.volume - truth.volume) / se.volume;
+    for i in 0..3 {
+        z[2 + i] = (f.moments[i] - truth.moments[i]) / se.moments[i];
+        z[5 + i] = (f.dimensions[i] - truth.dimensions[i]) / se.dimensions[i];
+    }
+    (z, t, se)
+}
+use super::errors::StandardErrors;
+
+pub(crate) fn thin(dirs: Vec<Vector3<f64>>, v: char) -> Vec<Vector3<f64>> {
+    match v {
+        't' => dirs.into_iter().enumerate().filter(|(i, n)| n.x < 0.0 || i % 8 == 0).map(|x| x.1).collect(),
+        'h' => dirs.into_iter().filter(|n| n.x < 20f64.to_radians().cos()).collect(),
+        _ => dirs,
+    }
+}
+
+#[test]
+#[ignore]
+fn coverage() {
+    let variants = std::env::var("V").unwrap_or("abnceth".into());
+    let every: usize = std::env::var("EVERY").map_or(1, |v| v.parse().unwrap());
+    let verbose = std::env::var("VERB").is_ok();
+    let all: Vec<(Nist, Figures)> = Nist::all().into_iter().step_by(every).map(|g| { let t = nist_truth(&g); (g, t) }).collect();
+    for v in variants.chars() {
+        let (n, sd) = match v {
+            'a' => (6146, 0.0),
+            'b' | 't' | 'h' => (6146, 0.005),
+            'n' => (6146, 0.02),
+            'c' => (1538, 0.0),
+            _ => (1538, 0.005),
+        };
+        let mut cover = Cover::default();
+        let mut seconds = 0.0;
+        for (i, (g, truth)) in all.iter().enumerate() {
+            let dirs = thin(fibonacci(n), v);
+            let p = prepare(noisy(&dirs, |n| g.radius(n), sd * g.mean, 7 + i as u64));
+            let e = estimate(p.samples().rows(), p.semi_axes);
+            let (z, t, se) = zs(&e, truth);
+            seconds += t;
+            if verbose {
+                println!("{v} {:28} L {} slope {:.1} {z:5.2?} SE% {:.4} {:.4} {:.4} t {t:.3}", g.name, e.degree, e.spectrum.slope(), 100.0 * se.area / truth.area, 100.0 * se.volume / truth.volume, 100.0 * se.dimensions[0] / truth.dimensions[0]);
+            }
+            cover.0.push(z);
+        }
+        cover.print(&format!("nist {v}"), seconds / all.len() as f64);
+    }
+}
+
+#[test]
+#[ignore]
+fn synth() {
+    let seeds: u64 = std::env::var("SEEDS").map_or(10, |v| v.parse().unwrap());
+    for body in [Body::Bean, Body::Chickpea, Body::Maize] {
+        let s = body.surface();
+        let truth = truth(&s.integrals().properties, s.as_ref());
+        let mean = s.integrals().mean_radius;
+        for (n, sd) in [(1538, 0.0), (1538, 0.005), (6146, 0.0), (6146, 0.005)] {
+            let mut cover = Cover::default();
+            let mut seconds = 0.0;
+            for seed in 0..seeds {
+                let dirs = match seed % 2 { 0 => Sampling::Cube.directions(n, 0).unwrap(), _ => random(n, seed) };
+                let p = prepare(noisy(&dirs, |n| s.radius(n), sd * mean, 7 + seed));
+                let e = estimate(p.samples().rows(), p.semi_axes);
+                let (z, t, _) = zs(&e, &truth);
+                if std::env::var("VERB").is_ok() { println!("{body} {z:6.2?}"); }
+                seconds += t;
+                cover.0.push(z);
+            }
+            cover.print(&format!("{body} {n} {sd}"), seconds / seeds as f64);
+        }
+    }
+}
