@@ -9,11 +9,11 @@
 //!   do not tell; half of the extents' excess; the repulsion of nearly equal moments;
 //! - a floor, for rounding and quadrature.
 
-use super::dimensions::extents;
+use super::Estimate;
+use super::dimensions::Reach;
 use super::figures::{Figures, INERTIA, MassList, derivatives, form, mass};
 use super::functionals::{INTEGRALS, RingSurface, list, unlist};
 use super::posterior::Posterior;
-use super::Estimate;
 use crate::measure::{Moments, PrincipalInertia};
 use crate::sphere::HarmonicBasis;
 use nalgebra::{Matrix3, SMatrix, Vector3};
@@ -41,6 +41,9 @@ pub struct StandardErrors {
 
 /// Least standard error of the area, relative: of clean points of a cement particle it is off by 1e-5.
 const AREA_FLOOR: f64 = 2e-5;
+
+/// Least standard error of an extent, relative: of clean points it is off by 3e-6.
+const EXTENT_FLOOR: f64 = 1e-5;
 
 /// Share of the area's excess that the best value holds. Of spectra that end (band-limited grains) the prior
 /// expects too much of it, of those that go on about the right amount; the same share is the allowance.
@@ -77,7 +80,8 @@ impl Best {
 
         let nodes = surface.nodes.iter().zip(&surface.radii);
         let starts: Vec<_> = nodes.map(|((n, _), (r, _))| (*n, *r)).collect();
-        let extents = extents(estimate, &principal.axes, &starts)?;
+        let reach = Reach::new(estimate, starts)?;
+        let extents = [0, 1, 2].map(|i| reach.along(&principal.axes.column(i).into()));
         let basis = HarmonicBasis::new(estimate.degree);
         let inertia = &gradients[INERTIA..];
         let sd = |i: usize, j: usize| turn_variance(&covariance, &principal.axes, i, j).sqrt();
@@ -87,7 +91,10 @@ impl Best {
             gradient
         });
         let solved = given.covariances(&functionals);
-        let dimension_variances = Vector3::from_fn(|i, _| dot(&functionals[i], &solved[i]));
+        let dimension_variances = Vector3::from_fn(|i, _| {
+            let turned = reach.turned(&principal, i, extents[i].length, sd);
+            dot(&functionals[i], &solved[i]) + turned
+        });
         Some(Self {
             figures: Figures {
                 area: mass.area,
@@ -140,7 +147,9 @@ impl Best {
             centroid: centroid.map(root),
             inertia: inertia.map(root),
             moments: moments.map(root),
-            dimensions: dimensions.map(root),
+            dimensions: dimensions.zip_map(&best.dimensions, |x, extent| {
+                root(x).max(EXTENT_FLOOR * extent)
+            }),
             dimensions_excess: self.dimension_excess,
         }
     }
@@ -176,11 +185,9 @@ fn turn_variance(
 }
 
 /// G'C G of functionals G and C G, made symmetric.
-fn covariance(
-    functionals: &[Vec<f64>],
-    solved: &[Vec<f64>],
-) -> SMatrix<f64, INTEGRALS, INTEGRALS> {
-    let raw = SMatrix::<f64, INTEGRALS, INTEGRALS>::from_fn(|i, j| dot(&functionals[i], &solved[j]));
+fn covariance(functionals: &[Vec<f64>], solved: &[Vec<f64>]) -> SMatrix<f64, INTEGRALS, INTEGRALS> {
+    let raw =
+        SMatrix::<f64, INTEGRALS, INTEGRALS>::from_fn(|i, j| dot(&functionals[i], &solved[j]));
     (raw + raw.transpose()) * 0.5
 }
 

@@ -146,8 +146,7 @@ impl RingSurface {
                 along,
             } = self.normal(n, r, g);
             let outward = a.dot(&along) / length;
-            let by_radius =
-                2.0 * outward + r / length * (along.norm_squared() - outward * outward);
+            let by_radius = 2.0 * outward + r / length * (along.norm_squared() - outward * outward);
             let mapped = self.stretch.component_mul(&a) / length;
             let across = mapped - n * n.dot(&mapped);
             let trace = squares.sum() - n.component_mul(&squares).dot(n);

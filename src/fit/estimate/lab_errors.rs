@@ -2,7 +2,7 @@ use super::errors::Best;
 use super::figures::Figures;
 use super::lab::*;
 use super::*;
-use crate::measure::{MassProperties, grain_properties, support};
+use crate::measure::{MassProperties, grain_properties, support_near};
 use crate::model::{Frame, Grain, StarSurface, Surface, Whole};
 use crate::shapes::{Body, Sampling};
 use nalgebra::{Matrix3, Point3};
@@ -10,6 +10,7 @@ use std::time::Instant;
 
 pub(crate) fn truth(p: &MassProperties, surface: &(impl StarSurface + ?Sized)) -> Figures {
     let pr = p.principal().unwrap();
+    let starts = fibonacci(20000);
     Figures {
         area: p.area,
         volume: p.volume,
@@ -18,13 +19,24 @@ pub(crate) fn truth(p: &MassProperties, surface: &(impl StarSurface + ?Sized)) -
         moments: pr.moments,
         dimensions: Vector3::from_fn(|i, _| {
             let a = pr.axes.column(i).into_owned();
-            support(surface, &a).point.dot(&a) - support(surface, &-a).point.dot(&a)
+            let far = |a: Vector3<f64>| {
+                starts
+                    .iter()
+                    .map(|n| (n, surface.radius(n) * n.dot(&a)))
+                    .max_by(|x, y| x.1.total_cmp(&y.1))
+                    .map(|(n, _)| support_near(surface, &a, n).point.dot(&a))
+                    .unwrap()
+            };
+            far(a) + far(-a)
         }),
     }
 }
 pub(crate) fn nist_truth(g: &Nist) -> Figures {
     let whole = Whole::new(g.c.clone()).unwrap();
-    let frame = Frame { centre: Point3::origin(), axes: Matrix3::identity() };
+    let frame = Frame {
+        centre: Point3::origin(),
+        axes: Matrix3::identity(),
+    };
     let grain = Grain::new(frame, Surface::Whole(whole)).unwrap();
     truth(&grain_properties(&grain).properties, &grain)
 }
@@ -34,7 +46,10 @@ impl Cover {
     pub(crate) fn print(&self, name: &str, seconds: f64) {
         let n = self.0.len();
         let mut line = format!("== {name:28} n {n:3}");
-        for (i, what) in ["S", "V", "I1", "I2", "I3", "len", "wid", "thi"].iter().enumerate() {
+        for (i, what) in ["S", "V", "I1", "I2", "I3", "len", "wid", "thi"]
+            .iter()
+            .enumerate()
+        {
             let mut z: Vec<f64> = self.0.iter().map(|z| z[i]).collect();
             let mean = z.iter().sum::<f64>() / n as f64;
             let rms = (z.iter().map(|z| z * z).sum::<f64>() / n as f64).sqrt();
@@ -64,8 +79,16 @@ use super::errors::StandardErrors;
 
 pub(crate) fn thin(dirs: Vec<Vector3<f64>>, v: char) -> Vec<Vector3<f64>> {
     match v {
-        't' => dirs.into_iter().enumerate().filter(|(i, n)| n.x < 0.0 || i % 8 == 0).map(|x| x.1).collect(),
-        'h' => dirs.into_iter().filter(|n| n.x < 20f64.to_radians().cos()).collect(),
+        't' => dirs
+            .into_iter()
+            .enumerate()
+            .filter(|(i, n)| n.x < 0.0 || i % 8 == 0)
+            .map(|x| x.1)
+            .collect(),
+        'h' => dirs
+            .into_iter()
+            .filter(|n| n.x < 20f64.to_radians().cos())
+            .collect(),
         _ => dirs,
     }
 }
@@ -76,7 +99,14 @@ fn coverage() {
     let variants = std::env::var("V").unwrap_or("abnceth".into());
     let every: usize = std::env::var("EVERY").map_or(1, |v| v.parse().unwrap());
     let verbose = std::env::var("VERB").is_ok();
-    let all: Vec<(Nist, Figures)> = Nist::all().into_iter().step_by(every).map(|g| { let t = nist_truth(&g); (g, t) }).collect();
+    let all: Vec<(Nist, Figures)> = Nist::all()
+        .into_iter()
+        .step_by(every)
+        .map(|g| {
+            let t = nist_truth(&g);
+            (g, t)
+        })
+        .collect();
     for v in variants.chars() {
         let (n, sd) = match v {
             'a' => (6146, 0.0),
@@ -94,7 +124,15 @@ fn coverage() {
             let (z, t, se) = zs(&e, truth);
             seconds += t;
             if verbose {
-                println!("{v} {:28} L {} slope {:.1} {z:5.2?} SE% {:.4} {:.4} {:.4} t {t:.3}", g.name, e.degree, e.spectrum.slope(), 100.0 * se.area / truth.area, 100.0 * se.volume / truth.volume, 100.0 * se.dimensions[0] / truth.dimensions[0]);
+                println!(
+                    "{v} {:28} L {} slope {:.1} {z:5.2?} SE% {:.4} {:.4} {:.4} t {t:.3}",
+                    g.name,
+                    e.degree,
+                    e.spectrum.slope(),
+                    100.0 * se.area / truth.area,
+                    100.0 * se.volume / truth.volume,
+                    100.0 * se.dimensions[0] / truth.dimensions[0]
+                );
             }
             cover.0.push(z);
         }
@@ -114,15 +152,77 @@ fn synth() {
             let mut cover = Cover::default();
             let mut seconds = 0.0;
             for seed in 0..seeds {
-                let dirs = match seed % 2 { 0 => Sampling::Cube.directions(n, 0).unwrap(), _ => random(n, seed) };
+                let dirs = match seed % 2 {
+                    0 => Sampling::Cube.directions(n, 0).unwrap(),
+                    _ => random(n, seed),
+                };
                 let p = prepare(noisy(&dirs, |n| s.radius(n), sd * mean, 7 + seed));
                 let e = estimate(p.samples().rows(), p.semi_axes);
                 let (z, t, _) = zs(&e, &truth);
-                if std::env::var("VERB").is_ok() { println!("{body} {z:6.2?}"); }
+                if std::env::var("VERB").is_ok() {
+                    println!("{body} {z:6.2?}");
+                }
                 seconds += t;
                 cover.0.push(z);
             }
             cover.print(&format!("{body} {n} {sd}"), seconds / seeds as f64);
         }
+    }
+}
+
+#[test]
+#[ignore]
+fn hidden_cover() {
+    use crate::scan::read_scan;
+    use rand_chacha::ChaCha8Rng;
+    use rand_chacha::rand_core::{Rng, SeedableRng};
+    let which = std::env::var("S").unwrap_or_default();
+    for name in SCANS.iter().filter(|s| s.contains(&which)) {
+        let scan = read_scan(format!("../shared/scans/{name}").as_ref()).unwrap();
+        let mut points = scan.points.clone();
+        points.sort_by(|a, b| {
+            a.x.total_cmp(&b.x)
+                .then(a.y.total_cmp(&b.y))
+                .then(a.z.total_cmp(&b.z))
+        });
+        points.dedup();
+        let mut rng = ChaCha8Rng::seed_from_u64(3);
+        let (mut train, mut test) = (vec![], vec![]);
+        for p in points {
+            if rng.next_u32() % 10 == 0 {
+                test.push(p)
+            } else {
+                train.push(p)
+            }
+        }
+        let p = prepare(train);
+        let e = estimate(p.samples().rows(), p.semi_axes);
+        let frame = *p.frame();
+        let (dirs, r): (Vec<_>, Vec<_>) = test
+            .iter()
+            .map(|q| {
+                let l = frame.to_local(q);
+                (l.normalize(), l.norm())
+            })
+            .unzip();
+        let fit = e.radii_at(&dirs);
+        let t = Instant::now();
+        let errors = e.radius_errors(&dirs);
+        let t = t.elapsed().as_secs_f64();
+        let z: Vec<f64> = fit
+            .iter()
+            .zip(&r)
+            .zip(&errors)
+            .map(|((a, b), e)| (a - b) / e.point)
+            .collect();
+        let share = |k: f64| z.iter().filter(|z| z.abs() < k).count() as f64 / z.len() as f64;
+        println!(
+            "{name:40} n {} L {} cover50 {:.3} cover95 {:.3} rms z {:.2} t {t:.2}",
+            e.cloud.len(),
+            e.degree,
+            share(0.6745),
+            share(1.96),
+            (z.iter().map(|z| z * z).sum::<f64>() / z.len() as f64).sqrt()
+        );
     }
 }

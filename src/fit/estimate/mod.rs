@@ -11,7 +11,9 @@
 //! The posterior covariance says how well every functional of the radius is known.
 
 mod cloud;
+mod conjugate_gradients;
 mod dimensions;
+mod draws;
 mod errors;
 mod figures;
 mod functionals;
@@ -20,6 +22,7 @@ mod lab;
 #[cfg(test)]
 mod lab_errors;
 mod likelihood;
+mod local;
 mod neighbours;
 mod newton;
 mod outliers;
@@ -31,9 +34,10 @@ mod spectrum_fit;
 use super::samples::Sample;
 use crate::sphere::{ScatteredHarmonics, coefficient_count};
 use cloud::Cloud;
+use conjugate_gradients::SETTLED;
 use nalgebra::Vector3;
 use patches::{Patches, WHOLE_CLOUD};
-use posterior::{Posterior, SETTLED};
+use posterior::Posterior;
 use spectrum::Spectrum;
 use spectrum_fit::{Count, SpectrumFit, fit_spectrum};
 

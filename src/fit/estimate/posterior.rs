@@ -7,6 +7,7 @@
 //! gradients with the harmonic transform, preconditioned by the matrix of an even cloud.
 
 use super::cloud::Cloud;
+use super::conjugate_gradients::{Enough, SETTLED, SHARE};
 use super::spectrum::Spectrum;
 use crate::sphere::{HarmonicBasis, ScatteredHarmonics, coefficient_count};
 use faer::linalg::matmul::triangular::{self, BlockStructure};
@@ -21,7 +22,7 @@ use std::f64::consts::PI;
 pub(crate) struct Posterior<'a> {
     pub(crate) cloud: &'a Cloud,
     degree: usize,
-    harmonics: ScatteredHarmonics,
+    pub(super) harmonics: ScatteredHarmonics,
     /// Y'WY, where systems are solved by factoring.
     gram: Option<Mat<f64>>,
     /// Y'W y.
@@ -96,6 +97,13 @@ impl<'a> Posterior<'a> {
         radii
     }
 
+    /// Y' times a value per point.
+    pub(super) fn adjoint(&self, values: &[f64]) -> Vec<f64> {
+        let mut sums = vec![0.0; coefficient_count(self.degree)];
+        self.harmonics.adjoint(values, &mut sums);
+        sums
+    }
+
     /// Measured less fitted radii.
     pub(crate) fn residuals(&self, coefficients: &[f64]) -> Vec<f64> {
         let fitted = self.radii(coefficients);
@@ -144,54 +152,14 @@ fn gram(cloud: &Cloud, degree: usize) -> Mat<f64> {
 
 /// The posterior for a spectrum.
 pub(crate) struct Conditioned<'a> {
-    posterior: &'a Posterior<'a>,
+    pub(super) posterior: &'a Posterior<'a>,
     /// v_l per degree, and of every coefficient.
     degrees: Vec<f64>,
-    variances: Vec<f64>,
+    pub(super) variances: Vec<f64>,
     /// s^2.
-    noise: f64,
-    factor: Option<Llt<f64>>,
-}
-
-/// Conjugate gradients end when the last [`LOOK_BACK`] steps together removed less than this of the squared error, in
-/// units of the posterior variance of one coefficient. (The usual test, of the preconditioned residual, ends 2.5
-/// standard deviations off where the scan has a hole.)
-pub(crate) const SETTLED: f64 = 0.1;
-
-const LOOK_BACK: usize = 8;
-
-/// Steps of a solution at most.
-pub(crate) const MOST_STEPS: usize = 1000;
-
-/// Systems for a variance are solved to this share of it, by the sum of the last [`LOOK_BACK`] steps but the first.
-const SHARE: f64 = 0.01;
-
-/// When conjugate gradients end.
-#[derive(Debug, Clone, Copy)]
-enum Enough {
-    /// When the energy that the last steps removed is below this.
-    Energy(f64),
-    /// When it is below this share of what all steps removed.
-    Share(f64),
-}
-
-impl Enough {
-    /// `energies` of the steps so far; `promise`: of the last one, by the preconditioner.
-    fn is_reached(self, energies: &[f64], promise: f64) -> bool {
-        let steps = energies.len();
-        match self {
-            Self::Energy(settled) => {
-                let recent = &energies[steps.saturating_sub(LOOK_BACK)..];
-                (steps >= LOOK_BACK || promise < 1e-6 * settled)
-                    && recent.iter().sum::<f64>() < settled
-            }
-            Self::Share(share) => {
-                let recent = &energies[steps.saturating_sub(LOOK_BACK).max(1)..];
-                let all: f64 = energies.iter().sum();
-                steps > 1 && recent.iter().sum::<f64>() < share * all
-            }
-        }
-    }
+    pub(super) noise: f64,
+    /// The Cholesky factor of I + V^1/2 Y'WY V^1/2 / s^2.
+    pub(super) factor: Option<Llt<f64>>,
 }
 
 /// Random vectors by which traces are estimated.
@@ -261,68 +229,6 @@ impl Conditioned<'_> {
         all.chunks_exact(count)
             .map(|x| x.iter().zip(&roots).map(|(x, root)| x * root).collect())
             .collect()
-    }
-
-    /// (Y'WY / s^2 + V^-1) x.
-    fn precision(&self, x: &[f64], radii: &mut [f64], out: &mut [f64]) {
-        let Posterior {
-            harmonics, cloud, ..
-        } = self.posterior;
-        harmonics.synthesis(x, radii);
-        for (radius, weight) in radii.iter_mut().zip(&cloud.weights) {
-            *radius *= weight / self.noise;
-        }
-        harmonics.adjoint(radii, out);
-        for ((out, x), v) in out.iter_mut().zip(x).zip(&self.variances) {
-            *out += x / v;
-        }
-    }
-
-    fn conjugate_gradients(
-        &self,
-        right: &[f64],
-        start: Option<&[f64]>,
-        enough: Enough,
-    ) -> (Vec<f64>, usize) {
-        let count = right.len();
-        let even = self.posterior.cloud.weights.iter().sum::<f64>() / (4.0 * PI * self.noise);
-        let preconditioner: Vec<f64> = self
-            .variances
-            .iter()
-            .map(|v| 1.0 / (even + 1.0 / v))
-            .collect();
-        let (mut radii, mut q) = (vec![0.0; self.posterior.cloud.len()], vec![0.0; count]);
-        let mut x = vec![0.0; count];
-        let mut r = right.to_vec();
-        if let Some(start) = start {
-            x.copy_from_slice(start);
-            self.precision(&x, &mut radii, &mut q);
-            r.iter_mut().zip(&q).for_each(|(r, q)| *r -= q);
-        }
-        let dot = |a: &[f64], b: &[f64]| -> f64 { a.iter().zip(b).map(|(a, b)| a * b).sum() };
-        let mut z: Vec<f64> = r.iter().zip(&preconditioner).map(|(r, p)| r * p).collect();
-        let mut p = z.clone();
-        let mut rz = dot(&r, &z);
-        let mut energies: Vec<f64> = Vec::new();
-        while energies.len() < MOST_STEPS && rz > 0.0 {
-            self.precision(&p, &mut radii, &mut q);
-            let step = rz / dot(&p, &q);
-            for i in 0..count {
-                x[i] += step * p[i];
-                r[i] -= step * q[i];
-                z[i] = r[i] * preconditioner[i];
-            }
-            energies.push(step * rz);
-            if enough.is_reached(&energies, rz) {
-                break;
-            }
-            let next = dot(&r, &z);
-            for i in 0..count {
-                p[i] = z[i] + next / rz * p[i];
-            }
-            rz = next;
-        }
-        (x, energies.len())
     }
 
     /// Per degree, the share of the prior variance that the points leave: the mean of C_mm / v_l.
