@@ -10,12 +10,12 @@
 //! - a floor, for rounding and quadrature.
 
 use super::Estimate;
+use super::dimension_errors::dimensions;
 use super::dimensions::Reach;
 use super::figures::{Figures, INERTIA, MassList, derivatives, form, mass};
-use super::functionals::{INTEGRALS, RingSurface, list, unlist};
+use super::functionals::{INTEGRALS, RingSurface, combined, dot, list, unlist};
 use super::posterior::Posterior;
 use crate::measure::{Moments, PrincipalInertia};
-use crate::sphere::HarmonicBasis;
 use nalgebra::{Matrix3, SMatrix, Vector3};
 
 /// Standard errors (one standard deviation) of a grain's measures, in the powers of the scan's unit
@@ -74,27 +74,17 @@ impl Best {
         let given = posterior.given(&estimate.spectrum);
         let integrals = surface.gradients();
         let gradients: Vec<Vec<f64>> = (0..INTEGRALS)
-            .map(|row| combined(&integrals, jacobian.row(row).iter()))
+            .map(|row| combined(integrals.iter(), jacobian.row(row).iter()))
             .collect();
-        let covariance = covariance(&gradients, &given.covariances(&gradients));
+        let covariances = given.covariances(&gradients);
+        let covariance = covariance(&gradients, &covariances);
 
         let nodes = surface.nodes.iter().zip(&surface.radii);
         let starts: Vec<_> = nodes.map(|((n, _), (r, _))| (*n, *r)).collect();
         let reach = Reach::new(estimate, starts)?;
-        let extents = [0, 1, 2].map(|i| reach.along(&principal.axes.column(i).into()));
-        let basis = HarmonicBasis::new(estimate.degree);
-        let inertia = &gradients[INERTIA..];
         let sd = |i: usize, j: usize| turn_variance(&covariance, &principal.axes, i, j).sqrt();
-        let functionals = [0, 1, 2].map(|i| {
-            let mut gradient = combined(inertia, extents[i].by_inertia(&principal, i, sd).iter());
-            extents[i].add_gradient(&basis, &mut gradient);
-            gradient
-        });
-        let solved = given.covariances(&functionals);
-        let dimension_variances = Vector3::from_fn(|i, _| {
-            let turned = reach.turned(&principal, i, extents[i].length, sd);
-            dot(&functionals[i], &solved[i]) + turned
-        });
+        let mass_and = (&gradients[..], &covariances[..]);
+        let dimensions = dimensions(estimate, &given, &reach, &principal, mass_and, sd);
         Some(Self {
             figures: Figures {
                 area: mass.area,
@@ -102,13 +92,13 @@ impl Best {
                 centroid: mass.centroid.coords,
                 inertia: mass.inertia,
                 moments: principal.moments,
-                dimensions: Vector3::from_fn(|i, _| extents[i].length),
+                dimensions: dimensions.lengths,
             },
             covariance,
             excess,
             principal,
-            dimension_variances,
-            dimension_excess: Vector3::from_fn(|i, _| extents[i].excess),
+            dimension_variances: dimensions.variances,
+            dimension_excess: dimensions.excess,
         })
     }
 
@@ -136,9 +126,7 @@ impl Best {
                 + square(self.repulsion(i))
         });
         let dimensions = Vector3::from_fn(|i, _| {
-            self.dimension_variances[i]
-                + square(best.dimensions[i] - told.dimensions[i])
-                + square(0.5 * self.dimension_excess[i])
+            self.dimension_variances[i] + square(best.dimensions[i] - told.dimensions[i])
         });
         let root = |x: f64| x.max(0.0).sqrt();
         StandardErrors {
@@ -189,19 +177,4 @@ fn covariance(functionals: &[Vec<f64>], solved: &[Vec<f64>]) -> SMatrix<f64, INT
     let raw =
         SMatrix::<f64, INTEGRALS, INTEGRALS>::from_fn(|i, j| dot(&functionals[i], &solved[j]));
     (raw + raw.transpose()) * 0.5
-}
-
-/// The sum of vectors times factors.
-fn combined<'a>(vectors: &[Vec<f64>], factors: impl Iterator<Item = &'a f64>) -> Vec<f64> {
-    let mut sum = vec![0.0; vectors.first().map_or(0, Vec::len)];
-    for (vector, factor) in vectors.iter().zip(factors).filter(|(_, f)| **f != 0.0) {
-        for (sum, entry) in sum.iter_mut().zip(vector) {
-            *sum += factor * entry;
-        }
-    }
-    sum
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }

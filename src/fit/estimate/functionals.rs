@@ -223,3 +223,22 @@ pub(super) fn unlist(list: &SVector<f64, INTEGRALS>) -> Moments {
         second,
     }
 }
+
+/// The sum of vectors of equal length times factors.
+pub(super) fn combined<'a>(
+    vectors: impl Iterator<Item = &'a Vec<f64>>,
+    factors: impl Iterator<Item = &'a f64>,
+) -> Vec<f64> {
+    let mut sum = Vec::new();
+    for (vector, factor) in vectors.zip(factors) {
+        sum.resize(vector.len(), 0.0);
+        for (sum, entry) in sum.iter_mut().zip(vector) {
+            *sum += factor * entry;
+        }
+    }
+    sum
+}
+
+pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}

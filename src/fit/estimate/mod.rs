@@ -12,6 +12,7 @@
 
 mod cloud;
 mod conjugate_gradients;
+mod dimension_errors;
 mod dimensions;
 mod draws;
 mod errors;

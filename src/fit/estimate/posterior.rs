@@ -16,7 +16,6 @@ use faer::linalg::triangular_inverse::invert_lower_triangular;
 use faer::{Accum, Mat, MatMut, MatRef, Par, Side};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
-use std::f64::consts::PI;
 
 /// A cloud ready to be conditioned on.
 pub(crate) struct Posterior<'a> {
