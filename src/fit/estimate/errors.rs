@@ -6,17 +6,23 @@
 //! - the difference between the figure that is told (of the surface that stands for the estimate) and the best
 //!   value of the estimate;
 //! - allowances for what second order brings: half of the area's excess, for it rests on degrees that the points
-//!   do not tell; half of the extents' excess; the repulsion of nearly equal moments;
+//!   do not tell; those of the [extents](super::dimension_errors); the repulsion of nearly equal moments;
 //! - a floor, for rounding and quadrature.
+//!
+//! There are none where the prior cannot be trusted: beside a large hole, and where what is left of the points is no
+//! noise.
 
 use super::Estimate;
 use super::dimension_errors::dimensions;
 use super::dimensions::Reach;
 use super::figures::{Figures, INERTIA, MassList, derivatives, form, mass};
 use super::functionals::{INTEGRALS, RingSurface, combined, dot, list, unlist};
+use super::gaps::{largest_gap, random_gap};
 use super::posterior::Posterior;
+use super::unresolved::{kurtosis, limit};
 use crate::measure::{Moments, PrincipalInertia};
 use nalgebra::{Matrix3, SMatrix, Vector3};
+use std::f64::consts::PI;
 
 /// Standard errors (one standard deviation) of a grain's measures, in the powers of the scan's unit
 /// of these.
@@ -34,9 +40,51 @@ pub struct StandardErrors {
     pub moments: Vector3<f64>,
     /// Of the length, width and thickness: extents along the principal axes.
     pub dimensions: Vector3<f64>,
-    /// By what these extents are too small, as a rule: the fitted surface lacks the ripples that the points do not
-    /// tell.
+    /// By what the extents of the scanned grain exceed these in the mean: the fitted surface lacks the ripples that
+    /// the points do not tell, and a largest value is larger with them.
     pub dimensions_excess: Vector3<f64>,
+}
+
+/// Why there are no standard errors that could be trusted.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub enum NoInterval {
+    /// No point lies in a cap of directions of this half-angle, in radians.
+    Hole {
+        /// Half-angle in radians, in the stretched space.
+        half_angle: f64,
+    },
+    /// Residuals are not those of noise: there are edges, or detail that the estimate does not resolve.
+    Unresolved {
+        /// Kurtosis of the residuals: 3 of normal noise.
+        kurtosis: f64,
+    },
+    /// The figures are not finite.
+    NotFinite,
+}
+
+/// Half-angle of holes, in radians, up to which 95 % intervals of area and volume cover: of 20 degrees they do (92 %
+/// of 50 particles), of 40 they are up to 8 standard errors off.
+const LARGEST_HOLE: f64 = 25.0 * PI / 180.0;
+
+impl Estimate {
+    /// Standard errors of the figures that are told of the grain; nothing is computed before this is called.
+    ///
+    /// # Errors
+    /// [`NoInterval`] where they could not be trusted.
+    pub(crate) fn errors(&self, told: &Figures) -> Result<StandardErrors, NoInterval> {
+        let half_angle = largest_gap(&self.cloud.directions);
+        if half_angle > LARGEST_HOLE.max(random_gap(self.cloud.len())) {
+            return Err(NoInterval::Hole { half_angle });
+        }
+        let posterior = Posterior::new(&self.cloud, self.degree, self.is_factored);
+        let kurtosis = kurtosis(&posterior.residuals(&self.coefficients));
+        if kurtosis > limit(self.cloud.len()) {
+            return Err(NoInterval::Unresolved { kurtosis });
+        }
+        let best = Best::new(self, &posterior).ok_or(NoInterval::NotFinite)?;
+        Ok(best.errors(told))
+    }
 }
 
 /// Least standard error of the area, relative: of clean points of a cement particle it is off by 1e-5.
@@ -62,7 +110,7 @@ pub(super) struct Best {
 
 impl Best {
     /// `None` if the figures are not finite.
-    pub(super) fn new(estimate: &Estimate) -> Option<Self> {
+    pub(super) fn new(estimate: &Estimate, posterior: &Posterior<'_>) -> Option<Self> {
         let surface = RingSurface::new(estimate);
         let moments = surface.moments();
         let (mass, principal) = mass(&moments);
@@ -70,7 +118,6 @@ impl Best {
         let jacobian = derivatives(&moments);
         let excess = jacobian * list(&surface.excess(estimate));
 
-        let posterior = Posterior::new(&estimate.cloud, estimate.degree, estimate.is_factored);
         let given = posterior.given(&estimate.spectrum);
         let integrals = surface.gradients();
         let gradients: Vec<Vec<f64>> = (0..INTEGRALS)
@@ -178,3 +225,6 @@ fn covariance(functionals: &[Vec<f64>], solved: &[Vec<f64>]) -> SMatrix<f64, INT
         SMatrix::<f64, INTEGRALS, INTEGRALS>::from_fn(|i, j| dot(&functionals[i], &solved[j]));
     (raw + raw.transpose()) * 0.5
 }
+
+#[cfg(test)]
+mod tests;

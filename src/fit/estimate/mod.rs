@@ -18,6 +18,7 @@ mod draws;
 mod errors;
 mod figures;
 mod functionals;
+mod gaps;
 #[cfg(test)]
 mod lab;
 #[cfg(test)]
@@ -31,6 +32,7 @@ mod patches;
 mod posterior;
 mod spectrum;
 mod spectrum_fit;
+mod unresolved;
 
 use super::samples::Sample;
 use crate::sphere::{ScatteredHarmonics, coefficient_count};
