@@ -3,16 +3,22 @@
 //!
 //! `cargo run --release --example coverage`
 
-use grainform::measure::{MassProperties, extents, grain_properties};
+use grainform::measure::support;
+use grainform::report::FitReport;
 use grainform::scan::Scan;
 use grainform::shapes::{Body, SynthOptions, synthesize};
-use grainform::{FitOptions, Mesh, fit};
+use grainform::{FitOptions, fit};
+use nalgebra::Vector3;
+use std::error::Error;
 
-/// Scans per grain, which differ by the seed of their noise.
-const SCANS: u64 = 200;
-
-/// Noise, as a share of the mean radius.
-const NOISE: f64 = 0.005;
+/// Points, noise as a share of the mean radius, and scans per grain, which differ by the seed of their noise.
+const CLOUDS: [(usize, f64, u64); 5] = [
+    (1538, 0.0, 1),
+    (1538, 0.005, 40),
+    (6146, 0.0, 1),
+    (6146, 0.005, 40),
+    (1_000_000, 0.005, 5),
+];
 
 /// Normal quantile of a two-sided interval of 95 %.
 const QUANTILE: f64 = 1.96;
@@ -28,70 +34,91 @@ const FIGURES: [&str; 8] = [
     "thickness",
 ];
 
-fn main() -> Result<(), Box<dyn std::error::Error>> {
-    println!("| body | {} |", FIGURES.join(" | "));
-    println!("|---|{}", "---|".repeat(FIGURES.len()));
+fn main() -> Result<(), Box<dyn Error>> {
+    println!(
+        "| body | points | noise | scans | {} |",
+        FIGURES.join(" | ")
+    );
+    println!("|---|---|---|---|{}", "---|".repeat(FIGURES.len()));
     for body in [Body::Bean, Body::Chickpea, Body::Maize] {
-        println!("| {body} | {} |", row(body)?.join(" | "));
+        for (points, noise, scans) in CLOUDS {
+            let row = row(body, points, noise, scans)?.join(" | ");
+            println!(
+                "| {body} | {points} | {} % | {scans} | {row} |",
+                100.0 * noise
+            );
+        }
     }
     Ok(())
 }
 
 /// Share of the scans whose interval holds the truth, and the mean error over the standard error.
-fn row(body: Body) -> Result<Vec<String>, Box<dyn std::error::Error>> {
+fn row(body: Body, points: usize, noise: f64, scans: u64) -> Result<Vec<String>, Box<dyn Error>> {
     let truth = truth(body)?;
     let mut covered = [0; FIGURES.len()];
     let mut bias = [0.0; FIGURES.len()];
-    for seed in 0..SCANS {
+    for seed in 0..scans {
         let synthetic = synthesize(&SynthOptions {
-            noise: NOISE,
+            noise,
             seed,
+            points,
             ..SynthOptions::clean(body)
         })?;
         let scan = Scan {
             points: synthetic.points,
             ..Scan::default()
         };
-        let fitted = fit(&scan, &FitOptions::default())?;
-        let errors = fitted.standard_errors().ok_or("a blended fit")?;
-        let mut found = figures(
-            &grain_properties(&fitted.grain).properties,
-            &fitted.grain.mesh(64),
-        )?;
-        for (dimension, excess) in found[5..].iter_mut().zip(&errors.dimensions_excess) {
-            *dimension -= excess;
-        }
-        let errors = [errors.area, errors.volume]
-            .into_iter()
-            .chain(errors.moments.iter().copied())
-            .chain(errors.dimensions.iter().copied());
-        for (i, error) in errors.enumerate() {
-            let deviation = (found[i] - truth[i]) / error;
+        let options = FitOptions::default();
+        let told = FitReport::new(body.to_string(), &fit(&scan, &options)?, &options, &[]);
+        let errors = told.standard_errors.ok_or("no standard errors")?;
+        let (moments, sizes) = (
+            told.principal.ok_or("a finite inertia")?.moments,
+            told.dimensions.ok_or("a finite inertia")?,
+        );
+        let pairs = [
+            (told.area, errors.area),
+            (told.volume, errors.volume),
+            (moments[0], errors.moments[0]),
+            (moments[1], errors.moments[1]),
+            (moments[2], errors.moments[2]),
+            (sizes.length, errors.dimensions.length),
+            (sizes.width, errors.dimensions.width),
+            (sizes.thickness, errors.dimensions.thickness),
+        ];
+        for (i, (found, error)) in pairs.into_iter().enumerate() {
+            let deviation = (found - truth[i]) / error;
             covered[i] += u64::from(deviation.abs() <= QUANTILE);
-            bias[i] += deviation / SCANS as f64;
+            bias[i] += deviation / scans as f64;
         }
     }
     let cell = |(covered, bias): (u64, f64)| {
         format!(
-            "{:.1} % ({bias:+.1})",
-            100.0 * covered as f64 / SCANS as f64
+            "{:.0} % ({bias:+.1})",
+            100.0 * covered as f64 / scans as f64
         )
     };
     Ok(covered.into_iter().zip(bias).map(cell).collect())
 }
 
-/// The figures of the closed form; its dimensions from a mesh as fine as that of the fits.
-fn truth(body: Body) -> Result<Vec<f64>, Box<dyn std::error::Error>> {
-    let synthetic = synthesize(&SynthOptions::clean(body))?;
-    let surface = body.surface();
-    let mesh = Mesh::radial(256, |n| surface.radius(n));
-    figures(&synthetic.truth.properties, &mesh)
-}
-
-fn figures(solid: &MassProperties, mesh: &Mesh) -> Result<Vec<f64>, Box<dyn std::error::Error>> {
+/// The figures of the closed form.
+fn truth(body: Body) -> Result<[f64; FIGURES.len()], Box<dyn Error>> {
+    let solid = synthesize(&SynthOptions::clean(body))?.truth.properties;
     let principal = solid.principal().ok_or("a finite inertia")?;
-    let mut figures = vec![solid.area, solid.volume];
-    figures.extend(principal.moments.iter());
-    figures.extend(extents(mesh, &principal.axes).iter());
-    Ok(figures)
+    let surface = body.surface();
+    let reach = |towards: Vector3<f64>| support(surface.as_ref(), &towards).point.dot(&towards);
+    let extent = |i: usize| {
+        let axis = principal.axes.column(i).into_owned();
+        reach(axis) + reach(-axis)
+    };
+    let [i1, i2, i3] = principal.moments.into();
+    Ok([
+        solid.area,
+        solid.volume,
+        i1,
+        i2,
+        i3,
+        extent(0),
+        extent(1),
+        extent(2),
+    ])
 }

@@ -33,7 +33,7 @@ const ONE_IN: u32 = 10;
 /// Splits of each scan.
 const SEEDS: u64 = 3;
 
-pub fn print(scans: &Path) -> Result<(), Box<dyn Error>> {
+pub(crate) fn print(scans: &Path) -> Result<(), Box<dyn Error>> {
     println!(
         "\n| scan | points | hidden RMS, default | --segments 1 | best least squares | told | coefficients | touched | \
          s |\n|---|---|---|---|---|---|---|---|---|"
@@ -61,7 +61,7 @@ pub fn print(scans: &Path) -> Result<(), Box<dyn Error>> {
 /// Kernels of the batch, one in so many.
 const EVERY_KERNEL: usize = 4;
 
-pub fn print_batch(scans: &Path) -> Result<(), Box<dyn Error>> {
+pub(crate) fn print_batch(scans: &Path) -> Result<(), Box<dyn Error>> {
     let folder = scans.join("barley_batch");
     let mut files: Vec<_> = std::fs::read_dir(folder)?
         .filter_map(|entry| Some(entry.ok()?.path()))

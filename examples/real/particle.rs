@@ -11,11 +11,10 @@ use std::fs;
 use std::path::Path;
 
 /// A particle with its exact figures.
-pub struct Particle {
-    pub name: String,
-    pub mean_radius: f64,
-    pub area: f64,
-    pub volume: f64,
+pub(crate) struct Particle {
+    pub(crate) mean_radius: f64,
+    pub(crate) area: f64,
+    pub(crate) volume: f64,
     basis: HarmonicBasis,
     coefficients: Vec<f64>,
 }
@@ -23,7 +22,7 @@ pub struct Particle {
 impl Particle {
     /// The particles of a folder, as its `truth.csv` lists them: files of lines `n m Re Im` of complex harmonics with the
     /// Condon-Shortley phase.
-    pub fn all(folder: &Path) -> Result<Vec<Self>, Box<dyn Error>> {
+    pub(crate) fn all(folder: &Path) -> Result<Vec<Self>, Box<dyn Error>> {
         let table = fs::read_to_string(folder.join("truth.csv"))?;
         table
             .lines()
@@ -33,7 +32,6 @@ impl Particle {
                 let degree: usize = fields[2].parse()?;
                 let text = fs::read_to_string(folder.join(fields[0]))?;
                 Ok(Self {
-                    name: fields[0].into(),
                     volume: fields[3].parse()?,
                     area: fields[4].parse()?,
                     mean_radius: fields[6].parse()?,
@@ -45,12 +43,12 @@ impl Particle {
     }
 
     /// The radius in a direction.
-    pub fn radius(&self, n: &Vector3<f64>) -> f64 {
+    pub(crate) fn radius(&self, n: &Vector3<f64>) -> f64 {
         self.basis.value(&self.coefficients, n)
     }
 
     /// A scan of it, with normal radial noise of the given standard deviation, as a share of the mean radius.
-    pub fn scan(&self, directions: &[Vector3<f64>], noise: f64, seed: u64) -> Scan {
+    pub(crate) fn scan(&self, directions: &[Vector3<f64>], noise: f64, seed: u64) -> Scan {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         let points = directions.iter().map(|n| {
             let error: f64 = StandardNormal.sample(&mut random);

@@ -9,7 +9,7 @@ use nalgebra::Vector3;
 const DEGREE: usize = 36;
 
 /// Least RMS error of the hidden radii over all degrees that the seen ones determine.
-pub fn best(seen: &[(Vector3<f64>, f64)], hidden: &[(Vector3<f64>, f64)]) -> f64 {
+pub(crate) fn best(seen: &[(Vector3<f64>, f64)], hidden: &[(Vector3<f64>, f64)]) -> f64 {
     let top = DEGREE.min(seen.len().isqrt() - 1);
     let design = harmonics(seen, top);
     let qr = design.qr();

@@ -1,7 +1,7 @@
 //! Quantiles, and how often intervals cover.
 
 /// The value below which a share of the values lies.
-pub fn quantile(values: &[f64], share: f64) -> f64 {
+pub(crate) fn quantile(values: &[f64], share: f64) -> f64 {
     let mut sorted = values.to_vec();
     sorted.sort_unstable_by(f64::total_cmp);
     let at = (sorted.len().saturating_sub(1) as f64 * share).round() as usize;
@@ -9,6 +9,6 @@ pub fn quantile(values: &[f64], share: f64) -> f64 {
 }
 
 /// The median.
-pub fn median(values: &[f64]) -> f64 {
+pub(crate) fn median(values: &[f64]) -> f64 {
     quantile(values, 0.5)
 }

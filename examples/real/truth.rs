@@ -4,7 +4,7 @@ use crate::particle::Particle;
 use crate::stats::{median, quantile};
 use grainform::measure::grain_properties;
 use grainform::shapes::Sampling;
-use grainform::{FitOptions, Fitted, StarSurface, Tolerance, fit};
+use grainform::{FitOptions, Fitted, Tolerance, fit};
 use nalgebra::Vector3;
 use std::error::Error;
 use std::path::Path;
@@ -23,7 +23,7 @@ const CLOUDS: [(usize, f64); 6] = [
     (100_000, 0.0),
 ];
 
-pub fn print(scans: &Path, every: usize) -> Result<(), Box<dyn Error>> {
+pub(crate) fn print(scans: &Path, every: usize) -> Result<(), Box<dyn Error>> {
     let particles = Particle::all(&scans.join("nist_train"))?;
     let options = [
         ("default", FitOptions::default()),

@@ -57,6 +57,7 @@ impl PreparedScan<'_> {
             estimate: None,
             whole: None,
             warnings: self.warnings.clone(),
+            posterior: None,
         }
     }
 }
@@ -161,6 +162,7 @@ fn estimated(
     let mut work = Work::default();
     let mut warnings = Vec::new();
     let mut chosen = 0;
+    let mut largest_difference = None;
     let (grain, rival) = match is_whole {
         true => (whole(degree), None),
         false => {
@@ -177,6 +179,7 @@ fn estimated(
             let size: usize = outcome.surface.coefficients().iter().map(Vec::len).sum();
             let is_it = |round: &Round| round.coefficients == size;
             chosen = 1 + outcome.rounds.iter().rposition(is_it).unwrap_or(0);
+            largest_difference = Some(outcome.max);
             work.candidates = outcome.rounds.len();
             work.segments = outcome.rounds.iter().map(|round| round.cells).sum();
             candidates.extend(outcome.rounds.iter().map(|round| {
@@ -217,7 +220,9 @@ fn estimated(
         noise: estimate.noise(),
         slope: estimate.spectrum.slope(),
         outliers: estimate.outliers,
+        largest_difference,
     });
+    fitted.posterior = Some(Box::new(estimate));
     Ok(fitted)
 }
 

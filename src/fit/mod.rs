@@ -26,12 +26,13 @@ mod warning;
 pub use candidate::{Candidate, Rejection, Search, Work};
 pub use context::{Context, Stage};
 pub use error::FitError;
+pub use estimate::{NoInterval, RadiusError, StandardErrors};
 pub use mirrored::{DirectedSample, MirroredFitError, fit_mirrored};
 pub use options::{
     FitOptions, MAX_CELLS, MAX_COEFFICIENTS, MAX_DEGREE, MAX_PARTS, MAX_WHOLE_DEGREE, Seams,
     Tolerance,
 };
-pub use outcome::{EstimateSummary, Fitted, Residuals, StandardErrors};
+pub use outcome::{EstimateSummary, Fitted, Residuals};
 pub use prepare::{PreparedScan, Reference, ReferenceKind, ScannedSurface, scanned_surface};
 pub use warning::FitWarning;
 

@@ -1,10 +1,12 @@
 //! What a fit gives.
 
 use super::candidate::Search;
+use super::estimate::{Estimate, Figures, NoInterval, RadiusError, StandardErrors};
 use super::prepare::Reference;
 use super::warning::FitWarning;
+use crate::measure::MassProperties;
 use crate::model::Grain;
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Vector3;
 
 /// A fitted grain and what is known of it.
 #[derive(Debug, Clone)]
@@ -31,6 +33,7 @@ pub struct Fitted {
     pub whole: Option<Grain>,
     /// What a user should know of the scan and the fit.
     pub warnings: Vec<FitWarning>,
+    pub(crate) posterior: Option<Box<Estimate>>,
 }
 
 /// What an estimate says of itself. Lengths are in the scan's unit.
@@ -46,6 +49,8 @@ pub struct EstimateSummary {
     pub slope: f64,
     /// Points that stand alone and were left out.
     pub outliers: usize,
+    /// Largest difference of the model's radius from the estimate. `None` where the model is its expansion.
+    pub largest_difference: Option<f64>,
 }
 
 /// Radial residuals: radius of the point minus radius of the grain in its direction.
@@ -57,29 +62,35 @@ pub struct Residuals {
     pub max: f64,
 }
 
-/// Standard errors (one standard deviation) of a grain's measures, in the powers of the scan's unit
-/// of these.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct StandardErrors {
-    /// Of the area.
-    pub area: f64,
-    /// Of the volume.
-    pub volume: f64,
-    /// Of the centroid's coordinates along the grain's axes.
-    pub centroid: Vector3<f64>,
-    /// Of the entries of the inertia tensor about the centroid, along the grain's axes.
-    pub inertia: Matrix3<f64>,
-    /// Of the principal moments of inertia, ascending.
-    pub moments: Vector3<f64>,
-    /// Of the length, width and thickness: extents along the principal axes.
-    pub dimensions: Vector3<f64>,
-    /// By what noise makes these extents too large.
-    pub dimensions_excess: Vector3<f64>,
-}
-
 impl Fitted {
-    /// Standard errors of the grain's figures.
-    pub fn standard_errors(&self) -> Option<StandardErrors> {
-        None
+    /// Standard errors of figures that are told of the grain: its mass properties and its length, width and
+    /// thickness, all in the scan's frame. Computed when asked for.
+    ///
+    /// # Errors
+    /// [`NoInterval`] where none could be trusted.
+    pub fn standard_errors(
+        &self,
+        told: &MassProperties,
+        dimensions: &Vector3<f64>,
+    ) -> Result<StandardErrors, NoInterval> {
+        let posterior = self.posterior.as_ref().ok_or(NoInterval::NotEstimated)?;
+        let frame = self.grain.frame();
+        let principal = told.principal().ok_or(NoInterval::NotFinite)?;
+        posterior.errors(&Figures {
+            area: told.area,
+            volume: told.volume,
+            centroid: frame.to_local(&told.centroid),
+            inertia: frame.axes.transpose() * told.inertia * frame.axes,
+            moments: principal.moments,
+            dimensions: *dimensions,
+        })
+    }
+
+    /// Standard deviations of the radius in directions of the scan's frame (unit vectors), in the scan's unit: of the
+    /// surface, and of a new point of the same scan. `None` of fits to the points themselves.
+    pub fn radius_errors(&self, directions: &[Vector3<f64>]) -> Option<Vec<RadiusError>> {
+        let axes = self.grain.frame().axes;
+        let local: Vec<Vector3<f64>> = directions.iter().map(|n| axes.tr_mul(n)).collect();
+        Some(self.posterior.as_ref()?.radius_errors(&local))
     }
 }

@@ -53,5 +53,6 @@ pub use projection::{OUTLINE_AZIMUTHS, ProjectionError, project};
 pub use roundness::ROUNDNESS_ORDER;
 pub use spectrum::{SPECTRUM_DEGREE, Spectrum};
 pub use sphericity::{Sphericity, wadell};
+pub(crate) use support::support_near;
 pub use support::{Support, support};
 pub use survey::{Scheme, Survey, SurveyError};

@@ -46,7 +46,17 @@ pub fn support(surface: &(impl StarSurface + ?Sized), towards: &Vector3<f64>) ->
             let height = height(n);
             if height > best.1 { (*n, height) } else { best }
         });
-    let climbed = newton(surface, towards, start.0, height);
+    support_near(surface, towards, &start.0)
+}
+
+/// The same, from a start that is known to lie on the way to it.
+pub(crate) fn support_near(
+    surface: &(impl StarSurface + ?Sized),
+    towards: &Vector3<f64>,
+    start: &Vector3<f64>,
+) -> Support {
+    let height = |n: &Vector3<f64>| surface.radius(n) * n.dot(towards);
+    let climbed = newton(surface, towards, *start, height);
     let found = at(surface, towards, &climbed);
     match found.is_smooth {
         true => found,

@@ -21,6 +21,8 @@ pub struct EstimateRecord {
     pub slope: f64,
     /// Points that stand alone and were left out.
     pub outliers: usize,
+    /// Largest difference of the model's radius from the estimate; `null` where the model is its expansion.
+    pub largest_difference: Option<f64>,
 }
 
 impl From<EstimateSummary> for EstimateRecord {
@@ -31,7 +33,7 @@ impl From<EstimateSummary> for EstimateRecord {
             noise,
             slope,
             outliers,
-            ..
+            largest_difference,
         } = summary;
         Self {
             degree,
@@ -39,6 +41,7 @@ impl From<EstimateSummary> for EstimateRecord {
             noise,
             slope,
             outliers,
+            largest_difference,
         }
     }
 }

@@ -5,11 +5,11 @@ use super::measure::{Dimensions, Principal, rows};
 use super::number::{percent, short, with_error};
 use super::rule::rule;
 use super::warning::sentences;
-use crate::fit::{FitOptions, Fitted, Reference, ReferenceKind, StandardErrors};
-use crate::measure::{extents, grain_properties};
-use crate::model::Mirrored;
+use crate::fit::{FitOptions, Fitted, NoInterval, Reference, ReferenceKind, StandardErrors};
+use crate::measure::{grain_properties, support};
+use crate::model::{Grain, Mirrored};
 use crate::sphere::Symmetry;
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 use serde::Serialize;
 use std::fmt;
 
@@ -42,8 +42,10 @@ pub struct FitReport {
     /// Extents of the fitted surface along the principal axes, less what noise adds to them; `null`
     /// without these.
     pub dimensions: Option<Dimensions>,
-    /// Standard errors of the figures above; `null` for independent segments.
+    /// Standard errors of the figures above; `null` where none can be trusted.
     pub standard_errors: Option<StandardErrorsRecord>,
+    /// Why there are none: half a sentence.
+    pub no_standard_errors: Option<String>,
     /// Coefficients that one evaluation of the surface touches, as a mean over all directions.
     pub coefficients_touched: f64,
     /// What the fit is compared with.
@@ -155,9 +157,14 @@ impl FitReport {
         let choice = search.choice();
         let properties = grain_properties(&fitted.grain).properties;
         let principal = properties.principal();
-        let mesh = fitted.grain.mesh(MESH_RESOLUTION);
-        let standard_errors = fitted.standard_errors();
-        let excess = standard_errors.map_or(Vector3::zeros(), |errors| errors.dimensions_excess);
+        let extents = principal.map(|principal| extents(&fitted.grain, &principal.axes));
+        let (standard_errors, no_errors) = match extents {
+            None => (None, Some(NoInterval::NotFinite)),
+            Some(extents) => match fitted.standard_errors(&properties, &extents) {
+                Ok(errors) => (Some(errors), None),
+                Err(reason) => (None, Some(reason)),
+            },
+        };
         Self {
             input,
             points: fitted.points,
@@ -169,9 +176,9 @@ impl FitReport {
             area: properties.area,
             volume: properties.volume,
             principal: principal.map(|principal| Principal::new(&principal)),
-            dimensions: principal
-                .map(|principal| Dimensions::new(extents(&mesh, &principal.axes) - excess)),
+            dimensions: extents.map(Dimensions::new),
             standard_errors: standard_errors.map(Into::into),
+            no_standard_errors: no_errors.map(|reason| reason.to_string()),
             coefficients_touched: fitted.grain.coefficients_touched(),
             area_error: properties.area / fitted.reference.area - 1.0,
             volume_error: properties.volume / fitted.reference.volume - 1.0,
@@ -200,8 +207,14 @@ impl FitReport {
     }
 }
 
-/// Cells per edge of the cube of directions by which the grain's dimensions are found.
-const MESH_RESOLUTION: usize = 64;
+/// Extents of a grain along three axes, from the points in which it touches planes across them.
+fn extents(grain: &Grain, axes: &Matrix3<f64>) -> Vector3<f64> {
+    let reach = |towards: Vector3<f64>| support(grain, &towards).point.dot(&towards);
+    Vector3::from_fn(|i, _| {
+        let axis = axes.column(i).into_owned();
+        reach(axis) + reach(-axis)
+    })
+}
 
 impl From<StandardErrors> for StandardErrorsRecord {
     fn from(errors: StandardErrors) -> Self {
@@ -282,6 +295,9 @@ impl fmt::Display for FitReport {
         }
         if let Some(rms) = self.estimate_rms {
             writeln!(f, "difference    RMS {} from the estimate", of_radius(rms))?;
+            if let Some(largest) = self.estimate.and_then(|e| e.largest_difference) {
+                writeln!(f, "              largest {}", of_radius(largest))?;
+            }
         }
         writeln!(f, "reference     {}", self.reference.description())?;
         writeln!(
@@ -340,6 +356,9 @@ impl fmt::Display for FitReport {
         }
         if self.standard_errors.is_some() {
             writeln!(f, "Figures after ± are standard errors.")?;
+        }
+        if let Some(reason) = &self.no_standard_errors {
+            writeln!(f, "No standard errors: {reason}.")?;
         }
         write!(f, "Lengths are in the scan's unit.")
     }

@@ -1,7 +1,7 @@
 //! Warnings and reasons as sentences.
 
 use super::number::short;
-use crate::fit::{FitWarning, Rejection};
+use crate::fit::{FitWarning, NoInterval, Rejection};
 use std::fmt;
 
 impl fmt::Display for Rejection {
@@ -82,6 +82,25 @@ impl fmt::Display for FitWarning {
                 short(rms),
                 short(limit)
             ),
+        }
+    }
+}
+
+impl fmt::Display for NoInterval {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::Hole { half_angle } => write!(
+                f,
+                "no point lies in a cap of {:.0} degrees, and what the surface does there is a guess",
+                half_angle.to_degrees()
+            ),
+            Self::Unresolved { .. } => write!(
+                f,
+                "the points stand off from the estimate as no noise does; there are edges, or detail finer than it \
+                 resolves"
+            ),
+            Self::NotFinite => write!(f, "the figures are not finite"),
+            Self::NotEstimated => write!(f, "the model is fitted to the points themselves"),
         }
     }
 }

@@ -46,6 +46,7 @@ pub(crate) struct Settings {
     pub(crate) limit: f64,
 }
 
+#[cfg(test)]
 impl Settings {
     /// Degrees up to 4 and as many cells as it takes.
     pub(crate) fn within(limit: f64) -> Self {

@@ -11,7 +11,16 @@
 //! The posterior covariance says how well every functional of the radius is known.
 
 mod cloud;
+mod conjugate_gradients;
+mod dimension_errors;
+mod dimensions;
+mod draws;
+mod errors;
+mod figures;
+mod functionals;
+mod gaps;
 mod likelihood;
+mod local;
 mod neighbours;
 mod newton;
 mod outliers;
@@ -20,13 +29,19 @@ mod posterior;
 mod spectrum;
 mod spectrum_fit;
 mod surface;
+mod unresolved;
+
+pub use errors::{NoInterval, StandardErrors};
+pub(crate) use figures::Figures;
+pub use local::RadiusError;
 
 use crate::fit::prepare::Sample;
 use crate::sphere::{ScatteredHarmonics, coefficient_count};
 use cloud::Cloud;
+use conjugate_gradients::SETTLED;
 use nalgebra::Vector3;
 use patches::{Patches, WHOLE_CLOUD};
-use posterior::{Posterior, SETTLED};
+use posterior::Posterior;
 use rayon::prelude::*;
 use spectrum::Spectrum;
 use spectrum_fit::{Count, SpectrumFit, fit_spectrum};
@@ -252,6 +267,16 @@ fn variance(spectrum: &Spectrum, unlearnt: &[f64]) -> f64 {
     let terms = variances.iter().zip(unlearnt).enumerate();
     terms
         .map(|(l, (v, q))| (2 * l + 1) as f64 * v * q)
+        .sum::<f64>()
+        / (4.0 * std::f64::consts::PI)
+}
+
+/// Mean posterior variance of the surface gradient: sum of (2l + 1) l (l + 1) C_l / 4 pi.
+fn slope_variance(spectrum: &Spectrum, unlearnt: &[f64]) -> f64 {
+    let variances = spectrum.variances(unlearnt.len() - 1);
+    let terms = variances.iter().zip(unlearnt).enumerate();
+    terms
+        .map(|(l, (v, q))| ((2 * l + 1) * l * (l + 1)) as f64 * v * q)
         .sum::<f64>()
         / (4.0 * std::f64::consts::PI)
 }

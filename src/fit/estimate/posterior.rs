@@ -7,6 +7,7 @@
 //! gradients with the harmonic transform, preconditioned by the matrix of an even cloud.
 
 use super::cloud::Cloud;
+use super::conjugate_gradients::{Enough, SHARE};
 use super::spectrum::Spectrum;
 use crate::sphere::{HarmonicBasis, ScatteredHarmonics, coefficient_count};
 use faer::linalg::matmul::triangular::{self, BlockStructure};
@@ -15,13 +16,12 @@ use faer::linalg::triangular_inverse::invert_lower_triangular;
 use faer::{Accum, Mat, MatMut, MatRef, Par, Side};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
-use std::f64::consts::PI;
 
 /// A cloud ready to be conditioned on.
 pub(crate) struct Posterior<'a> {
     pub(crate) cloud: &'a Cloud,
     degree: usize,
-    harmonics: ScatteredHarmonics,
+    pub(super) harmonics: ScatteredHarmonics,
     /// Y'WY, where systems are solved by factoring.
     gram: Option<Mat<f64>>,
     /// Y'W y.
@@ -96,6 +96,13 @@ impl<'a> Posterior<'a> {
         radii
     }
 
+    /// Y' times a value per point.
+    pub(super) fn adjoint(&self, values: &[f64]) -> Vec<f64> {
+        let mut sums = vec![0.0; coefficient_count(self.degree)];
+        self.harmonics.adjoint(values, &mut sums);
+        sums
+    }
+
     /// Measured less fitted radii.
     pub(crate) fn residuals(&self, coefficients: &[f64]) -> Vec<f64> {
         let fitted = self.radii(coefficients);
@@ -144,24 +151,15 @@ fn gram(cloud: &Cloud, degree: usize) -> Mat<f64> {
 
 /// The posterior for a spectrum.
 pub(crate) struct Conditioned<'a> {
-    posterior: &'a Posterior<'a>,
+    pub(super) posterior: &'a Posterior<'a>,
     /// v_l per degree, and of every coefficient.
     degrees: Vec<f64>,
-    variances: Vec<f64>,
+    pub(super) variances: Vec<f64>,
     /// s^2.
-    noise: f64,
-    factor: Option<Llt<f64>>,
+    pub(super) noise: f64,
+    /// The Cholesky factor of I + V^1/2 Y'WY V^1/2 / s^2.
+    pub(super) factor: Option<Llt<f64>>,
 }
-
-/// Conjugate gradients end when the last [`LOOK_BACK`] steps together removed less than this of the squared error, in
-/// units of the posterior variance of one coefficient. (The usual test, of the preconditioned residual, ends 2.5
-/// standard deviations off where the scan has a hole.)
-pub(crate) const SETTLED: f64 = 0.1;
-
-const LOOK_BACK: usize = 8;
-
-/// Steps of a solution at most.
-pub(crate) const MOST_STEPS: usize = 1000;
 
 /// Random vectors by which traces are estimated.
 const PROBES: usize = 4;
@@ -200,88 +198,40 @@ impl Conditioned<'_> {
         )
     }
 
-    /// C g: the covariances of a linear functional g with every coefficient.
-    pub(crate) fn covariances(&self, g: &[f64], settled: f64) -> Vec<f64> {
-        self.solve(g, None, settled).0
+    /// C g: the covariances of linear functionals g with every coefficient, good to a few percent of the variances.
+    pub(crate) fn covariances(&self, functionals: &[Vec<f64>]) -> Vec<Vec<f64>> {
+        match &self.factor {
+            Some(factor) => self.solve_factored(factor, functionals),
+            None => functionals
+                .iter()
+                .map(|g| self.conjugate_gradients(g, None, Enough::Share(SHARE)).0)
+                .collect(),
+        }
     }
 
     fn solve(&self, right: &[f64], start: Option<&[f64]>, settled: f64) -> (Vec<f64>, usize) {
         let Some(factor) = &self.factor else {
-            return self.conjugate_gradients(right, start, settled);
+            return self.conjugate_gradients(right, start, Enough::Energy(settled));
         };
-        let scaled = right.iter().zip(&self.variances).map(|(b, v)| b * v.sqrt());
-        let mut x: Vec<f64> = scaled.collect();
-        let count = x.len();
-        factor.solve_in_place(MatMut::from_column_major_slice_mut(&mut x, count, 1));
-        for (x, v) in x.iter_mut().zip(&self.variances) {
-            *x *= v.sqrt();
-        }
-        (x, 0)
+        let found = self.solve_factored(factor, &[right]);
+        (found.into_iter().next().unwrap_or_default(), 0)
     }
 
-    /// (Y'WY / s^2 + V^-1) x.
-    fn precision(&self, x: &[f64], radii: &mut [f64], out: &mut [f64]) {
-        let Posterior {
-            harmonics, cloud, ..
-        } = self.posterior;
-        harmonics.synthesis(x, radii);
-        for (radius, weight) in radii.iter_mut().zip(&cloud.weights) {
-            *radius *= weight / self.noise;
-        }
-        harmonics.adjoint(radii, out);
-        for ((out, x), v) in out.iter_mut().zip(x).zip(&self.variances) {
-            *out += x / v;
-        }
-    }
-
-    fn conjugate_gradients(
-        &self,
-        right: &[f64],
-        start: Option<&[f64]>,
-        settled: f64,
-    ) -> (Vec<f64>, usize) {
-        let count = right.len();
-        let even = self.posterior.cloud.weights.iter().sum::<f64>() / (4.0 * PI * self.noise);
-        let preconditioner: Vec<f64> = self
-            .variances
+    fn solve_factored(&self, factor: &Llt<f64>, rights: &[impl AsRef<[f64]>]) -> Vec<Vec<f64>> {
+        let count = self.variances.len();
+        let roots: Vec<f64> = self.variances.iter().map(|v| v.sqrt()).collect();
+        let mut all: Vec<f64> = rights
             .iter()
-            .map(|v| 1.0 / (even + 1.0 / v))
+            .flat_map(|right| right.as_ref().iter().zip(&roots).map(|(b, root)| b * root))
             .collect();
-        let (mut radii, mut q) = (vec![0.0; self.posterior.cloud.len()], vec![0.0; count]);
-        let mut x = vec![0.0; count];
-        let mut r = right.to_vec();
-        if let Some(start) = start {
-            x.copy_from_slice(start);
-            self.precision(&x, &mut radii, &mut q);
-            r.iter_mut().zip(&q).for_each(|(r, q)| *r -= q);
-        }
-        let dot = |a: &[f64], b: &[f64]| -> f64 { a.iter().zip(b).map(|(a, b)| a * b).sum() };
-        let mut z: Vec<f64> = r.iter().zip(&preconditioner).map(|(r, p)| r * p).collect();
-        let mut p = z.clone();
-        let mut rz = dot(&r, &z);
-        let mut energies: Vec<f64> = Vec::new();
-        while energies.len() < MOST_STEPS && rz > 0.0 {
-            self.precision(&p, &mut radii, &mut q);
-            let step = rz / dot(&p, &q);
-            for i in 0..count {
-                x[i] += step * p[i];
-                r[i] -= step * q[i];
-                z[i] = r[i] * preconditioner[i];
-            }
-            energies.push(step * rz);
-            let recent = &energies[energies.len().saturating_sub(LOOK_BACK)..];
-            if (energies.len() >= LOOK_BACK || rz < 1e-6 * settled)
-                && recent.iter().sum::<f64>() < settled
-            {
-                break;
-            }
-            let next = dot(&r, &z);
-            for i in 0..count {
-                p[i] = z[i] + next / rz * p[i];
-            }
-            rz = next;
-        }
-        (x, energies.len())
+        factor.solve_in_place(MatMut::from_column_major_slice_mut(
+            &mut all,
+            count,
+            rights.len(),
+        ));
+        all.chunks_exact(count)
+            .map(|x| x.iter().zip(&roots).map(|(x, root)| x * root).collect())
+            .collect()
     }
 
     /// Per degree, the share of the prior variance that the points leave: the mean of C_mm / v_l.

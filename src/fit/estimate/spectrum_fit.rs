@@ -4,17 +4,15 @@
 //! most likely spectrum. Of a cloud whose matrix is not factored, the first rounds take it as even
 //! (N_l = n / 4 pi); then random probes tell N_l.
 
+use super::conjugate_gradients::SETTLED as MEAN_SETTLED;
 use super::likelihood::{Evidence, hyperprior};
 use super::newton::{Newton, Next, Place};
-use super::posterior::{Conditioned, Posterior, SETTLED as MEAN_SETTLED};
+use super::posterior::{Conditioned, Posterior};
 use super::spectrum::Spectrum;
 use std::f64::consts::PI;
 
 /// Rounds at most; three to ten are usual.
 const MOST_ROUNDS: usize = 40;
-
-/// Conjugate-gradient steps of one mean beyond which a cloud had better be factored.
-pub(crate) const SLOW: usize = 400;
 
 /// A spectrum and the coefficients under it.
 #[derive(Debug, Clone)]
@@ -26,8 +24,6 @@ pub(crate) struct SpectrumFit {
     pub(crate) unlearnt: Vec<f64>,
     /// Negative logarithm of the likelihood.
     pub(crate) cost: f64,
-    /// Whether a solution took more than [`SLOW`] steps.
-    pub(crate) is_slow: bool,
 }
 
 /// How the number of measurements per degree is told where no matrix is factored.
@@ -52,13 +48,11 @@ pub(crate) fn fit_spectrum(
         true => count,
         false => Count::Even,
     };
-    let mut is_slow = false;
     let mut newton: Option<Newton> = None;
     let mut is_last = false;
     for round in 1.. {
         let given = posterior.given(&spectrum);
-        let (mean, steps) = given.mean(coefficients.as_deref(), MEAN_SETTLED);
-        is_slow |= steps > SLOW;
+        let (mean, _) = given.mean(coefficients.as_deref(), MEAN_SETTLED);
         let Told {
             evidence,
             unlearnt,
@@ -85,7 +79,6 @@ pub(crate) fn fit_spectrum(
                     spectrum,
                     coefficients: mean,
                     unlearnt,
-                    is_slow,
                 };
             }
             Next::Here => {

@@ -1,0 +1,112 @@
+//! Posterior systems by conjugate gradients, with the harmonic transform, preconditioned by the matrix of an even
+//! cloud.
+
+use super::posterior::{Conditioned, Posterior};
+use std::f64::consts::PI;
+
+/// Conjugate gradients end when the last [`LOOK_BACK`] steps together removed less than this of the squared error, in
+/// units of the posterior variance of one coefficient. (The usual test, of the preconditioned residual, ends 2.5
+/// standard deviations off where the scan has a hole.)
+pub(crate) const SETTLED: f64 = 0.1;
+
+/// Steps that are looked back on.
+const LOOK_BACK: usize = 8;
+
+/// Steps of a solution at most.
+pub(crate) const MOST_STEPS: usize = 1000;
+
+/// Systems for a variance are solved to this share of it, by the sum of the last [`LOOK_BACK`] steps but the first.
+pub(super) const SHARE: f64 = 0.01;
+
+/// When conjugate gradients end.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Enough {
+    /// When the energy that the last steps removed is below this.
+    Energy(f64),
+    /// When it is below this share of what all steps removed.
+    Share(f64),
+}
+
+impl Enough {
+    /// `energies` of the steps so far; `promise`: of the last one, by the preconditioner.
+    fn is_reached(self, energies: &[f64], promise: f64) -> bool {
+        let steps = energies.len();
+        match self {
+            Self::Energy(settled) => {
+                let recent = &energies[steps.saturating_sub(LOOK_BACK)..];
+                (steps >= LOOK_BACK || promise < 1e-6 * settled)
+                    && recent.iter().sum::<f64>() < settled
+            }
+            Self::Share(share) => {
+                let recent = &energies[steps.saturating_sub(LOOK_BACK).max(1)..];
+                let all: f64 = energies.iter().sum();
+                steps > 1 && recent.iter().sum::<f64>() < share * all
+            }
+        }
+    }
+}
+
+impl Conditioned<'_> {
+    /// (Y'WY / s^2 + V^-1) x.
+    fn precision(&self, x: &[f64], radii: &mut [f64], out: &mut [f64]) {
+        let Posterior {
+            harmonics, cloud, ..
+        } = self.posterior;
+        harmonics.synthesis(x, radii);
+        for (radius, weight) in radii.iter_mut().zip(&cloud.weights) {
+            *radius *= weight / self.noise;
+        }
+        harmonics.adjoint(radii, out);
+        for ((out, x), v) in out.iter_mut().zip(x).zip(&self.variances) {
+            *out += x / v;
+        }
+    }
+
+    /// Solves C^-1 x = right, from `start`; also tells the number of steps.
+    pub(super) fn conjugate_gradients(
+        &self,
+        right: &[f64],
+        start: Option<&[f64]>,
+        enough: Enough,
+    ) -> (Vec<f64>, usize) {
+        let count = right.len();
+        let even = self.posterior.cloud.weights.iter().sum::<f64>() / (4.0 * PI * self.noise);
+        let preconditioner: Vec<f64> = self
+            .variances
+            .iter()
+            .map(|v| 1.0 / (even + 1.0 / v))
+            .collect();
+        let (mut radii, mut q) = (vec![0.0; self.posterior.cloud.len()], vec![0.0; count]);
+        let mut x = vec![0.0; count];
+        let mut r = right.to_vec();
+        if let Some(start) = start {
+            x.copy_from_slice(start);
+            self.precision(&x, &mut radii, &mut q);
+            r.iter_mut().zip(&q).for_each(|(r, q)| *r -= q);
+        }
+        let dot = |a: &[f64], b: &[f64]| -> f64 { a.iter().zip(b).map(|(a, b)| a * b).sum() };
+        let mut z: Vec<f64> = r.iter().zip(&preconditioner).map(|(r, p)| r * p).collect();
+        let mut p = z.clone();
+        let mut rz = dot(&r, &z);
+        let mut energies: Vec<f64> = Vec::new();
+        while energies.len() < MOST_STEPS && rz > 0.0 {
+            self.precision(&p, &mut radii, &mut q);
+            let step = rz / dot(&p, &q);
+            for i in 0..count {
+                x[i] += step * p[i];
+                r[i] -= step * q[i];
+                z[i] = r[i] * preconditioner[i];
+            }
+            energies.push(step * rz);
+            if enough.is_reached(&energies, rz) {
+                break;
+            }
+            let next = dot(&r, &z);
+            for i in 0..count {
+                p[i] = z[i] + next / rz * p[i];
+            }
+            rz = next;
+        }
+        (x, energies.len())
+    }
+}

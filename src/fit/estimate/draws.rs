@@ -1,0 +1,96 @@
+//! How well single radii are known: variances of the surface in many directions.
+//!
+//! Where the matrix of the problem is factored, L L' = I + V^1/2 Y'WY V^1/2 / s^2, the variance in a direction of
+//! harmonics y is |L^-1 V^1/2 y|^2. Else surfaces are drawn from the posterior, by solving for points and prior
+//! means that have been disturbed as their own distributions have it:
+//!
+//! ```text
+//! dx = C (Y'W^1/2 e / s + V^-1/2 e'),   e, e' standard normal
+//! ```
+//!
+//! (perturb and optimise: Papandreou, Yuille 2010). With 32 draws a standard deviation is good to 12 %.
+
+use super::posterior::Conditioned;
+use crate::sphere::{HarmonicBasis, ScatteredHarmonics};
+use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
+use faer::{MatMut, Par};
+use nalgebra::Vector3;
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng;
+use rand_distr::{Distribution, StandardNormal};
+
+/// Number of draws.
+const DRAWS: usize = 32;
+
+/// Directions whose variances are found at once.
+const BLOCK: usize = 256;
+
+/// Surfaces drawn from a posterior, less its mean.
+pub(super) struct Draws {
+    degree: usize,
+    draws: Vec<Vec<f64>>,
+}
+
+impl Draws {
+    pub(super) fn new(given: &Conditioned<'_>) -> Self {
+        let mut random = ChaCha8Rng::seed_from_u64(0);
+        let posterior = given.posterior;
+        let scale = given.noise.sqrt();
+        let rights: Vec<Vec<f64>> = (0..DRAWS)
+            .map(|_| {
+                let mut normal = || -> f64 { StandardNormal.sample(&mut random) };
+                let weights = posterior.cloud.weights.iter();
+                let radii: Vec<f64> = weights.map(|w| w.sqrt() * normal() / scale).collect();
+                let mut right = posterior.adjoint(&radii);
+                for (right, v) in right.iter_mut().zip(&given.variances) {
+                    *right += normal() / v.sqrt();
+                }
+                right
+            })
+            .collect();
+        Self {
+            degree: posterior.degree(),
+            draws: given.covariances(&rights),
+        }
+    }
+
+    /// Variances in directions, in squares of the mean radius.
+    pub(super) fn variances(&self, directions: &[Vector3<f64>]) -> Vec<f64> {
+        let harmonics = ScatteredHarmonics::new(self.degree, directions);
+        let mut radii = vec![0.0; directions.len()];
+        let mut sums = vec![0.0; directions.len()];
+        for draw in &self.draws {
+            harmonics.synthesis(draw, &mut radii);
+            for (sum, radius) in sums.iter_mut().zip(&radii) {
+                *sum += radius * radius / self.draws.len() as f64;
+            }
+        }
+        sums
+    }
+}
+
+impl Conditioned<'_> {
+    /// Variances in directions, in squares of the mean radius, where the matrix is factored.
+    pub(super) fn exact_variances(&self, directions: &[Vector3<f64>]) -> Option<Vec<f64>> {
+        let factor = self.factor.as_ref()?;
+        let count = self.variances.len();
+        let basis = HarmonicBasis::new(self.posterior.degree());
+        let roots: Vec<f64> = self.variances.iter().map(|v| v.sqrt()).collect();
+        let mut columns = vec![0.0; BLOCK.min(directions.len()) * count];
+        let mut found = Vec::with_capacity(directions.len());
+        for block in directions.chunks(BLOCK) {
+            let columns = &mut columns[..block.len() * count];
+            for (n, column) in block.iter().zip(columns.chunks_exact_mut(count)) {
+                basis.evaluate(n, column);
+                for (entry, root) in column.iter_mut().zip(&roots) {
+                    *entry *= root;
+                }
+            }
+            let matrix = MatMut::from_column_major_slice_mut(columns, count, block.len());
+            solve_lower_triangular_in_place(factor.L(), matrix, Par::Seq);
+            let squares = |column: &[f64]| column.iter().map(|x| x * x).sum::<f64>();
+            found.extend(columns.chunks_exact(count).map(squares));
+        }
+        Some(found)
+    }
+}

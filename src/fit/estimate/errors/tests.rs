@@ -1,0 +1,170 @@
+use super::*;
+use crate::fit::estimate::estimate;
+use crate::fit::prepare::Sample;
+use crate::shapes::{Body, Sampling};
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng;
+use rand_distr::{Distribution, StandardNormal};
+
+fn samples(
+    directions: &[Vector3<f64>],
+    radius: impl Fn(&Vector3<f64>) -> f64,
+    noise: f64,
+) -> Vec<Sample> {
+    let mut random = ChaCha8Rng::seed_from_u64(3);
+    let mut at = |n: &Vector3<f64>| {
+        let error: f64 = StandardNormal.sample(&mut random);
+        [n.x, n.y, n.z, radius(n) + noise * error]
+    };
+    directions.iter().map(&mut at).collect()
+}
+
+fn fibonacci(points: usize) -> Vec<Vector3<f64>> {
+    Sampling::Fibonacci.directions(points, 0).unwrap()
+}
+
+/// An ellipsoid with these semi-axes.
+fn ellipsoid(axes: Vector3<f64>) -> impl Fn(&Vector3<f64>) -> f64 {
+    move |n| 1.0 / n.component_div(&axes).norm()
+}
+
+fn best(estimate: &Estimate) -> Best {
+    let posterior = Posterior::new(&estimate.cloud, estimate.degree, estimate.is_factored);
+    Best::new(estimate, &posterior).unwrap()
+}
+
+fn numbers(errors: &StandardErrors) -> Vec<f64> {
+    let mut all = vec![errors.area, errors.volume];
+    all.extend(&errors.centroid);
+    all.extend(&errors.inertia);
+    all.extend(&errors.moments);
+    all.extend(&errors.dimensions);
+    all.extend(&errors.dimensions_excess);
+    all
+}
+
+/// A sphere of n points with noise s: the mean radius is known to s / sqrt(n), and the volume changes by 4 pi with it.
+/// The length is known by at least the nine coefficients of degrees 0 to 2.
+#[test]
+fn a_noisy_sphere_has_its_closed_form() {
+    let (points, noise) = (3000, 0.01);
+    let estimate = estimate(
+        &samples(&fibonacci(points), |_| 1.0, noise),
+        Vector3::repeat(1.0),
+    );
+    let found = best(&estimate);
+    let errors = found.errors(&found.figures);
+    let expected = 4.0 * PI * noise / (points as f64).sqrt();
+    assert!((errors.volume / expected - 1.0).abs() < 0.1, "{errors:?}");
+    assert!((found.figures.volume - 4.0 / 3.0 * PI).abs() < 3.0 * errors.volume);
+    assert!((found.figures.area - 4.0 * PI).abs() < 3.0 * errors.area);
+    // Equal moments repel each other: the error says so.
+    for i in 0..3 {
+        assert!((found.figures.moments[i] - 8.0 / 15.0 * PI).abs() < 2.0 * errors.moments[i]);
+        assert!((found.figures.dimensions[i] - 2.0).abs() < 2.0 * errors.dimensions[i]);
+        let least = noise * (9.0 / points as f64).sqrt();
+        assert!(errors.dimensions[i] > least, "{errors:?}");
+    }
+}
+
+/// What is told instead of the best value is off by as much.
+#[test]
+fn figures_that_differ_from_the_best_have_larger_errors() {
+    let axes = Vector3::new(1.5, 1.2, 0.9);
+    let estimate = estimate(&samples(&fibonacci(2600), ellipsoid(axes), 0.005), axes);
+    let found = best(&estimate);
+    let errors = found.errors(&found.figures);
+    let mut told = found.figures;
+    told.volume += 10.0 * errors.volume;
+    told.dimensions[1] += 5.0 * errors.dimensions[1];
+    let larger = found.errors(&told);
+    assert!((larger.volume / errors.volume - 10.0).abs() < 0.3);
+    assert!(larger.dimensions[1] > 5.0 * errors.dimensions[1]);
+    assert_eq!(larger.area, errors.area);
+}
+
+/// Systems by conjugate gradients, with a hole, against the factored matrix.
+#[test]
+fn errors_do_not_depend_on_how_systems_are_solved() {
+    let axes = Vector3::new(1.4, 1.0, 0.8);
+    let mut directions = fibonacci(2000);
+    directions.retain(|n| n.x < 0.95);
+    let mut estimate = estimate(&samples(&directions, ellipsoid(axes), 0.004), axes);
+    let dense = best(&estimate);
+    estimate.is_factored = false;
+    let iterative = best(&estimate);
+    let pairs = numbers(&dense.errors(&dense.figures));
+    let pairs = pairs
+        .into_iter()
+        .zip(numbers(&iterative.errors(&dense.figures)));
+    for (dense, iterative) in pairs {
+        assert!(
+            (iterative / dense - 1.0).abs() < 0.03,
+            "{iterative} {dense}"
+        );
+    }
+}
+
+#[test]
+fn holes_and_edges_are_told() {
+    let told = best(&estimate(
+        &samples(&fibonacci(2600), |_| 1.0, 0.005),
+        Vector3::repeat(1.0),
+    ))
+    .figures;
+    for (degrees, is_hole) in [(15.0_f64, false), (35.0, true)] {
+        let mut directions = fibonacci(4000);
+        directions.retain(|n| n.y < degrees.to_radians().cos());
+        let points = samples(&directions, |_| 1.0, 0.005);
+        let found = estimate(&points, Vector3::repeat(1.0)).errors(&told);
+        match found {
+            Err(NoInterval::Hole { half_angle }) => {
+                assert!(is_hole && (half_angle.to_degrees() - degrees).abs() < 2.0);
+            }
+            other => assert!(!is_hole && other.is_ok(), "{degrees}: {other:?}"),
+        }
+    }
+    for body in [Body::Cube, Body::Cylinder, Body::Bicone] {
+        let surface = body.surface();
+        for noise in [0.0, 0.005] {
+            let points = samples(&fibonacci(1538), |n| surface.radius(n), noise);
+            let found = estimate(&points, Vector3::repeat(1.0)).errors(&told);
+            assert!(
+                matches!(found, Err(NoInterval::Unresolved { .. })),
+                "{body} {noise}: {found:?}"
+            );
+        }
+    }
+}
+
+/// Few points, a direction given twice, a perfect sphere: numbers or a reason.
+#[test]
+fn degenerate_clouds_have_finite_errors_or_a_reason() {
+    let axes = Vector3::new(1.2, 1.0, 0.9);
+    let sphere = Vector3::repeat(1.0);
+    let mut clouds = vec![(samples(&fibonacci(2600), |_| 1.0, 0.0), sphere)];
+    for points in [4, 5, 8, 20] {
+        clouds.push((samples(&fibonacci(points), ellipsoid(axes), 0.0), axes));
+        clouds.push((samples(&fibonacci(points), |_| 1.0, 0.0), sphere));
+    }
+    let mut twice = fibonacci(200);
+    twice.extend_from_within(..100);
+    twice.extend(vec![Vector3::x(); 30]);
+    clouds.push((samples(&twice, ellipsoid(axes), 0.01), axes));
+    for (points, axes) in clouds {
+        let estimate = estimate(&points, axes);
+        let figures = best(&estimate).figures;
+        if let Ok(errors) = estimate.errors(&figures) {
+            for number in numbers(&errors) {
+                assert!(
+                    number.is_finite() && number >= 0.0,
+                    "{}: {errors:?}",
+                    points.len()
+                );
+            }
+        }
+        for error in estimate.radius_errors(&[Vector3::x(), Vector3::new(0.6, 0.0, 0.8)]) {
+            assert!(error.surface.is_finite() && error.point >= error.surface);
+        }
+    }
+}

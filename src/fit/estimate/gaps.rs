@@ -1,0 +1,106 @@
+//! The largest gap of a cloud: how much of the sphere no point tells of.
+
+use super::neighbours::Neighbours;
+use crate::sphere::cube_grid;
+use nalgebra::Vector3;
+
+/// Cells along an edge of the cube whose directions are tried first: 6 degrees apart.
+const START: usize = 16;
+
+/// Directions from which the centre of the gap is looked for.
+const BEST: usize = 4;
+
+/// Angle, in radians, to which the centre is found.
+const LEAST_STEP: f64 = 1e-3;
+
+/// Half-angle of the largest cap without any of these unit vectors, in radians; pi if there are none.
+pub(super) fn largest_gap(directions: &[Vector3<f64>]) -> f64 {
+    let neighbours = Neighbours::new(directions);
+    let clearance = |n: &Vector3<f64>| {
+        let nearest = neighbours.nearest(n, 1);
+        let nearest = nearest.first().map(|&i| directions[i]);
+        nearest.map_or(std::f64::consts::PI, |m| {
+            n.cross(&m).norm().atan2(n.dot(&m))
+        })
+    };
+    let mut starts: Vec<(f64, Vector3<f64>)> = cube_grid(START)
+        .0
+        .into_iter()
+        .map(|n| (clearance(&n), n))
+        .collect();
+    starts.sort_by(|a, b| b.0.total_cmp(&a.0));
+    starts.truncate(BEST);
+    let found = starts.into_iter().map(|(mut largest, mut n)| {
+        let mut step = 0.1;
+        while step > LEAST_STEP {
+            let first = n.cross(&Vector3::ith(n.iamin(), 1.0)).normalize();
+            let second = n.cross(&first);
+            let best = (0..8)
+                .map(|i| {
+                    let (sin, cos) = (i as f64 * std::f64::consts::FRAC_PI_4).sin_cos();
+                    let next = (n + (first * cos + second * sin) * step).normalize();
+                    (clearance(&next), next)
+                })
+                .max_by(|a, b| a.0.total_cmp(&b.0));
+            match best {
+                Some((clear, next)) if clear > largest => (largest, n) = (clear, next),
+                _ => step *= 0.5,
+            }
+        }
+        largest
+    });
+    found.fold(0.0, f64::max)
+}
+
+/// Half-angle, in radians, of a cap of which random directions leave one empty with a few percent: with the share
+/// (ln n + 5) / n of the sphere.
+pub(super) fn random_gap(points: usize) -> f64 {
+    let n = (points as f64).max(1.0);
+    let share = ((n.ln() + 5.0) / n).min(1.0);
+    (1.0 - 2.0 * share).acos()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shapes::Sampling;
+
+    #[test]
+    fn a_cap_that_is_cut_out_is_found() {
+        let centre = Vector3::new(0.3, -0.5, 0.8).normalize();
+        for degrees in [10.0_f64, 20.0, 40.0, 90.0] {
+            let mut directions = Sampling::Fibonacci.directions(20_000, 0).unwrap();
+            directions.retain(|n| n.dot(&centre) < degrees.to_radians().cos());
+            let found = largest_gap(&directions).to_degrees();
+            assert!(
+                (0.0..1.0).contains(&(found - degrees)),
+                "{degrees}: {found}"
+            );
+        }
+    }
+
+    #[test]
+    fn few_directions_leave_known_gaps() {
+        assert_eq!(largest_gap(&[]), std::f64::consts::PI);
+        assert!((largest_gap(&[Vector3::x()]) - std::f64::consts::PI).abs() < 1e-2);
+        let octahedron: Vec<_> = [1.0, -1.0]
+            .into_iter()
+            .flat_map(|sign| (0..3).map(move |axis| Vector3::ith(axis, sign)))
+            .collect();
+        let expected = (1.0 / 3.0_f64.sqrt()).acos();
+        assert!((largest_gap(&octahedron) - expected).abs() < 2e-3);
+    }
+
+    #[test]
+    fn random_directions_rarely_leave_more() {
+        for points in [20, 300, 6000] {
+            let larger = (0..40)
+                .filter(|&seed| {
+                    let directions = Sampling::Random.directions(points, seed).unwrap();
+                    largest_gap(&directions) > random_gap(points)
+                })
+                .count();
+            assert!(larger <= 6, "{points}: {larger}");
+        }
+    }
+}

@@ -1,0 +1,121 @@
+//! The error of the surface from place to place.
+//!
+//! One noise for all points is wrong on real scans: flat parts are better than it tells, creases and slanted parts
+//! worse. How well each point is predicted from all others tells by how much. With the leverage h of a point, the
+//! share of the surface there that the point itself decides, and its residual e,
+//!
+//! ```text
+//! z = e / (s sqrt((1 - h) / w)),   h = w y'C y / s^2
+//! ```
+//!
+//! is its error of prediction in standard deviations of that. The mean square of z of the nearest points multiplies
+//! the variances of the surface and of a new point. Of 22 real scans, 50 % intervals of points that no fit had seen
+//! then cover .59 of them, and .82 without; 95 % intervals cover .93 to .99 either way.
+
+use super::Estimate;
+use super::draws::Draws;
+use super::neighbours::Neighbours;
+use super::posterior::{Conditioned, Posterior};
+use nalgebra::Vector3;
+
+/// Points whose errors of prediction are taken together.
+const VICINITY: usize = 40;
+
+/// Largest leverage: a point that decides all by itself says nothing of errors.
+const MOST_LEVERAGE: f64 = 0.98;
+
+/// Errors of the radius in a direction, standard deviations in the scan's unit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RadiusError {
+    /// Of the surface.
+    pub surface: f64,
+    /// Of a new point.
+    pub point: f64,
+}
+
+/// The errors of prediction of a cloud's points.
+pub(super) struct Predictions {
+    /// In standard deviations.
+    pub(super) standardised: Vec<f64>,
+}
+
+impl Predictions {
+    pub(super) fn new(
+        estimate: &Estimate,
+        variances: impl Fn(&[Vector3<f64>]) -> Vec<f64>,
+        posterior: &Posterior<'_>,
+    ) -> Self {
+        let noise = estimate.spectrum.noise();
+        let cloud = &estimate.cloud;
+        let known = variances(&cloud.directions);
+        let weights = cloud.weights.iter();
+        let leverages: Vec<f64> = known
+            .iter()
+            .zip(weights)
+            .map(|(v, w)| (w * v / (noise * noise)).min(MOST_LEVERAGE))
+            .collect();
+        let residuals = posterior.residuals(&estimate.coefficients);
+        let standardised = residuals
+            .iter()
+            .zip(leverages.iter().zip(&cloud.weights))
+            .map(|(e, (h, w))| e / (noise * ((1.0 - h) / w).sqrt()))
+            .collect();
+        Self { standardised }
+    }
+}
+
+/// Where the variances of the surface come from.
+pub(super) enum Variances<'a> {
+    Exact(&'a Conditioned<'a>),
+    Drawn(Draws),
+}
+
+impl<'a> Variances<'a> {
+    pub(super) fn new(given: &'a Conditioned<'a>) -> Self {
+        match given.factor {
+            Some(_) => Self::Exact(given),
+            None => Self::Drawn(Draws::new(given)),
+        }
+    }
+
+    pub(super) fn at(&self, directions: &[Vector3<f64>]) -> Vec<f64> {
+        match self {
+            Self::Exact(given) => given.exact_variances(directions).unwrap_or_default(),
+            Self::Drawn(draws) => draws.variances(directions),
+        }
+    }
+}
+
+impl Estimate {
+    /// Errors of the radius in directions of the grain's own frame.
+    pub(crate) fn radius_errors(&self, directions: &[Vector3<f64>]) -> Vec<RadiusError> {
+        let posterior = Posterior::new(&self.cloud, self.degree, self.is_factored);
+        let given = posterior.given(&self.spectrum);
+        let variances = Variances::new(&given);
+        let predictions = Predictions::new(self, |n| variances.at(n), &posterior);
+        let neighbours = Neighbours::new(&self.cloud.directions);
+        let noise = self.spectrum.noise().powi(2);
+
+        let mapped: Vec<Vector3<f64>> = directions
+            .iter()
+            .map(|n| self.cloud.stretch.component_mul(n))
+            .collect();
+        let unit: Vec<Vector3<f64>> = mapped.iter().map(Vector3::normalize).collect();
+        let known = variances.at(&unit);
+        mapped
+            .iter()
+            .zip(&unit)
+            .zip(known)
+            .map(|((mapped, n), variance)| {
+                let near = neighbours.nearest(n, VICINITY);
+                let squares = near.iter().map(|&i| predictions.standardised[i].powi(2));
+                let factor = squares.sum::<f64>() / near.len().max(1) as f64;
+                let scale = self.cloud.mean / mapped.norm();
+                RadiusError {
+                    surface: scale * (factor * variance).sqrt(),
+                    point: scale * (factor * (variance + noise)).sqrt(),
+                }
+            })
+            .collect()
+    }
+}
