@@ -57,7 +57,10 @@ impl Cover {
             z.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
             line += &format!(" | {what} {:.2} ({mean:+.2} {rms:.2})", cover);
         }
-        println!("{line} | {seconds:.3} s");
+        println!(
+            "{line} | {seconds:.3} s told {}",
+            TOLD.swap(0, std::sync::atomic::Ordering::Relaxed)
+        );
     }
 }
 pub(crate) fn zs(e: &Estimate, truth: &Figures) -> ([f64; 8], f64, StandardErrors) {
@@ -69,6 +72,12 @@ pub(crate) fn zs(e: &Estimate, truth: &Figures) -> ([f64; 8], f64, StandardError
     .unwrap();
     let f = best.figures;
     let se = best.errors(&f);
+    let _ = t;
+    let t = Instant::now();
+    TOLD.fetch_add(
+        e.errors(&f).is_err() as usize,
+        std::sync::atomic::Ordering::Relaxed,
+    );
     let t = t.elapsed().as_secs_f64();
     let mut z = [0.0; 8];
     z[0] = (f.area - truth.area) / se.area;
@@ -80,6 +89,8 @@ pub(crate) fn zs(e: &Estimate, truth: &Figures) -> ([f64; 8], f64, StandardError
     (z, t, se)
 }
 use super::errors::StandardErrors;
+
+static TOLD: std::sync::atomic::AtomicUsize = std::sync::atomic::AtomicUsize::new(0);
 
 pub(crate) fn thin(dirs: Vec<Vector3<f64>>, v: char) -> Vec<Vector3<f64>> {
     match v {
@@ -114,7 +125,7 @@ fn coverage() {
     for v in variants.chars() {
         let (n, sd) = match v {
             'a' => (6146, 0.0),
-            'b' | 't' | 'h' => (6146, 0.005),
+            'b' | 't' | 'h' | 'T' => (6146, 0.005),
             'n' => (6146, 0.02),
             'c' => (1538, 0.0),
             _ => (1538, 0.005),
@@ -122,9 +133,28 @@ fn coverage() {
         let mut cover = Cover::default();
         let mut seconds = 0.0;
         for (i, (g, truth)) in all.iter().enumerate() {
-            let dirs = thin(fibonacci(n), v);
+            let dirs = thin(fibonacci(n), if v == 'T' { 'a' } else { v });
             let p = prepare(noisy(&dirs, |n| g.radius(n), sd * g.mean, 7 + i as u64));
-            let e = estimate(p.samples().rows(), p.semi_axes);
+            let mut rows = p.samples().rows().to_vec();
+            if v == 'T' {
+                let mut k = 0;
+                rows.retain(|r| {
+                    r[0] < 0.0 || {
+                        k += 1;
+                        k % 8 == 0
+                    }
+                });
+            }
+            if std::env::var("CENTRE").is_ok() {
+                println!(
+                    "{v} {} centre {:.3} of mean {:.3} rows {}",
+                    g.name,
+                    p.frame().centre.coords.norm() / g.mean,
+                    p.mean_radius / g.mean,
+                    rows.len()
+                );
+            }
+            let e = estimate(&rows, p.semi_axes);
             let (z, t, se) = zs(&e, truth);
             seconds += t;
             if verbose {
@@ -361,5 +391,63 @@ fn kernels() {
             all.iter().filter(|z| z[i].abs() < 1.96).count() as f64 / n,
             (all.iter().map(|z| z[i] * z[i]).sum::<f64>() / n).sqrt()
         );
+    }
+}
+
+#[test]
+#[ignore]
+fn thinned() {
+    use super::posterior::Posterior;
+    let want = std::env::var("G").unwrap_or("ellipsoid-anm-00084".into());
+    for (i, g) in Nist::all()
+        .iter()
+        .enumerate()
+        .filter(|(_, g)| g.name.contains(&want))
+    {
+        let dirs = thin(fibonacci(6146), 't');
+        println!("dirs {}", dirs.len());
+        let p = prepare(noisy(&dirs, |n| g.radius(n), 0.005 * g.mean, 7 + i as u64));
+        println!("samples {}", p.samples().rows().len());
+        let e = estimate(p.samples().rows(), p.semi_axes);
+        println!(
+            "outliers {} L {} stretch {:?} spectrum {:?}",
+            e.outliers, e.degree, e.cloud.stretch, e.spectrum
+        );
+        for dense in [false, true] {
+            let post = Posterior::new(&e.cloud, e.degree, dense);
+            let given = post.given(&e.spectrum);
+            let (m, steps) = given.mean(None, 0.1);
+            let (m2, steps2) = given.mean(None, 1e-6);
+            let d: f64 = m
+                .iter()
+                .zip(&e.coefficients)
+                .map(|(a, b)| (a - b).powi(2))
+                .sum::<f64>()
+                .sqrt();
+            let d2: f64 = m2
+                .iter()
+                .zip(&e.coefficients)
+                .map(|(a, b)| (a - b).powi(2))
+                .sum::<f64>()
+                .sqrt();
+            let r = post.residuals(&m2);
+            println!(
+                "dense {dense} steps {steps} {steps2} diff from e {d:.5} {d2:.5} kurt {:.2} (e {:.2})",
+                super::unresolved::kurtosis(&r),
+                super::unresolved::kurtosis(&post.residuals(&e.coefficients))
+            );
+            if dense {
+                let mut big: Vec<usize> = (0..r.len()).collect();
+                big.sort_by(|&a, &b| r[b].abs().total_cmp(&r[a].abs()));
+                for &i in big.iter().take(8) {
+                    println!(
+                        "   {:+.4} at {:.3?} r {:.3}",
+                        r[i],
+                        e.cloud.directions[i].as_slice(),
+                        e.cloud.radii[i]
+                    );
+                }
+            }
+        }
     }
 }
