@@ -36,15 +36,16 @@ const FIGURES: [&str; 8] = [
 
 fn main() -> Result<(), Box<dyn Error>> {
     println!(
-        "| body | points | noise | scans | {} |",
+        "| body | points | noise | told of | {} |",
         FIGURES.join(" | ")
     );
     println!("|---|---|---|---|{}", "---|".repeat(FIGURES.len()));
     for body in [Body::Bean, Body::Chickpea, Body::Maize] {
         for (points, noise, scans) in CLOUDS {
-            let row = row(body, points, noise, scans)?.join(" | ");
+            let (told, row) = row(body, points, noise, scans)?;
+            let row = row.join(" | ");
             println!(
-                "| {body} | {points} | {} % | {scans} | {row} |",
+                "| {body} | {points} | {} % | {told} of {scans} | {row} |",
                 100.0 * noise
             );
         }
@@ -52,8 +53,15 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Share of the scans whose interval holds the truth, and the mean error over the standard error.
-fn row(body: Body, points: usize, noise: f64, scans: u64) -> Result<Vec<String>, Box<dyn Error>> {
+/// Of how many scans there are standard errors, the share of these whose interval holds the truth, and the mean
+/// error over the standard error.
+fn row(
+    body: Body,
+    points: usize,
+    noise: f64,
+    scans: u64,
+) -> Result<(u64, Vec<String>), Box<dyn Error>> {
+    let mut all = 0_u64;
     let truth = truth(body)?;
     let mut covered = [0; FIGURES.len()];
     let mut bias = [0.0; FIGURES.len()];
@@ -70,7 +78,10 @@ fn row(body: Body, points: usize, noise: f64, scans: u64) -> Result<Vec<String>,
         };
         let options = FitOptions::default();
         let told = FitReport::new(body.to_string(), &fit(&scan, &options)?, &options, &[]);
-        let errors = told.standard_errors.ok_or("no standard errors")?;
+        let Some(errors) = told.standard_errors else {
+            continue;
+        };
+        all += 1;
         let (moments, sizes) = (
             told.principal.ok_or("a finite inertia")?.moments,
             told.dimensions.ok_or("a finite inertia")?,
@@ -88,16 +99,14 @@ fn row(body: Body, points: usize, noise: f64, scans: u64) -> Result<Vec<String>,
         for (i, (found, error)) in pairs.into_iter().enumerate() {
             let deviation = (found - truth[i]) / error;
             covered[i] += u64::from(deviation.abs() <= QUANTILE);
-            bias[i] += deviation / scans as f64;
+            bias[i] += deviation;
         }
     }
+    let of = all.max(1) as f64;
     let cell = |(covered, bias): (u64, f64)| {
-        format!(
-            "{:.0} % ({bias:+.1})",
-            100.0 * covered as f64 / scans as f64
-        )
+        format!("{:.0} % ({:+.1})", 100.0 * covered as f64 / of, bias / of)
     };
-    Ok(covered.into_iter().zip(bias).map(cell).collect())
+    Ok((all, covered.into_iter().zip(bias).map(cell).collect()))
 }
 
 /// The figures of the closed form.

@@ -168,3 +168,56 @@ fn degenerate_clouds_have_finite_errors_or_a_reason() {
         }
     }
 }
+
+/// Extents along the principal axes, which turn: derivatives against differences.
+#[test]
+fn extents_change_by_their_ends_and_their_axes() {
+    let axes = Vector3::new(1.5, 1.2, 0.9);
+    let body = Body::Bean.surface();
+    let estimate = estimate(&samples(&fibonacci(2600), |n| body.radius(n), 0.05), axes);
+    let of = |estimate: &Estimate| {
+        let surface = RingSurface::new(estimate);
+        let nodes = surface.nodes.iter().zip(&surface.radii);
+        let starts = nodes.map(|((n, _), (r, _))| (*n, *r)).collect();
+        let principal = mass(&surface.moments()).1.unwrap();
+        (Reach::new(estimate, starts).unwrap(), principal, surface)
+    };
+    let (reach, principal, surface) = of(&estimate);
+    let jacobian = derivatives(&surface.moments());
+    let integrals = surface.gradients();
+    let mut random = ChaCha8Rng::seed_from_u64(8);
+    let along: Vec<f64> = (0..estimate.coefficients.len())
+        .map(|j| -> f64 { StandardNormal.sample(&mut random) } / (1.0 + j as f64))
+        .collect();
+    let moved = |by: f64, i: usize| {
+        let mut moved = estimate.clone();
+        for (coefficient, along) in moved.coefficients.iter_mut().zip(&along) {
+            *coefficient += by * along;
+        }
+        let (reach, principal, _) = of(&moved);
+        reach.along(&principal.axes.column(i).into()).length
+    };
+    let harmonics = crate::sphere::HarmonicBasis::new(estimate.degree);
+    for i in 0..3 {
+        let extent = reach.along(&principal.axes.column(i).into());
+        let turn = extent.by_inertia(&principal, i, |_, _| 0.0);
+        let inertia = |at: usize| {
+            dot(
+                &combined(integrals.iter(), jacobian.row(INERTIA + at).iter()),
+                &along,
+            )
+        };
+        let mut found: f64 = (0..6).map(|at| turn[at] * inertia(at)).sum();
+        for end in &extent.ends {
+            let mut values = vec![0.0; along.len()];
+            harmonics.evaluate(&end.direction, &mut values);
+            found += end.by_radius * dot(&values, &along);
+        }
+        let step = 1e-5;
+        let expected = (moved(step, i) - moved(-step, i)) / (2.0 * step);
+        assert!(
+            (found - expected).abs() < 1e-4 * expected.abs().max(1.0),
+            "{found} {expected}"
+        );
+    }
+}
