@@ -19,6 +19,7 @@ mod hull;
 mod inscribed_ball;
 mod integrals;
 mod mass;
+mod medial;
 mod mesh;
 mod minimum_box;
 mod nodes;
@@ -30,6 +31,8 @@ mod spectrum;
 mod sphericity;
 mod support;
 mod survey;
+mod triangle_tree;
+mod winding;
 
 pub use convexity::Convexity;
 pub use curvature::Curvature;

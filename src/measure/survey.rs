@@ -174,13 +174,13 @@ impl<'a> Survey<'a> {
         Ok(Form::new(&self.dimensions()?))
     }
 
-    /// The largest inscribed sphere, as found from the centroid.
+    /// The largest inscribed sphere.
     ///
     /// # Errors
     ///
-    /// When there is no surface.
+    /// When there is no surface, or nothing is inside.
     pub fn inscribed(&self) -> Result<Ball, SurveyError> {
-        let ball = || Ok(inscribed_ball(self.mesh(), &self.properties().centroid)?);
+        let ball = || Ok(inscribed_ball(self.mesh())?);
         self.inscribed.get_or_init(ball).clone()
     }
 
