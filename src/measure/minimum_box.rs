@@ -52,7 +52,11 @@ impl OrientedBox {
 
 /// The smallest box with the given orthonormal axes (columns, in any order) that holds all points.
 pub fn box_along(points: &[Point3<f64>], axes: &Matrix3<f64>) -> OrientedBox {
-    let [low, high] = bounds(points, axes);
+    oriented(bounds(points, axes), axes)
+}
+
+/// The box between least and greatest coordinates along orthonormal axes.
+pub(super) fn oriented([low, high]: [Vector3<f64>; 2], axes: &Matrix3<f64>) -> OrientedBox {
     let extents = high - low;
     let mut order = [0, 1, 2];
     order.sort_by(|&i, &j| extents[j].total_cmp(&extents[i]));

@@ -2,9 +2,11 @@
 //! surface is from another.
 
 mod angularity;
+mod bounds;
 mod clearance;
 mod convex_polygon;
 mod convexity;
+mod coverage;
 mod curvature;
 mod curvature_statistics;
 mod deviation;
@@ -27,19 +29,23 @@ mod outline;
 mod projection;
 mod rings;
 mod roundness;
+mod scanned;
 mod spectrum;
 mod sphericity;
 mod support;
 mod survey;
 mod triangle_tree;
+mod unit;
 mod winding;
 
+pub use bounds::OutOfBounds;
 pub use convexity::Convexity;
 pub use curvature::Curvature;
 pub use curvature_statistics::{CurvatureStatistics, Distribution};
 pub use deviation::Deviation;
 pub use ellipsoid::EquivalentEllipsoid;
 pub use enclosing_ball::{Ball, EnclosingBallError, enclosing_ball};
+pub(crate) use extents::dimensions_of_surface;
 pub use extents::extents;
 pub use form::Form;
 pub use four_triangles::four_triangles;
@@ -54,6 +60,7 @@ pub use minimum_box::{OrientedBox, box_along, minimum_box};
 pub use outline::Outline;
 pub use projection::{OUTLINE_AZIMUTHS, ProjectionError, project};
 pub use roundness::ROUNDNESS_ORDER;
+pub use scanned::{FacesDefect, Fill, ScannedBody, scanned_body};
 pub use spectrum::{SPECTRUM_DEGREE, Spectrum};
 pub use sphericity::{Sphericity, wadell};
 pub use support::{Support, support};

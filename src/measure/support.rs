@@ -46,7 +46,17 @@ pub fn support(surface: &(impl StarSurface + ?Sized), towards: &Vector3<f64>) ->
             let height = height(n);
             if height > best.1 { (*n, height) } else { best }
         });
-    let climbed = newton(surface, towards, start.0, height);
+    support_from(surface, towards, start.0)
+}
+
+/// As [`support`], climbing from the direction `start`: to the highest point if that is near it.
+pub(super) fn support_from(
+    surface: &(impl StarSurface + ?Sized),
+    towards: &Vector3<f64>,
+    start: Vector3<f64>,
+) -> Support {
+    let height = |n: &Vector3<f64>| surface.radius(n) * n.dot(towards);
+    let climbed = newton(surface, towards, start, height);
     let found = at(surface, towards, &climbed);
     match found.is_smooth {
         true => found,

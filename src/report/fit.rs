@@ -6,10 +6,9 @@ use super::number::{percent, short, with_error};
 use super::rule::rule;
 use super::warning::sentences;
 use crate::fit::{FitOptions, Fitted, Reference, ReferenceKind, StandardErrors};
-use crate::measure::{extents, grain_properties};
+use crate::measure::{dimensions_of_surface, grain_properties};
 use crate::model::Mirrored;
 use crate::sphere::Symmetry;
-use nalgebra::Vector3;
 use serde::Serialize;
 use std::fmt;
 
@@ -39,8 +38,7 @@ pub struct FitReport {
     pub volume: f64,
     /// Principal moments of inertia and their axes; `null` where the inertia is not finite.
     pub principal: Option<Principal>,
-    /// Extents of the fitted surface along the principal axes, less what noise adds to them; `null`
-    /// without these.
+    /// Extents of the fitted surface along the principal axes, descending; `null` without these.
     pub dimensions: Option<Dimensions>,
     /// Standard errors of the figures above; `null` for independent segments.
     pub standard_errors: Option<StandardErrorsRecord>,
@@ -103,6 +101,8 @@ pub struct StandardErrorsRecord {
     pub moments: [f64; 3],
     /// Of the dimensions.
     pub dimensions: Dimensions,
+    /// What noise adds to the dimensions, as a mean: an extent is between the points farthest out.
+    pub dimensions_excess: Dimensions,
     /// Of the centroid's coordinates along the grain's axes.
     pub centroid: [f64; 3],
     /// Of the inertia tensor about the centroid, along the grain's axes.
@@ -157,7 +157,6 @@ impl FitReport {
         let principal = properties.principal();
         let mesh = fitted.grain.mesh(MESH_RESOLUTION);
         let standard_errors = fitted.standard_errors();
-        let excess = standard_errors.map_or(Vector3::zeros(), |errors| errors.dimensions_excess);
         Self {
             input,
             points: fitted.points,
@@ -169,8 +168,15 @@ impl FitReport {
             area: properties.area,
             volume: properties.volume,
             principal: principal.map(|principal| Principal::new(&principal)),
-            dimensions: principal
-                .map(|principal| Dimensions::new(extents(&mesh, &principal.axes) - excess)),
+            dimensions: principal.map(|principal| {
+                let (grain, centre) = (&fitted.grain, fitted.grain.frame().centre);
+                Dimensions::new(dimensions_of_surface(
+                    grain,
+                    &centre,
+                    &mesh,
+                    &principal.axes,
+                ))
+            }),
             standard_errors: standard_errors.map(Into::into),
             coefficients_touched: fitted.grain.coefficients_touched(),
             area_error: properties.area / fitted.reference.area - 1.0,
@@ -210,6 +216,7 @@ impl From<StandardErrors> for StandardErrorsRecord {
             volume: errors.volume,
             moments: errors.moments.into(),
             dimensions: Dimensions::new(errors.dimensions),
+            dimensions_excess: Dimensions::new(errors.dimensions_excess),
             centroid: errors.centroid.into(),
             inertia: rows(&errors.inertia),
         }
