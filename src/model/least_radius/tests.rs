@@ -76,7 +76,7 @@ fn grains(relief: f64, seed: u64) -> Vec<Grain> {
 #[test]
 fn the_bound_is_below_a_dense_sample_and_near_it() {
     let directions = Sampling::Fibonacci.directions(20_000, 0).expect("enough");
-    let (mut sound, mut unsound) = (0, 0);
+    let (mut sound, mut unsound, mut unproved) = (0, 0, 0);
     for (relief, seeds) in [(0.3, 4), (1.5, 12), (4.0, 12), (9.0, 6)] {
         for seed in 0..seeds {
             for (kind, grain) in grains(relief, 100 * seed + 1).into_iter().enumerate() {
@@ -104,11 +104,17 @@ fn the_bound_is_below_a_dense_sample_and_near_it() {
                         assert!(grain.radius(&direction.into()) <= 0.0, "{kind}");
                         assert!(least < 0.2, "{kind}: {least}");
                     }
+                    // Cells that have nothing to do with each other, blended to a radius of next to nothing.
+                    Err(InvalidGrain::Unproved { .. }) => {
+                        unproved += 1;
+                        assert!(least < 0.1, "{kind}: {least}");
+                    }
                     Err(error) => panic!("{kind}: {error}, {least}"),
                 }
             }
         }
     }
+    assert!(unproved <= 2, "{unproved}");
     assert!(sound > 60 && unsound > 40, "{sound} {unsound}");
 }
 
