@@ -47,8 +47,7 @@ pub(super) fn fill(
         filled += own;
         most = most.max(own / faces);
     }
-    // Written so that NaN fails.
-    if !(most <= largest) {
+    if most.is_nan() || most > largest {
         mesh.vertices.truncate(vertices);
         mesh.triangles.truncate(triangles);
         return Err((mesh, most));

@@ -93,7 +93,7 @@ impl CapBound {
     }
 
     /// The angle p at an angle from the cap's centre: pi there, 0 on the rim and beyond.
-    fn from_rim(&self, from_centre: f64) -> f64 {
+    fn rim_angle(&self, from_centre: f64) -> f64 {
         let share = (0.5 * from_centre).sin() / (0.5 * self.cap.height).sqrt();
         2.0 * share.clamp(0.0, 1.0).acos()
     }
@@ -102,8 +102,8 @@ impl CapBound {
     fn way(&self, middle: &Vector3<f64>, radius: f64) -> f64 {
         let theta = angle(0.5 * (middle - self.cap.centre).norm_squared());
         let (low, high) = (theta - radius, theta + radius);
-        let own = self.from_rim(theta);
-        let [inner, outer] = [low.max(0.0), high.min(PI)].map(|theta| self.from_rim(theta));
+        let own = self.rim_angle(theta);
+        let [inner, outer] = [low.max(0.0), high.min(PI)].map(|theta| self.rim_angle(theta));
         let radial = (inner - own).max(own - outer);
         let round = (radius.sin() / theta.sin()).asin();
         // Written so that NaN, where the cap round the direction holds the pole, goes the other way.

@@ -87,8 +87,8 @@ impl Grain {
             Surface::Whole(surface) => surface.bound().largest(),
         };
         let factors = self.stretch().factors();
-        // Written so that NaN fails.
-        if !(largest / factors.min() <= LARGEST_RADIUS) {
+        let size = largest / factors.min();
+        if size.is_nan() || size > LARGEST_RADIUS {
             return Err(InvalidGrain::OutOfRange);
         }
         let (directions, _) = cube_grid(FIRST);
@@ -98,7 +98,7 @@ impl Grain {
         for (n, radius) in directions.iter().zip(radii) {
             let (q, length) = self.stretch().direction(n);
             let radius = radius * length;
-            if !(radius > 0.0) {
+            if radius.is_nan() || radius <= 0.0 {
                 return Err(self.failed(Failure::NotPositive(q, radius)));
             }
             found = found.min(radius);
@@ -151,12 +151,11 @@ impl Grain {
             Failure::Unproved(radius) => InvalidGrain::Unproved {
                 found: radius / self.stretch().factors().min(),
             },
-            Failure::NotPositive(q, _) => {
+            Failure::NotPositive(q, radius) => {
                 let local = q.component_div(self.stretch().factors()).normalize();
-                let direction = self.frame().axes * local;
                 InvalidGrain::NotPositive {
-                    radius: self.radius(&direction),
-                    direction: direction.into(),
+                    radius: radius / self.stretch().direction(&local).1,
+                    direction: (self.frame().axes * local).into(),
                 }
             }
         }
@@ -171,7 +170,7 @@ fn prove<P: Part>(mut parts: Vec<P>, mut found: f64) -> Result<(f64, f64), Failu
         let judged = part.judge(SHARE * found);
         work += judged.work;
         if let Some(value) = judged.value {
-            if !(value > 0.0) {
+            if value.is_nan() || value <= 0.0 {
                 return Err(Failure::NotPositive(part.middle(), value));
             }
             found = found.min(value);

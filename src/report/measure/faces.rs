@@ -45,7 +45,7 @@ impl FacesRecord {
     pub(super) fn sentences(&self) -> Vec<String> {
         let filled = self.filled.map(|filled| {
             format!(
-                "Small holes were closed: {} with {} edges, {} of the area.",
+                "Small holes were closed: {} with {} edges; the area holds {} for their fill.",
                 filled.holes,
                 filled.edges,
                 short(filled.area)
