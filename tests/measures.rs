@@ -27,7 +27,7 @@ fn moved(mesh: &Mesh, turn: &Rotation3<f64>, shift: &Vector3<f64>, size: f64) ->
 /// Everything that can be measured of a mesh, in powers of length: (power, value).
 fn figures(mesh: &Mesh) -> Result<Vec<(i32, f64)>, SurveyError> {
     let survey = Survey::of_mesh(mesh)?;
-    let properties = survey.properties();
+    let properties = survey.properties()?;
     let mut all = vec![(2, properties.area), (3, properties.volume)];
     all.extend(survey.principal()?.moments.iter().map(|m| (5, *m)));
     all.extend(survey.dimensions()?.iter().map(|d| (1, *d)));
@@ -44,7 +44,7 @@ fn figures(mesh: &Mesh) -> Result<Vec<(i32, f64)>, SurveyError> {
     all.extend([convexity.volume, convexity.area].map(|x| (0, x)));
     all.extend(survey.ellipsoid()?.semi_axes.iter().map(|d| (1, *d)));
     all.push((0, survey.angularity()?));
-    let spectrum = survey.spectrum();
+    let spectrum = survey.spectrum()?;
     all.extend(spectrum.relative_amplitude.iter().map(|x| (0, *x)));
     Ok(all)
 }

@@ -4,7 +4,7 @@ use super::args::MeasureArgs;
 use super::mesh::{grain, read};
 use super::{print, print_json, warn};
 use crate::fit::scanned_surface;
-use crate::measure::{Scheme, Survey};
+use crate::measure::{Scheme, Survey, scanned_body};
 use crate::report::{Measure, MeasureReport, Measured, sentences};
 use crate::scan::parse_scan;
 use anyhow::{Context, Result, bail};
@@ -39,6 +39,15 @@ fn measure(args: &MeasureArgs) -> Result<MeasureReport> {
     let extension = path.extension().and_then(|extension| extension.to_str());
     let scan = parse_scan(&bytes, extension)
         .with_context(|| format!("cannot read a scan from {input}"))?;
+    if scan.is_flat() {
+        bail!("cannot measure {input}: all points lie in one plane, they do not enclose a body");
+    }
+    if let Some(scanned) = scanned_body(&scan) {
+        let survey = Survey::of_scanned(&scanned);
+        let (of, warnings) = (Measured::Faces, scan.warnings.clone());
+        let report = MeasureReport::new(input, of, &survey, only, warnings);
+        return Ok(report.with_faces(&scanned));
+    }
     let surface = scanned_surface(&scan).with_context(|| format!("cannot measure {input}"))?;
     let survey =
         Survey::of_mesh(&surface.mesh).with_context(|| format!("cannot measure {input}"))?;

@@ -1,5 +1,6 @@
 //! How much of its convex hull a body fills.
 
+use super::bounds::{OutOfBounds, between, ratio};
 use super::{MeshIntegralError, mesh_properties};
 use crate::Mesh;
 use serde::Serialize;
@@ -25,6 +26,18 @@ impl Convexity {
         Ok(Self {
             volume: body.volume / hull.volume,
             area: hull.area / body.area,
+        })
+    }
+
+    /// The same, if each is within its range.
+    pub(super) fn checked(self) -> Result<Self, OutOfBounds> {
+        Ok(Self {
+            volume: ratio("share of the volume of its hull", self.volume)?,
+            area: between(
+                "area of its hull over its own",
+                self.area,
+                [0.0, f64::INFINITY],
+            )?,
         })
     }
 }

@@ -12,6 +12,8 @@ use std::f64::consts::PI;
 pub struct CurvatureStatistics {
     /// (principal curvatures, the larger first; area).
     nodes: Vec<([f64; 2], f64)>,
+    /// The length that is one here, in the surface's unit.
+    unit: f64,
 }
 
 /// How a curvature is distributed over a surface, by area.
@@ -25,6 +27,17 @@ pub struct Distribution {
     pub least: f64,
     /// Largest value at any node: a bound from below.
     pub largest: f64,
+}
+
+impl Distribution {
+    fn over(self, length: f64) -> Self {
+        Self {
+            mean: self.mean / length,
+            standard_deviation: self.standard_deviation / length,
+            least: self.least / length,
+            largest: self.largest / length,
+        }
+    }
 }
 
 impl CurvatureStatistics {
@@ -42,27 +55,36 @@ impl CurvatureStatistics {
                 (Curvature::new(n, &derivatives).principal, area)
             })
             .collect();
-        Self { nodes }
+        Self { nodes, unit: 1.0 }
+    }
+
+    /// The same, of the surface that is so many times as large.
+    pub(super) fn in_unit(self, length: f64) -> Self {
+        let unit = self.unit * length;
+        Self { unit, ..self }
     }
 
     /// Mean curvature H = (k1 + k2)/2, one over length; 1/R of a sphere.
     pub fn mean(&self) -> Distribution {
         self.distribution(|[first, second]| 0.5 * (first + second))
+            .over(self.unit)
     }
 
     /// Gaussian curvature K = k1 k2, one over length squared; 1/R² of a sphere.
     pub fn gaussian(&self) -> Distribution {
         self.distribution(|[first, second]| first * second)
+            .over(self.unit)
+            .over(self.unit)
     }
 
     /// The larger principal curvature, one over length, positive where convex.
     pub fn larger(&self) -> Distribution {
-        self.distribution(|[first, _]| first)
+        self.distribution(|[first, _]| first).over(self.unit)
     }
 
     /// The smaller principal curvature, negative in hollows.
     pub fn smaller(&self) -> Distribution {
-        self.distribution(|[_, second]| second)
+        self.distribution(|[_, second]| second).over(self.unit)
     }
 
     /// ∫ K dS, which the theorem of Gauss and Bonnet says is 4 pi on a closed surface without edges:
@@ -84,7 +106,8 @@ impl CurvatureStatistics {
     /// circle; with curvature, in space, it is by area (after Bullard and Garboczi 2013 and Zhao and
     /// Wang 2016).
     pub fn roundness(&self, inscribed_radius: f64) -> f64 {
-        let sharpness = |[first, _]: [f64; 2]| first * inscribed_radius;
+        let radius = inscribed_radius / self.unit;
+        let sharpness = |[first, _]: [f64; 2]| first * radius;
         let corners = self.integral(|k| f64::from(sharpness(k) > 1.0));
         if corners == 0.0 {
             return 1.0;
@@ -193,6 +216,7 @@ mod tests {
     fn roundness_is_the_mean_radius_of_the_corners() {
         let found = CurvatureStatistics {
             nodes: vec![([0.5, 0.5], 7.0), ([2.0, 1.0], 3.0), ([4.0, -1.0], 1.0)],
+            unit: 1.0,
         };
         // Corners of radii 1/2 and 1/4 of an inscribed radius of 1, by area.
         assert_relative_eq!(found.roundness(1.0), (3.0 * 0.5 + 0.25) / 4.0);

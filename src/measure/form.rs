@@ -1,6 +1,7 @@
 //! Ratios of length, width and thickness: (1.1)–(1.3) of Radvilaite 2016 by name; the definitions are
 //! those of Zingg 1935.
 
+use super::bounds::{OutOfBounds, between, ratio};
 use nalgebra::Vector3;
 use serde::Serialize;
 
@@ -24,6 +25,15 @@ impl Form {
             elongation: width / length,
             flatness: thickness / width,
         }
+    }
+
+    /// The same, if each is within its range.
+    pub(super) fn checked(self) -> Result<Self, OutOfBounds> {
+        Ok(Self {
+            aspect_ratio: between("aspect ratio", self.aspect_ratio, [1.0, f64::INFINITY])?,
+            elongation: ratio("elongation", self.elongation)?,
+            flatness: ratio("flatness", self.flatness)?,
+        })
     }
 }
 

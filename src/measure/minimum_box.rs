@@ -52,7 +52,11 @@ impl OrientedBox {
 
 /// The smallest box with the given orthonormal axes (columns, in any order) that holds all points.
 pub fn box_along(points: &[Point3<f64>], axes: &Matrix3<f64>) -> OrientedBox {
-    let [low, high] = bounds(points, axes);
+    oriented(bounds(points, axes), axes)
+}
+
+/// The box between least and greatest coordinates along orthonormal axes.
+pub(super) fn oriented([low, high]: [Vector3<f64>; 2], axes: &Matrix3<f64>) -> OrientedBox {
     let extents = high - low;
     let mut order = [0, 1, 2];
     order.sort_by(|&i, &j| extents[j].total_cmp(&extents[i]));
@@ -73,9 +77,13 @@ const EXTREMES: usize = 6;
 /// Cells per cube edge of the grid of directions that are tried: 9 degrees.
 const GRID: usize = 10;
 
-/// Directions that are refined, and the least angle between them in radians.
-const STARTS: usize = 4;
-const APART: f64 = 0.2;
+/// The same of hulls of few facets: 3 degrees.
+const SMALL_GRID: usize = 30;
+
+/// Directions that are refined, and the least angle between them in radians: of smooth bodies, and of hulls of
+/// few facets, whose volume has more minima and is found faster.
+const STARTS: (usize, f64) = (4, 0.2);
+const SMALL_STARTS: (usize, f64) = (48, 0.06);
 
 /// Largest numbers of triangles whose normals, and of edges whose pairs, are tried as well.
 const SMALL_TRIANGLES: usize = 600;
@@ -103,26 +111,31 @@ pub fn minimum_box(hull: &Mesh) -> Result<OrientedBox, MeshIntegralError> {
         half.map(move |direction| frame * direction)
     };
     let mut few = ExtremePoints::new(&unit.vertices, grid(EXTREMES));
-    let mut tried: Vec<Candidate> = grid(GRID)
+    let is_small = unit.triangles.len() <= SMALL_TRIANGLES;
+    let mut tried: Vec<Candidate> = grid(if is_small { SMALL_GRID } else { GRID })
         .chain(frame.column_iter().map(|axis| axis.into_owned()))
         .chain(natural_directions(&unit))
         .filter_map(|direction| few.least_box(&direction))
         .collect();
     tried.sort_by(|a, b| a.volume.total_cmp(&b.volume));
-    let mut starts: Vec<Candidate> = Vec::with_capacity(STARTS);
+    let (most, apart) = match is_small {
+        true => SMALL_STARTS,
+        false => STARTS,
+    };
+    let mut starts: Vec<Candidate> = Vec::with_capacity(most);
     for candidate in tried {
         let is_apart = |other: &Candidate| {
             let cosine = candidate.axes.column(2).dot(&other.axes.column(2));
-            cosine.abs() < APART.cos()
+            cosine.abs() < apart.cos()
         };
-        if starts.len() < STARTS && starts.iter().all(is_apart) {
+        if starts.len() < most && starts.iter().all(is_apart) {
             starts.push(candidate);
         }
     }
     let principal = box_along(&unit.vertices, &frame);
     let mut least = (principal.volume(), frame);
     for start in starts {
-        let mut best = few.refine(start, APART / 2.0, 4);
+        let mut best = few.refine(start, apart / 2.0, 4);
         for _ in 0..ROUNDS {
             // With more points it can only become larger.
             if best.volume >= least.0 {

@@ -1,11 +1,17 @@
 //! The outline of a body as seen from one side, and its shape in two dimensions.
 
+use super::bounds::{OutOfBounds, ratio};
 use super::clearance::{self, Obstacles};
 use super::convex_polygon::ConvexPolygon;
-use super::enclosing_ball;
+use super::medial::{deepest, medial_ball};
 use super::roundness::roundness;
+use super::winding::polygon_winding_number;
+use super::{Ball, enclosing_ball};
 use nalgebra::{Point3, Vector2, Vector3};
 use std::f64::consts::PI;
+
+/// Edges from which circles of the medial axis are found, at most.
+const FEET: usize = 100;
 
 /// A closed curve in the plane and what is measured on it. Lengths are in the body's unit.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,8 +33,8 @@ pub struct Outline {
     pub smallest_feret: f64,
     /// Diameter Dc of the smallest circle that holds the outline.
     pub enclosing_diameter: f64,
-    /// Diameter Di of the largest circle inside, as found from the middle of the area: it cannot be made
-    /// larger by shifting it a little.
+    /// Diameter Di of the largest circle inside: the largest of those that cannot be made larger by shifting
+    /// them a little, found from circles that touch the outline in two places.
     pub inscribed_diameter: f64,
     /// Roundness, in (0, 1] (Wadell 1935): mean radius of the corners over the inscribed radius Di/2. A
     /// corner is a stretch where the radius of curvature is less than Di/2; its radius is its length over
@@ -46,14 +52,10 @@ impl Outline {
         if !(area > 0.0 && area.is_finite()) {
             return None;
         }
-        let middle = edges()
-            .map(|(p, q)| (p + q) * p.perp(q))
-            .sum::<Vector2<f64>>()
-            / (6.0 * area);
         let hull = ConvexPolygon::hull_of(points.clone());
         let flat: Vec<Point3<f64>> = points.iter().map(in_space).collect();
         let enclosing = enclosing_ball(&flat).ok()?;
-        let inscribed = clearance::largest(&Walls(&points), &in_space(&middle))?;
+        let inscribed = inscribed_circle(&points, enclosing.radius)?;
         Some(Self {
             area,
             perimeter: edges().map(|(p, q)| (q - p).norm()).sum(),
@@ -66,6 +68,28 @@ impl Outline {
             roundness: roundness(&points, inscribed.radius),
             points,
         })
+    }
+
+    /// The same, if each of its ratios is within its range.
+    pub(super) fn checked(self) -> Result<Self, OutOfBounds> {
+        for (name, value) in [
+            ("circle ratio of an outline", self.circle_ratio()),
+            (
+                "diameter sphericity of an outline",
+                self.diameter_sphericity(),
+            ),
+            (
+                "perimeter sphericity of an outline",
+                self.perimeter_sphericity(),
+            ),
+            ("width to length of an outline", self.width_to_length()),
+            ("solidity of an outline", self.solidity()),
+            ("convexity of an outline", self.convexity()),
+            ("roundness of an outline", self.roundness),
+        ] {
+            ratio(name, value)?;
+        }
+        Ok(self)
     }
 
     /// Diameter of the circle of the same area, sqrt(4 A / pi).
@@ -117,6 +141,32 @@ impl Outline {
     pub fn convexity(&self) -> f64 {
         self.hull_perimeter / self.perimeter
     }
+}
+
+/// The largest circle inside a polygon that the circle of radius `largest` holds.
+fn inscribed_circle(points: &[Vector2<f64>], largest: f64) -> Option<Ball> {
+    let walls = Walls(points);
+    let nearest = |place: &Vector3<f64>| {
+        let all = (0..walls.count()).map(|index| walls.nearest(index, place));
+        all.min_by(|one, other| {
+            let [one, other] = [one, other].map(|nearest| (nearest - place).norm_squared());
+            one.total_cmp(&other)
+        })
+        .unwrap_or(*place)
+    };
+    let step = points.len().div_ceil(FEET);
+    let medial = (0..points.len()).step_by(step).filter_map(|index| {
+        let [start, along] = walls.edge(index);
+        let inward = Vector3::new(-along.y, along.x, 0.0).try_normalize(0.0)?;
+        let foot = Vector3::new(start.x + along.x / 2.0, start.y + along.y / 2.0, 0.0);
+        Some(medial_ball(&foot, &inward, largest, nearest))
+    });
+    let is_inside = |ball: &Ball| polygon_winding_number(points, &ball.centre.coords.xy()) > 0.5;
+    deepest(medial.collect(), is_inside)
+        .iter()
+        .filter_map(|start| clearance::largest(&walls, &start.centre))
+        .filter(is_inside)
+        .max_by(|one, other| one.radius.total_cmp(&other.radius))
 }
 
 /// The edges of a polygon as walls across the plane, so that the distance to them is that in the plane.

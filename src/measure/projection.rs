@@ -1,6 +1,7 @@
 //! The outline of a closed mesh projected along an axis.
 
 use super::Outline;
+use super::coverage::covered_area;
 use crate::Mesh;
 use nalgebra::{Point3, Vector2, Vector3};
 use std::f64::consts::TAU;
@@ -10,8 +11,11 @@ use thiserror::Error;
 /// the perimeter by a quarter of that; the corner farthest out between two azimuths is added.
 pub const OUTLINE_AZIMUTHS: usize = 1440;
 
+/// Share of an outline's area that the body may leave open. Covered areas are found to 0.3 %.
+const LARGEST_OVERHANG: f64 = 0.01;
+
 /// Why a mesh has no outline.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
 #[non_exhaustive]
 pub enum ProjectionError {
     /// A triangle names a vertex that does not exist.
@@ -23,6 +27,15 @@ pub enum ProjectionError {
     /// The axis has no direction, or a coordinate is not finite, or the outline has no area.
     #[error("the projection has no area, or a coordinate is not finite")]
     NoArea,
+    /// Seen along the axis, the centre is beside the body: a bent body, or a ring.
+    #[error("its centroid lies beside it, seen from there")]
+    CentreOutside,
+    /// A ray from the centre leaves the outline and enters it again: what is between is not the body's.
+    #[error("{:.1} % of its outline would be hollow: it bends back, or has a hole", 100.0 * share)]
+    Overhang {
+        /// Share of the area that the outline would have and the body does not cover.
+        share: f64,
+    },
 }
 
 /// The outline of a closed mesh projected along `axis`, seen from its tip, about `centre`, which must be
@@ -30,8 +43,8 @@ pub enum ProjectionError {
 ///
 /// The projection of a body that is star-shaped about the centre is star-shaped about the projected
 /// centre, so in each of [`OUTLINE_AZIMUTHS`] equally spaced azimuths the outline is the farthest
-/// intersection with a projected edge. Of other bodies overhangs are filled: where a ray leaves the
-/// projection and enters it again, what is between counts as inside.
+/// intersection with a projected edge. Of other bodies what is between two places where a ray leaves the
+/// projection is filled, up to 1 % of the area; with more there is no outline.
 ///
 /// # Errors
 ///
@@ -77,7 +90,19 @@ pub fn project(
     let samples: Vec<Vector2<f64>> = rays
         .map(|(direction, radius)| direction * *radius)
         .collect();
-    Outline::of(with_corners(&samples, &places)).ok_or(ProjectionError::NoArea)
+    if radii.iter().all(|radius| *radius == 0.0) {
+        return Err(ProjectionError::NoArea);
+    }
+    if radii.contains(&0.0) {
+        return Err(ProjectionError::CentreOutside);
+    }
+    let outline = Outline::of(with_corners(&samples, &places)).ok_or(ProjectionError::NoArea)?;
+    let positions: Vec<Vector2<f64>> = places.iter().map(|place| place.position).collect();
+    let share = 1.0 - covered_area(&positions, &mesh.triangles) / outline.area;
+    match share > LARGEST_OVERHANG {
+        true => Err(ProjectionError::Overhang { share }),
+        false => Ok(outline),
+    }
 }
 
 /// A projected vertex.

@@ -1,6 +1,7 @@
 //! Sphericity, in the forms that are in use.
 
 use super::MassProperties;
+use super::bounds::{OutOfBounds, ratio};
 use super::form::descending;
 use nalgebra::Vector3;
 use serde::Serialize;
@@ -47,6 +48,19 @@ impl Sphericity {
             krumbein: (width * thickness / (length * length)).cbrt(),
             maximum_projection: (thickness * thickness / (length * width)).cbrt(),
         }
+    }
+
+    /// The same, if each is within its range.
+    pub(super) fn checked(self) -> Result<Self, OutOfBounds> {
+        let spheres = "sphericity of the inscribed and the enclosing sphere";
+        Ok(Self {
+            wadell: ratio("sphericity after Wadell", self.wadell)?,
+            operational: ratio("operational sphericity", self.operational)?,
+            inscribed_enclosing: ratio(spheres, self.inscribed_enclosing)?,
+            inscribed_enclosing_root: ratio(spheres, self.inscribed_enclosing_root)?,
+            krumbein: ratio("sphericity after Krumbein", self.krumbein)?,
+            maximum_projection: ratio("maximum projection sphericity", self.maximum_projection)?,
+        })
     }
 }
 

@@ -53,6 +53,15 @@ impl Blended {
         &self.coefficients
     }
 
+    /// The surface so many times as large.
+    pub(crate) fn times(&self, factor: f64) -> Self {
+        let mut found = self.clone();
+        for coefficient in found.coefficients.iter_mut().flatten() {
+            *coefficient *= factor;
+        }
+        found
+    }
+
     /// The largest degree of any cell.
     pub fn degree(&self) -> usize {
         self.basis.degree()
@@ -71,6 +80,12 @@ impl Blended {
             })
             .sum();
         touched as f64 / directions.len() as f64
+    }
+
+    /// Radius of a cell's expansion in a direction of its cap.
+    pub(super) fn cell_radius(&self, cell: usize, n: &Vector3<f64>) -> f64 {
+        self.basis
+            .value(self.cover.cap(cell), &self.coefficients[cell], n)
     }
 
     /// Radius in a direction of the grain's own frame.

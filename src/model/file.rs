@@ -156,7 +156,8 @@ pub fn save_grain(grain: &Grain) -> String {
 /// The grain that a JSON text describes.
 ///
 /// # Errors
-/// [`LoadError`] if the text is not a model of a known version, or is not sound.
+/// [`LoadError`] if the text is not a model of a known version, or is not sound: among others, if its radius
+/// is not above zero everywhere, which is proved ([`Grain::least_radius`]).
 pub fn parse_grain(text: &str) -> Result<Grain, LoadError> {
     let file: GrainFile = serde_json::from_str(text)?;
     if file.format != FORMAT {
@@ -207,5 +208,7 @@ pub fn parse_grain(text: &str) -> Result<Grain, LoadError> {
         Some(factors) => Stretch::new(factors.into())?,
         None => Stretch::NONE,
     };
-    Ok(Grain::stretched(frame, stretch, surface)?)
+    let grain = Grain::stretched(frame, stretch, surface)?;
+    grain.least_radius()?;
+    Ok(grain)
 }

@@ -130,7 +130,7 @@ pub enum InvalidGrain {
         /// Coefficients given.
         found: usize,
     },
-    /// An expansion of the whole sphere is of too high a degree.
+    /// An expansion is of too high a degree.
     #[error("degree {found}; at most {} is allowed", Whole::MAX_DEGREE)]
     Degree {
         /// The degree of the coefficients given.
@@ -150,6 +150,25 @@ pub enum InvalidGrain {
         /// What the number is.
         what: String,
     },
+    /// The radius is not above zero in some direction: the coefficients were changed, or the fit failed there.
+    #[error("the radius is {radius:.3e} in the direction {direction:.3?}: it must be above zero")]
+    NotPositive {
+        /// The radius.
+        radius: f64,
+        /// The direction, in the scan's frame.
+        direction: [f64; 3],
+    },
+    /// The radius could not be shown to be above zero everywhere.
+    #[error(
+        "the radius cannot be shown to be above zero everywhere; the least one met is {found:.3e}"
+    )]
+    Unproved {
+        /// The least radius met.
+        found: f64,
+    },
+    /// Radii beyond 1e100, or below its inverse.
+    #[error("radii are beyond 1e100 or below 1e-100: change the unit")]
+    OutOfRange,
     /// The axes are not orthonormal and right-handed.
     #[error("the axes are not orthonormal and right-handed")]
     Axes,
@@ -193,6 +212,23 @@ impl Grain {
             stretch,
             surface,
         })
+    }
+
+    /// The grain about the origin, so many times as large.
+    pub(crate) fn about_origin(&self, factor: f64) -> Self {
+        Self {
+            frame: Frame {
+                centre: Point3::origin(),
+                ..self.frame
+            },
+            stretch: self.stretch,
+            surface: match &self.surface {
+                Surface::Blended(surface) => Surface::Blended(surface.times(factor)),
+                Surface::Segmented(surface) => Surface::Segmented(surface.times(factor)),
+                Surface::Mirrored(surface) => Surface::Mirrored(surface.times(factor)),
+                Surface::Whole(surface) => Surface::Whole(surface.times(factor)),
+            },
+        }
     }
 
     /// Centre and axes in the scan.
@@ -302,6 +338,9 @@ pub(super) fn check_expansion(segment: usize, coefficients: &[f64]) -> Result<us
         return Err(InvalidGrain::NotFinite {
             what: format!("a coefficient of segment {segment}"),
         });
+    }
+    if root - 1 > Whole::MAX_DEGREE {
+        return Err(InvalidGrain::Degree { found: root - 1 });
     }
     Ok(root - 1)
 }

@@ -41,6 +41,15 @@ impl Mirrored {
         &self.coefficients
     }
 
+    /// The surface so many times as large.
+    pub(crate) fn times(&self, factor: f64) -> Self {
+        let mut found = self.clone();
+        for coefficient in found.coefficients.iter_mut() {
+            *coefficient *= factor;
+        }
+        found
+    }
+
     /// The degree of the expansion.
     pub fn degree(&self) -> usize {
         self.basis.degree()

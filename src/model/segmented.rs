@@ -54,9 +54,23 @@ impl Segmented {
         &self.coefficients
     }
 
+    /// The surface so many times as large.
+    pub(crate) fn times(&self, factor: f64) -> Self {
+        let mut found = self.clone();
+        for coefficient in found.coefficients.iter_mut().flatten() {
+            *coefficient *= factor;
+        }
+        found
+    }
+
     /// The largest degree of any segment.
     pub fn degree(&self) -> usize {
         self.basis.degree()
+    }
+
+    /// The cap in which the expansion of a segment lives.
+    pub(super) fn cap(&self, segment: usize) -> &Cap {
+        &self.caps[segment]
     }
 
     /// Radius of a segment's expansion in a direction of the grain's own frame, also beyond the

@@ -35,9 +35,6 @@ impl Whole {
     /// [`InvalidGrain`] if they are not (L+1)^2 finite numbers, or L is above [`Self::MAX_DEGREE`].
     pub fn new(coefficients: Vec<f64>) -> Result<Self, InvalidGrain> {
         let degree = check_expansion(0, &coefficients)?;
-        if degree > Self::MAX_DEGREE {
-            return Err(InvalidGrain::Degree { found: degree });
-        }
         Ok(Self {
             coefficients,
             degrees: Degrees::new(degree),
@@ -47,6 +44,15 @@ impl Whole {
     /// The coefficients a_l^m at index l(l+1) + m, in the scan's unit.
     pub fn coefficients(&self) -> &[f64] {
         &self.coefficients
+    }
+
+    /// The surface so many times as large.
+    pub(crate) fn times(&self, factor: f64) -> Self {
+        let mut found = self.clone();
+        for coefficient in found.coefficients.iter_mut() {
+            *coefficient *= factor;
+        }
+        found
     }
 
     /// The degree of the expansion.

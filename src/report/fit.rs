@@ -6,10 +6,9 @@ use super::number::{percent, short, with_error};
 use super::rule::rule;
 use super::warning::sentences;
 use crate::fit::{FitOptions, Fitted, NoInterval, Reference, ReferenceKind, StandardErrors};
-use crate::measure::{grain_properties, support};
-use crate::model::{Grain, Mirrored};
+use crate::measure::{dimensions_of_surface, grain_properties};
+use crate::model::Mirrored;
 use crate::sphere::Symmetry;
-use nalgebra::{Matrix3, Vector3};
 use serde::Serialize;
 use std::fmt;
 
@@ -39,8 +38,7 @@ pub struct FitReport {
     pub volume: f64,
     /// Principal moments of inertia and their axes; `null` where the inertia is not finite.
     pub principal: Option<Principal>,
-    /// Extents of the fitted surface along the principal axes, less what noise adds to them; `null`
-    /// without these.
+    /// Extents of the fitted surface along the principal axes, descending; `null` without these.
     pub dimensions: Option<Dimensions>,
     /// Standard errors of the figures above; `null` where none can be trusted.
     pub standard_errors: Option<StandardErrorsRecord>,
@@ -105,6 +103,8 @@ pub struct StandardErrorsRecord {
     pub moments: [f64; 3],
     /// Of the dimensions.
     pub dimensions: Dimensions,
+    /// What noise adds to the dimensions, as a mean: an extent is between the points farthest out.
+    pub dimensions_excess: Dimensions,
     /// Of the centroid's coordinates along the grain's axes.
     pub centroid: [f64; 3],
     /// Of the inertia tensor about the centroid, along the grain's axes.
@@ -157,7 +157,11 @@ impl FitReport {
         let choice = search.choice();
         let properties = grain_properties(&fitted.grain).properties;
         let principal = properties.principal();
-        let extents = principal.map(|principal| extents(&fitted.grain, &principal.axes));
+        let extents = principal.map(|principal| {
+            let (grain, centre) = (&fitted.grain, fitted.grain.frame().centre);
+            let mesh = grain.mesh(MESH_RESOLUTION);
+            dimensions_of_surface(grain, &centre, &mesh, &principal.axes)
+        });
         let (standard_errors, no_errors) = match extents {
             None => (None, Some(NoInterval::NotFinite)),
             Some(extents) => match fitted.standard_errors(&properties, &extents) {
@@ -207,14 +211,8 @@ impl FitReport {
     }
 }
 
-/// Extents of a grain along three axes, from the points in which it touches planes across them.
-fn extents(grain: &Grain, axes: &Matrix3<f64>) -> Vector3<f64> {
-    let reach = |towards: Vector3<f64>| support(grain, &towards).point.dot(&towards);
-    Vector3::from_fn(|i, _| {
-        let axis = axes.column(i).into_owned();
-        reach(axis) + reach(-axis)
-    })
-}
+/// Cells per edge of the cube of directions from which the search for the grain's dimensions starts.
+const MESH_RESOLUTION: usize = 64;
 
 impl From<StandardErrors> for StandardErrorsRecord {
     fn from(errors: StandardErrors) -> Self {
@@ -223,6 +221,7 @@ impl From<StandardErrors> for StandardErrorsRecord {
             volume: errors.volume,
             moments: errors.moments.into(),
             dimensions: Dimensions::new(errors.dimensions),
+            dimensions_excess: Dimensions::new(errors.dimensions_excess),
             centroid: errors.centroid.into(),
             inertia: rows(&errors.inertia),
         }

@@ -21,8 +21,9 @@ pub use estimate::{EstimateRecord, EvaluationRecord};
 pub use fit::{FitReport, ReferenceRecord, Seconds, Skipped};
 pub use harmonics::{largest_loss, write_harmonics};
 pub use measure::{
-    BoxRecord, CurvatureRecord, Dimensions, EllipsoidRecord, Measure, MeasureReport, Measured,
-    Measures, NotMeasured, Principal, ProjectionRecord, SphereRecord, Spheres, UnknownMeasure,
+    BoxRecord, CurvatureRecord, Dimensions, EllipsoidRecord, FacesRecord, FillRecord, Measure,
+    MeasureReport, Measured, Measures, NotMeasured, Principal, ProjectionRecord, SphereRecord,
+    Spheres, UnknownMeasure,
 };
 pub use number::{percent, short};
 pub use search::{CandidateRecord, SearchReport};

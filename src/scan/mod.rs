@@ -23,6 +23,8 @@ use nalgebra::Point3;
 pub use error::{ParseError, Place, ReadError};
 use format::Format;
 pub use topology::Topology;
+pub(crate) use topology::each_edge;
+pub(crate) use weld::first_at_same_place;
 
 /// The points of a scan, in f64, in the file's own frame and unit.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -35,6 +37,13 @@ pub struct Scan {
     pub topology: Option<Topology>,
     /// What was odd in the file, but did not stop the reader: whole sentences.
     pub warnings: Vec<String>,
+}
+
+impl Scan {
+    /// Whether all points lie in one plane, or do not span one: they enclose nothing.
+    pub fn is_flat(&self) -> bool {
+        check::check(&self.points).map_or(true, |span| span.flat)
+    }
 }
 
 /// Reads a scan from a PLY, STL, OBJ or XYZ file.

@@ -49,12 +49,12 @@ impl Topology {
 }
 
 /// An undirected edge and how often triangles run along it.
-pub(super) struct Edge {
+pub(crate) struct Edge {
     /// The lower end first.
-    pub(super) ends: [u32; 2],
+    pub(crate) ends: [u32; 2],
     /// Triangles that run from the lower to the higher end.
-    pub(super) forward: usize,
-    pub(super) backward: usize,
+    pub(crate) forward: usize,
+    pub(crate) backward: usize,
 }
 
 impl Edge {
@@ -64,7 +64,7 @@ impl Edge {
 }
 
 /// Visits every edge once: half-edges are sorted into one bucket per lower end, then within it.
-pub(super) fn each_edge(points: usize, triangles: &[[u32; 3]], mut visit: impl FnMut(Edge)) {
+pub(crate) fn each_edge(points: usize, triangles: &[[u32; 3]], mut visit: impl FnMut(Edge)) {
     let half_edges = || {
         let sides = |&[a, b, c]: &[u32; 3]| [(a, b), (b, c), (c, a)];
         triangles.iter().flat_map(sides)

@@ -98,8 +98,8 @@ fn nearby(
     None
 }
 
-/// For each point the number of the first one at the same place.
-pub(super) fn first_at_same_place(points: &[Point3<f64>]) -> Vec<u32> {
+/// For each point the number of its place; places are numbered in the order in which they come.
+pub(crate) fn first_at_same_place(points: &[Point3<f64>]) -> Vec<u32> {
     let mut welder = Welder::default();
     points.iter().map(|&point| welder.add(point)).collect()
 }

@@ -74,25 +74,53 @@ impl CellWeight {
         Self { axis, side, along }
     }
 
-    /// Whether the weight may be above zero in a convex part of a face with the given corners. (The
-    /// tangents of directions are quotients of linear functions there, largest and least at corners.)
+    /// Whether the weight may be above zero in a convex part of a face with the given corners.
     pub(crate) fn may_touch(&self, corners: &[Vector3<f64>; 4]) -> bool {
-        let depths = corners.map(|n| self.side * n[self.axis]);
-        if depths.iter().any(|&depth| depth <= 0.0) {
-            return depths.iter().any(|&depth| depth > 0.0);
+        self.spans(corners).is_some_and(|spans| {
+            let along = spans.iter().zip(&self.along);
+            along
+                .into_iter()
+                .all(|([least, most], profile)| *most >= profile.rises && *least <= profile.falls)
+        })
+    }
+
+    /// The least and the largest weight in a convex part of a face with the given corners, or less and more.
+    pub(crate) fn range(&self, corners: &[Vector3<f64>; 4]) -> [f64; 2] {
+        let Some(spans) = self.spans(corners) else {
+            return [0.0; 2];
+        };
+        let mut range = [1.0; 2];
+        for ([least, most], profile) in spans.into_iter().zip(&self.along) {
+            range[0] *= profile.rise(least) * profile.fall(most);
+            range[1] *= profile.rise(most) * profile.fall(least);
         }
-        across(self.axis)
-            .iter()
-            .zip(&self.along)
-            .all(|(&axis, profile)| {
-                let places = [0, 1, 2, 3].map(|i| {
-                    let (depth, height) = (depths[i], corners[i][axis]);
-                    height / (depth + (depth * depth + height * height).sqrt())
-                });
-                let least = places.into_iter().fold(f64::INFINITY, f64::min);
-                let most = places.into_iter().fold(f64::NEG_INFINITY, f64::max);
-                most >= profile.rises && least <= profile.falls
-            })
+        range
+    }
+
+    /// The least and the largest half-angle tangents in a convex part of a face with the given corners, all
+    /// numbers where they are not defined; `None` if it lies behind the cell's face. (Tangents of directions
+    /// are quotients of linear functions there, largest and least at corners.)
+    fn spans(&self, corners: &[Vector3<f64>; 4]) -> Option<[[f64; 2]; 2]> {
+        let everything = [f64::NEG_INFINITY, f64::INFINITY];
+        let depths = corners.map(|n| self.side * n[self.axis]);
+        if depths.iter().all(|&depth| depth <= 0.0) {
+            return None;
+        }
+        if depths.iter().any(|&depth| depth < 0.0) {
+            return Some([everything; 2]);
+        }
+        Some(across(self.axis).map(|axis| {
+            let mut span = [f64::INFINITY, f64::NEG_INFINITY];
+            for (depth, corner) in depths.iter().zip(corners) {
+                let height = corner[axis];
+                let place = height / (depth + (depth * depth + height * height).sqrt());
+                if place.is_nan() {
+                    return everything;
+                }
+                span = [span[0].min(place), span[1].max(place)];
+            }
+            span
+        }))
     }
 
     /// The weight at the given place on the face.
@@ -159,9 +187,17 @@ impl CellWeight {
 impl Profile {
     #[inline(always)]
     fn value(&self, q: f64) -> f64 {
-        let rise = ((q - self.rises) * self.per_rise).clamp(0.0, 1.0);
-        let fall = ((self.falls - q) * self.per_fall).clamp(0.0, 1.0);
-        smoothstep(rise) * smoothstep(fall)
+        self.rise(q) * self.fall(q)
+    }
+
+    #[inline(always)]
+    fn rise(&self, q: f64) -> f64 {
+        smoothstep(((q - self.rises) * self.per_rise).clamp(0.0, 1.0))
+    }
+
+    #[inline(always)]
+    fn fall(&self, q: f64) -> f64 {
+        smoothstep(((self.falls - q) * self.per_fall).clamp(0.0, 1.0))
     }
 
     /// The profile, and its slope per angle over depth^2 + height^2, at N places.

@@ -136,10 +136,11 @@ fn every_measure_can_be_had_and_agrees_with_that_of_the_segment() {
         let curvature = survey.curvature().expect("a formula");
         assert!(curvature.gauss_bonnet_error().abs() < 1e-8);
         let mesh = mesh_properties(&grain.mesh(128)).expect("closed");
-        assert!((mesh.volume / survey.properties().volume - 1.0).abs() < 2e-4);
+        let properties = survey.properties().expect("a solid");
+        assert!((mesh.volume / properties.volume - 1.0).abs() < 2e-4);
         (
             survey.angularity().expect("a solid"),
-            survey.spectrum(),
+            survey.spectrum().expect("a star shape"),
             curvature.mean().mean,
             survey.dimensions().expect("a solid"),
         )

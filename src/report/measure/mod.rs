@@ -1,9 +1,11 @@
 //! What `grainform measure` tells of a solid.
 
+mod faces;
 mod names;
 mod records;
 mod text;
 
+pub use faces::{FacesRecord, FillRecord};
 pub use names::{Measure, UnknownMeasure};
 pub(super) use records::rows;
 pub use records::{
@@ -12,8 +14,9 @@ pub use records::{
 };
 
 use crate::fit::ReferenceKind;
-use crate::measure::{Convexity, Form, Spectrum, Sphericity, Survey, SurveyError};
+use crate::measure::{Convexity, Form, ScannedBody, Spectrum, Sphericity, Survey, SurveyError};
 use serde::Serialize;
+use std::collections::BTreeMap;
 
 /// What was measured.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -47,13 +50,20 @@ pub struct MeasureReport {
     /// The measures.
     #[serde(flatten)]
     pub measures: Measures,
+    /// What the faces of a scan enclose; absent of points and models.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub faces: Option<FacesRecord>,
+    /// The measures that were asked for and cannot be had, as nulls.
+    #[serde(flatten)]
+    nulls: BTreeMap<&'static str, ()>,
     /// Measures that were asked for and cannot be had.
     pub not_measured: Vec<NotMeasured>,
     /// What is odd about the input: whole sentences.
     pub warnings: Vec<String>,
 }
 
-/// The measures of a solid; absent are those that were not asked for or cannot be had.
+/// The measures of a solid; absent are those that were not asked for, and `null` in the report those that
+/// cannot be had.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct Measures {
     /// Area.
@@ -132,38 +142,61 @@ impl MeasureReport {
     ) -> Self {
         let mut measures = Measures::default();
         let mut not_measured = Vec::new();
+        let mut nulls = BTreeMap::new();
         for measure in only {
             if let Err(error) = measures.take(*measure, survey) {
-                not_measured.push(NotMeasured {
-                    measure: measure.name(),
-                    reason: error.to_string(),
-                });
+                nulls.insert(measure.name(), ());
+                not_measured.push(NotMeasured::new(measure.name(), &error));
             }
+        }
+        if measures
+            .spheres
+            .is_some_and(|spheres| spheres.inscribed.is_none())
+            && let Err(error) = survey.inscribed()
+        {
+            not_measured.push(NotMeasured::new("spheres.inscribed", &error));
         }
         Self {
             input,
             of,
             measures,
+            faces: None,
+            nulls,
             not_measured,
             warnings,
         }
+    }
+
+    /// The same with what the faces of the scan enclose.
+    pub fn with_faces(mut self, scanned: &ScannedBody) -> Self {
+        let faces = FacesRecord::new(scanned);
+        self.warnings.extend(faces.sentences());
+        self.faces = Some(faces);
+        self
+    }
+}
+
+impl NotMeasured {
+    fn new(measure: &'static str, error: &SurveyError) -> Self {
+        let reason = error.to_string();
+        Self { measure, reason }
     }
 }
 
 impl Measures {
     fn take(&mut self, measure: Measure, survey: &Survey<'_>) -> Result<(), SurveyError> {
         match measure {
-            Measure::Area => self.area = Some(survey.properties().area),
-            Measure::Volume => self.volume = Some(survey.properties().volume),
-            Measure::Centroid => self.centroid = Some(survey.properties().centroid.coords.into()),
-            Measure::Inertia => self.inertia = Some(rows(&survey.properties().inertia)),
+            Measure::Area => self.area = Some(survey.area()?),
+            Measure::Volume => self.volume = Some(survey.volume()?),
+            Measure::Centroid => self.centroid = Some(survey.properties()?.centroid.coords.into()),
+            Measure::Inertia => self.inertia = Some(rows(&survey.inertia()?)),
             Measure::Principal => self.principal = Some(Principal::new(&survey.principal()?)),
             Measure::Dimensions => self.dimensions = Some(Dimensions::new(survey.dimensions()?)),
             Measure::MinimumBox => self.minimum_box = Some(survey.minimum_box()?.into()),
             Measure::Form => self.form = Some(survey.form()?),
             Measure::Spheres => {
                 self.spheres = Some(Spheres {
-                    inscribed: survey.inscribed()?.into(),
+                    inscribed: survey.inscribed().ok().map(Into::into),
                     enclosing: survey.enclosing()?.into(),
                 });
             }
@@ -182,7 +215,7 @@ impl Measures {
                 ]);
             }
             Measure::Curvature => self.curvature = Some(survey.curvature()?.into()),
-            Measure::Spectrum => self.spectrum = Some(survey.spectrum()),
+            Measure::Spectrum => self.spectrum = Some(survey.spectrum()?),
         }
         Ok(())
     }

@@ -82,8 +82,8 @@ impl From<OrientedBox> for BoxRecord {
 /// The spheres within and around a body.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Spheres {
-    /// The largest sphere inside.
-    pub inscribed: SphereRecord,
+    /// The largest sphere inside; `null` where none was found.
+    pub inscribed: Option<SphereRecord>,
     /// The smallest sphere outside.
     pub enclosing: SphereRecord,
 }
@@ -176,16 +176,16 @@ impl ProjectionRecord {
             smallest_feret: outline.smallest_feret,
             enclosing_diameter: outline.enclosing_diameter,
             inscribed_diameter: outline.inscribed_diameter,
-            area_sphericity: outline.area_sphericity(),
-            diameter_sphericity: outline.diameter_sphericity(),
-            circle_ratio: outline.circle_ratio(),
-            riley_sphericity: outline.riley_sphericity(),
-            perimeter_sphericity: outline.perimeter_sphericity(),
-            circularity: outline.circularity(),
-            width_to_length: outline.width_to_length(),
-            solidity: outline.solidity(),
-            convexity: outline.convexity(),
-            roundness: outline.roundness,
+            area_sphericity: outline.area_sphericity().min(1.0),
+            diameter_sphericity: outline.diameter_sphericity().min(1.0),
+            circle_ratio: outline.circle_ratio().min(1.0),
+            riley_sphericity: outline.riley_sphericity().min(1.0),
+            perimeter_sphericity: outline.perimeter_sphericity().min(1.0),
+            circularity: outline.circularity().min(1.0),
+            width_to_length: outline.width_to_length().min(1.0),
+            solidity: outline.solidity().min(1.0),
+            convexity: outline.convexity().min(1.0),
+            roundness: outline.roundness.min(1.0),
         }
     }
 }

@@ -19,6 +19,9 @@ impl fmt::Display for MeasureReport {
         };
         writeln!(f, "input         {}", self.input)?;
         writeln!(f, "measured      {of}")?;
+        if let Some(faces) = &self.faces {
+            writeln!(f, "bodies        {faces}")?;
+        }
         self.mass(f)?;
         self.size(f)?;
         self.shape(f)?;
@@ -92,7 +95,8 @@ impl MeasureReport {
         }
         if let Some(spheres) = measures.spheres {
             let radius = |sphere: SphereRecord| short(sphere.radius);
-            let (inside, outside) = (radius(spheres.inscribed), radius(spheres.enclosing));
+            let inside = spheres.inscribed.map_or("none".into(), radius);
+            let outside = radius(spheres.enclosing);
             writeln!(
                 f,
                 "spheres       radii: inscribed {inside}, enclosing {outside}"

@@ -187,7 +187,10 @@ fn extents_change_by_their_ends_and_their_axes() {
     let integrals = surface.gradients();
     let mut random = ChaCha8Rng::seed_from_u64(8);
     let along: Vec<f64> = (0..estimate.coefficients.len())
-        .map(|j| -> f64 { StandardNormal.sample(&mut random) } / (1.0 + j as f64))
+        .map(|j| {
+            let normal: f64 = StandardNormal.sample(&mut random);
+            normal / (1.0 + j as f64)
+        })
         .collect();
     let moved = |by: f64, i: usize| {
         let mut moved = estimate.clone();

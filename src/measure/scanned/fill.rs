@@ -1,0 +1,181 @@
+//! Closing holes by triangles over their rims.
+
+use super::bodies::parts;
+use crate::Mesh;
+use nalgebra::{Point3, Vector3};
+
+/// What closes the small holes of a scan.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Fill {
+    /// Number of holes.
+    pub holes: usize,
+    /// Edges of their rims.
+    pub edges: usize,
+    /// Area of the triangles that close them, in the unit squared. It is part of the area.
+    pub area: f64,
+}
+
+/// Corners of a rim up to which the triangles of least area are looked for, in time that grows as the cube;
+/// longer ones get a fan round their middle.
+const LEAST_AREA_CORNERS: usize = 120;
+
+/// The mesh with its holes closed, if that takes at most the `largest` share of the area of the part of the
+/// mesh round each of them; else the mesh as it was, and the share.
+pub(super) fn fill(
+    mut mesh: Mesh,
+    rims: &[Vec<u32>],
+    largest: f64,
+) -> Result<(Mesh, Fill), (Mesh, f64)> {
+    let (vertices, triangles) = (mesh.vertices.len(), mesh.triangles.len());
+    for rim in rims {
+        close(&mut mesh, rim);
+    }
+    let area = |triangle: usize| {
+        let [a, b, c] = mesh.triangles[triangle].map(|corner| mesh.vertices[corner as usize]);
+        (b - a).cross(&(c - a)).norm() / 2.0
+    };
+    let mut filled = 0.0;
+    let mut most: f64 = 0.0;
+    for part in parts(&mesh) {
+        let (mut own, mut faces) = (0.0, 0.0);
+        for triangle in part {
+            match triangle < triangles {
+                true => faces += area(triangle),
+                false => own += area(triangle),
+            }
+        }
+        filled += own;
+        most = most.max(own / faces);
+    }
+    if most.is_nan() || most > largest {
+        mesh.vertices.truncate(vertices);
+        mesh.triangles.truncate(triangles);
+        return Err((mesh, most));
+    }
+    let fill = Fill {
+        holes: rims.len(),
+        edges: rims.iter().map(Vec::len).sum(),
+        area: filled,
+    };
+    Ok((mesh, fill))
+}
+
+/// Adds triangles over a rim; nothing over one of two corners, whose edges coincide.
+fn close(mesh: &mut Mesh, rim: &[u32]) {
+    let corners: Vec<Point3<f64>> = rim.iter().map(|&i| mesh.vertices[i as usize]).collect();
+    if corners.len() <= LEAST_AREA_CORNERS {
+        let triangles = least_area(&corners);
+        let named = triangles
+            .into_iter()
+            .map(|triangle| triangle.map(|i| rim[i]));
+        mesh.triangles.extend(named);
+        return;
+    }
+    let sum: Vector3<f64> = corners.iter().map(|corner| corner - corners[0]).sum();
+    let middle = mesh.vertices.len() as u32;
+    mesh.vertices.push(corners[0] + sum / corners.len() as f64);
+    let edges = rim.iter().zip(rim.iter().cycle().skip(1));
+    mesh.triangles
+        .extend(edges.map(|(&from, &to)| [from, to, middle]));
+}
+
+/// The triangles over a closed curve whose areas have the least sum (Barequet and Sharir 1995).
+fn least_area(corners: &[Point3<f64>]) -> Vec<[usize; 3]> {
+    let count = corners.len();
+    let area = |i: usize, j: usize, k: usize| {
+        (corners[j] - corners[i])
+            .cross(&(corners[k] - corners[i]))
+            .norm()
+    };
+    // For the corners i..=k: the least sum, and the corner that makes a triangle with i and k for it.
+    let mut least = vec![(0.0, 0_usize); count * count];
+    for span in 2..count {
+        for i in 0..count - span {
+            let k = i + span;
+            let sums = (i + 1..k).map(|j| {
+                (
+                    least[i * count + j].0 + least[j * count + k].0 + area(i, j, k),
+                    j,
+                )
+            });
+            let best = sums.min_by(|one, other| one.0.total_cmp(&other.0));
+            least[i * count + k] = best.unwrap_or((0.0, i + 1));
+        }
+    }
+    let mut triangles = Vec::with_capacity(count.saturating_sub(2));
+    let mut open = vec![(0, count.saturating_sub(1))];
+    while let Some((i, k)) = open.pop() {
+        if k > i + 1 {
+            let j = least[i * count + k].1;
+            triangles.push([i, j, k]);
+            open.extend([(i, j), (j, k)]);
+        }
+    }
+    triangles
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::measure::mesh_properties;
+    use approx::assert_relative_eq;
+    use std::f64::consts::PI;
+
+    fn area(corners: &[Point3<f64>]) -> f64 {
+        let triangles = least_area(corners);
+        assert_eq!(triangles.len(), corners.len() - 2);
+        let areas = triangles.iter().map(|t| {
+            let [a, b, c] = t.map(|i| corners[i]);
+            (b - a).cross(&(c - a)).norm() / 2.0
+        });
+        areas.sum()
+    }
+
+    #[test]
+    fn a_bent_polygon_has_its_area() {
+        // An L of three unit squares, from any of its corners on.
+        let mut corners: Vec<_> = [[0, 0], [2, 0], [2, 1], [1, 1], [1, 2], [0, 2]]
+            .map(|[x, y]| Point3::new(f64::from(x), f64::from(y), 1.0))
+            .into();
+        for _ in 0..corners.len() {
+            assert_relative_eq!(area(&corners), 3.0, epsilon = 1e-12);
+            corners.rotate_left(1);
+        }
+        assert!(least_area(&corners[..2]).is_empty());
+    }
+
+    #[test]
+    fn a_removed_patch_is_closed_by_a_fan_or_by_least_area() {
+        for (parts, resolution) in [(2_u32, 12_u32), (40, 160)] {
+            let full = Mesh::radial(resolution as usize, |n| 1.0 / n.amax());
+            // A square patch in the middle of a face of the cube: flat, so the fill is what was there.
+            let half = 1e-9 + (f64::from(parts) / f64::from(resolution) * PI / 4.0).tan();
+            let is_kept = |corners: &[u32; 3]| {
+                let outside = |i: &u32| {
+                    let vertex = &full.vertices[*i as usize];
+                    vertex.z < 0.999 || vertex.coords.xy().amax() > half
+                };
+                corners.iter().any(outside)
+            };
+            let mut open = full.clone();
+            open.triangles.retain(is_kept);
+            assert!(open.triangles.len() < full.triangles.len());
+            let mut edges = Vec::new();
+            crate::scan::each_edge(open.vertices.len(), &open.triangles, |edge| {
+                match (edge.forward, edge.backward) {
+                    (1, 0) => edges.push([edge.ends[1], edge.ends[0]]),
+                    (0, 1) => edges.push(edge.ends),
+                    _ => {}
+                }
+            });
+            let rims = super::super::rims::rims(&edges);
+            assert_eq!(rims.len(), 1);
+            assert_eq!(rims[0].len() > LEAST_AREA_CORNERS, parts > 2);
+            let (closed, filled) = fill(open, &rims, 0.05).expect("a small hole");
+            assert_eq!(filled.edges, edges.len());
+            let found = mesh_properties(&closed).expect("a solid");
+            assert_relative_eq!(found.area, 24.0, epsilon = 1e-9);
+            assert_relative_eq!(found.volume, 8.0, epsilon = 1e-9);
+        }
+    }
+}

@@ -1,0 +1,145 @@
+//! The bodies that the faces of a scan enclose.
+//!
+//! The faces are used as they are. Points at the same place are one, small holes are closed, and what is
+//! still open, or tangled, has no area and volume: it is never replaced by another surface.
+
+mod bodies;
+mod fill;
+mod rims;
+
+use crate::Mesh;
+use crate::scan::{Scan, each_edge, first_at_same_place};
+use bodies::arrange;
+pub use fill::Fill;
+use fill::fill;
+use nalgebra::Point3;
+use rims::rims;
+use thiserror::Error;
+
+/// Largest share of a body's area that fills of its holes may have. Its area is then off by some percent at
+/// most; a few triangles that are missing have a thousandth.
+const LARGEST_FILL: f64 = 0.05;
+
+/// The bodies that the faces of a scan enclose.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ScannedBody {
+    /// The faces, and those that close small holes; wound counter-clockwise from outside, in cavities from
+    /// within. Every vertex is used.
+    pub mesh: Mesh,
+    /// Bodies that share no point; of an open mesh, its parts.
+    pub bodies: usize,
+    /// Inner surfaces: hollows that are subtracted from the body round them.
+    pub cavities: usize,
+    /// What closes small holes, if there were any.
+    pub fill: Option<Fill>,
+    /// Why there is neither area nor volume, if so.
+    pub defect: Option<FacesDefect>,
+}
+
+/// Why faces do not say what is inside.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+#[non_exhaustive]
+pub enum FacesDefect {
+    /// There are holes whose fills would be a guess.
+    #[error(
+        "the faces leave {holes} holes open, {:.0} % of the area or more; scan what is missing, or fit \
+         the scan and measure the model",
+        100.0 * share
+    )]
+    Open {
+        /// Number of holes.
+        holes: usize,
+        /// Area of the surfaces that would close them, as a share of that of the faces.
+        share: f64,
+    },
+    /// Edges with more than two triangles, or with triangles wound in opposite senses.
+    #[error(
+        "at {edges} edges more than two triangles meet, or two that are wound in opposite senses"
+    )]
+    Tangled {
+        /// Number of such edges.
+        edges: usize,
+    },
+    /// A body reaches into another one, or is inside of it and wound like it.
+    #[error(
+        "{parts} closed surfaces overlap, or lie in each other wound alike: a hollow must be wound inwards"
+    )]
+    Overlapping {
+        /// Number of closed surfaces.
+        parts: usize,
+    },
+}
+
+/// The bodies that the faces of a scan enclose; `None` of points without faces.
+pub fn scanned_body(scan: &Scan) -> Option<ScannedBody> {
+    scan.topology.as_ref()?;
+    let mesh = welded(scan);
+    if mesh.triangles.is_empty() {
+        return None;
+    }
+    let mut open = Vec::new();
+    let mut tangled = 0;
+    each_edge(mesh.vertices.len(), &mesh.triangles, |edge| {
+        let [low, high] = edge.ends;
+        match (edge.forward, edge.backward) {
+            (1, 0) => open.push([high, low]),
+            (0, 1) => open.push([low, high]),
+            (forward, backward) => tangled += usize::from(forward != backward),
+        }
+    });
+    if tangled > 0 {
+        let defect = FacesDefect::Tangled { edges: tangled };
+        return Some(refused(mesh, defect));
+    }
+    if open.is_empty() {
+        return Some(arrange(mesh, None));
+    }
+    let rims = rims(&open);
+    match fill(mesh, &rims, LARGEST_FILL) {
+        Ok((mesh, fill)) => Some(arrange(mesh, Some(fill))),
+        Err((mesh, share)) => {
+            let holes = rims.len();
+            Some(refused(mesh, FacesDefect::Open { holes, share }))
+        }
+    }
+}
+
+fn refused(mesh: Mesh, defect: FacesDefect) -> ScannedBody {
+    ScannedBody {
+        bodies: bodies::parts(&mesh).len(),
+        cavities: 0,
+        fill: None,
+        defect: Some(defect),
+        mesh,
+    }
+}
+
+/// The faces over points that are distinct and all in use.
+fn welded(scan: &Scan) -> Mesh {
+    let same = first_at_same_place(&scan.points);
+    let mut numbers = vec![None; scan.points.len()];
+    let mut vertices: Vec<Point3<f64>> = Vec::new();
+    let mut triangles = Vec::with_capacity(scan.triangles.len());
+    // The number given first to a place names the point that stands for it.
+    let mut firsts = vec![u32::MAX; scan.points.len()];
+    for (index, &number) in same.iter().enumerate() {
+        let first = &mut firsts[number as usize];
+        *first = (*first).min(index as u32);
+    }
+    for corners in &scan.triangles {
+        let [a, b, c] = corners.map(|corner| same[corner as usize]);
+        if a == b || b == c || c == a {
+            continue;
+        }
+        triangles.push([a, b, c].map(|corner| {
+            *numbers[corner as usize].get_or_insert_with(|| {
+                vertices.push(scan.points[firsts[corner as usize] as usize]);
+                vertices.len() as u32 - 1
+            })
+        }));
+    }
+    Mesh {
+        vertices,
+        triangles,
+    }
+}

@@ -1,0 +1,96 @@
+//! A body at unit size.
+
+use super::{Scheme, SurveyError};
+use crate::Mesh;
+use crate::measure::unit::Unit;
+use crate::measure::{
+    MassProperties, ScannedBody, four_triangles, grain_properties, mesh_properties,
+};
+use crate::model::{Grain, StarSurface};
+use crate::sphere::cube_grid;
+use nalgebra::Point3;
+
+/// Parts per angle of the source's grid.
+const PUBLISHED_GRID: usize = 128;
+
+/// Least volume of a body of unit size, that is of one whose box is some two units long: a needle a
+/// hundred thousand times as long as thick. Points in one plane, rounded, have 1e-16.
+const LEAST_VOLUME: f64 = 1e-11;
+
+pub(super) enum Body<'a> {
+    Grain(Box<Grain>, Scheme),
+    Surface(&'a (dyn StarSurface + Sync), MassProperties),
+    Mesh(Mesh, Inside),
+}
+
+/// What a mesh encloses.
+pub(super) enum Inside {
+    /// One body, or several.
+    Bodies(usize),
+    /// Nothing that can be told.
+    Unknown(SurveyError),
+}
+
+impl<'a> Body<'a> {
+    pub(super) fn grain(grain: &Grain, scheme: Scheme) -> (Self, Unit) {
+        let (directions, _) = cube_grid(2);
+        let size = directions
+            .iter()
+            .map(|n| grain.radius(n).abs())
+            .fold(0.0, f64::max);
+        let unit = Unit::new(size, grain.frame().centre);
+        let resized = Box::new(grain.about_origin(1.0 / unit.length));
+        (Self::Grain(resized, scheme), unit)
+    }
+
+    pub(super) fn mesh(mesh: &Mesh, inside: Inside) -> (Self, Unit) {
+        let unit = Unit::of(mesh);
+        (Self::Mesh(unit.mesh(mesh), inside), unit)
+    }
+
+    pub(super) fn scanned(scanned: &ScannedBody) -> (Self, Unit) {
+        let inside = match scanned.defect {
+            Some(defect) => Inside::Unknown(defect.into()),
+            None => Inside::Bodies(scanned.bodies),
+        };
+        Self::mesh(&scanned.mesh, inside)
+    }
+
+    /// Area, volume, centroid and inertia.
+    pub(super) fn properties(&self) -> Result<MassProperties, SurveyError> {
+        let found = match self {
+            Self::Grain(grain, Scheme::Exact) => grain_properties(grain).properties,
+            Self::Grain(grain, Scheme::FourTriangles) => {
+                four_triangles(grain.as_ref(), PUBLISHED_GRID, PUBLISHED_GRID)
+            }
+            Self::Surface(_, properties) => return Ok(*properties),
+            Self::Mesh(_, Inside::Unknown(error)) => return Err(error.clone()),
+            Self::Mesh(mesh, _) => mesh_properties(mesh)?,
+        };
+        let figures = found.inertia.iter().chain(found.centroid.iter());
+        let is_finite = found.area.is_finite() && figures.copied().all(f64::is_finite);
+        // Written so that NaN fails.
+        if !(is_finite && found.area > 0.0 && found.volume > LEAST_VOLUME) {
+            return Err(SurveyError::NotSolid);
+        }
+        Ok(found)
+    }
+
+    /// How many bodies there are; `None` where that cannot be told.
+    pub(super) fn count(&self) -> Result<usize, SurveyError> {
+        match self {
+            Self::Grain(..) | Self::Surface(..) => Ok(1),
+            Self::Mesh(_, Inside::Bodies(bodies)) => Ok(*bodies),
+            Self::Mesh(_, Inside::Unknown(error)) => Err(error.clone()),
+        }
+    }
+
+    /// The surface, if it has a formula, and its origin.
+    pub(super) fn surface(&self) -> Option<(&(dyn StarSurface + Sync), Point3<f64>)> {
+        match self {
+            Self::Grain(grain, _) => Some((grain.as_ref(), grain.frame().centre)),
+            Self::Surface(surface, _) => Some((*surface, Point3::origin())),
+            Self::Mesh(..) => None,
+        }
+    }
+}

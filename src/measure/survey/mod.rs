@@ -1,0 +1,433 @@
+//! A body under measurement.
+
+mod body;
+mod error;
+
+use super::angularity::angularity;
+use super::bounds::ratio;
+use super::elements::{Element, mesh_elements, surface_elements};
+use super::extents::{dimensions_of_surface, hold, sorted};
+use super::nodes::{Integrand, grain_nodes, octant_nodes};
+use super::unit::Unit;
+use super::{
+    Ball, Convexity, CurvatureStatistics, EquivalentEllipsoid, Form, MassProperties, OrientedBox,
+    Outline, PrincipalInertia, ScannedBody, Spectrum, Sphericity, convex_hull, enclosing_ball,
+    extents, inscribed_ball, minimum_box, project,
+};
+use crate::Mesh;
+use crate::model::{Grain, StarSurface};
+use body::{Body, Inside};
+pub use error::SurveyError;
+use nalgebra::{Matrix3, Vector3};
+use std::cell::OnceCell;
+use std::f64::consts::PI;
+
+/// Cells per edge of the cube of directions on which a grain's hull, spheres and outlines are found:
+/// 24 578 vertices. They lie on the surface, and what is between them is cut off by at most 1e-4 of
+/// the radius of curvature.
+const RESOLUTION: usize = 64;
+
+/// Share of the directions from the centroid that may meet the surface more than once where the radius
+/// from there is expanded or compared.
+const LARGEST_OVERHANG: f64 = 0.01;
+
+/// A body, and what has been measured of it: each figure is computed when it is first asked for, and
+/// what others need is shared.
+///
+/// Area, volume and moments of a grain are those of its formulas ([`grain_properties`]); its dimensions and
+/// the sides of its box are where its surface reaches to ([`support`](super::support)); convexity, spheres
+/// and outlines are those of a mesh of it, good to 1e-4 where it is smooth. Of a mesh, everything is that of
+/// the polyhedron.
+///
+/// Everything is computed at unit size, so any unit of length will do. A ratio that is outside of its range
+/// is an error, never a figure.
+///
+/// [`grain_properties`]: super::grain_properties
+pub struct Survey<'a> {
+    body: Body<'a>,
+    unit: Unit,
+    properties: OnceCell<Result<MassProperties, SurveyError>>,
+    extents: OnceCell<Result<Vector3<f64>, SurveyError>>,
+    mesh: OnceCell<Mesh>,
+    hull: OnceCell<Result<Mesh, SurveyError>>,
+    elements: OnceCell<Vec<Element>>,
+    inscribed: OnceCell<Result<Ball, SurveyError>>,
+    enclosing: OnceCell<Result<Ball, SurveyError>>,
+    curvature: OnceCell<CurvatureStatistics>,
+}
+
+/// How area, volume and moments of a grain are integrated.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum Scheme {
+    /// Gauss quadrature of the formulas, see [`grain_properties`](super::grain_properties).
+    #[default]
+    Exact,
+    /// The source's polyhedron on a 128 x 128 grid of angles, see
+    /// [`four_triangles`](super::four_triangles()): to reproduce published figures.
+    FourTriangles,
+}
+
+impl<'a> Survey<'a> {
+    /// Of a fitted grain.
+    pub fn of_grain(grain: &'a Grain, scheme: Scheme) -> Self {
+        Self::new(Body::grain(grain, scheme))
+    }
+
+    /// Of a surface whose area, volume and moments are known, in its own frame.
+    pub fn of_surface(surface: &'a (dyn StarSurface + Sync), properties: MassProperties) -> Self {
+        Self::new((Body::Surface(surface, properties), Unit::OWN))
+    }
+
+    /// Of a closed mesh of one body, wound counter-clockwise from outside.
+    ///
+    /// # Errors
+    ///
+    /// When it is broken or encloses no volume.
+    pub fn of_mesh(mesh: &Mesh) -> Result<Self, SurveyError> {
+        let survey = Self::new(Body::mesh(mesh, Inside::Bodies(1)));
+        survey.properties()?;
+        Ok(survey)
+    }
+
+    /// Of what the faces of a scan enclose.
+    pub fn of_scanned(scanned: &ScannedBody) -> Self {
+        Self::new(Body::scanned(scanned))
+    }
+
+    fn new((body, unit): (Body<'a>, Unit)) -> Self {
+        Self {
+            body,
+            unit,
+            properties: OnceCell::new(),
+            extents: OnceCell::new(),
+            mesh: OnceCell::new(),
+            hull: OnceCell::new(),
+            elements: OnceCell::new(),
+            inscribed: OnceCell::new(),
+            enclosing: OnceCell::new(),
+            curvature: OnceCell::new(),
+        }
+    }
+
+    /// Area, volume, centroid and inertia; of several bodies, of all of them. The inertia may be beyond the
+    /// range of numbers.
+    ///
+    /// # Errors
+    ///
+    /// When what is inside cannot be told, or nothing is.
+    pub fn properties(&self) -> Result<MassProperties, SurveyError> {
+        Ok(self.unit.properties(self.unit_properties()?))
+    }
+
+    /// Surface area.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::properties`], and [`SurveyError::OutOfRange`].
+    pub fn area(&self) -> Result<f64, SurveyError> {
+        let area = self.properties()?.area;
+        in_range(area, &[area])
+    }
+
+    /// Volume.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::area`].
+    pub fn volume(&self) -> Result<f64, SurveyError> {
+        let volume = self.properties()?.volume;
+        in_range(volume, &[volume])
+    }
+
+    /// Inertia about the centroid.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::properties`], and [`SurveyError::OutOfRange`].
+    pub fn inertia(&self) -> Result<Matrix3<f64>, SurveyError> {
+        let inertia = self.properties()?.inertia;
+        in_range(inertia, inertia.diagonal().as_slice())
+    }
+
+    /// Principal moments and axes of inertia.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::inertia`].
+    pub fn principal(&self) -> Result<PrincipalInertia, SurveyError> {
+        let principal = self.unit.principal(self.unit_principal()?);
+        in_range(principal, principal.moments.as_slice())
+    }
+
+    /// Extents along the principal axes, descending: length, width, thickness.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::properties`], or when there are several bodies.
+    pub fn dimensions(&self) -> Result<Vector3<f64>, SurveyError> {
+        Ok(self.unit.vector(&self.unit_dimensions()?))
+    }
+
+    /// The box of least volume.
+    ///
+    /// # Errors
+    ///
+    /// When there is no convex hull.
+    pub fn minimum_box(&self) -> Result<OrientedBox, SurveyError> {
+        let found = minimum_box(self.hull()?)?;
+        let held = match self.body.surface() {
+            Some((surface, origin)) => hold(surface, &origin, self.mesh(), &found.axes),
+            None => found,
+        };
+        Ok(self.unit.oriented_box(held))
+    }
+
+    /// Ratios of the dimensions along the principal axes.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::dimensions`].
+    pub fn form(&self) -> Result<Form, SurveyError> {
+        Ok(Form::new(&self.unit_dimensions()?).checked()?)
+    }
+
+    /// The largest inscribed sphere.
+    ///
+    /// # Errors
+    ///
+    /// When nothing is inside, or there are several bodies.
+    pub fn inscribed(&self) -> Result<Ball, SurveyError> {
+        Ok(self.unit.ball(self.unit_inscribed()?))
+    }
+
+    /// The smallest enclosing sphere.
+    ///
+    /// # Errors
+    ///
+    /// When there is no convex hull.
+    pub fn enclosing(&self) -> Result<Ball, SurveyError> {
+        Ok(self.unit.ball(self.unit_enclosing()?))
+    }
+
+    /// Sphericity in its forms.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::dimensions`] and [`Self::enclosing`].
+    pub fn sphericity(&self) -> Result<Sphericity, SurveyError> {
+        let found = Sphericity::new(
+            self.unit_properties()?,
+            &self.unit_dimensions()?,
+            self.unit_inscribed()?.radius,
+            self.unit_enclosing()?.radius,
+        );
+        Ok(found.checked()?)
+    }
+
+    /// Curvature over the whole surface of a grain.
+    ///
+    /// # Errors
+    ///
+    /// [`SurveyError::Flat`] of a mesh.
+    pub fn curvature(&self) -> Result<&CurvatureStatistics, SurveyError> {
+        let (surface, _) = self.body.surface().ok_or(SurveyError::Flat)?;
+        Ok(self.curvature.get_or_init(|| {
+            let nodes = self.nodes(Integrand::Curvature);
+            CurvatureStatistics::new(surface, &nodes).in_unit(self.unit.length)
+        }))
+    }
+
+    /// Roundness of the corners, see [`CurvatureStatistics::roundness`].
+    ///
+    /// # Errors
+    ///
+    /// [`SurveyError::Flat`] of a mesh.
+    pub fn roundness(&self) -> Result<f64, SurveyError> {
+        let found = self.curvature()?.roundness(self.inscribed()?.radius);
+        Ok(ratio("roundness", found)?)
+    }
+
+    /// Regularity: the mean of roundness and of the sphericity inscribed over enclosing sphere, above 0
+    /// to 1 (Cho, Dodds and Santamarina 2006).
+    ///
+    /// # Errors
+    ///
+    /// [`SurveyError::Flat`] of a mesh.
+    pub fn regularity(&self) -> Result<f64, SurveyError> {
+        let spheres = self.unit_inscribed()?.radius / self.unit_enclosing()?.radius;
+        let sphericity = ratio("inscribed over enclosing radius", spheres)?;
+        Ok(0.5 * (self.roundness()? + sphericity))
+    }
+
+    /// The body against its convex hull.
+    ///
+    /// # Errors
+    ///
+    /// When there is no convex hull, or nothing is inside, or there are several bodies.
+    pub fn convexity(&self) -> Result<Convexity, SurveyError> {
+        self.one_body()?;
+        Ok(Convexity::new(self.mesh(), self.hull()?)?.checked()?)
+    }
+
+    /// The ellipsoid of equal moments.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::dimensions`].
+    pub fn ellipsoid(&self) -> Result<EquivalentEllipsoid, SurveyError> {
+        Ok(self.unit.ellipsoid(self.unit_ellipsoid()?))
+    }
+
+    /// Angularity index: the mean over all directions from the centroid of |r - r_E| / r_E, with r_E
+    /// the radius of the ellipsoid of equal moments. Zero of an ellipsoid, without an upper bound.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::dimensions`], and [`SurveyError::NotStarShaped`].
+    pub fn angularity(&self) -> Result<f64, SurveyError> {
+        Ok(angularity(self.star_shaped()?, &self.unit_ellipsoid()?))
+    }
+
+    /// Power of the radius from the centroid per degree of spherical harmonics.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::angularity`].
+    pub fn spectrum(&self) -> Result<Spectrum, SurveyError> {
+        Ok(self.unit.spectrum(Spectrum::new(self.star_shaped()?)))
+    }
+
+    /// Outlines seen along the principal axes: along the length, the width and the thickness. The last
+    /// is that of a body that lies on its flat side, seen from above.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::dimensions`], and [`SurveyError::Projection`].
+    pub fn projections(&self) -> Result<[Outline; 3], SurveyError> {
+        self.one_body()?;
+        let axes = self.unit_principal()?.axes;
+        let centre = self.unit_properties()?.centroid;
+        let along = |i: usize, along: &'static str| {
+            let found = project(self.mesh(), &axes.column(i).into_owned(), &centre);
+            let outline = found.map_err(|source| SurveyError::Projection { along, source })?;
+            Ok(self.unit.outline(outline.checked()?))
+        };
+        let seen = [along(0, "length"), along(1, "width"), along(2, "thickness")];
+        let [length, width, thickness]: [Result<Outline, SurveyError>; 3] = seen;
+        Ok([length?, width?, thickness?])
+    }
+
+    fn unit_properties(&self) -> Result<&MassProperties, SurveyError> {
+        let found = self.properties.get_or_init(|| self.body.properties());
+        found.as_ref().map_err(Clone::clone)
+    }
+
+    fn unit_principal(&self) -> Result<PrincipalInertia, SurveyError> {
+        self.unit_properties()?
+            .principal()
+            .ok_or(SurveyError::NotSolid)
+    }
+
+    fn unit_ellipsoid(&self) -> Result<EquivalentEllipsoid, SurveyError> {
+        self.one_body()?;
+        EquivalentEllipsoid::new(self.unit_properties()?).ok_or(SurveyError::NotSolid)
+    }
+
+    fn unit_dimensions(&self) -> Result<Vector3<f64>, SurveyError> {
+        let dimensions = || {
+            self.one_body()?;
+            let axes = self.unit_principal()?.axes;
+            Ok(match self.body.surface() {
+                Some((surface, origin)) => {
+                    dimensions_of_surface(surface, &origin, self.mesh(), &axes)
+                }
+                None => sorted(extents(self.mesh(), &axes)),
+            })
+        };
+        self.extents.get_or_init(dimensions).clone()
+    }
+
+    fn unit_inscribed(&self) -> Result<Ball, SurveyError> {
+        let ball = || {
+            self.one_body()?;
+            Ok(inscribed_ball(self.mesh())?)
+        };
+        self.inscribed.get_or_init(ball).clone()
+    }
+
+    fn unit_enclosing(&self) -> Result<Ball, SurveyError> {
+        let ball = || Ok(enclosing_ball(&self.hull()?.vertices)?);
+        self.enclosing.get_or_init(ball).clone()
+    }
+
+    fn one_body(&self) -> Result<(), SurveyError> {
+        match self.body.count()? {
+            1 => Ok(()),
+            bodies => Err(SurveyError::Several { bodies }),
+        }
+    }
+
+    /// The mesh, or that of the grain.
+    fn mesh(&self) -> &Mesh {
+        match &self.body {
+            Body::Grain(grain, _) => self.mesh.get_or_init(|| grain.mesh(RESOLUTION)),
+            Body::Surface(surface, _) => self
+                .mesh
+                .get_or_init(|| Mesh::radial(RESOLUTION, |n| surface.radius(n))),
+            Body::Mesh(mesh, _) => mesh,
+        }
+    }
+
+    fn hull(&self) -> Result<&Mesh, SurveyError> {
+        let hull = || Ok(convex_hull(&self.mesh().vertices)?);
+        self.hull.get_or_init(hull).as_ref().map_err(Clone::clone)
+    }
+
+    /// The elements of a surface that is seen once in each direction from the centroid.
+    fn star_shaped(&self) -> Result<&[Element], SurveyError> {
+        self.one_body()?;
+        let centroid = self.unit_properties()?.centroid;
+        let elements = self.elements.get_or_init(|| match &self.body {
+            Body::Grain(grain, _) => {
+                let shift = grain.frame().centre - centroid;
+                surface_elements(grain.as_ref(), &self.nodes(Integrand::Radius), &shift)
+            }
+            Body::Surface(surface, _) => {
+                surface_elements(*surface, &self.nodes(Integrand::Radius), &-centroid.coords)
+            }
+            Body::Mesh(mesh, _) => mesh_elements(mesh, &centroid),
+        });
+        let (mut front, mut back) = (0.0, 0.0);
+        for element in elements {
+            let (_, _, solid_angle) = element.seen();
+            *(if solid_angle > 0.0 {
+                &mut front
+            } else {
+                &mut back
+            }) += solid_angle.abs();
+        }
+        let share = ((front - 4.0 * PI).abs() + back) / (4.0 * PI);
+        // Written so that NaN fails.
+        match share <= LARGEST_OVERHANG {
+            true => Ok(elements),
+            false => Err(SurveyError::NotStarShaped { share }),
+        }
+    }
+
+    /// Gauss nodes of a surface with a formula; none of a mesh.
+    fn nodes(&self, integrand: Integrand) -> Vec<(Vector3<f64>, f64)> {
+        match &self.body {
+            Body::Grain(grain, _) => grain_nodes(grain, integrand),
+            Body::Surface(..) => octant_nodes(integrand),
+            Body::Mesh(..) => Vec::new(),
+        }
+    }
+}
+
+/// A figure, if these numbers of it are told without loss.
+fn in_range<T>(found: T, numbers: &[f64]) -> Result<T, SurveyError> {
+    match numbers.iter().all(|number| number.is_normal()) {
+        true => Ok(found),
+        false => Err(SurveyError::OutOfRange),
+    }
+}

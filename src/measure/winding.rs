@@ -1,0 +1,62 @@
+//! How often a closed surface goes round a point: whether the point is inside.
+
+use crate::Mesh;
+use nalgebra::{Point3, Vector2};
+use std::f64::consts::TAU;
+
+/// The winding number of a mesh about a point off it: the sum of the solid angles of its triangles over
+/// 4 pi (van Oosterom and Strackee 1983). One inside of a closed mesh that is wound counter-clockwise
+/// from outside, zero outside and in cavities; of an open one, a fraction (Jacobson, Kavan and
+/// Sorkine-Hornung 2013). All triangles must name vertices that exist.
+pub(super) fn winding_number(mesh: &Mesh, point: &Point3<f64>) -> f64 {
+    let half_angles = mesh.triangles.iter().map(|corners| {
+        let [a, b, c] = corners.map(|corner| mesh.vertices[corner as usize] - point);
+        let [la, lb, lc] = [a, b, c].map(|v| v.norm());
+        let volume = a.dot(&b.cross(&c));
+        let across = la * lb * lc + a.dot(&b) * lc + b.dot(&c) * la + c.dot(&a) * lb;
+        volume.atan2(across)
+    });
+    half_angles.sum::<f64>() / TAU
+}
+
+/// The winding number of a closed polygon about a point of the plane.
+pub(super) fn polygon_winding_number(corners: &[Vector2<f64>], point: &Vector2<f64>) -> f64 {
+    let next = corners.iter().cycle().skip(1);
+    let angles = corners.iter().zip(next).map(|(from, to)| {
+        let (from, to) = (from - point, to - point);
+        from.perp(&to).atan2(from.dot(&to))
+    });
+    angles.sum::<f64>() / TAU
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_cube_goes_round_its_inside_once() {
+        let mut cube = Mesh::radial(3, |n| 1.0 / n.amax());
+        for (place, expected) in [
+            ([0.0, 0.0, 0.0], 1.0),
+            ([0.99, -0.99, 0.99], 1.0),
+            ([1.01, 0.0, 0.0], 0.0),
+            ([5.0, 5.0, 5.0], 0.0),
+        ] {
+            let found = winding_number(&cube, &Point3::from(place));
+            assert!((found - expected).abs() < 1e-12, "{place:?}: {found}");
+        }
+        cube.triangles
+            .iter_mut()
+            .for_each(|corners| corners.reverse());
+        assert!((winding_number(&cube, &Point3::origin()) + 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_square_goes_round_its_inside_once() {
+        let square = [[1.0, -1.0], [1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0]].map(Vector2::from);
+        for (place, expected) in [([0.9, 0.9], 1.0), ([1.1, 0.0], 0.0)] {
+            let found = polygon_winding_number(&square, &Vector2::from(place));
+            assert!((found - expected).abs() < 1e-12);
+        }
+    }
+}

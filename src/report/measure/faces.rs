@@ -1,0 +1,86 @@
+//! What the faces of a scan enclose.
+
+use crate::measure::{Fill, ScannedBody};
+use crate::report::number::short;
+use serde::Serialize;
+use std::fmt;
+
+/// The bodies that the faces of a scan enclose.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct FacesRecord {
+    /// Bodies that share no point; of an open mesh, its parts.
+    pub bodies: usize,
+    /// Hollows, which are no part of the volume and whose surface is part of the area.
+    pub cavities: usize,
+    /// What closes small holes; `null` where there were none, or larger ones.
+    pub filled: Option<FillRecord>,
+}
+
+/// What closes small holes.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct FillRecord {
+    /// Number of holes.
+    pub holes: usize,
+    /// Edges of their rims.
+    pub edges: usize,
+    /// Area of the triangles that close them: part of the area.
+    pub area: f64,
+}
+
+impl FacesRecord {
+    pub(super) fn new(scanned: &ScannedBody) -> Self {
+        let record = |fill: Fill| FillRecord {
+            holes: fill.holes,
+            edges: fill.edges,
+            area: fill.area,
+        };
+        Self {
+            bodies: scanned.bodies,
+            cavities: scanned.cavities,
+            filled: scanned.fill.map(record),
+        }
+    }
+
+    /// What a reader of the figures must know, in whole sentences.
+    pub(super) fn sentences(&self) -> Vec<String> {
+        let filled = self.filled.map(|filled| {
+            format!(
+                "Small holes were closed: {} with {} edges; the area holds {} for their fill.",
+                filled.holes,
+                filled.edges,
+                short(filled.area)
+            )
+        });
+        let several = (self.bodies > 1).then(|| {
+            format!(
+                "Area, volume, centroid and moments are those of all {} bodies together.",
+                self.bodies
+            )
+        });
+        let hollow = (self.cavities > 0).then(|| {
+            format!(
+                "{} inner surfaces: their volume is subtracted, their area is part of the area.",
+                self.cavities
+            )
+        });
+        [filled, several, hollow].into_iter().flatten().collect()
+    }
+}
+
+impl fmt::Display for FacesRecord {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", self.bodies)?;
+        if self.cavities > 0 {
+            write!(f, ", inner surfaces {}", self.cavities)?;
+        }
+        if let Some(filled) = self.filled {
+            write!(
+                f,
+                ", holes closed {} of area {}",
+                filled.holes,
+                short(filled.area)
+            )?;
+        }
+        Ok(())
+    }
+}
