@@ -1,13 +1,14 @@
 //! The least radius of a grain, proved: no direction is missed between samples.
 //!
 //! Each expansion is bounded on a part of the sphere by its value in one direction and by how fast it can
-//! change, which follows from its degree and its size (see [`bound`]). Where that is not enough, the part is
-//! cut in four. A blend is at least the mean of the bounds of its cells with the weights they can have there.
+//! change, which follows from its degree and its size (see [`bound`]), or from samples there ([`sampled`]).
+//! Where that is not enough, the part is cut in four. A blend is at least the mean of the bounds of its cells with the weights they can have there.
 //! Most expansions of grains need no direction at all: the mean is larger than all other terms together.
 
 mod blend;
 mod bound;
 mod part;
+mod sampled;
 
 use super::{Grain, InvalidGrain, StarSurface, Surface};
 use crate::sphere::{AngleRectangle, Symmetry, cube_grid};

@@ -202,6 +202,26 @@ fn models_that_are_not_sound_do_not_load() {
 }
 
 #[test]
+fn a_cell_that_is_wild_where_no_point_held_it_is_no_reason_to_refuse() {
+    // One cell is 40 times as rough in its cap as it is in its middle: x^4 along a tangent.
+    let cover = Cover::with_margin(CubeCell::uniform(3), MARGIN).expect("a cover");
+    let mut per_cell: Vec<Vec<f64>> = (0..54)
+        .map(|cell| coefficients(4, 3.0, 0.3, cell))
+        .collect();
+    per_cell[20][23] = 6.0;
+    per_cell[20][24] = -6.0;
+    let wild = grain(Surface::Blended(
+        Blended::new(cover, per_cell).expect("cells"),
+    ));
+    let directions = Sampling::Fibonacci.directions(50_000, 0).expect("enough");
+    let least = wild.radii(&directions).into_iter().fold(f64::MAX, f64::min);
+    let start = Instant::now();
+    let found = wild.least_radius();
+    println!("{:?}: {found:?} {least}", start.elapsed());
+    assert_eq!(found.is_ok(), least > 0.0, "{found:?} {least}");
+}
+
+#[test]
 fn a_thousand_coefficients_take_milliseconds() {
     for grain in grains(1.0, 7) {
         let start = Instant::now();
