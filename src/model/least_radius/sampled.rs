@@ -17,6 +17,9 @@ use std::f64::consts::TAU;
 /// The share e of half the range by which values between samples may differ from them.
 const BETWEEN: f64 = 0.5;
 
+/// Largest angle, as a share of that of the cap, within which sampling is worth while.
+const LARGEST: f64 = 0.4;
+
 /// Highest degree of an expansion that is sampled; the samples are 630 times its square.
 const MAX_DEGREE: usize = 6;
 
@@ -42,14 +45,14 @@ impl Samples {
     }
 
     /// A bound from below of the expansion within an angle of a direction; none where that is not much less
-    /// than the cap.
+    /// than the cap's.
     pub(super) fn least(
         &self,
         (basis, cap, coefficients): (&CapBasis, &Cap, &[f64]),
         middle: &Vector3<f64>,
         radius: f64,
     ) -> Option<f64> {
-        if radius > angle(cap.height) {
+        if radius > LARGEST * angle(cap.height) {
             return None;
         }
         let east = middle.cross(&Vector3::ith(middle.iamin(), 1.0)).normalize();
