@@ -2,7 +2,7 @@
 
 use super::InvalidGrain;
 use super::grain::check_expansion;
-use crate::sphere::{CapBasis, Cover, Jet};
+use crate::sphere::{Cap, CapBasis, Cover, Jet};
 use crate::vectorize::vectorize;
 use nalgebra::Vector3;
 use rayon::prelude::*;
@@ -80,6 +80,11 @@ impl Blended {
             })
             .sum();
         touched as f64 / directions.len() as f64
+    }
+
+    /// The basis, the cap and the coefficients of a cell.
+    pub(super) fn expansion(&self, cell: usize) -> (&CapBasis, &Cap, &[f64]) {
+        (&self.basis, self.cover.cap(cell), &self.coefficients[cell])
     }
 
     /// Radius of a cell's expansion in a direction of its cap.

@@ -1,6 +1,7 @@
 //! Parts of the sphere where expansions are blended.
 
 use super::bound::{Bound, CapBound, angle};
+use super::sampled::Samples;
 use super::{Judged, Part};
 use crate::model::Blended;
 use nalgebra::Vector3;
@@ -80,13 +81,20 @@ impl Part for BlendPart<'_> {
         let radius = angle(0.5 * farthest.into_iter().fold(0.0, f64::max));
         let value = self.surface.radius(&middle);
         // The mean of the bounds, weighed in the worst way, is enough if this is not below zero.
-        let mut excess = 0.0;
+        let (mut excess, mut sampled) = (0.0, 0);
         for cell in cells() {
             let bound = &self.bounds[cell];
-            let least = match bound.holds(&middle) {
+            let mut least = match bound.holds(&middle) {
                 true => bound.within(&middle, radius, self.surface.cell_radius(cell, &middle)),
                 false => bound.everywhere(),
             };
+            if least < enough
+                && let Some(samples) = Samples::new(bound.degree())
+                && let Some(found) = samples.least(self.surface.expansion(cell), &middle, radius)
+            {
+                sampled += samples.count() * bound.terms();
+                least = least.max(found);
+            }
             let [lightest, heaviest] = self.surface.cover().weight(cell).range(&corners);
             let weight = if least < enough { heaviest } else { lightest };
             excess += weight * (least - enough);
@@ -95,7 +103,8 @@ impl Part for BlendPart<'_> {
         Judged {
             least: if excess >= 0.0 { enough } else { least },
             value: Some(value),
-            work: 2 * terms,
+            // Samples are evaluated many at once.
+            work: 2 * terms + sampled / 4,
         }
     }
 

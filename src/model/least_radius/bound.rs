@@ -10,7 +10,8 @@
 //! **Slope.** Along the circles round the cap's centre, f is a trigonometric polynomial of degree L at most,
 //! so it changes by at most L A per radian of the azimuth (Bernstein 1912). Along a great circle through
 //! the centre it is one on the arc from -T to T, and with sin(t/2) = sin(T/2) cos(p/2) it changes by at most
-//! L A per radian of p (Videnskii 1960; Borwein and Erdélyi 1995, 5.1). Of the whole sphere every great circle
+//! L A per radian of p (Videnskii 1960; Borwein and Erdélyi 1995, 5.1). In the middle of any other arc of the
+//! same length 2 t that the cap holds the slope is at most L A / sin(t/2) likewise. Of the whole sphere every great circle
 //! is closed, and more is true: arccos((f - c_0)/A) changes by at most L per radian (Szegő 1928).
 
 use crate::model::{Mirrored, Segmented, Whole};
@@ -87,6 +88,11 @@ impl CapBound {
         self.size.mean.abs() + self.size.rest
     }
 
+    /// The degree of the expansion.
+    pub(super) fn degree(&self) -> usize {
+        self.size.degree
+    }
+
     /// Whether a direction is in the cap.
     pub(super) fn holds(&self, n: &Vector3<f64>) -> bool {
         0.5 * (n - self.cap.centre).norm_squared() <= self.cap.height
@@ -102,6 +108,17 @@ impl CapBound {
     fn way(&self, middle: &Vector3<f64>, radius: f64) -> f64 {
         let theta = angle(0.5 * (middle - self.cap.centre).norm_squared());
         let (low, high) = (theta - radius, theta + radius);
+        // Straight there: the cap holds an arc of this length on both sides of all places on the way.
+        let arc = angle(self.cap.height) - high;
+        let straight = match arc > 0.0 {
+            true => radius / (0.5 * arc).sin(),
+            false => f64::INFINITY,
+        };
+        self.way_round(theta, [low, high], radius).min(straight)
+    }
+
+    /// The same along circles round the centre and away from it.
+    fn way_round(&self, theta: f64, [low, high]: [f64; 2], radius: f64) -> f64 {
         let own = self.rim_angle(theta);
         let [inner, outer] = [low.max(0.0), high.min(PI)].map(|theta| self.rim_angle(theta));
         let radial = (inner - own).max(own - outer);

@@ -91,12 +91,9 @@ fn the_bound_is_below_a_dense_sample_and_near_it() {
                             found.proved > 0.0 && found.proved <= least,
                             "{kind}: {found:?}"
                         );
-                        let share = if grain.stretch().is_none() {
-                            0.009
-                        } else {
-                            0.002
-                        };
-                        assert!(found.proved >= share * least, "{kind}: {found:?} {least}");
+                        // Of a stretched grain both are divided by a factor, of four to one here.
+                        let share = if grain.stretch().is_none() { 1.0 } else { 0.25 };
+                        assert!(found.proved >= 0.99 * SHARE * share * found.found, "{kind}");
                     }
                     Err(InvalidGrain::NotPositive { radius, direction }) => {
                         unsound += 1;
@@ -117,7 +114,7 @@ fn the_bound_is_below_a_dense_sample_and_near_it() {
         }
     }
     assert!(unproved <= 2, "{unproved}");
-    assert!(sound > 60 && unsound > 40, "{sound} {unsound}");
+    assert!(sound > 60 && unsound > 25, "{sound} {unsound}");
 }
 
 #[test]
@@ -199,6 +196,26 @@ fn models_that_are_not_sound_do_not_load() {
         let error = spoilt(numbers.into()).expect("refused");
         assert!(error.contains(says), "{error}");
     }
+}
+
+#[test]
+fn a_cell_that_is_wild_where_no_point_held_it_is_no_reason_to_refuse() {
+    // One cell is 40 times as rough in its cap as it is in its middle: x^4 along a tangent.
+    let cover = Cover::with_margin(CubeCell::uniform(3), MARGIN).expect("a cover");
+    let mut per_cell: Vec<Vec<f64>> = (0..54)
+        .map(|cell| coefficients(4, 3.0, 0.3, cell))
+        .collect();
+    per_cell[20][23] = 6.0;
+    per_cell[20][24] = -6.0;
+    let wild = grain(Surface::Blended(
+        Blended::new(cover, per_cell).expect("cells"),
+    ));
+    let directions = Sampling::Fibonacci.directions(50_000, 0).expect("enough");
+    let least = wild.radii(&directions).into_iter().fold(f64::MAX, f64::min);
+    let start = Instant::now();
+    let found = wild.least_radius();
+    println!("{:?}: {found:?} {least}", start.elapsed());
+    assert_eq!(found.is_ok(), least > 0.0, "{found:?} {least}");
 }
 
 #[test]
