@@ -9,7 +9,6 @@
 //! the fully normalised recurrence, which holds sin^m theta inside and needs no factorials; error
 //! below 1e-13 up to degree 64.
 
-// TODO: no longer unused once the fit calls it.
 #[allow(dead_code)]
 mod expansion;
 

@@ -85,6 +85,7 @@ fn check_consistency(report: &Value) {
         "principal",
         "dimensions",
         "standard_errors",
+        "no_standard_errors",
         "area",
         "volume",
         "reference",

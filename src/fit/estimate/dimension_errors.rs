@@ -10,13 +10,13 @@
 //! - what turning an axis by its standard deviation does to the extent beyond first order (of a box it grows whichever
 //!   way it turns), and the range of extents in the plane of two axes that are not told apart.
 
-use super::Estimate;
 use super::dimensions::{End, Extent, LARGEST_TURN, Reach};
 use super::figures::INERTIA;
 use super::functionals::{combined, dot};
 use super::neighbours::Neighbours;
+use super::outcome::Estimate;
+use super::outcome::{slope_variance, variance};
 use super::posterior::Conditioned;
-use super::{slope_variance, variance};
 use crate::measure::PrincipalInertia;
 use crate::sphere::HarmonicBasis;
 use nalgebra::Vector3;

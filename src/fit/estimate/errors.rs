@@ -12,12 +12,12 @@
 //! There are none where the prior cannot be trusted: beside a large hole, and where what is left of the points is no
 //! noise.
 
-use super::Estimate;
 use super::dimension_errors::dimensions;
 use super::dimensions::Reach;
 use super::figures::{Figures, INERTIA, MassList, derivatives, form, mass};
 use super::functionals::{INTEGRALS, RingSurface, combined, dot, list, unlist};
 use super::gaps::{largest_gap, random_gap};
+use super::outcome::Estimate;
 use super::posterior::Posterior;
 use super::unresolved::{kurtosis, limit};
 use crate::measure::{Moments, PrincipalInertia};

@@ -22,7 +22,7 @@
 //! tr F_gg = r (tr(P T² P) / |a| - |P T a|² / |a|³)
 //! ```
 
-use super::{Estimate, slope_variance, variance};
+use super::outcome::{Estimate, slope_variance, variance};
 use crate::measure::Moments;
 use crate::sphere::RingGrid;
 use nalgebra::{Matrix3, SVector, Vector3};

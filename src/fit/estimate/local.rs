@@ -12,9 +12,9 @@
 //! the variances of the surface and of a new point. Of 22 real scans, 50 % intervals of points that no fit had seen
 //! then cover .59 of them, and .82 without; 95 % intervals cover .93 to .99 either way.
 
-use super::Estimate;
 use super::draws::Draws;
 use super::neighbours::Neighbours;
+use super::outcome::Estimate;
 use super::posterior::{Conditioned, Posterior};
 use nalgebra::Vector3;
 

@@ -23,6 +23,7 @@ mod likelihood;
 mod local;
 mod neighbours;
 mod newton;
+mod outcome;
 mod outliers;
 mod patches;
 mod posterior;
@@ -34,36 +35,19 @@ mod unresolved;
 pub use errors::{NoInterval, StandardErrors};
 pub(crate) use figures::Figures;
 pub use local::RadiusError;
+pub(crate) use outcome::Estimate;
 
 use crate::fit::prepare::Sample;
 use crate::sphere::{ScatteredHarmonics, coefficient_count};
 use cloud::Cloud;
 use conjugate_gradients::SETTLED;
 use nalgebra::Vector3;
+use outcome::{spare, variance};
 use patches::{Patches, WHOLE_CLOUD};
 use posterior::Posterior;
 use rayon::prelude::*;
 use spectrum::Spectrum;
 use spectrum_fit::{Count, SpectrumFit, fit_spectrum};
-
-/// The estimate of a grain's radius.
-#[derive(Debug, Clone)]
-pub(crate) struct Estimate {
-    /// The points, after the map and without outliers.
-    pub(crate) cloud: Cloud,
-    /// The largest degree.
-    pub(crate) degree: usize,
-    /// The coefficients in the stretched space, in units of `cloud.mean`, at their harmonic index.
-    pub(crate) coefficients: Vec<f64>,
-    /// The spectrum: prior variances and noise.
-    pub(crate) spectrum: Spectrum,
-    /// Per degree, the share of the prior variance that the points leave.
-    pub(crate) unlearnt: Vec<f64>,
-    /// Points left out because they stand alone.
-    pub(crate) outliers: usize,
-    /// Whether the matrix of the problem is small enough to be factored.
-    pub(crate) is_factored: bool,
-}
 
 /// Strengths of the map: T = diag(semi-axes)^-k.
 const STRENGTHS: [f64; 3] = [1.0, 0.5, 0.0];
@@ -107,9 +91,6 @@ const MOST_FACTORED: usize = 3000;
 
 /// Points on which maps are compared.
 const COMPARED_POINTS: usize = 2000;
-
-/// Floor of the share of the points that is not spent on coefficients.
-const LEAST_SPARE: f64 = 0.3;
 
 /// Rounds of leaving out outliers.
 const OUTLIER_ROUNDS: usize = 5;
@@ -252,33 +233,6 @@ fn next_degree(
     let variance = variance(&fit.spectrum, &fit.unlearnt);
     let sphere = 4.0 * std::f64::consts::PI;
     (tail / sphere > (TAIL * TAIL * variance).max(LEAST_TAIL * LEAST_TAIL)).then_some(next)
-}
-
-/// Share of the points that is not spent on coefficients: 1 - the mean leverage.
-fn spare(unlearnt: &[f64], points: f64) -> f64 {
-    let orders = unlearnt.iter().enumerate();
-    let learnt: f64 = orders.map(|(l, q)| (2 * l + 1) as f64 * (1.0 - q)).sum();
-    (1.0 - learnt / points).max(LEAST_SPARE)
-}
-
-/// Mean posterior variance of the radius: sum of (2l + 1) C_l / 4 pi.
-fn variance(spectrum: &Spectrum, unlearnt: &[f64]) -> f64 {
-    let variances = spectrum.variances(unlearnt.len() - 1);
-    let terms = variances.iter().zip(unlearnt).enumerate();
-    terms
-        .map(|(l, (v, q))| (2 * l + 1) as f64 * v * q)
-        .sum::<f64>()
-        / (4.0 * std::f64::consts::PI)
-}
-
-/// Mean posterior variance of the surface gradient: sum of (2l + 1) l (l + 1) C_l / 4 pi.
-fn slope_variance(spectrum: &Spectrum, unlearnt: &[f64]) -> f64 {
-    let variances = spectrum.variances(unlearnt.len() - 1);
-    let terms = variances.iter().zip(unlearnt).enumerate();
-    terms
-        .map(|(l, (v, q))| ((2 * l + 1) * l * (l + 1)) as f64 * v * q)
-        .sum::<f64>()
-        / (4.0 * std::f64::consts::PI)
 }
 
 /// Points evaluated at once.

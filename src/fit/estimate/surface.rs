@@ -1,6 +1,6 @@
 //! An estimate as a surface: its radii, its expansion cut at a degree, and how sure it is as a whole.
 
-use super::Estimate;
+use super::outcome::Estimate;
 use super::posterior::Posterior;
 use crate::model::{Stretch, Whole};
 use crate::sphere::{RingGrid, ScatteredHarmonics, coefficient_count};
@@ -26,7 +26,7 @@ impl Estimate {
 
     /// Standard deviation of the radius, as root mean square over all directions, in the scan's unit.
     pub(crate) fn deviation(&self) -> f64 {
-        super::variance(&self.spectrum, &self.unlearnt).sqrt() * self.plain_length()
+        super::outcome::variance(&self.spectrum, &self.unlearnt).sqrt() * self.plain_length()
     }
 
     /// Error of predictions of a point from all others, as root mean square, in the scan's unit: by generalised
@@ -37,7 +37,7 @@ impl Estimate {
         let weighted = residuals.iter().zip(&self.cloud.weights);
         let squared: f64 = weighted.map(|(e, w)| w * e * e).sum();
         let points = self.cloud.len() as f64;
-        let rms = (squared / points).sqrt() / super::spare(&self.unlearnt, points);
+        let rms = (squared / points).sqrt() / super::outcome::spare(&self.unlearnt, points);
         rms * self.plain_length()
     }
 

@@ -1,0 +1,53 @@
+//! What an estimate is.
+
+use super::cloud::Cloud;
+use super::spectrum::Spectrum;
+
+/// The estimate of a grain's radius.
+#[derive(Debug, Clone)]
+pub(crate) struct Estimate {
+    /// The points, after the map and without outliers.
+    pub(crate) cloud: Cloud,
+    /// The largest degree.
+    pub(crate) degree: usize,
+    /// The coefficients in the stretched space, in units of `cloud.mean`, at their harmonic index.
+    pub(crate) coefficients: Vec<f64>,
+    /// The spectrum: prior variances and noise.
+    pub(crate) spectrum: Spectrum,
+    /// Per degree, the share of the prior variance that the points leave.
+    pub(crate) unlearnt: Vec<f64>,
+    /// Points left out because they stand alone.
+    pub(crate) outliers: usize,
+    /// Whether the matrix of the problem is small enough to be factored.
+    pub(crate) is_factored: bool,
+}
+
+/// Floor of the share of the points that is not spent on coefficients.
+const LEAST_SPARE: f64 = 0.3;
+
+/// Share of the points that is not spent on coefficients: 1 - the mean leverage.
+pub(super) fn spare(unlearnt: &[f64], points: f64) -> f64 {
+    let orders = unlearnt.iter().enumerate();
+    let learnt: f64 = orders.map(|(l, q)| (2 * l + 1) as f64 * (1.0 - q)).sum();
+    (1.0 - learnt / points).max(LEAST_SPARE)
+}
+
+/// Mean posterior variance of the radius: sum of (2l + 1) C_l / 4 pi.
+pub(super) fn variance(spectrum: &Spectrum, unlearnt: &[f64]) -> f64 {
+    let variances = spectrum.variances(unlearnt.len() - 1);
+    let terms = variances.iter().zip(unlearnt).enumerate();
+    terms
+        .map(|(l, (v, q))| (2 * l + 1) as f64 * v * q)
+        .sum::<f64>()
+        / (4.0 * std::f64::consts::PI)
+}
+
+/// Mean posterior variance of the surface gradient: sum of (2l + 1) l (l + 1) C_l / 4 pi.
+pub(super) fn slope_variance(spectrum: &Spectrum, unlearnt: &[f64]) -> f64 {
+    let variances = spectrum.variances(unlearnt.len() - 1);
+    let terms = variances.iter().zip(unlearnt).enumerate();
+    terms
+        .map(|(l, (v, q))| ((2 * l + 1) * l * (l + 1)) as f64 * v * q)
+        .sum::<f64>()
+        / (4.0 * std::f64::consts::PI)
+}
