@@ -29,6 +29,7 @@ mod patches;
 mod posterior;
 mod spectrum;
 mod spectrum_fit;
+mod stopping;
 mod surface;
 mod unresolved;
 
@@ -40,7 +41,6 @@ pub(crate) use outcome::Estimate;
 use crate::fit::prepare::Sample;
 use crate::sphere::{ScatteredHarmonics, coefficient_count};
 use cloud::Cloud;
-use conjugate_gradients::SETTLED;
 use nalgebra::Vector3;
 use outcome::{spare, variance};
 use patches::{Patches, WHOLE_CLOUD};
@@ -48,6 +48,7 @@ use posterior::Posterior;
 use rayon::prelude::*;
 use spectrum::Spectrum;
 use spectrum_fit::{Count, SpectrumFit, fit_spectrum};
+use stopping::SETTLED;
 
 /// Strengths of the map: T = diag(semi-axes)^-k.
 const STRENGTHS: [f64; 3] = [1.0, 0.5, 0.0];

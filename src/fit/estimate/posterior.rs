@@ -7,8 +7,8 @@
 //! gradients with the harmonic transform, preconditioned by the matrix of an even cloud.
 
 use super::cloud::Cloud;
-use super::conjugate_gradients::{Enough, SHARE};
 use super::spectrum::Spectrum;
+use super::stopping::{Enough, SHARE};
 use crate::sphere::{HarmonicBasis, ScatteredHarmonics, coefficient_count};
 use faer::linalg::matmul::triangular::{self, BlockStructure};
 use faer::linalg::solvers::{Llt, Solve};

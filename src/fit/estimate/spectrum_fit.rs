@@ -4,11 +4,11 @@
 //! most likely spectrum. Of a cloud whose matrix is not factored, the first rounds take it as even
 //! (N_l = n / 4 pi); then random probes tell N_l.
 
-use super::conjugate_gradients::SETTLED as MEAN_SETTLED;
 use super::likelihood::{Evidence, hyperprior};
 use super::newton::{Newton, Next, Place};
 use super::posterior::{Conditioned, Posterior};
 use super::spectrum::Spectrum;
+use super::stopping::SETTLED as MEAN_SETTLED;
 use std::f64::consts::PI;
 
 /// Rounds at most; three to ten are usual.

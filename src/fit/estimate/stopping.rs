@@ -1,0 +1,40 @@
+//! When conjugate gradients end.
+
+/// Conjugate gradients end when the last [`LOOK_BACK`] steps together removed less than this of the squared error, in
+/// units of the posterior variance of one coefficient. (The usual test, of the preconditioned residual, ends 2.5
+/// standard deviations off where the scan has a hole.)
+pub(crate) const SETTLED: f64 = 0.1;
+
+/// Steps that are looked back on.
+const LOOK_BACK: usize = 8;
+
+/// Systems for a variance are solved to this share of it, by the sum of the last [`LOOK_BACK`] steps but the first.
+pub(super) const SHARE: f64 = 0.01;
+
+/// When conjugate gradients end.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Enough {
+    /// When the energy that the last steps removed is below this.
+    Energy(f64),
+    /// When it is below this share of what all steps removed.
+    Share(f64),
+}
+
+impl Enough {
+    /// `energies` of the steps so far; `promise`: of the last one, by the preconditioner.
+    pub(super) fn is_reached(self, energies: &[f64], promise: f64) -> bool {
+        let steps = energies.len();
+        match self {
+            Self::Energy(settled) => {
+                let recent = &energies[steps.saturating_sub(LOOK_BACK)..];
+                (steps >= LOOK_BACK || promise < 1e-6 * settled)
+                    && recent.iter().sum::<f64>() < settled
+            }
+            Self::Share(share) => {
+                let recent = &energies[steps.saturating_sub(LOOK_BACK).max(1)..];
+                let all: f64 = energies.iter().sum();
+                steps > 1 && recent.iter().sum::<f64>() < share * all
+            }
+        }
+    }
+}
