@@ -28,4 +28,5 @@ pub use measure::{
 pub use number::{percent, short};
 pub use search::{CandidateRecord, SearchReport};
 pub use synth::SynthReport;
+#[cfg(feature = "cli")]
 pub(crate) use warning::sentences;

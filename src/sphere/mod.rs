@@ -1,8 +1,6 @@
 //! The unit sphere: directions, bases, partitions, quadrature, triangulation. Knows nothing of
 //! grains.
 
-// TODO: no longer unused once the fit calls it.
-#[allow(dead_code)]
 mod azimuth_fft;
 mod cap;
 mod cap_basis;
@@ -15,12 +13,8 @@ mod harmonics;
 mod jet;
 mod partition;
 mod quadrature;
-// TODO: no longer unused once the fit calls it.
-#[allow(dead_code)]
 mod ring_grid;
 mod symmetry;
-// TODO: no longer unused once the fit calls it.
-#[allow(dead_code)]
 mod transform;
 mod triangulation;
 
@@ -36,9 +30,7 @@ pub(crate) use jet::Jet;
 pub use partition::{AngleRectangle, AngularPartition};
 pub(crate) use partition::{azimuth_fraction, polar_fraction};
 pub use quadrature::GaussLegendre;
-#[allow(unused_imports)] // TODO: no longer unused once the fit calls it.
 pub(crate) use ring_grid::RingGrid;
 pub use symmetry::{Symmetry, SymmetryError};
-#[allow(unused_imports)] // TODO: no longer unused once the fit calls it.
 pub(crate) use transform::ScatteredHarmonics;
 pub use triangulation::{TriangulationError, triangulate_directions};

@@ -34,7 +34,6 @@ const CHUNKS: usize = 16;
 /// Harmonics and their order are those of [`super::harmonics()`]. Results do not depend on the number of
 /// threads.
 pub(crate) struct ScatteredHarmonics {
-    degree: usize,
     grid: Arc<Grid>,
     /// Directions of a chunk, except that the last may have fewer.
     chunk: usize,
@@ -54,16 +53,10 @@ impl ScatteredHarmonics {
             .map(|directions| Places::new(&grid, directions))
             .collect();
         Self {
-            degree,
             grid,
             chunk,
             chunks,
         }
-    }
-
-    /// The degree L.
-    pub(crate) fn degree(&self) -> usize {
-        self.degree
     }
 
     /// values\[i\] = the sum over j of coefficients\[j\] Y_j(n_i).
