@@ -5,19 +5,20 @@ mod degrees;
 
 use super::grain::check_expansion;
 use super::{Derivatives, InvalidGrain, StarSurface};
-use crate::sphere::Jet;
+use crate::sphere::{HarmonicBasis, Jet};
 use crate::vectorize::vectorize;
 use azimuth::Azimuth;
 use degrees::{Degrees, Sums};
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Vector3;
 use rayon::prelude::*;
 
 /// r(n) = sum of a_l^m Y_l^m(n) over the whole sphere, in the real orthonormal harmonics of
-/// [`HarmonicBasis`](crate::sphere::HarmonicBasis): smooth everywhere. Each evaluation touches every
+/// [`HarmonicBasis`]: smooth everywhere. Each evaluation touches every
 /// coefficient.
 #[derive(Debug, Clone)]
 pub struct Whole {
     pub(super) coefficients: Vec<f64>,
+    basis: HarmonicBasis,
     degrees: Degrees,
 }
 
@@ -37,6 +38,7 @@ impl Whole {
         let degree = check_expansion(0, &coefficients)?;
         Ok(Self {
             coefficients,
+            basis: HarmonicBasis::new(degree),
             degrees: Degrees::new(degree),
         })
     }
@@ -122,19 +124,7 @@ impl Whole {
 
     /// Radius and its derivatives with respect to the components of `n`.
     pub(crate) fn jet(&self, n: &Vector3<f64>) -> Jet {
-        let mut azimuth = Azimuth::new(n.x, n.y);
-        let mut hessian = Matrix3::zeros();
-        let add = |a: &Sums<3, 1>, b: &Sums<3, 1>| {
-            let (a, b) = (a.map(|[a]| a), b.map(|[b]| b));
-            hessian += azimuth.second(a, b);
-            azimuth.add([a[0], a[1]], [b[0], b[1]]);
-        };
-        self.degrees.sums(&self.coefficients, &[n.z], add);
-        Jet {
-            value: azimuth.value,
-            gradient: azimuth.gradient,
-            hessian,
-        }
+        self.basis.jet(&self.coefficients, n)
     }
 }
 
@@ -145,12 +135,7 @@ impl StarSurface for Whole {
     }
 
     fn radius_and_gradient(&self, n: &Vector3<f64>) -> (f64, Vector3<f64>) {
-        let mut azimuth = Azimuth::new(n.x, n.y);
-        let add = |[[a], [a1]]: &Sums<2, 1>, [[b], [b1]]: &Sums<2, 1>| {
-            azimuth.add([*a, *a1], [*b, *b1]);
-        };
-        self.degrees.sums(&self.coefficients, &[n.z], add);
-        azimuth.on_sphere(n)
+        self.basis.value_and_gradient(&self.coefficients, n)
     }
 
     fn derivatives(&self, n: &Vector3<f64>) -> Derivatives {

@@ -9,7 +9,6 @@
 //! the fully normalised recurrence, which holds sin^m theta inside and needs no factorials; error
 //! below 1e-13 up to degree 64.
 
-#[allow(dead_code)]
 mod expansion;
 
 use nalgebra::Vector3;

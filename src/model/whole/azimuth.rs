@@ -1,14 +1,14 @@
 //! The terms of one order after another, at one place.
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Vector3;
 
 /// An expansion at (x, y, z) as its orders m = 0, 1, 2, ... are added up, with its derivatives in space.
 #[derive(Debug)]
 pub(super) struct Azimuth {
     x: f64,
     y: f64,
-    /// Real and imaginary part of (x + iy) to the power of the next order m, m - 1 and m - 2.
-    powers: [[f64; 2]; 3],
+    /// Real and imaginary part of (x + iy) to the powers m, the next order, and m - 1.
+    powers: [[f64; 2]; 2],
     /// m.
     order: f64,
     pub(super) value: f64,
@@ -20,7 +20,7 @@ impl Azimuth {
         Self {
             x,
             y,
-            powers: [[1.0, 0.0], [0.0; 2], [0.0; 2]],
+            powers: [[1.0, 0.0], [0.0; 2]],
             order: 0.0,
             value: 0.0,
             gradient: Vector3::zeros(),
@@ -30,7 +30,7 @@ impl Azimuth {
     /// Adds the next order, given by A and B and their slopes: A Re w^m + B Im w^m with w = x + iy. The
     /// derivative of w^m is m w^(m-1), and i times that with respect to y.
     pub(super) fn add(&mut self, [a, a1]: [f64; 2], [b, b1]: [f64; 2]) {
-        let [now, before, _] = self.powers;
+        let [now, before] = self.powers;
         self.value += term(a, b, now);
         self.gradient += Vector3::new(
             self.order * term(a, b, before),
@@ -39,19 +39,8 @@ impl Azimuth {
         );
         let [re, im] = now;
         let next = [re * self.x - im * self.y, re * self.y + im * self.x];
-        self.powers = [next, now, before];
+        self.powers = [next, now];
         self.order += 1.0;
-    }
-
-    /// The second derivatives of the next order, given by A and B with two derivatives.
-    pub(super) fn second(&self, [a, a1, a2]: [f64; 3], [b, b1, b2]: [f64; 3]) -> Matrix3<f64> {
-        let [now, before, first] = self.powers;
-        let twice = self.order * (self.order - 1.0);
-        let (xx, xy) = (twice * term(a, b, first), twice * term(b, -a, first));
-        let xz = self.order * term(a1, b1, before);
-        let yz = self.order * term(b1, -a1, before);
-        let zz = term(a2, b2, now);
-        Matrix3::new(xx, xy, xz, xy, -xx, yz, xz, yz, zz)
     }
 
     /// The value, and the part of the gradient that is tangential to the sphere at `n`.
