@@ -21,8 +21,9 @@ use crate::measure::{PrincipalInertia, support_near};
 use crate::model::{StarSurface, Whole};
 use nalgebra::{Matrix3, SVector, Vector3};
 
-/// Axes whose turn has a larger standard deviation (in radians) have no direction of their own.
-pub(super) const LARGEST_TURN: f64 = 0.2;
+/// Axes whose turn has a larger standard deviation, in radians, have no direction of their own: their moments differ
+/// by less than 5 standard deviations of that difference, which is twice that of the entry between them.
+pub(super) const LARGEST_TURN: f64 = 0.1;
 
 /// An extent.
 pub(super) struct Extent {

@@ -79,7 +79,7 @@ impl Estimate {
         if half_angle > LARGEST_HOLE.max(random_gap(self.cloud.len())) {
             return Err(NoInterval::Hole { half_angle });
         }
-        let posterior = Posterior::new(&self.cloud, self.degree, self.is_factored);
+        let posterior = self.posterior();
         let kurtosis = kurtosis(&posterior.residuals(&self.coefficients));
         if kurtosis > limit(self.cloud.len()) {
             return Err(NoInterval::Unresolved { kurtosis });
@@ -120,7 +120,7 @@ impl Best {
         let jacobian = derivatives(&moments);
         let excess = jacobian * list(&surface.excess(estimate));
 
-        let given = posterior.given(&estimate.spectrum);
+        let given = estimate.given(posterior);
         let integrals = surface.gradients();
         let gradients: Vec<Vec<f64>> = (0..INTEGRALS)
             .map(|row| combined(integrals.iter(), jacobian.row(row).iter()))

@@ -89,8 +89,8 @@ impl<'a> Variances<'a> {
 impl Estimate {
     /// Errors of the radius in directions of the grain's own frame.
     pub(crate) fn radius_errors(&self, directions: &[Vector3<f64>]) -> Vec<RadiusError> {
-        let posterior = Posterior::new(&self.cloud, self.degree, self.is_factored);
-        let given = posterior.given(&self.spectrum);
+        let posterior = self.posterior();
+        let given = self.given(&posterior);
         let variances = Variances::new(&given);
         let predictions = Predictions::new(self, |n| variances.at(n), &posterior);
         let neighbours = Neighbours::new(&self.cloud.directions);

@@ -147,7 +147,6 @@ pub(crate) fn estimate(samples: &[Sample], axes: Vector3<f64>) -> Estimate {
             None => break,
         }
     }
-    let is_factored = is_factored(cloud.len(), degree);
     if let Some(patches) = &patches {
         correct(&mut cloud, samples, patches, degree, &mut fit);
     }
@@ -158,7 +157,7 @@ pub(crate) fn estimate(samples: &[Sample], axes: Vector3<f64>) -> Estimate {
         spectrum: fit.spectrum,
         unlearnt: fit.unlearnt,
         outliers,
-        is_factored,
+        factor: fit.factor,
     }
 }
 

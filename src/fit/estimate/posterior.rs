@@ -16,6 +16,7 @@ use faer::linalg::triangular_inverse::invert_lower_triangular;
 use faer::{Accum, Mat, MatMut, MatRef, Par, Side};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
+use std::sync::Arc;
 
 /// A cloud ready to be conditioned on.
 pub(crate) struct Posterior<'a> {
@@ -49,32 +50,31 @@ impl<'a> Posterior<'a> {
 
     /// The posterior for a spectrum.
     pub(crate) fn given(&self, spectrum: &Spectrum) -> Conditioned<'_> {
+        let mut given = self.given_factored(spectrum, None);
+        given.factor = self
+            .gram
+            .as_ref()
+            .and_then(|gram| factor(gram, &given.variances, given.noise))
+            .map(Arc::new);
+        given
+    }
+
+    /// The posterior for a spectrum whose matrix has been factored before, or is not.
+    pub(crate) fn given_factored(
+        &self,
+        spectrum: &Spectrum,
+        factor: Option<Arc<Llt<f64>>>,
+    ) -> Conditioned<'_> {
         let degrees = spectrum.variances(self.degree);
-        let variances: Vec<f64> = degrees
+        let variances = degrees
             .iter()
             .enumerate()
-            .flat_map(|(l, &v)| std::iter::repeat_n(v, 2 * l + 1))
-            .collect();
-        let noise = spectrum.noise().powi(2);
-        let factor = self.gram.as_ref().and_then(|gram| {
-            let root: Vec<f64> = variances.iter().map(|v| v.sqrt()).collect();
-            let count = root.len();
-            let mut matrix = Mat::zeros(count, count);
-            for j in 0..count {
-                let (from, to) = (gram.col_as_slice(j), matrix.col_as_slice_mut(j));
-                let scale = root[j] / noise;
-                for i in j..count {
-                    to[i] = from[i] * root[i] * scale;
-                }
-                to[j] += 1.0;
-            }
-            matrix.llt(Side::Lower).ok()
-        });
+            .flat_map(|(l, &v)| std::iter::repeat_n(v, 2 * l + 1));
         Conditioned {
             posterior: self,
+            variances: variances.collect(),
             degrees,
-            variances,
-            noise,
+            noise: spectrum.noise().powi(2),
             factor,
         }
     }
@@ -109,6 +109,22 @@ impl<'a> Posterior<'a> {
         let pairs = self.cloud.radii.iter().zip(fitted);
         pairs.map(|(measured, fitted)| measured - fitted).collect()
     }
+}
+
+/// The Cholesky factor of I + V^1/2 Y'WY V^1/2 / s^2.
+fn factor(gram: &Mat<f64>, variances: &[f64], noise: f64) -> Option<Llt<f64>> {
+    let root: Vec<f64> = variances.iter().map(|v| v.sqrt()).collect();
+    let count = root.len();
+    let mut matrix = Mat::zeros(count, count);
+    for j in 0..count {
+        let (from, to) = (gram.col_as_slice(j), matrix.col_as_slice_mut(j));
+        let scale = root[j] / noise;
+        for i in j..count {
+            to[i] = from[i] * root[i] * scale;
+        }
+        to[j] += 1.0;
+    }
+    matrix.llt(Side::Lower).ok()
 }
 
 /// Y'WY, lower triangle.
@@ -158,7 +174,7 @@ pub(crate) struct Conditioned<'a> {
     /// s^2.
     pub(super) noise: f64,
     /// The Cholesky factor of I + V^1/2 Y'WY V^1/2 / s^2.
-    pub(super) factor: Option<Llt<f64>>,
+    pub(super) factor: Option<Arc<Llt<f64>>>,
 }
 
 /// Random vectors by which traces are estimated.

@@ -9,7 +9,9 @@ use super::newton::{Newton, Next, Place};
 use super::posterior::{Conditioned, Posterior};
 use super::spectrum::Spectrum;
 use super::stopping::SETTLED as MEAN_SETTLED;
+use faer::linalg::solvers::Llt;
 use std::f64::consts::PI;
+use std::sync::Arc;
 
 /// Rounds at most; three to ten are usual.
 const MOST_ROUNDS: usize = 40;
@@ -24,6 +26,8 @@ pub(crate) struct SpectrumFit {
     pub(crate) unlearnt: Vec<f64>,
     /// Negative logarithm of the likelihood.
     pub(crate) cost: f64,
+    /// The factored matrix, where it is factored.
+    pub(crate) factor: Option<Arc<Llt<f64>>>,
 }
 
 /// How the number of measurements per degree is told where no matrix is factored.
@@ -79,6 +83,7 @@ pub(crate) fn fit_spectrum(
                     spectrum,
                     coefficients: mean,
                     unlearnt,
+                    factor: given.factor,
                 };
             }
             Next::Here => {

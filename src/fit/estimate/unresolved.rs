@@ -2,13 +2,26 @@
 //!
 //! Residuals of noise are alike everywhere. Those of edges are large on few points: their distribution has long tails,
 //! told by the kurtosis, the mean fourth power over the squared mean square: 3 of normal noise, with the standard
-//! deviation sqrt(24 / n).
+//! deviation sqrt(24 / n). Measured on
+//!
+//! ```text
+//! particles of NIST, clean and with noise, 1538 and 6146 points   2.8 - 4.5, one of 350 above 7
+//! bean, chickpea, maize, likewise                                 3.0 - 3.9
+//! cube, cylinder, bicone, likewise                                4.2 - 210
+//! kernels, stones and a stone core                                7.5 - 230
+//! ```
+//!
+//! On what has edges the area is up to 25 standard errors off, and the volume where points are laid on the edges. On
+//! kernels, whose creases are told with them, 95 % intervals cover 86 % of volumes and areas: what tells a crease that
+//! does no harm from an edge that does is not known. Neither the correlation of neighbouring residuals (that of a
+//! cube is within .04 of what noise leaves, of kernels .2 above) nor their skewness does, nor whether half of the
+//! points give the same area.
 
 /// Kurtosis of normal noise on a smooth body, whose smoothest and sharpest parts need not be fitted equally well.
 const SMOOTH: f64 = 3.6;
 
 /// Standard deviations of the kurtosis of normal noise above that.
-const DEVIATIONS: f64 = 6.0;
+const DEVIATIONS: f64 = 8.0;
 
 /// Residuals below this share of the mean radius do not count, whatever their distribution.
 const FLOOR: f64 = 3e-4;

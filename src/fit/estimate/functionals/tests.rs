@@ -43,7 +43,7 @@ fn rough(degree: usize, stretch: [f64; 3]) -> Estimate {
             .map(|l| if l < 3 { 0.0 } else { 0.1 })
             .collect(),
         outliers: 0,
-        is_factored: true,
+        factor: None,
     }
 }
 
