@@ -26,7 +26,7 @@ pub(crate) struct Evidence {
     pub(crate) residuals: f64,
 }
 
-/// Means and standard deviations of the logarithms over grains of many kinds, which are all that is known of a
+/// Means and standard deviations of the logarithms of A, nu, l0 and s over grains of many kinds, which are all that is known of a
 /// grain of few points.
 const HYPERPRIOR: [[f64; 2]; 4] = [[-1.897, 1.0], [0.875, 0.25], [1.0986, 0.5], [-5.298, 2.0]];
 
@@ -38,10 +38,16 @@ const FEW_POINTS: f64 = 100.0;
 pub(crate) fn hyperprior(points: f64, spectrum: &Spectrum) -> (f64, [f64; 4]) {
     let (mut value, mut gradient) = (0.0, [0.0; 4]);
     if points <= FEW_POINTS {
-        for (at, [mean, sd]) in HYPERPRIOR.into_iter().enumerate() {
-            let z = (spectrum.0[at] - mean) / sd;
+        let (amplitude, by) = spectrum.amplitude();
+        let [_, exponent, knee, noise] = spectrum.0;
+        let logarithms = [amplitude, exponent, knee, noise].into_iter().enumerate();
+        for ((at, logarithm), [mean, sd]) in logarithms.zip(HYPERPRIOR) {
+            let z = (logarithm - mean) / sd;
             value += 0.5 * z * z;
-            gradient[at] = z / sd;
+            match at {
+                0 => (0..4).for_each(|i| gradient[i] += by[i] * z / sd),
+                _ => gradient[at] += z / sd,
+            }
         }
     }
     (value, gradient)
@@ -176,10 +182,10 @@ mod tests {
 
     #[test]
     fn the_gradient_is_that_of_differences() {
-        let truth = Spectrum([-2.0, 0.9, 1.2, -5.0]);
+        let truth = Spectrum::with_amplitude([-2.0, 0.9, 1.2, -5.0]);
         for points in [60.0, 4000.0] {
             let evidence = evidence(&truth, points, 5);
-            let at = Spectrum([-2.5, 0.7, 1.0, -4.5]);
+            let at = Spectrum::with_amplitude([-2.5, 0.7, 1.0, -4.5]);
             let (_, gradient) = evidence.value(&at);
             for (i, slope) in gradient.into_iter().enumerate() {
                 let moved = |by: f64| {
@@ -199,7 +205,7 @@ mod tests {
 
     #[test]
     fn the_spectrum_behind_the_evidence_is_found() {
-        let truth = Spectrum([-2.0, 0.9, 1.2, -5.0]);
+        let truth = Spectrum::with_amplitude([-2.0, 0.9, 1.2, -5.0]);
         let evidence = evidence(&truth, 6000.0, 36);
         let mut at = Spectrum::start();
         for _ in 0..5 {

@@ -111,12 +111,16 @@ pub(crate) fn estimate(samples: &[Sample], axes: Vector3<f64>) -> Estimate {
     let mut rounds = 0;
     let mut lower: Option<(usize, SpectrumFit)> = None;
     let mut fit = start;
+    // The comparison of maps may have found the exact likelihood at this degree.
+    let mut is_found = fit.factor.is_some() && fit.coefficients.len() == coefficient_count(degree);
     loop {
         let is_factored = is_factored(cloud.len(), degree);
-        let posterior = Posterior::new(&cloud, degree, is_factored);
-        let mut coefficients = std::mem::take(&mut fit.coefficients);
-        coefficients.resize(coefficient_count(degree), 0.0);
-        fit = fit_spectrum(&posterior, fit.spectrum, Some(coefficients), Count::Probed);
+        let posterior = Posterior::new(&cloud, degree, is_factored && !is_found);
+        if !std::mem::take(&mut is_found) {
+            let mut coefficients = std::mem::take(&mut fit.coefficients);
+            coefficients.resize(coefficient_count(degree), 0.0);
+            fit = fit_spectrum(&posterior, fit.spectrum, Some(coefficients), Count::Probed);
+        }
         let alone = match rounds < OUTLIER_ROUNDS && patches.is_none() {
             true => {
                 // Errors of predictions from all other points, were the points spread evenly.

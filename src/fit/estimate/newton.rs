@@ -1,8 +1,8 @@
 //! The search for the most likely spectrum: a quasi-Newton method in four unknowns.
 //!
 //! At first each step leads to where the likelihood would be largest if the points said the same of each degree
-//! under every spectrum. Where such a step fails (few points, uneven clouds), Newton steps take over, whose second
-//! derivatives learn from the gradients on the way (the update of Broyden, Fletcher, Goldfarb and Shanno). A step
+//! under every spectrum. Where such a step fails (uneven clouds), and from the start where there are few points per
+//! coefficient, Newton steps take over, whose second derivatives learn from the gradients on the way (the update of Broyden, Fletcher, Goldfarb and Shanno). A step
 //! fails that does not lower the cost; where no cost is known, one after which the gradient points back.
 
 use super::spectrum::Spectrum;
@@ -10,8 +10,8 @@ use super::spectrum::{BOUNDS, STEPS};
 use nalgebra::{Matrix4, Vector4};
 
 /// The search ends where a step promises to lower the cost by less than this: a spectrum twenty times less likely
-/// would be told from it by three. Without an exact cost, gradients scatter by more.
-const PROMISE: [f64; 2] = [0.05, 0.3];
+/// would be told from it by three.
+const PROMISE: f64 = 0.3;
 
 /// Steps that move no logarithm by more than this end the search too.
 const SETTLED: f64 = 0.003;
@@ -49,12 +49,12 @@ pub(crate) enum Next {
 }
 
 impl Newton {
-    /// A search that knows these second derivatives.
-    pub(crate) fn new(curvature: Matrix4<f64>) -> Self {
+    /// A search that knows these second derivatives, and follows proposals if it `trusts` them.
+    pub(crate) fn new(curvature: Matrix4<f64>, trusts: bool) -> Self {
         Self {
             best: None,
             curvature,
-            trusts: true,
+            trusts,
             share: 1.0,
         }
     }
@@ -85,8 +85,7 @@ impl Newton {
                 (next, -0.5 * moved.dot(&place.gradient))
             }
         };
-        let least = PROMISE[usize::from(place.cost.is_none())];
-        match promise < least || is_settled(&place.spectrum, &next) {
+        match promise < PROMISE || is_settled(&place.spectrum, &next) {
             true => Next::Here,
             false => Next::Try(next),
         }

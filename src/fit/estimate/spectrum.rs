@@ -6,16 +6,23 @@
 //! points, so that what is left of degree 2 in the stretched space says nothing of what may be left. (With a variance
 //! learnt from it, the extents of noisy ellipsoids were 5 standard errors off.)
 
-/// Logarithms of amplitude A, exponent nu, knee l0, and standard deviation s of the noise.
+/// Logarithms of the variance of degree [`PIVOT`], exponent nu, knee l0, and standard deviation s of the noise.
+///
+/// The points tell the variance in the middle of the degrees far better than the amplitude A, which a low knee and a
+/// steep slope leave open: a search among amplitudes creeps along a valley.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Spectrum(pub(crate) [f64; 4]);
 
-/// Bounds of the logarithms: slopes 1.2 to 50, knees .5 to 60, noise 3e-6 to .5 of the mean radius.
+/// The degree whose variance stands for the amplitude: grains are told from noise up to degrees 10 to 40.
+const PIVOT: usize = 12;
+
+/// Bounds of the logarithms: variances from none to those of a star of spikes, slopes 1.2 to 50, knees .5 to 60, noise
+/// 3e-6 to .5 of the mean radius.
 pub(crate) const BOUNDS: [[f64; 2]; 4] =
-    [[-25.0, 6.0], [-0.51, 3.22], [-0.69, 4.1], [-12.7, -0.69]];
+    [[-150.0, 2.0], [-0.51, 3.22], [-0.69, 4.1], [-12.7, -0.69]];
 
 /// Farthest that one step of a search may move the logarithms.
-pub(crate) const STEPS: [f64; 4] = [2.0, 0.5, 0.7, 0.7];
+pub(crate) const STEPS: [f64; 4] = [4.0, 0.5, 0.7, 0.7];
 
 /// Variances of degrees 0, 1 and 2, in squares of the mean radius: of size and place far above anything a grain has,
 /// of proportions as of a grain of which nothing is known (the middle of the hyperprior).
@@ -24,7 +31,19 @@ const FREE: [f64; 3] = [100.0, 1.0, 0.06];
 impl Spectrum {
     /// Where a search starts: the slope and knee of a kernel, noise of one percent.
     pub(crate) fn start() -> Self {
-        Self([-4.0, 1.0, 4.0_f64.ln(), 0.01_f64.ln()])
+        Self::with_amplitude([-4.0, 1.0, 4.0_f64.ln(), 0.01_f64.ln()])
+    }
+
+    /// From the logarithms of A, nu, l0 and s.
+    pub(crate) fn with_amplitude([amplitude, exponent, knee, noise]: [f64; 4]) -> Self {
+        let (fall, _) = Self([0.0, exponent, knee, noise]).fall(PIVOT);
+        Self([amplitude - fall, exponent, knee, noise])
+    }
+
+    /// log A, and its derivatives by the logarithms.
+    pub(crate) fn amplitude(&self) -> (f64, [f64; 4]) {
+        let (fall, [by_exponent, by_knee]) = self.fall(PIVOT);
+        (self.0[0] + fall, [1.0, by_exponent, by_knee, 0.0])
     }
 
     /// Standard deviation of the noise of one point, in units of the mean radius.
@@ -39,27 +58,27 @@ impl Spectrum {
 
     /// v_l of degrees 0 to `degree`.
     pub(crate) fn variances(&self, degree: usize) -> Vec<f64> {
-        (0..=degree).map(|l| self.variance(l)).collect()
+        let (amplitude, _) = self.amplitude();
+        let variance = |l: usize| (amplitude - self.fall(l).0).exp();
+        (0..=degree)
+            .map(|l| FREE.get(l).copied().unwrap_or_else(|| variance(l)))
+            .collect()
     }
 
-    fn variance(&self, l: usize) -> f64 {
-        match FREE.get(l) {
-            Some(&free) => free,
-            None => (self.0[0] - self.0[1].exp() * self.knees(l).ln_1p()).exp(),
-        }
-    }
-
-    /// (l / l0)^2.
-    fn knees(&self, l: usize) -> f64 {
-        (l as f64 / self.0[2].exp()).powi(2)
-    }
-
-    /// d log v_l by the logarithms of amplitude, exponent and knee.
+    /// d log v_l by the logarithms of the variance of [`PIVOT`], exponent and knee.
     pub(crate) fn slopes(&self, l: usize) -> [f64; 3] {
         if l < FREE.len() {
             return [0.0; 3];
         }
-        let (nu, q) = (self.0[1].exp(), self.knees(l));
-        [1.0, -nu * q.ln_1p(), 2.0 * nu * q / (1.0 + q)]
+        let ([own_exponent, own_knee], [exponent, knee]) = (self.fall(l).1, self.fall(PIVOT).1);
+        [1.0, exponent - own_exponent, knee - own_knee]
+    }
+
+    /// log A - log v_l = nu log(1 + (l / l0)^2), and its derivatives by the logarithms of exponent and knee.
+    fn fall(&self, l: usize) -> (f64, [f64; 2]) {
+        let nu = self.0[1].exp();
+        let q = (l as f64 / self.0[2].exp()).powi(2);
+        let fall = nu * q.ln_1p();
+        (fall, [fall, -2.0 * nu * q / (1.0 + q)])
     }
 }

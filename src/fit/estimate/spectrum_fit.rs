@@ -47,8 +47,10 @@ pub(crate) fn fit_spectrum(
     count: Count,
 ) -> SpectrumFit {
     let mut spectrum = start;
+    let is_warm = coefficients.is_some();
     let mut coefficients = coefficients;
-    let mut counted = match posterior.is_factored() {
+    // From the coefficients of a lower degree the spectrum is nearly right, and better than an even cloud's.
+    let mut counted = match posterior.is_factored() || is_warm {
         true => count,
         false => Count::Even,
     };
@@ -71,7 +73,9 @@ pub(crate) fn fit_spectrum(
             gradient: gradient.into(),
             proposal: evidence.most_likely(&spectrum),
         };
-        let newton_ = newton.get_or_insert_with(|| Newton::new(evidence.curvature(&spectrum)));
+        let newton_ = newton.get_or_insert_with(|| {
+            Newton::new(evidence.curvature(&spectrum), !posterior.is_factored())
+        });
         let next = match is_last || round >= MOST_ROUNDS {
             true => Next::Here,
             false => newton_.next(place),

@@ -20,7 +20,7 @@ fn normals(count: usize, seed: u64) -> Vec<f64> {
 /// A rough surface, and what is left to know of it: a tenth of the variance of its coefficients.
 fn rough(degree: usize, stretch: [f64; 3]) -> Estimate {
     let mut coefficients = normals(coefficient_count(degree), 1);
-    let spectrum = Spectrum([-6.0, 0.7, 1.0, -5.0]);
+    let spectrum = Spectrum::with_amplitude([-6.0, 0.7, 1.0, -5.0]);
     for (l, v) in spectrum.variances(degree).into_iter().enumerate() {
         for coefficient in &mut coefficients[l * l..(l + 1) * (l + 1)] {
             *coefficient *= v.min(1e-3).sqrt();
@@ -118,7 +118,7 @@ fn draws_exceed_their_mean_by_the_second_order() {
     for stretch in [[1.0; 3], STRETCH] {
         let mut estimate = rough(10, stretch);
         // Small enough for the second order to be all.
-        estimate.spectrum = Spectrum([-9.0, 0.7, 1.0, -5.0]);
+        estimate.spectrum = Spectrum::with_amplitude([-9.0, 0.7, 1.0, -5.0]);
         let at = list(&RingSurface::new(&estimate).moments());
         let variances = estimate.spectrum.variances(10);
         let mut sum = SVector::<f64, INTEGRALS>::zeros();
