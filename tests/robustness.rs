@@ -43,6 +43,22 @@ fn one_percent_of_outliers_changes_the_volume_by_less_than_a_tenth_of_a_percent(
     }
 }
 
+#[test]
+fn outliers_of_few_points_are_not_followed() {
+    let truth = Body::Bean.surface().integrals().properties;
+    for seed in 1..=6 {
+        let options = SynthOptions {
+            outliers: 0.01,
+            seed,
+            ..SynthOptions::clean(Body::Bean)
+        };
+        let points = synthesize(&options).expect("valid options").points;
+        let area = grain_properties(&fitted(points).grain).properties.area;
+        let error = area / truth.area - 1.0;
+        assert!(error.abs() < 1e-4, "seed {seed}: {error}");
+    }
+}
+
 /// Half-opening angle of the holes.
 const HOLE: f64 = 20.0;
 

@@ -21,6 +21,7 @@ mod functionals;
 mod gaps;
 mod likelihood;
 mod local;
+mod map;
 mod neighbours;
 mod newton;
 mod outcome;
@@ -41,27 +42,15 @@ pub(crate) use outcome::Estimate;
 use crate::fit::prepare::Sample;
 use crate::sphere::{ScatteredHarmonics, coefficient_count};
 use cloud::Cloud;
+use map::rounder;
 use nalgebra::Vector3;
-use outcome::{spare, variance};
+use outcome::variance;
+use outliers::{ROUNDS, alone};
 use patches::{Patches, WHOLE_CLOUD};
-use posterior::Posterior;
+use posterior::{Posterior, is_factored};
 use rayon::prelude::*;
-use spectrum::Spectrum;
 use spectrum_fit::{Count, SpectrumFit, fit_spectrum};
 use stopping::SETTLED;
-
-/// Strengths of the map: T = diag(semi-axes)^-k.
-const STRENGTHS: [f64; 3] = [1.0, 0.5, 0.0];
-
-/// Axes that differ by less than this need no map.
-const ROUND: f64 = 1.03;
-
-/// Degree at which the maps are compared.
-const COMPARED_DEGREE: usize = 24;
-
-/// Maps that differ by less than this per point in the logarithm of the likelihood are compared again at the full
-/// degree: of a clean, textured grain what the low degree leaves passes for noise.
-const CLOSE: f64 = 0.1;
 
 /// Degrees that are tried one after the other, as long as the last degrees carry something.
 const DEGREES: [usize; 5] = [36, 48, 60, 72, 80];
@@ -83,19 +72,6 @@ const WORTH_A_DEGREE: f64 = 5.0;
 /// Coefficients per point beyond which a higher degree is not tried.
 const MOST_PER_POINT: f64 = 0.9;
 
-/// The matrix is factored where there are more coefficients per point than this: beyond .6 the cheap way fails on
-/// uneven clouds; ...
-const FACTORED: f64 = 0.45;
-
-/// ... but only of clouds up to this size, whose matrices of degree 36 take 30 ms.
-const MOST_FACTORED: usize = 3000;
-
-/// Points on which maps are compared.
-const COMPARED_POINTS: usize = 2000;
-
-/// Rounds of leaving out outliers.
-const OUTLIER_ROUNDS: usize = 5;
-
 /// Estimates the radius from samples in the grain's own frame; `axes`: semi-axes of the ellipsoid of equal second moments,
 /// along the grain's own axes.
 pub(crate) fn estimate(samples: &[Sample], axes: Vector3<f64>) -> Estimate {
@@ -105,9 +81,10 @@ pub(crate) fn estimate(samples: &[Sample], axes: Vector3<f64>) -> Estimate {
         None => (samples, None),
     };
     let first = first_degree(reduced.len());
-    let (mut cloud, start) = rounder(reduced, counts, axes, first);
+    let rounder = rounder(reduced, counts, axes, first);
+    let (mut cloud, start) = (rounder.cloud, rounder.fit);
     let mut degree = first;
-    let mut outliers = patches.as_ref().map_or(0, Patches::left_out);
+    let mut outliers = patches.as_ref().map_or(rounder.outliers, Patches::left_out);
     let mut rounds = 0;
     let mut lower: Option<(usize, SpectrumFit)> = None;
     let mut fit = start;
@@ -121,14 +98,8 @@ pub(crate) fn estimate(samples: &[Sample], axes: Vector3<f64>) -> Estimate {
             coefficients.resize(coefficient_count(degree), 0.0);
             fit = fit_spectrum(&posterior, fit.spectrum, Some(coefficients), Count::Probed);
         }
-        let alone = match rounds < OUTLIER_ROUNDS && patches.is_none() {
-            true => {
-                // Errors of predictions from all other points, were the points spread evenly.
-                let spare = spare(&fit.unlearnt, cloud.len() as f64);
-                let mut errors = posterior.residuals(&fit.coefficients);
-                errors.iter_mut().for_each(|e| *e /= spare);
-                outliers::outliers(&cloud.directions, &errors)
-            }
+        let alone = match rounds < ROUNDS && patches.is_none() {
+            true => alone(&posterior, &fit),
             false => Vec::new(),
         };
         if !alone.is_empty() {
@@ -165,10 +136,6 @@ pub(crate) fn estimate(samples: &[Sample], axes: Vector3<f64>) -> Estimate {
     }
 }
 
-fn is_factored(points: usize, degree: usize) -> bool {
-    points <= MOST_FACTORED && coefficient_count(degree) as f64 > FACTORED * points as f64
-}
-
 /// The degree that a cloud of so many points is first fitted at.
 fn first_degree(points: usize) -> usize {
     match points {
@@ -176,49 +143,6 @@ fn first_degree(points: usize) -> usize {
         21..=100 => 30,
         _ => DEGREES[0],
     }
-}
-
-/// The cloud after the map under which its points are most likely, and its fit at a low degree.
-fn rounder(
-    samples: &[Sample],
-    counts: Option<&[f64]>,
-    axes: Vector3<f64>,
-    first: usize,
-) -> (Cloud, SpectrumFit) {
-    let mean = (axes.x * axes.y * axes.z).cbrt();
-    let strengths = match axes.max() > ROUND * axes.min() {
-        true => &STRENGTHS[..],
-        false => &STRENGTHS[2..],
-    };
-    let fit = |k: f64, degree: usize, start: Option<SpectrumFit>| {
-        let cloud = Cloud::new(samples, counts, axes.map(|axis| (mean / axis).powf(k)));
-        let part = (degree < first).then(|| cloud.every(cloud.len().div_ceil(COMPARED_POINTS)));
-        let judged = part.as_ref().unwrap_or(&cloud);
-        let posterior = Posterior::new(judged, degree, is_factored(judged.len(), degree));
-        let spectrum = start.map_or_else(Spectrum::start, |fit| fit.spectrum);
-        let fit = fit_spectrum(&posterior, spectrum, None, Count::Even);
-        (cloud, fit)
-    };
-    let least = |fits: &[(f64, (Cloud, SpectrumFit))]| {
-        let costs = fits.iter().map(|(_, (_, fit))| fit.cost);
-        costs.fold(f64::INFINITY, f64::min)
-    };
-    let compared = first.min(COMPARED_DEGREE);
-    let mut fits: Vec<_> = strengths
-        .iter()
-        .map(|&k| (k, fit(k, compared, None)))
-        .collect();
-    let close = least(&fits) + CLOSE * samples.len().min(COMPARED_POINTS) as f64;
-    fits.retain(|(_, (_, fit))| fit.cost <= close);
-    if fits.len() > 1 && compared < first {
-        let again = fits
-            .into_iter()
-            .map(|(k, (_, start))| (k, fit(k, first, Some(start))));
-        fits = again.collect();
-    }
-    let best = least(&fits);
-    let found = fits.into_iter().find(|(_, (_, fit))| fit.cost <= best);
-    found.expect("costs are finite").1
 }
 
 /// A higher degree, if the last ones carry something and the points are enough.

@@ -1,7 +1,13 @@
 //! Points that stand alone: far from the estimate, and far from what their neighbours say of it.
 
 use super::neighbours::Neighbours;
+use super::outcome::spare;
+use super::posterior::Posterior;
+use super::spectrum_fit::SpectrumFit;
 use nalgebra::Vector3;
+
+/// Rounds of leaving out outliers.
+pub(super) const ROUNDS: usize = 5;
 
 /// Neighbours that a point is compared with.
 const NEIGHBOURS: usize = 8;
@@ -23,8 +29,17 @@ const COMPANY: usize = 2;
 /// Standard deviation over median absolute deviation of a normal distribution.
 const PER_MEDIAN: f64 = 1.4826;
 
+/// Positions of the points of a cloud that stand alone, ascending.
+pub(super) fn alone(posterior: &Posterior<'_>, fit: &SpectrumFit) -> Vec<usize> {
+    // Errors of predictions from all other points, were the points spread evenly.
+    let spare = spare(&fit.unlearnt, posterior.cloud.len() as f64);
+    let mut errors = posterior.residuals(&fit.coefficients);
+    errors.iter_mut().for_each(|e| *e /= spare);
+    outliers(&posterior.cloud.directions, &errors)
+}
+
 /// Positions of the outliers among points with these residuals, ascending.
-pub(crate) fn outliers(directions: &[Vector3<f64>], residuals: &[f64]) -> Vec<usize> {
+fn outliers(directions: &[Vector3<f64>], residuals: &[f64]) -> Vec<usize> {
     // A contrast is at most twice the largest residual: mostly there is nothing to look for.
     let spread = robust_deviation(residuals.iter().copied());
     let limit = (DEVIATIONS * spread).max(LEAST);

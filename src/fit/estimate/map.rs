@@ -1,0 +1,120 @@
+//! The linear map that makes a grain rounder: of three strengths the one under which its points are most likely.
+//!
+//! Maps are compared at a low degree, which does not follow points that stand alone, as a high one does with nearly as
+//! many coefficients as points. So these are left out here.
+
+use super::cloud::Cloud;
+use super::outliers::{ROUNDS, alone};
+use super::posterior::{Posterior, is_factored};
+use super::spectrum::Spectrum;
+use super::spectrum_fit::{Count, SpectrumFit, fit_spectrum};
+use crate::fit::prepare::Sample;
+use nalgebra::Vector3;
+use std::borrow::Cow;
+
+/// Strengths of the map: T = diag(semi-axes)^-k.
+const STRENGTHS: [f64; 3] = [1.0, 0.5, 0.0];
+
+/// Axes that differ by less than this need no map.
+const ROUND: f64 = 1.03;
+
+/// Degree at which the maps are compared.
+const COMPARED_DEGREE: usize = 24;
+
+/// Maps that differ by less than this per point in the logarithm of the likelihood are compared again at the full
+/// degree: of a clean, textured grain what the low degree leaves passes for noise.
+const CLOSE: f64 = 0.1;
+
+/// Points on which maps are compared.
+const COMPARED_POINTS: usize = 2000;
+
+/// A cloud after the map under which its points are most likely.
+pub(super) struct Rounder {
+    pub(super) cloud: Cloud,
+    /// Its fit, of a low degree or the first.
+    pub(super) fit: SpectrumFit,
+    /// Points that stand alone and were left out.
+    pub(super) outliers: usize,
+}
+
+/// A cloud after a map, and its fit.
+struct Mapped {
+    strength: f64,
+    cloud: Cloud,
+    fit: SpectrumFit,
+}
+
+/// Compares maps; `first` is the degree that the cloud is fitted at next.
+pub(super) fn rounder(
+    samples: &[Sample],
+    counts: Option<&[f64]>,
+    axes: Vector3<f64>,
+    first: usize,
+) -> Rounder {
+    let mean = (axes.x * axes.y * axes.z).cbrt();
+    let stretch = |strength: f64| axes.map(|axis| (mean / axis).powf(strength));
+    let strengths = match axes.max() > ROUND * axes.min() {
+        true => &STRENGTHS[..],
+        false => &STRENGTHS[2..],
+    };
+    let compared = first.min(COMPARED_DEGREE);
+    let mut samples = Cow::Borrowed(samples);
+    let mut outliers = 0;
+    let mut rounds = 0;
+    let mut maps = loop {
+        let maps = strengths.iter().map(|&strength| {
+            let cloud = Cloud::new(&samples, counts, stretch(strength));
+            let every = cloud.len().div_ceil(COMPARED_POINTS);
+            let part = (compared < first).then(|| cloud.every(every));
+            let fit = fitted(part.as_ref().unwrap_or(&cloud), compared, Spectrum::start());
+            Mapped {
+                strength,
+                cloud,
+                fit,
+            }
+        });
+        let maps: Vec<Mapped> = maps.collect();
+        let is_whole = counts.is_none() && samples.len() <= COMPARED_POINTS;
+        if rounds == ROUNDS || !is_whole {
+            break maps;
+        }
+        let best = best(&maps);
+        let posterior = Posterior::new(&best.cloud, compared, false);
+        let alone = alone(&posterior, &best.fit);
+        if alone.is_empty() {
+            break maps;
+        }
+        rounds += 1;
+        outliers += alone.len();
+        let mut alone = alone.into_iter().peekable();
+        let kept = samples.iter().enumerate();
+        let kept = kept.filter(|(at, _)| alone.next_if_eq(at).is_none());
+        samples = kept.map(|(_, sample)| *sample).collect();
+    };
+    let close = best(&maps).fit.cost + CLOSE * samples.len().min(COMPARED_POINTS) as f64;
+    maps.retain(|map| map.fit.cost <= close);
+    if maps.len() > 1 && compared < first {
+        for map in &mut maps {
+            map.fit = fitted(&map.cloud, first, map.fit.spectrum);
+        }
+    }
+    let strength = best(&maps).strength;
+    let found = maps.into_iter().find(|map| map.strength == strength);
+    let Mapped { cloud, fit, .. } = found.expect("one of them is the best");
+    Rounder {
+        cloud,
+        fit,
+        outliers,
+    }
+}
+
+fn fitted(cloud: &Cloud, degree: usize, start: Spectrum) -> SpectrumFit {
+    let posterior = Posterior::new(cloud, degree, is_factored(cloud.len(), degree));
+    fit_spectrum(&posterior, start, None, Count::Even)
+}
+
+/// The first of those under which the points are most likely.
+fn best(maps: &[Mapped]) -> &Mapped {
+    let least = maps.iter().min_by(|a, b| a.fit.cost.total_cmp(&b.fit.cost));
+    least.expect("there is a map")
+}
