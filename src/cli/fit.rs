@@ -5,7 +5,8 @@ use super::fitting::{ScanFit, fit_scan, say_stats};
 use super::progress::Progress;
 use super::{outputs, print, print_json, warn};
 use crate::export::{save_mesh, write_atomically};
-use crate::model::{Grain, save_grain};
+use crate::fit::Fitted;
+use crate::model::save_grain;
 use crate::report::{FitReport, largest_loss, write_harmonics};
 use anyhow::Result;
 use std::io::Write;
@@ -36,7 +37,7 @@ pub(super) fn run(args: FitArgs) -> Result<()> {
         is_told.then(|| FitReport::new(fitting.name(), &fitted, &options, &scan_warnings));
     let before = started.elapsed().as_secs_f64();
     progress.stage("Writing");
-    let loss = write_files(&args, &fitted.grain)?;
+    let loss = write_files(&args, &fitted)?;
     drop(progress);
     seconds.total = started.elapsed().as_secs_f64();
     seconds.mesh = seconds.total - before;
@@ -64,12 +65,14 @@ pub(super) fn run(args: FitArgs) -> Result<()> {
 }
 
 /// Writes the files asked for; gives what the conversion to published coefficients loses.
-fn write_files(args: &FitArgs, grain: &Grain) -> Result<Option<f64>> {
+fn write_files(args: &FitArgs, fitted: &Fitted) -> Result<Option<f64>> {
+    let grain = &fitted.grain;
     if let Some(path) = &args.mesh {
         save_mesh(path, &grain.mesh(args.meshing.resolution.into()))?;
     }
     if let Some(path) = &args.output {
-        write_atomically(path, |file| Ok(writeln!(file, "{}", save_grain(grain))?))?;
+        let text = save_grain(&fitted.grain_with_errors());
+        write_atomically(path, |file| Ok(writeln!(file, "{text}")?))?;
     }
     let Some(path) = &args.harmonics else {
         return Ok(None);

@@ -33,11 +33,17 @@ pub enum Stage {
 pub(crate) struct Cancelled;
 
 impl Context<'_> {
+    /// Ends the work if the fit was asked to stop.
+    pub(crate) fn check(&self) -> Result<(), Cancelled> {
+        match self.cancel.is_some_and(|flag| flag.load(Ordering::Relaxed)) {
+            true => Err(Cancelled),
+            false => Ok(()),
+        }
+    }
+
     /// Tells what is done now, unless the fit was asked to stop.
     pub(crate) fn enter(&self, stage: Stage) -> Result<(), Cancelled> {
-        if self.cancel.is_some_and(|flag| flag.load(Ordering::Relaxed)) {
-            return Err(Cancelled);
-        }
+        self.check()?;
         if let Some(progress) = self.progress {
             progress(stage);
         }

@@ -119,7 +119,7 @@ fn estimated(
 ) -> Result<Fitted, FitError> {
     context.enter(Stage::Estimating)?;
     let samples = prepared.samples(&CellGrid::new([SORTED_PARTS]));
-    let estimate = estimate(samples.rows(), prepared.semi_axes);
+    let estimate = estimate(samples.rows(), prepared.semi_axes, context)?;
     let tolerance = options.tolerance.length(prepared.mean_radius);
     let limit = tolerance.max(GOOD_ENOUGH * estimate.deviation());
     let stretch = estimate.stretch();
@@ -131,10 +131,16 @@ fn estimated(
         Tolerance::Auto => estimate.resolution(),
         _ => limit,
     };
+    if options.segments == Some(1)
+        && let Some(asked) = options.degree.filter(|&asked| asked > estimate.degree)
+    {
+        let reached = estimate.degree;
+        return Err(FitError::DegreeOfEstimate { asked, reached });
+    }
     let most = options.max_degree.unwrap_or(estimate.degree);
-    let asked = (options.segments == Some(1)).then(|| match options.degree {
-        Some(degree) => degree.min(estimate.degree),
-        None => estimate.least_degree(own_limit).min(most),
+    let asked = (options.segments == Some(1)).then(|| {
+        let least = || estimate.least_degree(own_limit).min(most);
+        options.degree.unwrap_or_else(least)
     });
     let degree = asked.unwrap_or_else(|| estimate.least_degree(limit));
     let are_cells_too_many = options.segments.is_none() && options.most_segments() < 6;

@@ -53,6 +53,17 @@ pub enum FitError {
         /// The largest allowed.
         most: usize,
     },
+    /// The estimate has no harmonics of the degree that is asked for.
+    #[error(
+        "an expansion of degree {asked} is asked for, but the points tell of harmonics up to degree {reached} only: \
+         ask for at most that"
+    )]
+    DegreeOfEstimate {
+        /// The degree asked for.
+        asked: usize,
+        /// The degree of the estimate.
+        reached: usize,
+    },
     /// The tolerance is not a positive number.
     #[error("the tolerance is {value}; it must be a positive length")]
     Tolerance {

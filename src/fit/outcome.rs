@@ -86,6 +86,16 @@ impl Fitted {
         })
     }
 
+    /// The grain with the [errors of its curvature](crate::model::CurvatureErrors), which a file of it keeps for its contacts. Without,
+    /// if it was fitted to the points themselves.
+    pub fn grain_with_errors(&self) -> Grain {
+        let errors = self.posterior.as_ref();
+        match errors.and_then(|posterior| posterior.curvature_errors(&self.grain)) {
+            Some(errors) => self.grain.clone().with_curvature_errors(errors),
+            None => self.grain.clone(),
+        }
+    }
+
     /// Standard deviations of the radius in directions of the scan's frame (unit vectors), in the scan's unit: of the
     /// surface, and of a new point of the same scan. `None` of fits to the points themselves.
     pub fn radius_errors(&self, directions: &[Vector3<f64>]) -> Option<Vec<RadiusError>> {

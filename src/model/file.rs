@@ -2,10 +2,13 @@
 //!
 //! Version 3 holds one of `cells` (blended), `segments` (independent), `symmetry` (mirrored) and
 //! `harmonics` (the whole sphere), of the grain stretched along its axes by `stretch`, if that is there.
-//! `margin` goes with `cells`. Version 2, which knew none of `harmonics`, `stretch` and `margin`, and version 1,
+//! `margin` goes with `cells`; `curvature_errors` with any, if they are known. Version 2, which knew none of `harmonics`, `stretch`, `margin` and `curvature_errors`, and version 1,
 //! which knew segments only, are still read.
 
-use super::{Blended, Frame, Grain, InvalidGrain, Mirrored, Segmented, Stretch, Surface, Whole};
+use super::{
+    Blended, CurvatureErrors, Frame, Grain, InvalidGrain, Mirrored, Segmented, Stretch, Surface,
+    Whole,
+};
 use crate::sphere::{AngularPartition, Cover, CoverError, CubeCell, MARGIN, Symmetry};
 use nalgebra::{Matrix3, Point3, Vector3};
 use serde::{Deserialize, Serialize};
@@ -54,6 +57,9 @@ struct GrainFile {
     /// Of the whole sphere: a_l^m of the real orthonormal harmonics at index l(l+1) + m.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     harmonics: Option<Vec<f64>>,
+    /// Standard errors of the curvature in 216 cells of directions, where they are known.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    curvature_errors: Option<Vec<f64>>,
 }
 
 /// A cell, numbered as in [`CubeCell`], and the coefficients of its cap basis by degree.
@@ -100,6 +106,9 @@ pub enum LoadError {
          or `symmetry` and `coefficients`, or `harmonics`"
     )]
     Surface,
+    /// The errors of the curvature are none.
+    #[error("the model is not sound: `curvature_errors` must hold 216 numbers, none below zero")]
+    CurvatureErrors,
     /// The cells do not tile the sphere.
     #[error("the model is not sound: {0}")]
     Cover(#[from] CoverError),
@@ -125,6 +134,7 @@ pub fn save_grain(grain: &Grain) -> String {
         symmetry: None,
         coefficients: None,
         harmonics: None,
+        curvature_errors: grain.curvature_errors().map(|e| e.of_cells().to_vec()),
     };
     match grain.surface() {
         Surface::Blended(surface) => {
@@ -210,5 +220,11 @@ pub fn parse_grain(text: &str) -> Result<Grain, LoadError> {
     };
     let grain = Grain::stretched(frame, stretch, surface)?;
     grain.least_radius()?;
-    Ok(grain)
+    match file.curvature_errors {
+        Some(errors) => {
+            let errors = CurvatureErrors::new(errors).ok_or(LoadError::CurvatureErrors)?;
+            Ok(grain.with_curvature_errors(errors))
+        }
+        None => Ok(grain),
+    }
 }

@@ -1,6 +1,8 @@
 //! The fitted grain: a star-shaped surface and where it lies in the scan.
 
-use super::{Blended, Derivatives, Frame, Mirrored, Segmented, StarSurface, Stretch, Whole};
+use super::{
+    Blended, CurvatureErrors, Derivatives, Frame, Mirrored, Segmented, StarSurface, Stretch, Whole,
+};
 use nalgebra::{Matrix3, Point3, Vector3};
 use rayon::prelude::*;
 
@@ -13,6 +15,7 @@ pub struct Grain {
     frame: Frame,
     stretch: Stretch,
     surface: Surface,
+    curvature_errors: Option<CurvatureErrors>,
 }
 
 /// How expansions make a surface.
@@ -211,6 +214,7 @@ impl Grain {
             frame,
             stretch,
             surface,
+            curvature_errors: None,
         })
     }
 
@@ -228,7 +232,28 @@ impl Grain {
                 Surface::Mirrored(surface) => Surface::Mirrored(surface.times(factor)),
                 Surface::Whole(surface) => Surface::Whole(surface.times(factor)),
             },
+            curvature_errors: self.curvature_errors.as_ref().map(|e| e.over(factor)),
         }
+    }
+
+    /// The grain, with what is known of the errors of its curvature.
+    #[must_use]
+    pub fn with_curvature_errors(self, errors: CurvatureErrors) -> Self {
+        Self {
+            curvature_errors: Some(errors),
+            ..self
+        }
+    }
+
+    /// Errors of its curvature, where they are known.
+    pub fn curvature_errors(&self) -> Option<&CurvatureErrors> {
+        self.curvature_errors.as_ref()
+    }
+
+    /// Standard error of the curvature in a direction of the scan's frame, in one over the scan's unit, where it is known.
+    pub fn curvature_error(&self, n: &Vector3<f64>) -> Option<f64> {
+        let errors = self.curvature_errors.as_ref()?;
+        Some(errors.at(&self.frame.axes.tr_mul(n)))
     }
 
     /// Centre and axes in the scan.

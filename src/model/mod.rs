@@ -1,6 +1,7 @@
 //! What a fitted grain is: evaluate, differentiate, mesh, save, load.
 
 mod blended;
+mod curvature_errors;
 mod file;
 mod frame;
 mod grain;
@@ -15,6 +16,7 @@ mod surface;
 mod whole;
 
 pub use blended::Blended;
+pub use curvature_errors::CurvatureErrors;
 pub use file::{LoadError, parse_grain, save_grain};
 pub use frame::Frame;
 pub use grain::{Grain, InvalidGrain, Surface};

@@ -46,6 +46,17 @@ impl CubeCell {
             .collect()
     }
 
+    /// The position among [`Self::uniform`] cells of the one that holds a direction.
+    pub fn position(parts: u16, n: &Vector3<f64>) -> usize {
+        let (axis, parts) = (n.iamax(), usize::from(parts.max(1)));
+        let face = 2 * axis + usize::from(n[axis] < 0.0);
+        let place = |height: f64| {
+            let share = 0.5 + (height / n[axis].abs()).atan() / FRAC_PI_2;
+            ((share * parts as f64) as usize).min(parts - 1)
+        };
+        (face * parts + place(n[(axis + 1) % 3])) * parts + place(n[(axis + 2) % 3])
+    }
+
     /// The four cells of half the width that make this one.
     pub fn quarters(&self) -> [Self; 4] {
         [(0, 0), (0, 1), (1, 0), (1, 1)].map(|(i, j)| Self {

@@ -8,6 +8,7 @@ use super::outliers::{ROUNDS, alone};
 use super::posterior::{Posterior, is_factored};
 use super::spectrum::Spectrum;
 use super::spectrum_fit::{Count, SpectrumFit, fit_spectrum};
+use crate::fit::context::{Cancelled, Context};
 use crate::fit::prepare::Sample;
 use nalgebra::Vector3;
 use std::borrow::Cow;
@@ -50,7 +51,8 @@ pub(super) fn rounder(
     counts: Option<&[f64]>,
     axes: Vector3<f64>,
     first: usize,
-) -> Rounder {
+    context: &Context<'_>,
+) -> Result<Rounder, Cancelled> {
     let mean = (axes.x * axes.y * axes.z).cbrt();
     let stretch = |strength: f64| axes.map(|axis| (mean / axis).powf(strength));
     let strengths = match axes.max() > ROUND * axes.min() {
@@ -95,17 +97,18 @@ pub(super) fn rounder(
     maps.retain(|map| map.fit.cost <= close);
     if maps.len() > 1 && compared < first {
         for map in &mut maps {
+            context.check()?;
             map.fit = fitted(&map.cloud, first, map.fit.spectrum);
         }
     }
     let strength = best(&maps).strength;
     let found = maps.into_iter().find(|map| map.strength == strength);
     let Mapped { cloud, fit, .. } = found.expect("one of them is the best");
-    Rounder {
+    Ok(Rounder {
         cloud,
         fit,
         outliers,
-    }
+    })
 }
 
 fn fitted(cloud: &Cloud, degree: usize, start: Spectrum) -> SpectrumFit {

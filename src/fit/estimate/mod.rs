@@ -12,6 +12,7 @@
 
 mod cloud;
 mod conjugate_gradients;
+mod curvature;
 mod dimension_errors;
 mod dimensions;
 mod draws;
@@ -39,6 +40,7 @@ pub(crate) use figures::Figures;
 pub use local::RadiusError;
 pub(crate) use outcome::Estimate;
 
+use crate::fit::context::{Cancelled, Context};
 use crate::fit::prepare::Sample;
 use crate::sphere::{ScatteredHarmonics, coefficient_count};
 use cloud::Cloud;
@@ -74,14 +76,18 @@ const MOST_PER_POINT: f64 = 0.9;
 
 /// Estimates the radius from samples in the grain's own frame; `axes`: semi-axes of the ellipsoid of equal second moments,
 /// along the grain's own axes.
-pub(crate) fn estimate(samples: &[Sample], axes: Vector3<f64>) -> Estimate {
+pub(crate) fn estimate(
+    samples: &[Sample],
+    axes: Vector3<f64>,
+    context: &Context<'_>,
+) -> Result<Estimate, Cancelled> {
     let patches = (samples.len() > WHOLE_CLOUD).then(|| Patches::new(samples));
     let (reduced, counts) = match &patches {
         Some(patches) => (patches.means.as_slice(), Some(patches.counts.as_slice())),
         None => (samples, None),
     };
     let first = first_degree(reduced.len());
-    let rounder = rounder(reduced, counts, axes, first);
+    let rounder = rounder(reduced, counts, axes, first, context)?;
     let (mut cloud, start) = (rounder.cloud, rounder.fit);
     let mut degree = first;
     let mut outliers = patches.as_ref().map_or(rounder.outliers, Patches::left_out);
@@ -91,6 +97,7 @@ pub(crate) fn estimate(samples: &[Sample], axes: Vector3<f64>) -> Estimate {
     // The comparison of maps may have found the exact likelihood at this degree.
     let mut is_found = fit.factor.is_some() && fit.coefficients.len() == coefficient_count(degree);
     loop {
+        context.check()?;
         let is_factored = is_factored(cloud.len(), degree);
         let posterior = Posterior::new(&cloud, degree, is_factored && !is_found);
         if !std::mem::take(&mut is_found) {
@@ -125,7 +132,7 @@ pub(crate) fn estimate(samples: &[Sample], axes: Vector3<f64>) -> Estimate {
     if let Some(patches) = &patches {
         correct(&mut cloud, samples, patches, degree, &mut fit);
     }
-    Estimate {
+    Ok(Estimate {
         cloud,
         degree,
         coefficients: fit.coefficients,
@@ -133,7 +140,7 @@ pub(crate) fn estimate(samples: &[Sample], axes: Vector3<f64>) -> Estimate {
         unlearnt: fit.unlearnt,
         outliers,
         factor: fit.factor,
-    }
+    })
 }
 
 /// The degree that a cloud of so many points is first fitted at.

@@ -49,20 +49,25 @@ pub(super) fn spare(unlearnt: &[f64], points: f64) -> f64 {
 
 /// Mean posterior variance of the radius: sum of (2l + 1) C_l / 4 pi.
 pub(super) fn variance(spectrum: &Spectrum, unlearnt: &[f64]) -> f64 {
-    let variances = spectrum.variances(unlearnt.len() - 1);
-    let terms = variances.iter().zip(unlearnt).enumerate();
-    terms
-        .map(|(l, (v, q))| (2 * l + 1) as f64 * v * q)
-        .sum::<f64>()
-        / (4.0 * std::f64::consts::PI)
+    moment(spectrum, unlearnt, 0)
 }
 
 /// Mean posterior variance of the surface gradient: sum of (2l + 1) l (l + 1) C_l / 4 pi.
 pub(super) fn slope_variance(spectrum: &Spectrum, unlearnt: &[f64]) -> f64 {
+    moment(spectrum, unlearnt, 1)
+}
+
+/// Mean posterior variance of the surface's second derivatives: sum of (2l + 1) (l (l + 1))^2 C_l / 4 pi.
+pub(super) fn bending_variance(spectrum: &Spectrum, unlearnt: &[f64]) -> f64 {
+    moment(spectrum, unlearnt, 2)
+}
+
+/// sum of (2l + 1) (l (l + 1))^power C_l / 4 pi.
+fn moment(spectrum: &Spectrum, unlearnt: &[f64], power: i32) -> f64 {
     let variances = spectrum.variances(unlearnt.len() - 1);
     let terms = variances.iter().zip(unlearnt).enumerate();
-    terms
-        .map(|(l, (v, q))| ((2 * l + 1) * l * (l + 1)) as f64 * v * q)
-        .sum::<f64>()
-        / (4.0 * std::f64::consts::PI)
+    let sum: f64 = terms
+        .map(|(l, (v, q))| (2 * l + 1) as f64 * ((l * (l + 1)) as f64).powi(power) * v * q)
+        .sum();
+    sum / (4.0 * std::f64::consts::PI)
 }

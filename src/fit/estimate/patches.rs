@@ -5,14 +5,14 @@
 
 use super::outliers::{median, robust_deviation};
 use crate::fit::prepare::Sample;
+use crate::sphere::CubeCell;
 use nalgebra::Vector3;
-use std::f64::consts::FRAC_PI_4;
 
 /// Clouds up to this size are used point by point.
 pub(crate) const WHOLE_CLOUD: usize = 30_000;
 
 /// Patches along an edge of the cube: 6 x 64^2 = 24 576 in all.
-const PER_EDGE: usize = 64;
+const PER_EDGE: u16 = 64;
 
 /// Points of a patch that stand apart from its median radius by more than this many standard deviations
 /// are left out, ...
@@ -37,8 +37,11 @@ pub(crate) struct Patches {
 impl Patches {
     /// Gathers samples in patches.
     pub(crate) fn new(samples: &[Sample]) -> Self {
-        let cells = 6 * PER_EDGE * PER_EDGE;
-        let place: Vec<u32> = samples.iter().map(|s| patch(s) as u32).collect();
+        let cells = 6 * usize::from(PER_EDGE).pow(2);
+        let place: Vec<u32> = samples
+            .iter()
+            .map(|&[x, y, z, _]| CubeCell::position(PER_EDGE, &Vector3::new(x, y, z)) as u32)
+            .collect();
         let mut starts = vec![0_usize; cells + 1];
         for &cell in &place {
             starts[cell as usize + 1] += 1;
@@ -92,16 +95,4 @@ impl Patches {
     pub(crate) fn left_out(&self) -> usize {
         self.patch_of.iter().filter(|patch| patch.is_none()).count()
     }
-}
-
-/// The patch of a direction: face of the cube, row and column by equal angles.
-fn patch(&[x, y, z, _]: &Sample) -> usize {
-    let n = Vector3::new(x, y, z);
-    let axis = n.iamax();
-    let face = 2 * axis + usize::from(n[axis] < 0.0);
-    let place = |t: f64| {
-        let share = 0.5 + 0.5 * (t / n[axis].abs()).atan() / FRAC_PI_4;
-        ((share * PER_EDGE as f64) as usize).min(PER_EDGE - 1)
-    };
-    (face * PER_EDGE + place(n[(axis + 1) % 3])) * PER_EDGE + place(n[(axis + 2) % 3])
 }

@@ -1,4 +1,5 @@
 use super::*;
+use crate::fit::context::Context;
 use crate::fit::estimate::estimate;
 use crate::fit::prepare::Sample;
 use crate::shapes::{Body, Sampling};
@@ -17,6 +18,10 @@ fn samples(
         [n.x, n.y, n.z, radius(n) + noise * error]
     };
     directions.iter().map(&mut at).collect()
+}
+
+fn estimated(samples: &[Sample], axes: Vector3<f64>) -> Estimate {
+    estimate(samples, axes, &Context::default()).unwrap()
 }
 
 fn fibonacci(points: usize) -> Vec<Vector3<f64>> {
@@ -47,7 +52,7 @@ fn numbers(errors: &StandardErrors) -> Vec<f64> {
 #[test]
 fn a_noisy_sphere_has_its_closed_form() {
     let (points, noise) = (3000, 0.01);
-    let estimate = estimate(
+    let estimate = estimated(
         &samples(&fibonacci(points), |_| 1.0, noise),
         Vector3::repeat(1.0),
     );
@@ -70,7 +75,7 @@ fn a_noisy_sphere_has_its_closed_form() {
 #[test]
 fn figures_that_differ_from_the_best_have_larger_errors() {
     let axes = Vector3::new(1.5, 1.2, 0.9);
-    let estimate = estimate(&samples(&fibonacci(2600), ellipsoid(axes), 0.005), axes);
+    let estimate = estimated(&samples(&fibonacci(2600), ellipsoid(axes), 0.005), axes);
     let found = best(&estimate);
     let errors = found.errors(&found.figures);
     let mut told = found.figures;
@@ -88,7 +93,7 @@ fn errors_do_not_depend_on_how_systems_are_solved() {
     let axes = Vector3::new(1.4, 1.0, 0.8);
     let mut directions = fibonacci(2000);
     directions.retain(|n| n.x < 0.95);
-    let mut estimate = estimate(&samples(&directions, ellipsoid(axes), 0.004), axes);
+    let mut estimate = estimated(&samples(&directions, ellipsoid(axes), 0.004), axes);
     let dense = best(&estimate);
     assert!(estimate.factor.take().is_some());
     let iterative = best(&estimate);
@@ -106,7 +111,7 @@ fn errors_do_not_depend_on_how_systems_are_solved() {
 
 #[test]
 fn holes_and_edges_are_told() {
-    let told = best(&estimate(
+    let told = best(&estimated(
         &samples(&fibonacci(2600), |_| 1.0, 0.005),
         Vector3::repeat(1.0),
     ))
@@ -115,7 +120,7 @@ fn holes_and_edges_are_told() {
         let mut directions = fibonacci(4000);
         directions.retain(|n| n.y < degrees.to_radians().cos());
         let points = samples(&directions, |_| 1.0, 0.005);
-        let found = estimate(&points, Vector3::repeat(1.0)).errors(&told);
+        let found = estimated(&points, Vector3::repeat(1.0)).errors(&told);
         match found {
             Err(NoInterval::Hole { half_angle }) => {
                 assert!(is_hole && (half_angle.to_degrees() - degrees).abs() < 2.0);
@@ -127,7 +132,7 @@ fn holes_and_edges_are_told() {
         let surface = body.surface();
         for noise in [0.0, 0.005] {
             let points = samples(&fibonacci(1538), |n| surface.radius(n), noise);
-            let found = estimate(&points, Vector3::repeat(1.0)).errors(&told);
+            let found = estimated(&points, Vector3::repeat(1.0)).errors(&told);
             assert!(
                 matches!(found, Err(NoInterval::Unresolved { .. })),
                 "{body} {noise}: {found:?}"
@@ -151,7 +156,7 @@ fn degenerate_clouds_have_finite_errors_or_a_reason() {
     twice.extend(vec![Vector3::x(); 30]);
     clouds.push((samples(&twice, ellipsoid(axes), 0.01), axes));
     for (points, axes) in clouds {
-        let estimate = estimate(&points, axes);
+        let estimate = estimated(&points, axes);
         let figures = best(&estimate).figures;
         if let Ok(errors) = estimate.errors(&figures) {
             for number in numbers(&errors) {
@@ -173,7 +178,7 @@ fn degenerate_clouds_have_finite_errors_or_a_reason() {
 fn extents_change_by_their_ends_and_their_axes() {
     let axes = Vector3::new(1.5, 1.2, 0.9);
     let body = Body::Bean.surface();
-    let estimate = estimate(&samples(&fibonacci(2600), |n| body.radius(n), 0.05), axes);
+    let estimate = estimated(&samples(&fibonacci(2600), |n| body.radius(n), 0.05), axes);
     let of = |estimate: &Estimate| {
         let surface = RingSurface::new(estimate);
         let nodes = surface.nodes.iter().zip(&surface.radii);

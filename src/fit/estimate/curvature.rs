@@ -1,0 +1,112 @@
+//! How well the curvature of a grain is known.
+//!
+//! The curvature of a surface is off by that of the difference between it and the estimate, which is known, and by that
+//! of the estimate's own error. Where a surface moves by h along its normal, its curvature tensor changes by the second
+//! derivatives of h. Of an error that is alike everywhere in the stretched space, with variances C_l of the
+//! coefficients, the second derivatives of the radius there are normal with
+//!
+//! ```text
+//! <H_ij H_kl> = (d_ij d_kl + d_ik d_jl + d_il d_jk) k / 8,   k = sum (2l + 1) (l (l + 1))² C_l / 4 pi
+//! ```
+//!
+//! A step along the unit tangent t of the plain surface turns the stretched direction n' by A t, and a change of the
+//! stretched radius by d moves the surface along its normal N by f d:
+//!
+//! ```text
+//! A = (1 - n' n'') T / (m r'),   f = m N.T^-1 n',   <|A' H A|²> = (2 tr G² + (tr G)²) k / 8,   G = A'A
+//! ```
+//!
+//! with n'' the transpose of n', radii r' in units of their mean m. Multiplied with how much worse or better than noise the
+//! nearest points are met.
+
+use super::neighbours::Neighbours;
+use super::outcome::{Estimate, bending_variance, spare};
+use crate::measure::Curvature;
+use crate::model::{CurvatureErrors, Grain, StarSurface, Surface};
+use crate::sphere::CubeCell;
+use nalgebra::{Matrix2, Matrix3, Vector3};
+
+/// Places along each side of a cell at which errors are taken.
+const PLACES: usize = 2;
+
+/// Points near by that tell how well the surface is met there.
+const VICINITY: usize = 40;
+
+impl Estimate {
+    /// Standard errors of the curvature of a grain that stands for the estimate.
+    pub(crate) fn curvature_errors(&self, grain: &Grain) -> Option<CurvatureErrors> {
+        let frame = *grain.frame();
+        let expansion = Surface::Whole(self.expansion(self.degree));
+        let best = Grain::stretched(frame, self.stretch(), expansion).ok()?;
+        let neighbours = Neighbours::new(&self.cloud.directions);
+        let misfits = self.misfits();
+        let bending = bending_variance(&self.spectrum, &self.unlearnt);
+        let square = |n: &Vector3<f64>| {
+            let towards = frame.axes * n;
+            let at = |grain: &Grain| Curvature::new(&towards, &grain.derivatives(&towards));
+            let curvature = at(&best);
+            let difference = (tensor(&at(grain)) - tensor(&curvature)).norm_squared();
+            let local = [0, 1].map(|i| frame.axes.tr_mul(&curvature.directions[i]));
+            let normal = frame.axes.tr_mul(&curvature.normal);
+            let near = neighbours.nearest(&self.stretched(n).normalize(), VICINITY);
+            let misfit = near.iter().map(|&i| misfits[i]).sum::<f64>() / near.len().max(1) as f64;
+            let radius = best.radius(&towards);
+            difference + misfit * bending * self.bend(n, radius, &normal, local)
+        };
+        let places = || (0..PLACES).map(|i| (i as f64 + 0.5) / PLACES as f64);
+        let of_cell = |cell: CubeCell| {
+            let squares = places().flat_map(|s| places().map(move |t| (s, t)));
+            let sum: f64 = squares.map(|(s, t)| square(&cell.at(s, t))).sum();
+            (sum / (PLACES * PLACES) as f64).sqrt()
+        };
+        let cells = CubeCell::uniform(CurvatureErrors::PARTS).into_iter();
+        CurvatureErrors::new(cells.map(of_cell).collect())
+    }
+
+    /// T n.
+    fn stretched(&self, n: &Vector3<f64>) -> Vector3<f64> {
+        self.cloud.stretch.component_mul(n)
+    }
+
+    /// f² (2 tr G² + (tr G)²) / 8 where the plain surface, in the direction n, has a radius, a normal and orthogonal
+    /// unit tangents.
+    fn bend(
+        &self,
+        n: &Vector3<f64>,
+        radius: f64,
+        normal: &Vector3<f64>,
+        tangents: [Vector3<f64>; 2],
+    ) -> f64 {
+        let mapped = self.stretched(n);
+        let unit = mapped.normalize();
+        let move_along = self.cloud.mean * normal.dot(&unit.component_div(&self.cloud.stretch));
+        let [first, second] = tangents.map(|t| {
+            let moved = self.stretched(&t);
+            (moved - unit * unit.dot(&moved)) / (radius * mapped.norm())
+        });
+        let across = first.dot(&second);
+        let gram = Matrix2::new(first.norm_squared(), across, across, second.norm_squared());
+        move_along.powi(2) * (2.0 * gram.norm_squared() + gram.trace().powi(2)) / 8.0
+    }
+
+    /// Squares of the points' residuals over what noise leaves of them.
+    fn misfits(&self) -> Vec<f64> {
+        let residuals = self.posterior().residuals(&self.coefficients);
+        let spare = spare(&self.unlearnt, self.cloud.len() as f64);
+        let expected = self.spectrum.noise().powi(2) * spare;
+        let weighted = residuals.iter().zip(&self.cloud.weights);
+        weighted.map(|(e, w)| w * e * e / expected).collect()
+    }
+}
+
+/// The curvature tensor: principal curvatures along their directions.
+fn tensor(curvature: &Curvature) -> Matrix3<f64> {
+    let along = |i: usize| {
+        let direction = curvature.directions[i];
+        direction * direction.transpose() * curvature.principal[i]
+    };
+    along(0) + along(1)
+}
+
+#[cfg(test)]
+mod tests;

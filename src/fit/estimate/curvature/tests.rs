@@ -1,0 +1,59 @@
+use super::*;
+use crate::fit::context::Context;
+use crate::fit::{FitOptions, Fitted, PreparedScan};
+use crate::scan::Scan;
+use crate::shapes::{Body, Sampling, SynthOptions, synthesize};
+use crate::sphere::Symmetry;
+
+fn fitted(body: Body, noise: f64, points: usize, seed: u64) -> Fitted {
+    let options = SynthOptions {
+        sampling: Sampling::Fibonacci,
+        points,
+        noise,
+        seed,
+        ..SynthOptions::clean(body)
+    };
+    let scan = Scan {
+        points: synthesize(&options).unwrap().points,
+        ..Scan::default()
+    };
+    let prepared = PreparedScan::new(&scan, Symmetry::NONE).unwrap();
+    prepared
+        .fit(&FitOptions::default(), &Context::default())
+        .unwrap()
+}
+
+/// Share of directions in which both principal curvatures are within two errors, and the root mean square of the
+/// larger deviation in errors.
+fn coverage(body: Body, fitted: &Fitted) -> (f64, f64) {
+    let truth = body.surface();
+    let grain = fitted.grain_with_errors();
+    let directions = Sampling::Random.directions(2000, 5).unwrap();
+    let deviations: Vec<f64> = directions
+        .iter()
+        .map(|n| {
+            let fit = Curvature::new(n, &grain.derivatives(n));
+            // The origin of the closed form is not the grain's: the place, then its direction there.
+            let place = grain.point(n).coords.normalize();
+            let exact = Curvature::new(&place, &truth.derivatives(&place));
+            let off = |i: usize| (fit.principal[i] - exact.principal[i]).abs();
+            off(0).max(off(1)) / grain.curvature_error(n).unwrap()
+        })
+        .collect();
+    let count = deviations.len() as f64;
+    let within = deviations.iter().filter(|z| **z < 2.0).count() as f64;
+    let squares: f64 = deviations.iter().map(|z| z.min(10.0).powi(2)).sum();
+    (within / count, (squares / count).sqrt())
+}
+
+#[test]
+fn errors_of_curvature_cover_and_are_not_too_wide() {
+    for body in [Body::Bean, Body::Chickpea, Body::Maize] {
+        for (points, noise) in [(1538, 0.0), (1538, 0.005), (6146, 0.0), (6146, 0.005)] {
+            let fitted = fitted(body, noise, points, 3);
+            let (share, rms) = coverage(body, &fitted);
+            assert!(share > 0.94, "{body} {points} {noise}: {share}");
+            assert!((0.4..1.3).contains(&rms), "{body} {points} {noise}: {rms}");
+        }
+    }
+}
