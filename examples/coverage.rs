@@ -77,7 +77,13 @@ fn row(
             ..Scan::default()
         };
         let options = FitOptions::default();
-        let told = FitReport::new(body.to_string(), &fit(&scan, &options)?, &options, &[]);
+        let told = FitReport::new(
+            body.to_string(),
+            None,
+            &fit(&scan, &options)?,
+            &options,
+            &[],
+        );
         let Some(errors) = told.standard_errors else {
             continue;
         };

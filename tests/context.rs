@@ -96,12 +96,12 @@ fn progress_is_told_every_stage_in_order() {
         stages.into_inner().expect("no panic")
     };
     let [cells, whole, segments, mirrored] = families().map(|options| stages(&options));
-    let searching = |done: usize| Stage::Searching { done };
-    assert_eq!(cells, [Stage::Estimating, searching(0)]);
+    let searching = |done: usize, all: Option<usize>| Stage::Searching { done, all };
+    assert_eq!(cells, [Stage::Estimating, searching(0, None)]);
     assert_eq!(whole, [Stage::Estimating]);
-    let levels: Vec<Stage> = (0..10).map(searching).collect();
+    let levels: Vec<Stage> = (0..10).map(|done| searching(done, Some(10))).collect();
     assert_eq!(segments, levels);
-    assert_eq!(mirrored, [searching(0)]);
+    assert_eq!(mirrored, [searching(0, None)]);
 }
 
 #[test]

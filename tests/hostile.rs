@@ -58,6 +58,8 @@ fn made_files_are_read_or_refused_as_their_manifest_says() {
     for row in manifest.lines().skip(1) {
         let columns: Vec<&str> = row.split('\t').collect();
         let class = match columns[1] {
+            // The manifest is older than the reading of gzip.
+            _ if columns[0] == "ply_070_gzip.ply" => Well,
             _ if LEFT_TO_THE_FIT.contains(&columns[0]) => Well,
             "OK" => Well,
             "OK+WARN" => Warn,

@@ -22,11 +22,16 @@ pub use run::{measure, run};
 pub use setting::{Family, Setting, options};
 pub use subject::{NOISE, Subject, Truth, synthetic};
 
+use crate::report::{Unit, escaped};
+use crate::scan::plural;
 use serde::Serialize;
 
 /// The rows of several scans.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct BenchReport {
+    /// Unit of the scans' lengths, where it was told.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub unit: Option<Unit>,
     /// One entry per scan.
     pub scans: Vec<BenchScan>,
 }
@@ -57,7 +62,11 @@ impl BenchScan {
             Some(0.0) => ", clean".into(),
             Some(noise) => format!(", noise {} % of the mean radius", 100.0 * noise),
         };
-        format!("{}: {} points{noise}", self.scan, self.points)
+        format!(
+            "{}: {}{noise}",
+            escaped(&self.scan),
+            plural(self.points, "point")
+        )
     }
 }
 

@@ -1,67 +1,65 @@
 //! `grainform bench`
 
-use super::args::BenchArgs;
-use super::progress::Progress;
-use super::{print, print_json};
+use super::args::{BenchArgs, InputArgs};
+use super::console::{Console, put_json};
+use super::inputs;
 use crate::bench::{
     self, BenchReport, BenchRow, BenchScan, Cost, Subject, plot, synthetic, write_csv,
 };
-use crate::export::write_atomically;
+use crate::export::{sweep, write_atomically};
 use crate::fit::PreparedScan;
-use crate::report::percent;
-use crate::scan::read_scan;
+use crate::report::{escaped, percent};
 use crate::sphere::Symmetry;
 use anyhow::{Context, Result, bail};
 use comfy_table::{CellAlignment, Table, presets::NOTHING};
-use std::io::Write;
 use std::path::{Path, PathBuf};
 
-pub(super) fn run(args: BenchArgs) -> Result<()> {
+pub(super) fn run(args: BenchArgs, console: Console) -> Result<()> {
     rayon::ThreadPoolBuilder::new()
         .num_threads(1)
         .build_global()
         .context("cannot start a thread")?;
     let subjects = match args.scans.as_slice() {
         [] => synthetic()?,
-        paths => read(paths)?,
+        paths => read(paths, &args.input)?,
     };
     let stems = stems(&subjects)?;
     std::fs::create_dir_all(&args.output)
         .with_context(|| format!("cannot make the folder {}", args.output.display()))?;
+    sweep(&args.output);
 
-    let progress = Progress::new(args.quiet);
+    let progress = console.progress();
     let scans = subjects.iter().zip(&stems).map(|(subject, stem)| {
         bench::run(subject, &|setting, done, all| {
-            progress.stage(format_args!("{stem}: {setting} ({done} of {all} done)"));
+            progress.step(done, all, format_args!("{}: {setting}", escaped(stem)));
         })
         .with_context(|| format!("cannot fit {}", subject.name))
     });
     let report = BenchReport {
+        unit: args.unit,
         scans: scans.collect::<Result<_>>()?,
     };
     let written = write_files(&args.output, &report, &stems)?;
     drop(progress);
 
     if args.json {
-        return print_json(&report);
+        return put_json(&report);
     }
-    if !args.quiet {
-        for scan in &report.scans {
-            print(heading(scan))?;
-            print(format_args!("{}\n", table(scan).trim_fmt()))?;
-        }
-        for path in written {
-            print(format_args!("wrote {}", path.display()))?;
-        }
+    for scan in &report.scans {
+        console.print(heading(scan))?;
+        console.print(format_args!("{}\n", table(scan).trim_fmt()))?;
+    }
+    for path in written {
+        console.wrote(&path.display().to_string())?;
     }
     Ok(())
 }
 
 /// The scans of these files, each of which can be fitted: better said now than after minutes.
-fn read(paths: &[PathBuf]) -> Result<Vec<Subject>> {
+fn read(paths: &[PathBuf], input: &InputArgs) -> Result<Vec<Subject>> {
     let subject = |path: &PathBuf| {
-        let scan = read_scan(path)?;
-        let name = path.display().to_string();
+        let scan = inputs::scan(path, input)?;
+        let name = inputs::name(path);
         PreparedScan::new(&scan, Symmetry::NONE).with_context(|| format!("cannot fit {name}"))?;
         Ok(Subject {
             name,
@@ -97,7 +95,7 @@ fn stems(subjects: &[Subject]) -> Result<Vec<String>> {
 /// Writes the table and the plots; gives their names.
 fn write_files(folder: &Path, report: &BenchReport, stems: &[String]) -> Result<Vec<PathBuf>> {
     let csv = folder.join("bench.csv");
-    write_atomically(&csv, |file| Ok(write_csv(report, file)?))?;
+    write_atomically(&csv, |mut file| Ok(write_csv(report, &mut file)?))?;
     let mut written = vec![csv];
     for (scan, stem) in report.scans.iter().zip(stems) {
         for cost in Cost::ALL {
@@ -118,6 +116,7 @@ fn heading(scan: &BenchScan) -> String {
     };
     let skipped = match scan.skipped {
         0 => String::new(),
+        1 => "; 1 setting has more coefficients than half of the points".into(),
         count => format!("; {count} settings have more coefficients than half of the points"),
     };
     format!("{}; errors against {reference}{skipped}", scan.title())

@@ -1,21 +1,21 @@
 //! `grainform contact`
 
 use super::args::ContactArgs;
-use super::mesh::{grain, read};
-use super::{print, print_json};
+use super::console::{Console, put_json};
+use super::{inputs, threads};
 use crate::contact::{Material, RelativeCurvature, Touch, TouchError, effective_modulus_pa, touch};
-use crate::model::Grain;
 use crate::report::{ContactReport, Load, TouchRecord};
 use anyhow::{Context, Result, anyhow, bail};
 use nalgebra::Vector3;
 use std::path::Path;
 
-pub(super) fn run(args: ContactArgs) -> Result<()> {
+pub(super) fn run(args: ContactArgs, console: Console) -> Result<()> {
+    threads::start(0, console)?;
     let report = contact(&args)?;
     if args.json {
-        return print_json(&report);
+        return put_json(&report);
     }
-    print(&report)
+    console.print(&report)
 }
 
 fn contact(args: &ContactArgs) -> Result<ContactReport> {
@@ -33,17 +33,28 @@ fn contact(args: &ContactArgs) -> Result<ContactReport> {
         args.other_poissons_ratio.unwrap_or(args.poissons_ratio),
     )?;
     let load = Load {
-        metres_per_unit: args.unit.metres(),
+        unit: args.unit,
         effective_modulus_pa: effective_modulus_pa(&own, &other),
         indentation_um: args.indentation_um,
     };
     if !load.effective_modulus_pa.is_finite() {
         bail!("both bodies are rigid: give one of them a finite Young's modulus");
     }
-    let (first, one) = touched(&args.model, &args.towards, args.edge_radius)?;
+    if inputs::is_stream(&args.model) && args.other.as_deref().is_some_and(inputs::is_stream) {
+        bail!("standard input holds one model: read the other from a file");
+    }
+    let touched = |path: &Path, towards| {
+        touched(
+            path,
+            &inputs::read(path, &args.limit)?,
+            towards,
+            args.edge_radius,
+        )
+    };
+    let (first, one) = touched(&args.model, &args.towards)?;
     let (second, principal) = match &args.other {
         Some(path) => {
-            let (record, touch) = touched(path, &args.other_towards, args.edge_radius)?;
+            let (record, touch) = touched(path, &args.other_towards)?;
             (Some(record), touch.principal)
         }
         None => (None, [0.0; 2]),
@@ -55,11 +66,12 @@ fn contact(args: &ContactArgs) -> Result<ContactReport> {
 /// Where a model is touched in a direction.
 fn touched(
     path: &Path,
+    bytes: &[u8],
     towards: &Vector3<f64>,
     edge_radius: Option<f64>,
 ) -> Result<(TouchRecord, Touch)> {
-    let input = path.display().to_string();
-    let grain: Grain = grain(path, &read(path)?)?;
+    let input = inputs::name(path);
+    let grain = inputs::parse_model(path, bytes)?;
     let towards = towards
         .try_normalize(0.0)
         .filter(|n| n.iter().all(|x| x.is_finite()))

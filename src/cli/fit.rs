@@ -1,40 +1,49 @@
 //! `grainform fit`
 
 use super::args::FitArgs;
+use super::console::{Console, put_json};
 use super::fitting::{ScanFit, fit_scan, say_stats};
-use super::progress::Progress;
-use super::{outputs, print, print_json, warn};
-use crate::export::{save_mesh, write_atomically};
+use super::outputs;
+use crate::export::MeshFormat;
 use crate::fit::Fitted;
 use crate::model::save_grain;
 use crate::report::{FitReport, largest_loss, write_harmonics};
 use anyhow::Result;
-use std::io::Write;
 use std::time::Instant;
 
-pub(super) fn run(args: FitArgs) -> Result<()> {
+pub(super) fn run(args: FitArgs, console: Console) -> Result<()> {
     let started = Instant::now();
     let fitting = &args.fitting;
-    let options = fitting.settle()?;
-    outputs::check(
+    let options = fitting.settle(console)?;
+    args.meshing.check(args.mesh.is_some(), console)?;
+    let is_taken = outputs::check(
         Some(&fitting.scan),
         &[
             (args.output.as_deref(), &["json"]),
             (args.mesh.as_deref(), outputs::MESH),
             (args.harmonics.as_deref(), &["csv"]),
         ],
+        fitting.json,
     )?;
+    let console = console.beside(is_taken);
 
-    let progress = Progress::new(fitting.quiet);
+    let progress = console.progress();
     let ScanFit {
         fitted,
         scan_warnings,
         mut seconds,
-    } = fit_scan(&fitting.scan, &options, &progress)?;
-    let is_told = fitting.json || !fitting.quiet;
+    } = fit_scan(fitting, &options, &progress)?;
+    let is_told = fitting.json || !console.is_quiet();
     progress.stage("Measuring");
-    let mut report =
-        is_told.then(|| FitReport::new(fitting.name(), &fitted, &options, &scan_warnings));
+    let mut report = is_told.then(|| {
+        FitReport::new(
+            fitting.name(),
+            fitting.unit,
+            &fitted,
+            &options,
+            &scan_warnings,
+        )
+    });
     let before = started.elapsed().as_secs_f64();
     progress.stage("Writing");
     let loss = write_files(&args, &fitted)?;
@@ -47,18 +56,18 @@ pub(super) fn run(args: FitArgs) -> Result<()> {
     }
 
     if fitting.json {
-        print_json(&report)?;
+        put_json(&report)?;
     } else if let Some(report) = &report {
-        print(report)?;
+        console.print(report)?;
         for path in [&args.output, &args.mesh, &args.harmonics]
             .into_iter()
             .flatten()
         {
-            print(format_args!("wrote {}", path.display()))?;
+            console.wrote(&outputs::name(path))?;
         }
-        warn(&report.warnings);
+        console.warn(&report.warnings);
     }
-    if fitting.stats {
+    if fitting.stats || console.is_verbose() {
         say_stats(&fitted.search.work, &seconds);
     }
     Ok(())
@@ -68,16 +77,20 @@ pub(super) fn run(args: FitArgs) -> Result<()> {
 fn write_files(args: &FitArgs, fitted: &Fitted) -> Result<Option<f64>> {
     let grain = &fitted.grain;
     if let Some(path) = &args.mesh {
-        save_mesh(path, &grain.mesh(args.meshing.resolution.into()))?;
+        let format = MeshFormat::of(path).unwrap_or(MeshFormat::Ply);
+        let mesh = grain.mesh(args.meshing.resolution.into());
+        outputs::write(path, |file| format.write(&mesh, file))?;
     }
     if let Some(path) = &args.output {
         let text = save_grain(&fitted.grain_with_errors());
-        write_atomically(path, |file| Ok(writeln!(file, "{text}")?))?;
+        outputs::write(path, |file| Ok(writeln!(file, "{text}")?))?;
     }
     let Some(path) = &args.harmonics else {
         return Ok(None);
     };
     let published = grain.published();
-    write_atomically(path, |file| Ok(write_harmonics(grain, &published, file)?))?;
+    outputs::write(path, |mut file| {
+        Ok(write_harmonics(grain, &published, &mut file)?)
+    })?;
     Ok(Some(largest_loss(&published)))
 }

@@ -1,13 +1,12 @@
 //! What `fit` and `search` do first: settle the options, read the scan, fit it.
 
 use super::args::FittingArgs;
+use super::console::{Console, say};
 use super::progress::Progress;
-use super::say;
+use super::{inputs, threads};
 use crate::fit::{self, FitOptions, Fitted, PreparedScan, Stage, Work};
-use crate::report::Seconds;
-use crate::scan::read_scan;
+use crate::report::{Seconds, escaped};
 use anyhow::{Context, Result};
-use std::path::Path;
 use std::time::Instant;
 
 /// A fit, and what came with it.
@@ -19,7 +18,7 @@ pub(super) struct ScanFit {
 
 impl FittingArgs {
     /// The options asked for, if they are in range; also sets the number of threads.
-    pub(super) fn settle(&self) -> Result<FitOptions> {
+    pub(super) fn settle(&self, console: Console) -> Result<FitOptions> {
         let options = FitOptions {
             seams: self.seams.0,
             symmetry: self.symmetry,
@@ -31,32 +30,35 @@ impl FittingArgs {
             exhaustive: self.exhaustive,
         };
         options.check()?;
-        rayon::ThreadPoolBuilder::new()
-            .num_threads(self.threads.into())
-            .build_global()
-            .context("cannot start the threads; ask for fewer with --threads")?;
+        threads::start(self.threads, console)?;
         Ok(options)
     }
 
     pub(super) fn name(&self) -> String {
-        self.scan.display().to_string()
+        inputs::name(&self.scan)
     }
 }
 
 /// Reads and fits a scan.
-pub(super) fn fit_scan(path: &Path, options: &FitOptions, progress: &Progress) -> Result<ScanFit> {
+pub(super) fn fit_scan(
+    args: &FittingArgs,
+    options: &FitOptions,
+    progress: &Progress,
+) -> Result<ScanFit> {
     let started = Instant::now();
-    progress.stage(format_args!("Reading {}", path.display()));
-    let scan = read_scan(path)?;
+    let name = args.name();
+    progress.stage(format_args!("Reading {}", escaped(&name)));
+    let scan = inputs::scan(&args.scan, &args.input)?;
     let read = started.elapsed().as_secs_f64();
 
     progress.stage("Finding the surface, the centre and the axes");
-    let failed = || format!("cannot fit {}", path.display());
+    let failed = || format!("cannot fit {name}");
     let prepared = PreparedScan::new(&scan, options.symmetry).with_context(failed)?;
     let tell = |stage: Stage| match stage {
-        Stage::Searching { done } if done > 0 => {
-            progress.stage(format_args!("Fitting: {done} numbers of segments done"));
-        }
+        Stage::Searching {
+            done,
+            all: Some(all),
+        } => progress.step(done, all, "Fitting numbers of segments"),
         Stage::Searching { .. } => progress.stage("Cutting it in segments"),
         _ => progress.stage("Telling shape from noise"),
     };

@@ -1,34 +1,34 @@
 //! `grainform measure`
 
 use super::args::MeasureArgs;
-use super::mesh::{grain, read};
-use super::{print, print_json, warn};
+use super::console::{Console, put_json};
+use super::{inputs, threads};
 use crate::fit::scanned_surface;
 use crate::measure::{Scheme, Survey, scanned_body};
 use crate::report::{Measure, MeasureReport, Measured, sentences};
-use crate::scan::parse_scan;
 use anyhow::{Context, Result, bail};
 
-pub(super) fn run(args: MeasureArgs) -> Result<()> {
-    let report = measure(&args)?;
+pub(super) fn run(args: MeasureArgs, console: Console) -> Result<()> {
+    threads::start(0, console)?;
+    let report = measure(&args)?.in_unit(args.unit);
     if args.json {
-        return print_json(&report);
+        return put_json(&report);
     }
-    print(&report)?;
-    warn(&report.warnings);
+    console.print(&report)?;
+    console.warn(&report.warnings);
     Ok(())
 }
 
 fn measure(args: &MeasureArgs) -> Result<MeasureReport> {
-    let path = &args.input;
-    let input = path.display().to_string();
+    let path = &args.path;
+    let input = inputs::name(path);
     let only = match args.only.as_slice() {
         [] => Measure::ALL.as_slice(),
         asked => asked,
     };
-    let bytes = read(path)?;
+    let bytes = inputs::read(path, &args.input.limit)?;
     if bytes.trim_ascii_start().starts_with(b"{") {
-        let grain = grain(path, &bytes)?;
+        let grain = inputs::parse_model(path, &bytes)?;
         let survey = Survey::of_grain(&grain, args.scheme.0);
         let of = Measured::Model;
         return Ok(MeasureReport::new(input, of, &survey, only, Vec::new()));
@@ -36,9 +36,7 @@ fn measure(args: &MeasureArgs) -> Result<MeasureReport> {
     if args.scheme.0 != Scheme::Exact {
         bail!("{input} is a scan: integration schemes are for models; leave --scheme out");
     }
-    let extension = path.extension().and_then(|extension| extension.to_str());
-    let scan = parse_scan(&bytes, extension)
-        .with_context(|| format!("cannot read a scan from {input}"))?;
+    let scan = inputs::parse_scan(path, &bytes, &args.input)?;
     if scan.is_flat() {
         bail!("cannot measure {input}: all points lie in one plane, they do not enclose a body");
     }

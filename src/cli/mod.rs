@@ -2,23 +2,29 @@
 
 mod args;
 mod bench;
+mod candidates;
+mod console;
 mod contact;
 mod fit;
 mod fitting;
+mod inputs;
 mod measure;
 mod mesh;
 mod outputs;
 mod progress;
 mod search;
+mod shell;
+#[cfg(unix)]
+mod signals;
 mod synth;
+mod threads;
+mod usage;
 mod values;
+mod wrap;
 
-use anyhow::{Context, Result};
-use args::{Cli, Command};
-use clap::Parser;
-use serde::Serialize;
-use std::fmt::Display;
-use std::io::{self, ErrorKind, Write};
+use args::Command;
+use console::{Console, say_error};
+use std::io::{self, ErrorKind};
 use std::process::ExitCode;
 
 /// Bad usage or unusable input. (1 is kept for batches in which some inputs failed.)
@@ -26,18 +32,27 @@ const UNUSABLE: u8 = 2;
 
 /// Runs the command line of this process.
 pub fn run() -> ExitCode {
-    let result = match Cli::parse().command {
-        Command::Fit(args) => fit::run(args),
-        Command::Search(args) => search::run(args),
-        Command::Mesh(args) => mesh::run(args),
-        Command::Measure(args) => measure::run(args),
-        Command::Contact(args) => contact::run(args),
-        Command::Synth(args) => synth::run(args),
-        Command::Bench(args) => bench::run(args),
+    let cli = match usage::parse() {
+        Ok(cli) => cli,
+        Err(code) => return code,
+    };
+    #[cfg(unix)]
+    signals::watch();
+    let console = Console::new(cli.quiet, cli.verbose);
+    let result = match cli.command {
+        Command::Fit(args) => fit::run(args, console),
+        Command::Search(args) => search::run(args, console),
+        Command::Mesh(args) => mesh::run(args, console),
+        Command::Measure(args) => measure::run(args, console),
+        Command::Contact(args) => contact::run(args, console),
+        Command::Synth(args) => synth::run(args, console),
+        Command::Bench(args) => bench::run(args, console),
+        Command::Completions(args) => shell::completions(&args),
+        Command::Man(args) => shell::man(&args),
     };
     match result {
         Err(error) if !is_broken_pipe(&error) => {
-            say(format_args!("error: {error:#}"));
+            say_error(&format!("{error:#}"));
             ExitCode::from(UNUSABLE)
         }
         _ => ExitCode::SUCCESS,
@@ -46,28 +61,9 @@ pub fn run() -> ExitCode {
 
 /// The reader of our output has gone, as `head` does: no fault of ours.
 fn is_broken_pipe(error: &anyhow::Error) -> bool {
-    error
-        .downcast_ref::<io::Error>()
-        .is_some_and(|error| error.kind() == ErrorKind::BrokenPipe)
-}
-
-/// Prints a result to standard output.
-fn print(text: impl Display) -> Result<()> {
-    writeln!(io::stdout().lock(), "{text}").context("cannot write to standard output")
-}
-
-/// Prints a record to standard output as JSON.
-fn print_json(record: &impl Serialize) -> Result<()> {
-    print(serde_json::to_string_pretty(record)?)
-}
-
-/// Tells the user something on standard error; where that is closed there is nobody to tell.
-fn say(text: impl Display) {
-    let _ = writeln!(io::stderr().lock(), "{text}");
-}
-
-fn warn(warnings: &[String]) {
-    for warning in warnings {
-        say(format_args!("warning: {warning}"));
-    }
+    error.chain().any(|cause| {
+        cause
+            .downcast_ref::<io::Error>()
+            .is_some_and(|error| error.kind() == ErrorKind::BrokenPipe)
+    })
 }

@@ -1,47 +1,89 @@
-//! Checks of the files to write, before any work is done for them.
+//! What is written: files, checked before any work is done for them, or standard output.
 
+use super::inputs::is_stream;
+use crate::export::{WriteError, sweep, write_atomically};
 use anyhow::{Result, bail};
+use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 /// Extensions of meshes.
 pub(super) const MESH: &[&str] = &["stl", "ply", "obj"];
 
-/// Refuses outputs that would fail at the end: each has a known extension, its folder exists, and it
-/// is neither the input nor another output.
-pub(super) fn check(input: Option<&Path>, outputs: &[(Option<&Path>, &[&str])]) -> Result<()> {
+/// A file to write, if any, and the extensions it may have.
+pub(super) type Output<'a> = (Option<&'a Path>, &'a [&'a str]);
+
+/// Refuses outputs that would fail at the end: each has a known extension, its folder exists, and it is neither
+/// the input nor another output. What a killed run left in these folders is removed. Gives whether an output goes
+/// to standard output, which then has no place for `json`.
+pub(super) fn check(input: Option<&Path>, outputs: &[Output<'_>], json: bool) -> Result<bool> {
+    let files = outputs
+        .iter()
+        .filter_map(|(path, extensions)| Some((path.as_deref()?, extensions)));
+    let (streams, files): (Vec<_>, Vec<_>) = files.partition(|(path, _)| is_stream(path));
+    if streams.len() + usize::from(json) > 1 && !streams.is_empty() {
+        bail!("standard output takes one thing only: give another output the name of a file");
+    }
+    let input = input.filter(|path| !is_stream(path));
     let mut taken: Vec<PathBuf> = input.map(identity).into_iter().collect();
-    for (path, extensions) in outputs {
-        let Some(path) = path else { continue };
-        let shown = path.display();
-        let extension = path.extension().map(|e| e.to_ascii_lowercase());
-        if !extensions
-            .iter()
-            .any(|e| extension.as_deref() == Some(e.as_ref()))
-        {
-            bail!(
-                "cannot save {shown}: its extension must be {}",
-                list(extensions)
-            );
-        }
-        let folder = folder(path);
-        if !folder.is_dir() {
-            bail!(
-                "cannot save {shown}: the folder {} does not exist; create it first",
-                folder.display()
-            );
-        }
-        if path.is_dir() {
-            bail!("cannot save {shown}: it is a folder; give the name of a file");
-        }
+    for (path, extensions) in files {
+        check_file(path, extensions)?;
         let identity = identity(path);
         if taken.contains(&identity) {
             bail!(
-                "cannot save {shown}: it is the input or another output; give it a name of its own"
+                "cannot save {}: it is the input or another output; give it a name of its own",
+                path.display()
             );
         }
+        sweep(identity.parent().unwrap_or(Path::new(".")));
         taken.push(identity);
     }
+    Ok(!streams.is_empty())
+}
+
+fn check_file(path: &Path, extensions: &[&str]) -> Result<()> {
+    let shown = path.display();
+    let extension = path.extension().map(|e| e.to_ascii_lowercase());
+    if !extensions
+        .iter()
+        .any(|e| extension.as_deref() == Some(e.as_ref()))
+    {
+        bail!(
+            "cannot save {shown}: its extension must be {}",
+            list(extensions)
+        );
+    }
+    let folder = folder(path);
+    if !folder.is_dir() {
+        bail!(
+            "cannot save {shown}: the folder {} does not exist; create it first",
+            folder.display()
+        );
+    }
+    if path.is_dir() {
+        bail!("cannot save {shown}: it is a folder; give the name of a file");
+    }
     Ok(())
+}
+
+/// Writes a file whole or not at all, or to standard output.
+pub(super) fn write(
+    path: &Path,
+    write: impl FnOnce(&mut dyn Write) -> Result<(), WriteError>,
+) -> Result<()> {
+    if !is_stream(path) {
+        return Ok(write_atomically(path, write)?);
+    }
+    let mut stream = BufWriter::new(io::stdout().lock());
+    write(&mut stream)?;
+    Ok(stream.flush()?)
+}
+
+/// What an output is called.
+pub(super) fn name(path: &Path) -> String {
+    match is_stream(path) {
+        true => "standard output".into(),
+        false => path.display().to_string(),
+    }
 }
 
 fn folder(path: &Path) -> &Path {

@@ -1,33 +1,87 @@
-//! A line on the terminal that tells what is being done.
+//! What is being done, how far it is, and how long it takes.
 
-use indicatif::ProgressBar;
+use super::console::say;
+use indicatif::{ProgressBar, ProgressStyle};
 use std::fmt::Display;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// How often the line moves.
 const TICK: Duration = Duration::from_millis(100);
 
-/// Shown on standard error while it lives, where that is a terminal.
-pub(super) struct Progress(ProgressBar);
+/// A stage of which nobody knows how long it is.
+const OPEN: &str = "{spinner} {msg} ({elapsed})";
+
+/// A stage whose steps are counted.
+const COUNTED: &str = "[{bar:20}] {pos} of {len}, {elapsed} gone, {eta} left: {msg}";
+
+/// Told on standard error while it lives: a line that moves, where that is a terminal, or a line per stage.
+pub(super) enum Progress {
+    Bar(ProgressBar),
+    Lines(Instant),
+}
 
 impl Progress {
-    pub(super) fn new(quiet: bool) -> Self {
-        if quiet {
-            return Self(ProgressBar::hidden());
-        }
+    pub(super) fn hidden() -> Self {
+        Self::Bar(ProgressBar::hidden())
+    }
+
+    pub(super) fn bar() -> Self {
         let bar = ProgressBar::new_spinner();
+        bar.set_style(style(OPEN));
         bar.enable_steady_tick(TICK);
-        Self(bar)
+        Self::Bar(bar)
+    }
+
+    pub(super) fn lines() -> Self {
+        Self::Lines(Instant::now())
     }
 
     /// What is done now.
     pub(super) fn stage(&self, stage: impl Display) {
-        self.0.set_message(stage.to_string());
+        match self {
+            Self::Bar(bar) => bar.set_message(stage.to_string()),
+            Self::Lines(started) => say(format_args!(
+                "{:>8.3} s  {stage}",
+                started.elapsed().as_secs_f64()
+            )),
+        }
+    }
+
+    /// What is done now, after so many steps of all.
+    pub(super) fn step(&self, done: usize, all: usize, stage: impl Display) {
+        let Self::Bar(bar) = self else {
+            self.stage(format_args!("{stage} ({done} of {all} done)"));
+            return;
+        };
+        if bar.length() != Some(all as u64) {
+            bar.set_style(style(COUNTED));
+            bar.set_length(all as u64);
+        }
+        bar.set_position(done as u64);
+        bar.set_message(stage.to_string());
     }
 }
 
 impl Drop for Progress {
     fn drop(&mut self) {
-        self.0.finish_and_clear();
+        if let Self::Bar(bar) = self {
+            bar.finish_and_clear();
+        }
+    }
+}
+
+fn style(template: &str) -> ProgressStyle {
+    ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_templates_are_sound() {
+        for template in [OPEN, COUNTED] {
+            assert!(ProgressStyle::with_template(template).is_ok(), "{template}");
+        }
     }
 }

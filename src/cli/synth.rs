@@ -1,14 +1,17 @@
 //! `grainform synth`
 
 use super::args::SynthArgs;
-use super::{outputs, print, print_json};
-use crate::export::{write_atomically, write_points_ply, write_points_xyz};
+use super::console::{Console, put_json};
+use super::outputs;
+use super::values::CloudFormat;
+use crate::export::{write_points_ply, write_points_xyz};
 use crate::report::SynthReport;
 use crate::shapes::{SynthOptions, synthesize};
 use anyhow::Result;
 
-pub(super) fn run(args: SynthArgs) -> Result<()> {
-    outputs::check(None, &[(args.output.as_deref(), &["ply", "xyz"])])?;
+pub(super) fn run(args: SynthArgs, console: Console) -> Result<()> {
+    let output = (args.output.as_deref(), &["ply", "xyz"][..]);
+    let console = console.beside(outputs::check(None, &[output], args.json)?);
     let options = SynthOptions {
         body: args.body,
         axes: args.axes,
@@ -22,18 +25,20 @@ pub(super) fn run(args: SynthArgs) -> Result<()> {
     };
     let scan = synthesize(&options)?;
     if let Some(path) = &args.output {
-        let is_xyz = path
-            .extension()
-            .is_some_and(|e| e.eq_ignore_ascii_case("xyz"));
-        write_atomically(path, |file| match is_xyz {
-            true => write_points_xyz(&scan.points, file),
-            false => write_points_ply(&scan.points, file),
+        let format = match path.extension() {
+            Some(extension) if extension.eq_ignore_ascii_case("xyz") => CloudFormat::Xyz,
+            Some(_) => CloudFormat::Ply,
+            None => args.format,
+        };
+        outputs::write(path, |mut file| match format {
+            CloudFormat::Xyz => write_points_xyz(&scan.points, &mut file),
+            CloudFormat::Ply => write_points_ply(&scan.points, &mut file),
         })?;
     }
-    let output = args.output.map(|path| path.display().to_string());
+    let output = args.output.as_deref().map(outputs::name);
     let report = SynthReport::new(&options, &scan, output);
     if args.json {
-        return print_json(&report);
+        return put_json(&report);
     }
-    print(&report)
+    console.print(&report)
 }

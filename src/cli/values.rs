@@ -21,37 +21,38 @@ impl FromStr for SchemeArg {
     }
 }
 
-/// A unit of length.
+/// A format of scans.
 #[derive(Debug, Clone, Copy)]
-pub(super) enum Unit {
-    Micrometre,
-    Millimetre,
-    Centimetre,
-    Metre,
-}
+pub(super) struct ScanFormat(pub(super) &'static str);
 
-impl Unit {
-    /// Its length in metres.
-    pub(super) fn metres(self) -> f64 {
-        match self {
-            Self::Micrometre => 1e-6,
-            Self::Millimetre => 1e-3,
-            Self::Centimetre => 1e-2,
-            Self::Metre => 1.0,
-        }
+impl FromStr for ScanFormat {
+    type Err = &'static str;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let known = ["ply", "stl", "obj", "xyz"].into_iter();
+        let mut named = known.filter(|name| text.eq_ignore_ascii_case(name));
+        named
+            .next()
+            .map(Self)
+            .ok_or("expected ply, stl, obj or xyz")
     }
 }
 
-impl FromStr for Unit {
+/// A format that points are written in.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum CloudFormat {
+    Ply,
+    Xyz,
+}
+
+impl FromStr for CloudFormat {
     type Err = &'static str;
 
     fn from_str(text: &str) -> Result<Self, Self::Err> {
         match text {
-            "um" => Ok(Self::Micrometre),
-            "mm" => Ok(Self::Millimetre),
-            "cm" => Ok(Self::Centimetre),
-            "m" => Ok(Self::Metre),
-            _ => Err("expected um, mm, cm or m"),
+            "ply" => Ok(Self::Ply),
+            "xyz" => Ok(Self::Xyz),
+            _ => Err("expected ply or xyz"),
         }
     }
 }
@@ -114,5 +115,54 @@ pub(super) fn vector(text: &str) -> Result<Vector3<f64>, String> {
     match numbers.as_deref() {
         Ok(&[x, y, z]) => Ok(Vector3::new(x, y, z)),
         _ => Err("expected three numbers such as 10,0,-2.5".into()),
+    }
+}
+
+/// A share, as a percentage or not.
+pub(super) fn share(text: &str) -> Result<f64, &'static str> {
+    let (number, scale) = match text.strip_suffix('%') {
+        Some(percentage) => (percentage.trim_end(), 100.0),
+        None => (text, 1.0),
+    };
+    let number: f64 = number
+        .parse()
+        .map_err(|_| "expected a share such as 0.5% or 0.005")?;
+    Ok(number / scale)
+}
+
+/// A number of bytes: digits, and k, M or G for thousands, millions and billions.
+pub(super) fn bytes(text: &str) -> Result<u64, &'static str> {
+    let suffixes = [('k', 1_000), ('M', 1_000_000), ('G', 1_000_000_000)];
+    let suffixed = suffixes
+        .iter()
+        .find_map(|(suffix, scale)| Some((text.strip_suffix(*suffix)?, *scale)));
+    let (digits, scale) = suffixed.unwrap_or((text, 1));
+    let count: Option<u64> = digits.parse().ok();
+    count
+        .and_then(|count| count.checked_mul(scale))
+        .filter(|count| *count > 0)
+        .ok_or("expected a number of bytes such as 500M or 4G")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shares_are_percentages_or_not() {
+        assert_eq!(share("0.5%"), Ok(0.005));
+        assert_eq!(share("0.5 %"), Ok(0.005));
+        assert_eq!(share("0.005"), Ok(0.005));
+        assert!(share("%").is_err());
+    }
+
+    #[test]
+    fn bytes_have_decimal_suffixes() {
+        assert_eq!(bytes("1G"), Ok(crate::scan::MAX_BYTES));
+        assert_eq!(bytes("12k"), Ok(12_000));
+        assert_eq!(bytes("7"), Ok(7));
+        for text in ["", "0", "-1", "1T", "99999999999G", "1.5G"] {
+            assert!(bytes(text).is_err(), "{text}");
+        }
     }
 }

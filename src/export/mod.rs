@@ -2,8 +2,10 @@
 
 mod atomic;
 mod error;
+mod format;
 mod mesh;
 mod points;
+mod temporary;
 
 use std::path::Path;
 
@@ -11,8 +13,10 @@ use crate::mesh::Mesh;
 
 pub use atomic::write_atomically;
 pub use error::{SaveError, WriteError};
+pub use format::MeshFormat;
 pub use mesh::{write_obj, write_ply, write_stl};
 pub use points::{write_points_ply, write_points_xyz};
+pub use temporary::{remove_temporaries, sweep};
 
 /// Saves a mesh in the format that the path's extension names: `stl`, `ply` or `obj`.
 ///
@@ -20,13 +24,9 @@ pub use points::{write_points_ply, write_points_xyz};
 ///
 /// [`SaveError`]; then nothing was written, and an older file of that name is as it was.
 pub fn save_mesh(path: &Path, mesh: &Mesh) -> Result<(), SaveError> {
-    let extension = path.extension().map(|e| e.to_ascii_lowercase());
-    match extension.as_ref().and_then(|e| e.to_str()) {
-        Some("stl") => write_atomically(path, |writer| write_stl(mesh, writer)),
-        Some("ply") => write_atomically(path, |writer| write_ply(mesh, writer)),
-        Some("obj") => write_atomically(path, |writer| write_obj(mesh, writer)),
-        _ => Err(SaveError::UnknownExtension { path: path.into() }),
-    }
+    let format =
+        MeshFormat::of(path).ok_or_else(|| SaveError::UnknownExtension { path: path.into() })?;
+    write_atomically(path, |writer| format.write(mesh, writer))
 }
 
 #[cfg(test)]

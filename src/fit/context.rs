@@ -25,6 +25,8 @@ pub enum Stage {
     Searching {
         /// Candidates or rounds done.
         done: usize,
+        /// All there are, where that is known.
+        all: Option<usize>,
     },
 }
 

@@ -172,7 +172,7 @@ fn estimated(
     let (grain, rival) = match is_whole {
         true => (whole(degree), None),
         false => {
-            context.enter(Stage::Searching { done: 0 })?;
+            context.enter(Stage::Searching { done: 0, all: None })?;
             let settings = Settings {
                 degree: options.degree,
                 max_degree: options.top_degree(),

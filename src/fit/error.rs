@@ -72,8 +72,8 @@ pub enum FitError {
     },
     /// The scan has too few distinct points, or they enclose no volume.
     #[error(
-        "the scan's {points} points do not enclose a volume; a closed surface needs at least 4 \
-         points that do not lie in one plane"
+        "the scan's points ({points}) enclose no volume; a closed surface needs at least 4 points \
+         that do not lie in one plane"
     )]
     NoVolume {
         /// Number of points.

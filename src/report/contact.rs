@@ -1,6 +1,8 @@
 //! What `grainform contact` tells.
 
+use super::escape::escaped;
 use super::number::{short, triple};
+use super::unit::Unit;
 use crate::contact::{Correction, RelativeCurvature, Touch};
 use nalgebra::{Point3, Vector3};
 use serde::Serialize;
@@ -9,6 +11,8 @@ use std::fmt;
 /// The contact of a grain with a plane, or with another grain.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ContactReport {
+    /// Unit of the scans' lengths.
+    pub unit: Unit,
     /// The body that is touched.
     pub first: TouchRecord,
     /// The other body; absent where it is a plane.
@@ -51,8 +55,8 @@ pub struct TouchRecord {
 /// What a contact is loaded with.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Load {
-    /// Length of the scan's unit, in metres.
-    pub metres_per_unit: f64,
+    /// The unit of the scans' lengths.
+    pub unit: Unit,
     /// Effective modulus, in pascals.
     pub effective_modulus_pa: f64,
     /// Indentation, in micrometres.
@@ -81,8 +85,9 @@ impl ContactReport {
         load: &Load,
     ) -> Self {
         let indentation_m = 1e-6 * load.indentation_um;
-        let (metres, modulus) = (load.metres_per_unit, load.effective_modulus_pa);
+        let (metres, modulus) = (load.unit.metres(), load.effective_modulus_pa);
         Self {
+            unit: load.unit,
             first,
             second,
             larger_curvature: relative.larger(),
@@ -101,14 +106,18 @@ impl ContactReport {
     }
 }
 
-impl fmt::Display for TouchRecord {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        writeln!(f, "body          {}", self.input)?;
-        writeln!(f, "touched at    {}", triple(self.point))?;
+impl TouchRecord {
+    fn write(&self, f: &mut fmt::Formatter<'_>, unit: Unit) -> fmt::Result {
+        writeln!(f, "body          {}", escaped(&self.input))?;
+        writeln!(f, "touched at    {} {unit}", triple(self.point))?;
         let radii = self.principal_curvatures.map(|k| short(1.0 / k));
-        write!(f, "curved with   radii {} and {}", radii[0], radii[1])?;
+        write!(
+            f,
+            "curved with   radii {} and {} {unit}",
+            radii[0], radii[1]
+        )?;
         if let Some(radius) = self.edge_radius {
-            write!(f, " (an edge, rounded with {})", short(radius))?;
+            write!(f, " (an edge, rounded with {} {unit})", short(radius))?;
         }
         writeln!(f)
     }
@@ -116,14 +125,15 @@ impl fmt::Display for TouchRecord {
 
 impl fmt::Display for ContactReport {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}", self.first)?;
+        let unit = self.unit;
+        self.first.write(f, unit)?;
         match &self.second {
-            Some(second) => write!(f, "{second}")?,
+            Some(second) => second.write(f, unit)?,
             None => writeln!(f, "against       a plane")?,
         }
         writeln!(
             f,
-            "relative      effective radius {}, correction {}",
+            "relative      effective radius {} {unit}, correction {}",
             short(self.effective_radius),
             short(self.correction)
         )?;
@@ -134,11 +144,10 @@ impl fmt::Display for ContactReport {
             short(1e-6 * self.effective_modulus_pa)
         )?;
         writeln!(f, "normal force  {} N", short(self.normal_force_n))?;
-        writeln!(
+        write!(
             f,
             "stiffness     {} N/m",
             short(self.normal_stiffness_n_per_m)
-        )?;
-        write!(f, "Lengths without a unit are in the scan's.")
+        )
     }
 }

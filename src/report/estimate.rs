@@ -2,6 +2,7 @@
 
 use crate::fit::EstimateSummary;
 use crate::model::{Grain, StarSurface};
+use crate::scan::plural;
 use crate::sphere::cube_grid;
 use serde::Serialize;
 use std::fmt;
@@ -87,14 +88,12 @@ impl EvaluationRecord {
 
 impl fmt::Display for EvaluationRecord {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let coefficients = match self.coefficients {
-            1 => "coefficient",
-            _ => "coefficients",
-        };
         write!(
             f,
-            "{} {coefficients}, {:.0} per evaluation ({:.0} ns)",
-            self.coefficients, self.touched, self.nanoseconds
+            "{}, {:.0} per evaluation ({:.0} ns)",
+            plural(self.coefficients, "coefficient"),
+            self.touched,
+            self.nanoseconds
         )
     }
 }

@@ -1,13 +1,18 @@
 //! What `grainform fit` tells.
 
+use super::escape::escaped;
 use super::estimate::{EstimateRecord, EvaluationRecord};
 use super::measure::{Dimensions, Principal, rows};
 use super::number::{percent, short, with_error};
 use super::rule::rule;
+use super::unit::{Labels, Unit};
 use super::warning::sentences;
-use crate::fit::{FitOptions, Fitted, NoInterval, Reference, ReferenceKind, StandardErrors};
+use crate::fit::{
+    FitOptions, Fitted, NoInterval, Reference, ReferenceKind, StandardErrors, Tolerance,
+};
 use crate::measure::{dimensions_of_surface, grain_properties};
 use crate::model::Mirrored;
+use crate::scan::plural;
 use crate::sphere::Symmetry;
 use serde::Serialize;
 use std::fmt;
@@ -17,6 +22,9 @@ use std::fmt;
 pub struct FitReport {
     /// The scan.
     pub input: String,
+    /// Unit of lengths, where it was told; areas and volumes are in its square and cube.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub unit: Option<Unit>,
     /// Distinct points that the fit rests on.
     pub points: usize,
     /// Degree of the segments' expansions.
@@ -75,6 +83,9 @@ pub struct FitReport {
     /// The error that was good enough: the difference from the estimate, or the held-out RMS of independent segments and
     /// mirrored fits.
     pub limit: f64,
+    /// The tolerance asked for; left out where it is that of the default.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tolerance: Option<f64>,
     /// Why this degree and number of segments: half a sentence.
     pub rule: String,
     /// The largest jump of the radius between neighbouring segments.
@@ -148,6 +159,7 @@ impl FitReport {
     /// The report of a fit, for the options it was made with; `scan_warnings` are the reader's.
     pub fn new(
         input: String,
+        unit: Option<Unit>,
         fitted: &Fitted,
         options: &FitOptions,
         scan_warnings: &[String],
@@ -171,6 +183,7 @@ impl FitReport {
         };
         Self {
             input,
+            unit,
             points: fitted.points,
             degree: mirrored.map_or(choice.degree, Mirrored::degree),
             segments: choice.segments,
@@ -197,7 +210,9 @@ impl FitReport {
             whole: fitted.whole.as_ref().map(EvaluationRecord::new),
             noise: search.noise,
             limit: search.limit,
-            rule: rule(fitted, options),
+            tolerance: (options.tolerance != Tolerance::Auto)
+                .then(|| options.tolerance.length(fitted.mean_radius)),
+            rule: rule(fitted, options, unit),
             seam_jump: fitted.grain.seam_jump(),
             reduced_segments: choice.reduced_segments,
             harmonics_loss: None,
@@ -251,39 +266,58 @@ impl ReferenceRecord {
 
 impl fmt::Display for FitReport {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let of_radius = |length: f64| {
+        let labels = Labels(self.unit);
+        let mm = labels.length();
+        let share = |length: f64| {
             let share = 100.0 * length / self.mean_radius;
-            let share = match share.abs() {
+            match share.abs() {
                 0.0 | 0.001.. => format!("{share:.3}"),
                 _ => format!("{share:.1e}"),
-            };
-            format!("{} ({share} % of the mean radius)", short(length))
+            }
+        };
+        let of_radius = |length: f64| {
+            format!(
+                "{}{mm} ({} % of the mean radius)",
+                short(length),
+                share(length)
+            )
         };
         let against =
             |error: f64, reference: f64| format!("{} against {}", percent(error), short(reference));
+        let (area, volume) = (labels.area(), labels.volume());
         let heldout = self.heldout_rms.map_or("unknown".into(), of_radius);
-        writeln!(f, "scan          {}, {} points", self.input, self.points)?;
+        let points = plural(self.points, "point");
+        writeln!(f, "scan          {}, {points}", escaped(&self.input))?;
         write!(f, "model         degree {}, ", self.degree)?;
         match self.symmetry {
             Some(symmetry) => writeln!(
                 f,
-                "{} {} on {}",
-                self.coefficients,
-                match self.coefficients {
-                    1 => "coefficient",
-                    _ => "coefficients",
-                },
+                "{} on {}",
+                plural(self.coefficients, "coefficient"),
                 mirroring(symmetry)
             )?,
             None if self.segments == 1 => {
                 writeln!(f, "the whole sphere, {}", self.evaluation)?;
             }
-            None => writeln!(f, "{} segments, {}", self.segments, self.evaluation)?,
+            None => {
+                let segments = plural(self.segments, "segment");
+                writeln!(f, "{segments}, {}", self.evaluation)?;
+            }
         }
         if let Some(whole) = &self.whole {
             writeln!(f, "              as one expansion: {whole}")?;
         }
         writeln!(f, "chosen for    {}", self.rule)?;
+        if let Some(tolerance) = self.tolerance {
+            writeln!(
+                f,
+                "tolerance     {}{}, {} % of the mean radius",
+                short(tolerance),
+                self.unit
+                    .map_or(" in the scan's unit".into(), |_| labels.length()),
+                share(tolerance)
+            )?;
+        }
         if let Some(estimate) = &self.estimate {
             writeln!(
                 f,
@@ -301,7 +335,7 @@ impl fmt::Display for FitReport {
         writeln!(f, "reference     {}", self.reference.description())?;
         writeln!(
             f,
-            "area          {}, {}",
+            "area          {}{area}, {}{area}",
             with_error(
                 self.area,
                 self.standard_errors.as_ref().map(|errors| errors.area)
@@ -310,7 +344,7 @@ impl fmt::Display for FitReport {
         )?;
         writeln!(
             f,
-            "volume        {}, {}",
+            "volume        {}{volume}, {}{volume}",
             with_error(
                 self.volume,
                 self.standard_errors.as_ref().map(|errors| errors.volume)
@@ -324,7 +358,7 @@ impl fmt::Display for FitReport {
                 .map(|errors| &errors.dimensions);
             writeln!(
                 f,
-                "size          {} x {} x {}",
+                "size          {} x {} x {}{mm}",
                 with_error(dimensions.length, errors.map(|errors| errors.length)),
                 with_error(dimensions.width, errors.map(|errors| errors.width)),
                 with_error(dimensions.thickness, errors.map(|errors| errors.thickness)),
@@ -342,16 +376,19 @@ impl fmt::Display for FitReport {
         if let Some(noise) = self.noise {
             writeln!(f, "noise         {}", of_radius(noise))?;
         }
-        writeln!(f, "mean radius   {}", short(self.mean_radius))?;
+        writeln!(f, "mean radius   {}{mm}", short(self.mean_radius))?;
         if self.reduced_segments > 0 {
+            let (count, s) = match self.reduced_segments {
+                1 => (plural(1, "segment"), "s"),
+                count => (plural(count, "segment"), ""),
+            };
             writeln!(
                 f,
-                "reduced       {} segments need no higher degree, or hold too few points for it",
-                self.reduced_segments
+                "reduced       {count} need{s} no higher degree, or hold{s} too few points for it"
             )?;
         }
         if let Some(loss) = self.harmonics_loss {
-            writeln!(f, "harmonics     converted with a loss of {loss:.1e}")?;
+            writeln!(f, "harmonics     converted with a loss of {loss:.1e}{mm}")?;
         }
         if self.standard_errors.is_some() {
             writeln!(f, "Figures after ± are standard errors.")?;
@@ -359,7 +396,7 @@ impl fmt::Display for FitReport {
         if let Some(reason) = &self.no_standard_errors {
             writeln!(f, "No standard errors: {reason}.")?;
         }
-        write!(f, "Lengths are in the scan's unit.")
+        write!(f, "Lengths are in {}.", labels.name())
     }
 }
 

@@ -6,6 +6,7 @@
 //! a person. Errors of area and volume are signed and relative; lengths are in the scan's unit.
 
 mod contact;
+mod escape;
 mod estimate;
 mod fit;
 mod harmonics;
@@ -14,9 +15,11 @@ mod number;
 mod rule;
 mod search;
 mod synth;
+mod unit;
 mod warning;
 
 pub use contact::{ContactReport, Load, TouchRecord};
+pub use escape::escaped;
 pub use estimate::{EstimateRecord, EvaluationRecord};
 pub use fit::{FitReport, ReferenceRecord, Seconds, Skipped};
 pub use harmonics::{largest_loss, write_harmonics};
@@ -28,5 +31,6 @@ pub use measure::{
 pub use number::{percent, short};
 pub use search::{CandidateRecord, SearchReport};
 pub use synth::SynthReport;
+pub use unit::Unit;
 #[cfg(feature = "cli")]
 pub(crate) use warning::sentences;

@@ -39,6 +39,11 @@ pub(super) fn triple(components: [f64; 3]) -> String {
         .join("  ")
 }
 
+/// Without the last digits of a product: 0.3 and not 0.30000000000000004.
+pub(super) fn round(value: f64) -> f64 {
+    (value * 1e9).round() / 1e9
+}
+
 /// A signed share as a percentage: `-0.123 %`.
 pub fn percent(share: f64) -> String {
     format!("{:+.3} %", 100.0 * share)

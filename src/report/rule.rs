@@ -1,10 +1,13 @@
 //! Why a candidate was chosen, in one sentence.
 
-use super::number::short;
+use super::number::{round, short};
+use super::unit::{Labels, Unit};
 use crate::fit::{FitOptions, Fitted, Tolerance};
 
 /// The rule of [`crate::fit`] as it decided here.
-pub(super) fn rule(fitted: &Fitted, options: &FitOptions) -> String {
+pub(super) fn rule(fitted: &Fitted, options: &FitOptions, unit: Option<Unit>) -> String {
+    let labels = Labels(unit);
+    let length = |length: f64| format!("{}{}", short(length), labels.length());
     let search = &fitted.search;
     let choice = search.choice();
     let is_only = match fitted.estimate {
@@ -23,12 +26,12 @@ pub(super) fn rule(fitted: &Fitted, options: &FitOptions) -> String {
         let source = match (search.limit > tolerance, options.tolerance) {
             (true, _) => format!(
                 "a third of the estimate's standard deviation of {}",
-                short(estimate.deviation)
+                length(estimate.deviation)
             ),
             (false, Tolerance::Length(_)) => "the tolerance".into(),
             (false, _) => format!("{share} % of the mean radius"),
         };
-        let limit = format!("{} ({source})", short(search.limit));
+        let limit = format!("{} ({source})", length(search.limit));
         let is_all = options.segments == Some(1) && options.tolerance == Tolerance::Auto;
         return match search.work.candidates {
             _ if rms > search.limit => format!(
@@ -36,7 +39,7 @@ pub(super) fn rule(fitted: &Fitted, options: &FitOptions) -> String {
             ),
             _ if is_all => format!(
                 "the lowest degree that leaves out no more than {} of the estimate",
-                short(search.limit)
+                length(search.limit)
             ),
             _ if choice.segments == 1 => {
                 format!("the lowest degree within {limit} of the estimate")
@@ -52,16 +55,11 @@ pub(super) fn rule(fitted: &Fitted, options: &FitOptions) -> String {
         Tolerance::Length(_) => "the tolerance".into(),
         _ => format!("{share} % of the mean radius"),
     };
-    let limit = format!("the limit of {} ({source})", short(search.limit));
+    let limit = format!("the limit of {} ({source})", length(search.limit));
     match choice.heldout_rms {
         Some(rms) if rms <= search.limit => {
             format!("the fewest coefficients whose held-out RMS is within {limit}")
         }
         _ => format!("no candidate is within {limit}; this one has the least held-out RMS"),
     }
-}
-
-/// Without the last digits of a product: 0.3 and not 0.30000000000000004.
-fn round(value: f64) -> f64 {
-    (value * 1e9).round() / 1e9
 }

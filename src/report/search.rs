@@ -1,6 +1,7 @@
 //! What `grainform search` tells: every candidate.
 
 use super::rule::rule;
+use super::unit::Unit;
 use super::warning::sentences;
 use super::{ReferenceRecord, Seconds};
 use crate::fit::{Candidate, FitOptions, Fitted};
@@ -12,6 +13,9 @@ use std::io::{self, Write};
 pub struct SearchReport {
     /// The scan.
     pub input: String,
+    /// Unit of lengths, where it was told; areas and volumes are in its square and cube.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub unit: Option<Unit>,
     /// Distinct points that the fits rest on.
     pub points: usize,
     /// Every candidate, by segments and then by degree.
@@ -63,6 +67,7 @@ impl SearchReport {
     /// The report of a search, for the options it was made with; `scan_warnings` are the reader's.
     pub fn new(
         input: String,
+        unit: Option<Unit>,
         fitted: &Fitted,
         options: &FitOptions,
         scan_warnings: &[String],
@@ -70,10 +75,11 @@ impl SearchReport {
         let search = &fitted.search;
         Self {
             input,
+            unit,
             points: fitted.points,
             candidates: search.candidates.iter().map(Into::into).collect(),
             chosen: search.chosen,
-            rule: rule(fitted, options),
+            rule: rule(fitted, options, unit),
             limit: search.limit,
             noise: search.noise,
             mean_radius: fitted.mean_radius,

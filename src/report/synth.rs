@@ -1,7 +1,9 @@
 //! What `grainform synth` tells: the scan it made and the truth behind it.
 
+use super::escape::escaped;
 use super::measure::rows;
-use super::number::{short, triple};
+use super::number::{round, short, triple};
+use crate::scan::plural;
 use crate::shapes::{SynthOptions, SyntheticScan};
 use serde::Serialize;
 use std::fmt;
@@ -76,8 +78,11 @@ impl fmt::Display for SynthReport {
         }
         writeln!(
             f,
-            "scan         {} points, sampling {}, noise {} of the mean radius, seed {}",
-            self.points, self.sampling, self.noise, self.seed
+            "scan         {}, sampling {}, noise {} % of the mean radius, seed {}",
+            plural(self.points, "point"),
+            self.sampling,
+            round(100.0 * self.noise),
+            self.seed
         )?;
         writeln!(f, "mean radius  {}", short(self.mean_radius))?;
         writeln!(f, "area         {}", short(self.area))?;
@@ -88,7 +93,7 @@ impl fmt::Display for SynthReport {
             writeln!(f, "{name:<13}{}", triple(row))?;
         }
         if let Some(output) = &self.output {
-            writeln!(f, "wrote        {output}")?;
+            writeln!(f, "wrote        {}", escaped(output))?;
         }
         write!(
             f,

@@ -30,6 +30,11 @@ impl fmt::Display for FitWarning {
                 "The faces do not enclose one body, so the reference surface is the triangulation of \
                  the points' directions."
             ),
+            Self::Strays { strays: 1, points } => write!(
+                f,
+                "1 of {points} points stands apart from its neighbours by more than 10 % of the radius \
+                 and was left out."
+            ),
             Self::Strays { strays, points } => write!(
                 f,
                 "{strays} of {points} points stand apart from their neighbours by more than 10 % of the \

@@ -4,6 +4,8 @@ use std::fmt;
 use std::io;
 use std::path::PathBuf;
 
+use super::plural;
+
 /// Why [`read_scan`](super::read_scan) failed; names the file.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -14,6 +16,22 @@ pub enum ReadError {
         /// The file asked for.
         path: PathBuf,
         /// What the system said.
+        source: io::Error,
+    },
+    /// The file goes on beyond the limit: a device, an archive made to do harm, or a scan to be thinned.
+    #[error("{} has more than the {limit} bytes that may be read", path.display())]
+    TooLarge {
+        /// The file asked for.
+        path: PathBuf,
+        /// The most bytes that may be read.
+        limit: u64,
+    },
+    /// The file is packed with gzip, but cannot be unpacked: copy it again.
+    #[error("cannot unpack {}: it is cut short or damaged, copy it again", path.display())]
+    Packed {
+        /// The file asked for.
+        path: PathBuf,
+        /// What is wrong with it.
         source: io::Error,
     },
     /// The file was read, but its bytes are not a usable scan.
@@ -145,8 +163,8 @@ pub enum ParseError {
     },
     /// A face names a point that does not exist.
     #[error(
-        "{place}: the face names point {index}, but the file has {points} points, \
-         numbered from {first}; export the scan again"
+        "{place}: the face names point {index}, but the file has {}, numbered from \
+         {first}; export the scan again", plural(*points, "point")
     )]
     IndexOutOfRange {
         /// Where.
@@ -189,7 +207,7 @@ pub enum ParseError {
     },
     /// All points coincide, or are so near that squares underflow.
     #[error(
-        "all {points} points lie within {extent:e} of each other; expected the surface of a body, \
+        "all points ({points}) lie within {extent:e} of each other; expected the surface of a body, \
          check the unit and the export"
     )]
     NoExtent {
@@ -199,7 +217,7 @@ pub enum ParseError {
         extent: f64,
     },
     /// All points lie on one straight line.
-    #[error("all {points} points lie on one line; expected the surface of a body")]
+    #[error("all points ({points}) lie on one line; expected the surface of a body")]
     Collinear {
         /// How many points there are.
         points: usize,

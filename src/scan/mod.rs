@@ -10,6 +10,7 @@ mod inspect;
 mod obj;
 mod ply;
 mod polygon;
+mod source;
 mod stl;
 mod text;
 mod topology;
@@ -22,6 +23,7 @@ use nalgebra::Point3;
 
 pub use error::{ParseError, Place, ReadError};
 use format::Format;
+pub use source::{MAX_BYTES, read_bytes, read_stream};
 pub use topology::Topology;
 pub(crate) use topology::each_edge;
 pub(crate) use weld::first_at_same_place;
@@ -46,19 +48,26 @@ impl Scan {
     }
 }
 
-/// Reads a scan from a PLY, STL, OBJ or XYZ file.
+/// Reads a scan from a PLY, STL, OBJ or XYZ file of at most [`MAX_BYTES`], packed with gzip or not.
 ///
 /// # Errors
 ///
-/// [`ReadError::Io`] where the file cannot be read, [`ReadError::Parse`] where its content is no
+/// Those of [`read_bytes`] where the file cannot be read, [`ReadError::Parse`] where its content is no
 /// usable scan; see [`parse_scan`].
 pub fn read_scan(path: &Path) -> Result<Scan, ReadError> {
-    let bytes = std::fs::read(path).map_err(|source| ReadError::Io {
-        path: path.into(),
-        source,
-    })?;
-    let extension = path.extension().and_then(|extension| extension.to_str());
-    parse_scan(&bytes, extension).map_err(|source| ReadError::Parse {
+    let bytes = read_bytes(path, MAX_BYTES)?;
+    parse_file(path, &bytes, None)
+}
+
+/// Reads a scan from the bytes of a file: [`parse_scan`] with the file's name in its errors. Where the content
+/// leaves the format open, `format` decides, such as `stl`, or else the extension, that before `.gz`.
+///
+/// # Errors
+///
+/// [`ReadError::Parse`].
+pub fn parse_file(path: &Path, bytes: &[u8], format: Option<&str>) -> Result<Scan, ReadError> {
+    let format = format.or_else(|| source::extension(path));
+    parse_scan(bytes, format).map_err(|source| ReadError::Parse {
         path: path.into(),
         source,
     })
@@ -104,7 +113,7 @@ pub fn parse_scan(bytes: &[u8], extension: Option<&str>) -> Result<Scan, ParseEr
 }
 
 /// `1 row`, `2 rows`.
-fn plural(count: usize, noun: &str) -> String {
+pub(crate) fn plural(count: usize, noun: &str) -> String {
     let s = if count == 1 { "" } else { "s" };
     format!("{count} {noun}{s}")
 }

@@ -8,13 +8,19 @@ mod harmonics;
 mod measure;
 mod mesh;
 mod search;
+#[cfg(unix)]
+mod signals;
+mod streams;
 mod symmetry;
 mod synth;
+mod told;
+mod units;
 mod whole;
 
 use serde_json::Value;
+use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::{Command, Output, Stdio};
 use tempfile::TempDir;
 
 /// Runs `grainform` with these words, in a folder.
@@ -24,6 +30,24 @@ fn grainform(folder: &TempDir, words: &[&str]) -> Output {
         .current_dir(folder.path())
         .output()
         .expect("the binary is built")
+}
+
+/// Runs `grainform` with these bytes on standard input.
+fn piped(folder: &TempDir, words: &[&str], input: &[u8]) -> Output {
+    let mut child = Command::new(assert_cmd::cargo::cargo_bin!("grainform"))
+        .args(words)
+        .current_dir(folder.path())
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the binary is built");
+    let mut stdin = child.stdin.take().expect("a pipe");
+    std::thread::scope(|scope| {
+        // It may refuse before it has read all.
+        scope.spawn(move || stdin.write_all(input).is_ok());
+        child.wait_with_output().expect("an end")
+    })
 }
 
 /// Runs `grainform`, which must succeed; gives its standard output.

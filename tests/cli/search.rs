@@ -68,8 +68,8 @@ fn the_table_of_the_default_search_lists_the_rounds_and_marks_the_choice() {
     let listed = json(&folder, &["search", &maize]);
     let fitted = json(&folder, &["fit", &maize]);
     let rounds = listed["candidates"].as_array().unwrap().len();
-    // A heading, the rounds, the rule.
-    assert_eq!(text.lines().count(), 1 + rounds + 1, "{text}");
+    // A heading of two lines, the rounds, the rule.
+    assert_eq!(text.lines().count(), 2 + rounds + 1, "{text}");
     // The chosen cover has the fewest coefficients of those within the limit; the whole sphere comes first.
     let chosen = listed["chosen"].as_u64().unwrap() as usize;
     assert!(chosen > 0);

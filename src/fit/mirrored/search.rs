@@ -48,7 +48,7 @@ pub(crate) fn search(
     options: &FitOptions,
     context: &Context<'_>,
 ) -> Result<MirroredFit, FitError> {
-    context.enter(Stage::Searching { done: 0 })?;
+    context.enter(Stage::Searching { done: 0, all: None })?;
     let whole = CellGrid::new([1]);
     let samples = prepared.samples(&whole);
     let samples = samples.rows();

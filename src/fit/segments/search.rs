@@ -72,7 +72,8 @@ pub(crate) fn search(
     let mut fitted = Vec::with_capacity(parts.len());
     let mut enough = usize::MAX;
     for (done, &k) in parts.iter().enumerate() {
-        context.enter(Stage::Searching { done })?;
+        let all = Some(parts.len());
+        context.enter(Stage::Searching { done, all })?;
         let within_reach =
             |degree: usize| options.exhaustive || k * k * coefficient_count(degree) <= enough;
         let reachable = degrees.iter().copied().filter(|&d| within_reach(d)).max();

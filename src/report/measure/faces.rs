@@ -2,6 +2,7 @@
 
 use crate::measure::{Fill, ScannedBody};
 use crate::report::number::short;
+use crate::scan::plural;
 use serde::Serialize;
 use std::fmt;
 
@@ -45,9 +46,9 @@ impl FacesRecord {
     pub(super) fn sentences(&self) -> Vec<String> {
         let filled = self.filled.map(|filled| {
             format!(
-                "Small holes were closed: {} with {} edges; the area holds {} for their fill.",
+                "Small holes were closed: {} with {}; the area holds {} for their fill.",
                 filled.holes,
-                filled.edges,
+                plural(filled.edges, "edge"),
                 short(filled.area)
             )
         });
@@ -59,8 +60,8 @@ impl FacesRecord {
         });
         let hollow = (self.cavities > 0).then(|| {
             format!(
-                "{} inner surfaces: their volume is subtracted, their area is part of the area.",
-                self.cavities
+                "The scan has {}, whose volume is subtracted and whose area is part of the area.",
+                plural(self.cavities, "inner surface")
             )
         });
         [filled, several, hollow].into_iter().flatten().collect()

@@ -13,6 +13,7 @@ pub use records::{
     SphereRecord, Spheres,
 };
 
+use super::unit::Unit;
 use crate::fit::ReferenceKind;
 use crate::measure::{Convexity, Form, ScannedBody, Spectrum, Sphericity, Survey, SurveyError};
 use serde::Serialize;
@@ -45,6 +46,9 @@ impl From<ReferenceKind> for Measured {
 pub struct MeasureReport {
     /// The scan or model.
     pub input: String,
+    /// Unit of lengths, where it was told; areas and volumes are in its square and cube.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub unit: Option<Unit>,
     /// What was measured.
     pub of: Measured,
     /// The measures.
@@ -158,6 +162,7 @@ impl MeasureReport {
         }
         Self {
             input,
+            unit: None,
             of,
             measures,
             faces: None,
@@ -165,6 +170,11 @@ impl MeasureReport {
             not_measured,
             warnings,
         }
+    }
+
+    /// The same with the unit of its lengths.
+    pub fn in_unit(self, unit: Option<Unit>) -> Self {
+        Self { unit, ..self }
     }
 
     /// The same with what the faces of the scan enclose.

@@ -4,7 +4,9 @@ use super::{
     BoxRecord, Dimensions, MeasureReport, Measured, Principal, ProjectionRecord, SphereRecord,
 };
 use crate::measure::Distribution;
+use crate::report::escape::escaped;
 use crate::report::number::{short, triple};
+use crate::report::unit::Labels;
 use std::fmt;
 
 /// Degrees of the spectrum that are shown.
@@ -12,15 +14,17 @@ const DEGREES_SHOWN: usize = 8;
 
 impl fmt::Display for MeasureReport {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let labels = Labels(self.unit);
         let of = match self.of {
             Measured::Faces => "the scan's own faces",
             Measured::Directions => "the points, triangulated by direction",
             Measured::Model => "the fitted model",
         };
-        writeln!(f, "input         {}", self.input)?;
+        writeln!(f, "input         {}", escaped(&self.input))?;
         writeln!(f, "measured      {of}")?;
         if let Some(faces) = &self.faces {
-            writeln!(f, "bodies        {faces}")?;
+            let area = faces.filled.map_or(String::new(), |_| labels.area());
+            writeln!(f, "bodies        {faces}{area}")?;
         }
         self.mass(f)?;
         self.size(f)?;
@@ -33,38 +37,47 @@ impl fmt::Display for MeasureReport {
                 missing.measure, missing.reason
             )?;
         }
-        write!(f, "Lengths are in the scan's unit, the density is 1.")
+        write!(f, "Lengths are in {}, the density is 1.", labels.name())
     }
 }
 
 impl MeasureReport {
     fn mass(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let labels = Labels(self.unit);
         let measures = &self.measures;
         if let Some(area) = measures.area {
-            writeln!(f, "area          {}", short(area))?;
+            writeln!(f, "area          {}{}", short(area), labels.area())?;
         }
         if let Some(volume) = measures.volume {
-            writeln!(f, "volume        {}", short(volume))?;
+            writeln!(f, "volume        {}{}", short(volume), labels.volume())?;
         }
         if let Some(centroid) = measures.centroid {
-            writeln!(f, "centroid      {}", triple(centroid))?;
+            writeln!(f, "centroid      {}{}", triple(centroid), labels.length())?;
         }
         if let Some(inertia) = measures.inertia {
             for (i, row) in inertia.into_iter().enumerate() {
                 let name = if i == 0 { "inertia" } else { "" };
-                writeln!(f, "{name:<13} {}", triple(row))?;
+                writeln!(f, "{name:<13} {}{}", triple(row), labels.moment())?;
             }
         }
         if let Some(Principal { moments, axes }) = measures.principal {
             for (i, (moment, axis)) in moments.into_iter().zip(axes).enumerate() {
                 let name = if i == 0 { "principal" } else { "" };
-                writeln!(f, "{name:<13} {}  along  {}", short(moment), triple(axis))?;
+                writeln!(
+                    f,
+                    "{name:<13} {}{}  along  {}",
+                    short(moment),
+                    labels.moment(),
+                    triple(axis)
+                )?;
             }
         }
         Ok(())
     }
 
     fn size(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let labels = Labels(self.unit);
+        let mm = labels.length();
         let measures = &self.measures;
         if let Some(Dimensions {
             length,
@@ -75,7 +88,7 @@ impl MeasureReport {
             let [length, width, thickness] = [length, width, thickness].map(short);
             writeln!(
                 f,
-                "dimensions    length {length}, width {width}, thickness {thickness}"
+                "dimensions    length {length}{mm}, width {width}{mm}, thickness {thickness}{mm}"
             )?;
         }
         if let Some(BoxRecord {
@@ -90,7 +103,8 @@ impl MeasureReport {
             let volume = short(volume);
             writeln!(
                 f,
-                "minimum box   {length} x {width} x {thickness} = {volume}"
+                "minimum box   {length} x {width} x {thickness}{mm} = {volume}{}",
+                labels.volume()
             )?;
         }
         if let Some(spheres) = measures.spheres {
@@ -99,11 +113,15 @@ impl MeasureReport {
             let outside = radius(spheres.enclosing);
             writeln!(
                 f,
-                "spheres       radii: inscribed {inside}, enclosing {outside}"
+                "spheres       radii: inscribed {inside}, enclosing {outside}{mm}"
             )?;
         }
         if let Some(ellipsoid) = measures.ellipsoid {
-            writeln!(f, "ellipsoid     semi-axes {}", triple(ellipsoid.semi_axes))?;
+            writeln!(
+                f,
+                "ellipsoid     semi-axes {}{mm}",
+                triple(ellipsoid.semi_axes)
+            )?;
         }
         Ok(())
     }
@@ -150,24 +168,34 @@ impl MeasureReport {
     }
 
     fn surface(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let labels = Labels(self.unit);
         let measures = &self.measures;
         for projection in measures.projections.iter().flatten() {
-            outline(f, projection)?;
+            outline(f, projection, labels)?;
         }
         if let Some(curvature) = measures.curvature {
-            let told = |distribution: Distribution| {
+            let one = labels.curvature();
+            let told = |distribution: Distribution, unit: &str| {
                 format!(
-                    "{} mean, {} SD, {} to {}",
+                    "{} mean, {} SD, {} to {}{unit}",
                     short(distribution.mean),
                     short(distribution.standard_deviation),
                     short(distribution.least),
                     short(distribution.largest)
                 )
             };
-            writeln!(f, "curvature     mean: {}", told(curvature.mean))?;
-            writeln!(f, "              Gaussian: {}", told(curvature.gaussian))?;
-            writeln!(f, "              larger: {}", told(curvature.larger))?;
-            writeln!(f, "              smaller: {}", told(curvature.smaller))?;
+            writeln!(f, "curvature     mean: {}", told(curvature.mean, &one))?;
+            writeln!(
+                f,
+                "              Gaussian: {}",
+                told(curvature.gaussian, &labels.gaussian())
+            )?;
+            writeln!(f, "              larger: {}", told(curvature.larger, &one))?;
+            writeln!(
+                f,
+                "              smaller: {}",
+                told(curvature.smaller, &one)
+            )?;
             writeln!(
                 f,
                 "              {:.2} % of the area convex; integral over 4 pi off by {:.1e}",
@@ -191,15 +219,17 @@ impl MeasureReport {
 }
 
 /// One outline: sizes, and the forms of sphericity that are used most.
-fn outline(f: &mut fmt::Formatter<'_>, seen: &ProjectionRecord) -> fmt::Result {
+fn outline(f: &mut fmt::Formatter<'_>, seen: &ProjectionRecord, labels: Labels) -> fmt::Result {
     writeln!(
         f,
-        "outline       along the {}: area {}, perimeter {}, Feret {} x {},",
+        "outline       along the {}: area {}{}, perimeter {}{mm}, Feret {} x {}{mm},",
         seen.along,
         short(seen.area),
+        labels.area(),
         short(seen.perimeter),
         short(seen.largest_feret),
-        short(seen.smallest_feret)
+        short(seen.smallest_feret),
+        mm = labels.length()
     )?;
     writeln!(
         f,

@@ -1,35 +1,41 @@
 //! The arguments as they are typed.
 
-use super::values::{Auto, SchemeArg, SeamsArg, Unit, tolerance, vector};
-use crate::fit::Tolerance;
-use crate::report::Measure;
+mod shared;
+
+pub(super) use shared::{FittingArgs, InputArgs, LimitArgs, MeshingArgs};
+
+use super::values::{CloudFormat, SchemeArg, share, vector};
+use crate::export::MeshFormat;
+use crate::report::{Measure, Unit};
 use crate::shapes::{Body, Sampling};
-use crate::sphere::Symmetry;
-use clap::{Args, Parser, Subcommand, value_parser};
+use clap::{Args, Parser, Subcommand};
+use clap_complete::Shell;
 use nalgebra::Vector3;
 use std::path::PathBuf;
 
-const SEARCH: &str = "Search";
 const OUTPUT: &str = "Output";
 const RUN: &str = "Run";
-
-/// Cells per edge of the cube of directions.
-pub(super) const DEFAULT_RESOLUTION: u16 = 64;
-
-/// Most threads that can be asked for.
-const MAX_THREADS: u16 = 1024;
 
 /// Fits a small analytic surface, segmented spherical harmonics, to the 3D scan of a grain, and tells
 /// how good it is.
 ///
-/// Scans are read from PLY, STL, OBJ and XYZ files. Lengths are in the scan's unit. Exit codes: 0 all
-/// done; 1 done, but some inputs of a batch failed (no command uses it yet); 2 bad usage or unusable
-/// input.
+/// Scans are read from PLY, STL, OBJ and XYZ files, packed with gzip or not. The name - is standard input, or
+/// standard output; what is said beside an output goes to standard error. Lengths are in the scan's unit. Exit
+/// codes: 0 all done; 1 done, but some inputs of a batch failed (no command uses it yet); 2 bad usage or
+/// unusable input.
 #[derive(Parser)]
 #[command(name = "grainform", version, max_term_width = 100)]
 pub(super) struct Cli {
     #[command(subcommand)]
     pub(super) command: Command,
+
+    /// Print errors only, and what --json and --stats ask for
+    #[arg(short, long, global = true, help_heading = OUTPUT)]
+    pub(super) quiet: bool,
+
+    /// Tell on standard error what is done, and when
+    #[arg(short, long, global = true, help_heading = OUTPUT, conflicts_with = "quiet")]
+    pub(super) verbose: bool,
 }
 
 #[derive(Subcommand)]
@@ -41,6 +47,22 @@ pub(super) enum Command {
     Contact(ContactArgs),
     Synth(SynthArgs),
     Bench(BenchArgs),
+    Completions(CompletionsArgs),
+    Man(ManArgs),
+}
+
+/// Print a script that completes commands and options in a shell
+#[derive(Args)]
+pub(super) struct CompletionsArgs {
+    /// The shell
+    pub(super) shell: Shell,
+}
+
+/// Print a page for man
+#[derive(Args)]
+pub(super) struct ManArgs {
+    /// The command it is about [default: grainform as a whole]
+    pub(super) command: Option<String>,
 }
 
 /// Fit a scan and say how good the fit is; write files only where asked to
@@ -49,11 +71,11 @@ pub(super) struct FitArgs {
     #[command(flatten)]
     pub(super) fitting: FittingArgs,
 
-    /// Write the model here, as JSON
+    /// Write the model here, as JSON (- for standard output)
     #[arg(short, long, value_name = "MODEL.json", help_heading = OUTPUT)]
     pub(super) output: Option<PathBuf>,
 
-    /// Write a closed mesh of the fitted surface here: .stl, .ply or .obj
+    /// Write a closed mesh of the fitted surface here: .stl, .ply or .obj (- for standard output, as PLY)
     #[arg(long, value_name = "OUT", help_heading = OUTPUT)]
     pub(super) mesh: Option<PathBuf>,
 
@@ -85,12 +107,19 @@ pub(super) struct MeshArgs {
     #[arg(value_name = "MODEL.json")]
     pub(super) model: PathBuf,
 
-    /// Write the mesh here: .stl, .ply or .obj
+    /// Write the mesh here: .stl, .ply or .obj (- for standard output)
     #[arg(short, long, value_name = "OUT")]
     pub(super) output: PathBuf,
 
+    /// Format of the mesh on standard output: stl, ply or obj
+    #[arg(long, value_name = "FORMAT", default_value = "ply")]
+    pub(super) format: MeshFormat,
+
     #[command(flatten)]
     pub(super) meshing: MeshingArgs,
+
+    #[command(flatten)]
+    pub(super) limit: LimitArgs,
 }
 
 /// Measure a scan or a model: size, mass properties, shape descriptors, curvature
@@ -101,7 +130,7 @@ pub(super) struct MeshArgs {
 pub(super) struct MeasureArgs {
     /// A scan, or a model written by `fit`; the content decides
     #[arg(value_name = "SCAN|MODEL.json")]
-    pub(super) input: PathBuf,
+    pub(super) path: PathBuf,
 
     /// Measure these only, separated by commas, and compute nothing else: area, volume, centroid,
     /// inertia, principal, dimensions, minimum_box, form, spheres, sphericity, roundness, regularity,
@@ -114,9 +143,16 @@ pub(super) struct MeasureArgs {
     #[arg(long, value_name = "exact|four-triangles", default_value = "exact")]
     pub(super) scheme: SchemeArg,
 
+    /// Unit of the scan's lengths, told beside them: um, mm, cm or m
+    #[arg(long, value_name = "UNIT")]
+    pub(super) unit: Option<Unit>,
+
     /// Print one JSON object
     #[arg(long)]
     pub(super) json: bool,
+
+    #[command(flatten)]
+    pub(super) input: InputArgs,
 }
 
 /// Tell the normal force of a grain pressed against a plane or another grain, by the theory of Hertz
@@ -178,6 +214,9 @@ pub(super) struct ContactArgs {
     /// Print one JSON object
     #[arg(long)]
     pub(super) json: bool,
+
+    #[command(flatten)]
+    pub(super) limit: LimitArgs,
 }
 
 /// Make a synthetic scan of a body whose area, volume and inertia are known
@@ -199,12 +238,12 @@ pub(super) struct SynthArgs {
     #[arg(long, default_value_t = Sampling::Cube)]
     pub(super) sampling: Sampling,
 
-    /// Standard deviation of the radial noise, as a share of the mean radius (0.005 is 0.5 %)
-    #[arg(long, value_name = "S", default_value_t = 0.0)]
+    /// Standard deviation of the radial noise, as a share of the mean radius: 0.5% or 0.005
+    #[arg(long, value_name = "S", default_value = "0", value_parser = share, allow_hyphen_values = true)]
     pub(super) noise: f64,
 
-    /// Share of the points that lie 20 % too far in or out
-    #[arg(long, value_name = "S", default_value_t = 0.0)]
+    /// Share of the points that lie 20 % too far in or out: 1% or 0.01
+    #[arg(long, value_name = "S", default_value = "0", value_parser = share, allow_hyphen_values = true)]
     pub(super) outliers: f64,
 
     /// Half-opening angle, in degrees, of a cap around -z that was not seen
@@ -220,9 +259,13 @@ pub(super) struct SynthArgs {
     #[arg(long, value_name = "K", default_value_t = 0)]
     pub(super) seed: u64,
 
-    /// Write the points here: .ply or .xyz
+    /// Write the points here: .ply or .xyz (- for standard output)
     #[arg(short, long, value_name = "FILE")]
     pub(super) output: Option<PathBuf>,
+
+    /// Format of the points on standard output: ply or xyz
+    #[arg(long, value_name = "FORMAT", default_value = "ply")]
+    pub(super) format: CloudFormat,
 
     /// Print one JSON object
     #[arg(long)]
@@ -251,81 +294,12 @@ pub(super) struct BenchArgs {
     #[arg(long, help_heading = OUTPUT)]
     pub(super) json: bool,
 
-    /// Print errors only, and what --json asks for
-    #[arg(long, help_heading = OUTPUT)]
-    pub(super) quiet: bool,
-}
+    /// Unit of the scans' lengths, told in the object: um, mm, cm or m
+    #[arg(long, value_name = "UNIT", help_heading = OUTPUT)]
+    pub(super) unit: Option<Unit>,
 
-/// What `fit` and `search` share.
-#[derive(Args)]
-pub(super) struct FittingArgs {
-    /// The scan: PLY, STL, OBJ or XYZ
-    #[arg(value_name = "SCAN")]
-    pub(super) scan: PathBuf,
-
-    /// How segments are joined: blended (overlapping cells, fitted together) or none (k x k
-    /// independent segments of the angle domain, with steps between them)
-    #[arg(long, value_name = "blended|none", default_value = "blended", help_heading = SEARCH)]
-    pub(super) seams: SeamsArg,
-
-    /// Mirror planes of the grain, told by the scan's axes normal to them, such as z or xyz: one
-    /// expansion is fitted to a half, a quarter or an octant, and mirrored. The planes go through the
-    /// centre; turn the scan beforehand if its axes are not those of the grain
-    #[arg(long, value_name = "AXES|none", default_value_t = Symmetry::NONE, help_heading = SEARCH)]
-    pub(super) symmetry: Symmetry,
-
-    /// Degree of every segment's expansion, or auto to search
-    #[arg(long, value_name = "L|auto", default_value = "auto", help_heading = SEARCH)]
-    pub(super) degree: Auto,
-
-    /// Number of segments: 1 for the estimate itself, one expansion of the whole sphere; 6 n^2 blended cells; or
-    /// k^2 independent segments. adaptive (or auto) splits cells where the shape asks for it, or searches all k
-    #[arg(long, value_name = "N|adaptive", default_value = "adaptive", help_heading = SEARCH)]
-    pub(super) segments: Auto,
-
-    /// Largest degree searched: bounds the cost of an evaluation [default: 4 in blended cells, else 3]
-    #[arg(long, value_name = "L", help_heading = SEARCH)]
-    pub(super) max_degree: Option<usize>,
-
-    /// Largest number of segments searched [default: 600 blended, 100 independent]
-    #[arg(long, value_name = "N", help_heading = SEARCH)]
-    pub(super) max_segments: Option<usize>,
-
-    /// RMS difference from the estimate that is good enough: a length in the scan's unit, a share of the mean
-    /// radius such as 0.3%, or auto (0.03%); a third of the estimate's own standard deviation always is
-    #[arg(long, value_name = "T|auto", default_value = "auto", value_parser = tolerance,
-          help_heading = SEARCH)]
-    pub(super) tolerance: Tolerance,
-
-    /// Fit every candidate, also those that cannot win; the choice is the same
-    #[arg(long, help_heading = SEARCH)]
-    pub(super) exhaustive: bool,
-
-    /// Threads, 0 for all cores; the result does not depend on it
-    #[arg(long, value_name = "N", default_value_t = 0, help_heading = RUN,
-          value_parser = value_parser!(u16).range(0..=i64::from(MAX_THREADS)))]
-    pub(super) threads: u16,
-
-    /// Print one JSON object, warnings included
-    #[arg(long, help_heading = OUTPUT)]
-    pub(super) json: bool,
-
-    /// Tell on standard error what was fitted and skipped, and how long it took
-    #[arg(long, help_heading = OUTPUT)]
-    pub(super) stats: bool,
-
-    /// Print errors only, and what --json and --stats ask for
-    #[arg(long, help_heading = OUTPUT)]
-    pub(super) quiet: bool,
-}
-
-/// How meshes are made.
-#[derive(Args)]
-pub(super) struct MeshingArgs {
-    /// Cells N along each edge of a cube of directions: 6 N^2 + 2 vertices, 12 N^2 triangles
-    #[arg(long, value_name = "N", default_value_t = DEFAULT_RESOLUTION, help_heading = OUTPUT,
-          value_parser = value_parser!(u16).range(1..=2048))]
-    pub(super) resolution: u16,
+    #[command(flatten)]
+    pub(super) input: InputArgs,
 }
 
 #[cfg(test)]

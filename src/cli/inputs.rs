@@ -1,0 +1,55 @@
+//! What is read: scans and models, from files or from standard input.
+
+use super::args::{InputArgs, LimitArgs};
+use crate::model::{Grain, parse_grain};
+use crate::scan::{ReadError, Scan, parse_file, read_bytes, read_stream};
+use anyhow::{Result, anyhow};
+use std::io;
+use std::path::Path;
+
+/// Standard input, or standard output.
+pub(super) fn is_stream(path: &Path) -> bool {
+    path == Path::new("-")
+}
+
+/// What an input is called.
+pub(super) fn name(path: &Path) -> String {
+    called(path).display().to_string()
+}
+
+fn called(path: &Path) -> &Path {
+    match is_stream(path) {
+        true => Path::new("standard input"),
+        false => path,
+    }
+}
+
+/// The bytes of a file or of standard input, unpacked.
+pub(super) fn read(path: &Path, limit: &LimitArgs) -> Result<Vec<u8>> {
+    let limit = limit.max_bytes;
+    let bytes = match is_stream(path) {
+        true => read_stream(io::stdin().lock(), called(path), limit),
+        false => read_bytes(path, limit),
+    };
+    bytes.map_err(|error| match error {
+        ReadError::TooLarge { .. } => anyhow!("{error}; allow more with --max-bytes"),
+        other => other.into(),
+    })
+}
+
+/// The scan in a file or in standard input.
+pub(super) fn scan(path: &Path, input: &InputArgs) -> Result<Scan> {
+    parse_scan(path, &read(path, &input.limit)?, input)
+}
+
+/// The scan in the bytes of a file.
+pub(super) fn parse_scan(path: &Path, bytes: &[u8], input: &InputArgs) -> Result<Scan> {
+    let format = input.format.map(|format| format.0);
+    Ok(parse_file(called(path), bytes, format)?)
+}
+
+/// The grain in the bytes of a model file.
+pub(super) fn parse_model(path: &Path, bytes: &[u8]) -> Result<Grain> {
+    parse_grain(&String::from_utf8_lossy(bytes))
+        .map_err(|error| anyhow!("cannot read a model from {}: {error}", name(path)))
+}

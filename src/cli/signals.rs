@@ -1,0 +1,34 @@
+//! Ctrl-C and its like: temporary files are removed, then the process ends as it would have.
+
+use crate::export::remove_temporaries;
+use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+use signal_hook::iterator::Signals;
+use signal_hook::low_level::emulate_default_handler;
+use std::thread;
+
+/// Waits for the signals in a thread of its own. Where that cannot be had, they end the process at once.
+pub(super) fn watch() {
+    let heeded = [SIGHUP, SIGINT, SIGTERM]
+        .into_iter()
+        .filter(|signal| !is_ignored(*signal));
+    let Ok(mut signals) = Signals::new(heeded) else {
+        return;
+    };
+    thread::spawn(move || {
+        for signal in signals.forever() {
+            remove_temporaries();
+            let _ = emulate_default_handler(signal);
+        }
+    });
+}
+
+/// Whether the process was started to ignore a signal, as `nohup` does with SIGHUP: then it goes on doing so. Only
+/// Linux tells.
+fn is_ignored(signal: i32) -> bool {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let mask = status
+        .lines()
+        .find_map(|line| line.strip_prefix("SigIgn:"))
+        .and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok());
+    mask.is_some_and(|mask| mask >> (signal - 1) & 1 == 1)
+}

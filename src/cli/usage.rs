@@ -1,0 +1,89 @@
+//! The arguments of this process, or what is wrong with them in one sentence.
+
+use super::UNUSABLE;
+use super::args::Cli;
+use super::console::say_error;
+use clap::error::ErrorKind;
+use clap::{CommandFactory, Parser};
+use std::process::ExitCode;
+
+/// The arguments, or the code to end with once help was printed or an error told.
+pub(super) fn parse() -> Result<Cli, ExitCode> {
+    Cli::try_parse().map_err(|error| match error.kind() {
+        ErrorKind::DisplayHelp | ErrorKind::DisplayVersion => {
+            // A reader that has gone needs no help.
+            let _ = error.print();
+            ExitCode::SUCCESS
+        }
+        ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => {
+            let _ = error.print();
+            ExitCode::from(UNUSABLE)
+        }
+        _ => {
+            let command = std::env::args().nth(1).filter(|name| {
+                let known = Cli::command();
+                known.find_subcommand(name).is_some()
+            });
+            let text = error.render().to_string();
+            say_error(&sentence(&text, command.as_deref()));
+            ExitCode::from(UNUSABLE)
+        }
+    })
+}
+
+/// The message of clap on one line, with its own hint or where to find one.
+fn sentence(text: &str, command: Option<&str>) -> String {
+    let mut paragraphs = text.split("\n\n").map(|paragraph| {
+        let words: Vec<&str> = paragraph.split_whitespace().collect();
+        words.join(" ")
+    });
+    let message = paragraphs.next().unwrap_or_default();
+    let message = message.strip_prefix("error: ").unwrap_or(&message);
+    let tips: Vec<String> = paragraphs
+        .flat_map(|paragraph| {
+            let tips = paragraph.split("tip: ").skip(1);
+            tips.map(|tip| tip.trim().to_owned()).collect::<Vec<_>>()
+        })
+        .collect();
+    if !tips.is_empty() {
+        return format!("{message}; {}", tips.join("; "));
+    }
+    let command = command.map_or(String::new(), |name| format!("{name} "));
+    format!("{message}; see grainform {command}--help")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn told(words: &[&str]) -> String {
+        let error = Cli::try_parse_from([&["grainform"], words].concat());
+        let text = error.err().expect("a mistake").render().to_string();
+        sentence(&text, words.first().copied())
+    }
+
+    #[test]
+    fn a_mistake_is_told_in_one_sentence_with_a_hint() {
+        for (words, expected) in [
+            (
+                &["fit", "a.ply", "--tolerence", "1"][..],
+                "unexpected argument '--tolerence' found; a similar argument exists: '--tolerance'",
+            ),
+            (
+                &["fit"],
+                "the following required arguments were not provided: <SCAN>; see grainform fit --help",
+            ),
+            (
+                &["fit", "a.ply", "--threads", "x"],
+                "invalid value 'x' for '--threads <N>': invalid digit found in string; \
+                 see grainform fit --help",
+            ),
+            (
+                &["fitt"],
+                "unrecognized subcommand 'fitt'; a similar subcommand exists: 'fit'",
+            ),
+        ] {
+            assert_eq!(told(words), expected);
+        }
+    }
+}

@@ -1,0 +1,130 @@
+//! The unit of a scan's lengths, as somebody who knows it tells it.
+
+use serde::Serialize;
+use std::fmt;
+use std::str::FromStr;
+
+/// A unit of length.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+pub enum Unit {
+    /// `um`
+    #[serde(rename = "um")]
+    Micrometre,
+    /// `mm`
+    #[serde(rename = "mm")]
+    Millimetre,
+    /// `cm`
+    #[serde(rename = "cm")]
+    Centimetre,
+    /// `m`
+    #[serde(rename = "m")]
+    Metre,
+}
+
+impl Unit {
+    /// Its length in metres.
+    pub fn metres(self) -> f64 {
+        match self {
+            Self::Micrometre => 1e-6,
+            Self::Millimetre => 1e-3,
+            Self::Centimetre => 1e-2,
+            Self::Metre => 1.0,
+        }
+    }
+}
+
+impl fmt::Display for Unit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Micrometre => "um",
+            Self::Millimetre => "mm",
+            Self::Centimetre => "cm",
+            Self::Metre => "m",
+        })
+    }
+}
+
+impl FromStr for Unit {
+    type Err = &'static str;
+
+    /// All letters in one case: `Mm` would be a megametre, and `M` no length at all.
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        match text {
+            "um" | "UM" | "µm" | "μm" => Ok(Self::Micrometre),
+            "mm" | "MM" => Ok(Self::Millimetre),
+            "cm" | "CM" => Ok(Self::Centimetre),
+            "m" => Ok(Self::Metre),
+            _ => Err("expected um, mm, cm or m"),
+        }
+    }
+}
+
+/// What follows lengths, areas and volumes in a summary; nothing where the unit is not known.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Labels(pub(super) Option<Unit>);
+
+impl Labels {
+    pub(super) fn length(self) -> String {
+        self.power("")
+    }
+
+    pub(super) fn area(self) -> String {
+        self.power("²")
+    }
+
+    pub(super) fn volume(self) -> String {
+        self.power("³")
+    }
+
+    /// Of moments of inertia at density one.
+    pub(super) fn moment(self) -> String {
+        self.power("⁵")
+    }
+
+    /// Of curvatures.
+    pub(super) fn curvature(self) -> String {
+        self.0.map_or(String::new(), |unit| format!(" /{unit}"))
+    }
+
+    /// Of Gaussian curvatures.
+    pub(super) fn gaussian(self) -> String {
+        self.0.map_or(String::new(), |unit| format!(" /{unit}²"))
+    }
+
+    fn power(self, power: &str) -> String {
+        self.0
+            .map_or(String::new(), |unit| format!(" {unit}{power}"))
+    }
+
+    /// What lengths are in: `the scan's unit`.
+    pub(super) fn name(self) -> String {
+        self.0
+            .map_or("the scan's unit".into(), |unit| unit.to_string())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn case_is_free_where_no_other_unit_is_meant() {
+        for text in ["um", "UM", "mm", "MM", "cm", "CM", "m"] {
+            let unit: Unit = text.parse().unwrap();
+            assert_eq!(unit.to_string(), text.to_lowercase());
+        }
+        for text in ["M", "Mm", "mM", "Cm", "inch", ""] {
+            assert!(text.parse::<Unit>().is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn labels_have_powers_or_are_empty() {
+        let labels = Labels(Some(Unit::Millimetre));
+        assert_eq!(
+            [labels.length(), labels.area(), labels.volume()],
+            [" mm", " mm²", " mm³"]
+        );
+        assert_eq!(Labels(None).area(), "");
+    }
+}

@@ -1,0 +1,86 @@
+use super::{folder, grain, names, succeed};
+use rustix::process::{Pid, Signal, kill_process};
+use std::os::unix::process::ExitStatusExt;
+use std::process::{Child, Command, Stdio};
+use tempfile::TempDir;
+
+/// A folder with a model.
+fn model() -> TempDir {
+    let folder = folder();
+    let bean = grain("bean.ply");
+    succeed(
+        &folder,
+        &["fit", &bean, "--tolerance", "5%", "-o", "m.json"],
+    );
+    folder
+}
+
+/// Writes a mesh of some 150 MB with `words` before the command, and waits until it is being written.
+fn writing(folder: &TempDir, words: &[&str]) -> Child {
+    let grainform = assert_cmd::cargo::cargo_bin!("grainform");
+    let grainform = grainform.to_str().expect("text");
+    let mesh = ["mesh", "m.json", "-o", "m.stl", "--resolution", "512"];
+    let words = [words, &[grainform], &mesh].concat();
+    let mut child = Command::new(words[0])
+        .args(&words[1..])
+        .current_dir(folder.path())
+        .stdout(Stdio::null())
+        .spawn()
+        .expect("a process");
+    while !names(folder.path())
+        .iter()
+        .any(|name| name.starts_with(".grainform-"))
+    {
+        assert!(child.try_wait().unwrap().is_none(), "it ended too early");
+    }
+    child
+}
+
+fn send(child: &Child, signal: Signal) {
+    kill_process(Pid::from_child(child), signal).expect("it lives");
+}
+
+#[test]
+fn a_signal_ends_the_run_and_leaves_no_temporary_file() {
+    let folder = model();
+    for signal in [Signal::INT, Signal::TERM, Signal::HUP] {
+        let mut child = writing(&folder, &[]);
+        send(&child, signal);
+        let status = child.wait().unwrap();
+        assert_eq!(status.signal(), Some(signal.as_raw()));
+        assert_eq!(names(folder.path()), ["m.json"], "{signal:?}");
+    }
+}
+
+#[test]
+fn what_a_killed_run_leaves_the_next_one_sweeps_up() {
+    let folder = model();
+    let mut child = writing(&folder, &[]);
+    send(&child, Signal::KILL);
+    child.wait().unwrap();
+    let left = names(folder.path());
+    assert_eq!(left.len(), 2);
+    let own = format!(".grainform-{}-", child.id());
+    assert!(left[0].starts_with(&own), "{left:?}");
+    succeed(&folder, &["synth", "bean", "-o", "b.ply"]);
+    assert_eq!(names(folder.path()), ["b.ply", "m.json"]);
+}
+
+#[test]
+fn the_temporary_file_of_a_living_run_is_left_alone() {
+    let folder = model();
+    let mut child = writing(&folder, &[]);
+    succeed(&folder, &["synth", "bean", "-o", "b.ply"]);
+    assert!(child.wait().unwrap().success());
+    assert_eq!(names(folder.path()), ["b.ply", "m.json", "m.stl"]);
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_run_under_nohup_outlives_its_terminal() {
+    let folder = model();
+    let mut child = writing(&folder, &["sh", "-c", "trap '' HUP; exec \"$@\"", "sh"]);
+    send(&child, Signal::HUP);
+    assert!(child.wait().unwrap().success());
+    assert_eq!(names(folder.path()), ["m.json", "m.stl"]);
+}
