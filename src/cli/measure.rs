@@ -10,7 +10,10 @@ use anyhow::{Context, Result, bail};
 
 pub(super) fn run(args: MeasureArgs, console: Console) -> Result<()> {
     threads::start(0, console)?;
+    let progress = console.progress();
+    progress.stage("Measuring");
     let report = measure(&args)?.in_unit(args.unit);
+    drop(progress);
     if args.json {
         return put_json(&report);
     }

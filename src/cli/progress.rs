@@ -9,10 +9,10 @@ use std::time::{Duration, Instant};
 const TICK: Duration = Duration::from_millis(100);
 
 /// A stage of which nobody knows how long it is.
-const OPEN: &str = "{spinner} {msg} ({elapsed})";
+const OPEN: &str = "{spinner} {elapsed:>4} {wide_msg}";
 
 /// A stage whose steps are counted.
-const COUNTED: &str = "[{bar:20}] {pos} of {len}, {elapsed} gone, {eta} left: {msg}";
+const COUNTED: &str = "[{bar:20}] {pos} of {len}, {elapsed} gone, {eta} left: {wide_msg}";
 
 /// Told on standard error while it lives: a line that moves, where that is a terminal, or a line per stage.
 pub(super) enum Progress {

@@ -1,7 +1,7 @@
 //! Names that cannot steer a terminal.
 
 /// A text on one line: what would steer a terminal, or turn the direction of writing, is escaped.
-pub fn escaped(text: &str) -> String {
+pub(crate) fn escaped(text: &str) -> String {
     let steers = |c: char| {
         c.is_control()
             || matches!(c, '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}')

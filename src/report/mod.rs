@@ -19,7 +19,8 @@ mod unit;
 mod warning;
 
 pub use contact::{ContactReport, Load, TouchRecord};
-pub use escape::escaped;
+#[cfg(feature = "cli")]
+pub(crate) use escape::escaped;
 pub use estimate::{EstimateRecord, EvaluationRecord};
 pub use fit::{FitReport, ReferenceRecord, Seconds, Skipped};
 pub use harmonics::{largest_loss, write_harmonics};

@@ -20,7 +20,9 @@ fn scans(points: &str) -> tempfile::TempDir {
 #[test]
 fn writes_a_table_and_plots_and_nothing_else() {
     let folder = scans("98");
-    let report = json(&folder, &["bench", "small.ply", "-o", "a/b"]);
+    let words = ["bench", "small.ply", "-o", "a/b", "--unit", "mm"];
+    let report = json(&folder, &words);
+    assert_eq!(report["unit"], "mm");
     assert_eq!(
         names(&folder.path().join("a/b")),
         ["bench.csv", "small-coefficients.svg", "small-seconds.svg"]

@@ -119,8 +119,8 @@ fn mistakes_in_usage_are_one_sentence_with_a_hint() {
              see grainform mesh --help\n",
         ),
         (
-            &["serach", "a.ply"],
-            "error: unrecognized subcommand 'serach'; a similar subcommand exists: 'search'\n",
+            &["fitt", "a.ply"],
+            "error: unrecognized subcommand 'fitt'; a similar subcommand exists: 'fit'\n",
         ),
         (
             &["fit", "a.ply", "--resolution", "0"],
