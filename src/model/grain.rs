@@ -3,6 +3,7 @@
 use super::{
     Blended, CurvatureErrors, Derivatives, Frame, Mirrored, Segmented, StarSurface, Stretch, Whole,
 };
+use crate::scan::plural;
 use nalgebra::{Matrix3, Point3, Vector3};
 use rayon::prelude::*;
 
@@ -126,7 +127,7 @@ pub enum InvalidGrain {
         expected: usize,
     },
     /// The number of coefficients is not a square: (L+1)^2 for degree L.
-    #[error("segment {segment} has {found} coefficients; (L + 1)^2 are expected for degree L")]
+    #[error("segment {segment} has {}; (L + 1)^2 are expected for degree L", plural(*found, "coefficient"))]
     CoefficientCount {
         /// Index of the segment.
         segment: usize,

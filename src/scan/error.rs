@@ -139,9 +139,11 @@ pub enum ParseError {
     },
     /// The header counts more rows than the file has bytes for: copy or export it again.
     #[error(
-        "byte {byte}: the header promises {rows} {element} rows of at least {row_bytes} bytes, \
-         but only {left} bytes are left; the file is cut short or its count is wrong, export it \
-         again"
+        "byte {byte}: the header promises {} of at least {}, but the file has only {} left; it is cut \
+         short or its count is wrong, export it again",
+        plural(*rows, &format!("{element} row")),
+        plural(*row_bytes, "byte"),
+        plural(*left, "byte")
     )]
     CountTooLarge {
         /// Where the rows start.

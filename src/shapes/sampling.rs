@@ -1,6 +1,7 @@
 //! Where a synthetic scan looks: sets of directions.
 
 use super::random::{Stream, random};
+use crate::scan::plural;
 use nalgebra::Vector3;
 use rand_distr::{Distribution, UnitSphere};
 use std::f64::consts::{FRAC_PI_4, PI, TAU};
@@ -35,7 +36,7 @@ pub enum Sampling {
 #[non_exhaustive]
 pub enum SamplingError {
     /// Ask for [`MIN_POINTS`] to [`MAX_POINTS`] directions.
-    #[error("cannot sample {points} directions, only {MIN_POINTS} to {MAX_POINTS}")]
+    #[error("cannot sample {}, only {MIN_POINTS} to {MAX_POINTS}", plural(*points, "direction"))]
     PointCount {
         /// The number asked for.
         points: usize,

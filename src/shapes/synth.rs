@@ -3,6 +3,7 @@
 use super::random::{Stream, random};
 use super::{AxesError, Body, MIN_POINTS, Sampling, SamplingError};
 use crate::measure::{Integrals, MassProperties};
+use crate::scan::plural;
 use nalgebra::{Point3, Vector3};
 use rand_distr::{Distribution, StandardNormal, StandardUniform};
 use thiserror::Error;
@@ -87,7 +88,7 @@ pub enum SynthError {
     #[error("the offset is not finite")]
     Offset,
     /// Make the missing cap smaller or take more points.
-    #[error("the missing cap leaves {left} points, fewer than {MIN_POINTS}")]
+    #[error("the missing cap leaves {}, fewer than {MIN_POINTS}", plural(*left, "point"))]
     NothingLeft {
         /// Points outside the cap.
         left: usize,

@@ -8,7 +8,7 @@ mod fill;
 mod rims;
 
 use crate::Mesh;
-use crate::scan::{Scan, each_edge, first_at_same_place};
+use crate::scan::{Scan, each_edge, first_at_same_place, plural};
 use bodies::arrange;
 pub use fill::Fill;
 use fill::fill;
@@ -42,8 +42,9 @@ pub struct ScannedBody {
 pub enum FacesDefect {
     /// There are holes whose fills would be a guess.
     #[error(
-        "the faces leave {holes} holes open, {:.0} % of the area or more; scan what is missing, or fit \
-         the scan and measure the model",
+        "the faces leave {} open, {:.0} % of the area or more; scan what is missing, or fit the scan and \
+         measure the model",
+        plural(*holes, "hole"),
         100.0 * share
     )]
     Open {
@@ -54,7 +55,8 @@ pub enum FacesDefect {
     },
     /// Edges with more than two triangles, or with triangles wound in opposite senses.
     #[error(
-        "at {edges} edges more than two triangles meet, or two that are wound in opposite senses"
+        "at {} more than two triangles meet, or two that are wound in opposite senses",
+        plural(*edges, "edge")
     )]
     Tangled {
         /// Number of such edges.
