@@ -3,7 +3,7 @@
 use super::args::ContactArgs;
 use super::console::{Console, put_json};
 use super::{inputs, threads};
-use crate::contact::{Material, RelativeCurvature, Touch, TouchError, effective_modulus_pa, touch};
+use crate::contact::{Material, TouchError, effective_modulus_pa, touch};
 use crate::report::{ContactReport, Load, TouchRecord};
 use anyhow::{Context, Result, anyhow, bail};
 use nalgebra::Vector3;
@@ -15,7 +15,9 @@ pub(super) fn run(args: ContactArgs, console: Console) -> Result<()> {
     if args.json {
         return put_json(&report);
     }
-    console.print(&report)
+    console.print(&report)?;
+    console.warn(&report.warnings);
+    Ok(())
 }
 
 fn contact(args: &ContactArgs) -> Result<ContactReport> {
@@ -51,16 +53,17 @@ fn contact(args: &ContactArgs) -> Result<ContactReport> {
             args.edge_radius,
         )
     };
-    let (first, one) = touched(&args.model, &args.towards)?;
-    let (second, principal) = match &args.other {
-        Some(path) => {
-            let (record, touch) = touched(path, &args.other_towards)?;
-            (Some(record), touch.principal)
-        }
-        None => (None, [0.0; 2]),
+    let first = touched(&args.model, &args.towards)?;
+    let second = match &args.other {
+        Some(path) => Some(touched(path, &args.other_towards)?),
+        None => None,
     };
-    let relative = RelativeCurvature::new(one.principal, principal, args.angle_deg.to_radians())?;
-    Ok(ContactReport::new(first, second, &relative, &load))
+    Ok(ContactReport::new(
+        first,
+        second,
+        args.angle_deg.to_radians(),
+        &load,
+    )?)
 }
 
 /// Where a model is touched in a direction.
@@ -69,7 +72,7 @@ fn touched(
     bytes: &[u8],
     towards: &Vector3<f64>,
     edge_radius: Option<f64>,
-) -> Result<(TouchRecord, Touch)> {
+) -> Result<TouchRecord> {
     let input = inputs::name(path);
     let grain = inputs::parse_model(path, bytes)?;
     let towards = towards
@@ -81,6 +84,5 @@ fn touched(
         other => anyhow!(other),
     });
     let touch = touch.with_context(|| format!("{input} cannot be touched there"))?;
-    let centre = &grain.frame().centre;
-    Ok((TouchRecord::new(input, centre, &towards, &touch), touch))
+    Ok(TouchRecord::new(input, &grain, &towards, &touch))
 }

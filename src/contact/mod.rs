@@ -1,11 +1,13 @@
 //! Normal contact of two surfaces, or of a surface and a plane, by the theory of Hertz.
 
 mod edge;
+mod force_error;
 mod material;
 mod relative;
 mod touch;
 
 pub use edge::{EdgeError, TangentCap};
+pub use force_error::{Curved, force_error};
 pub use material::{Material, MaterialError, effective_modulus_pa};
 pub use relative::{ContactError, Correction, LARGEST_RATIO, RelativeCurvature};
 pub use touch::{Touch, TouchError, touch};

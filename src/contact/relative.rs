@@ -124,6 +124,11 @@ impl RelativeCurvature {
         self.smaller
     }
 
+    /// The smaller radius 1 / (2 A) of the gap: on a plane, the body's smaller radius of curvature.
+    pub fn smaller_radius(&self) -> f64 {
+        0.5 / self.larger
+    }
+
     /// The effective radius rho = 1 / (2 sqrt(A B)): of a sphere on a plane, its radius.
     pub fn effective_radius(&self) -> f64 {
         0.5 / (self.larger * self.smaller).sqrt()

@@ -1,10 +1,11 @@
 //! What `grainform contact` tells.
 
 use super::escape::escaped;
-use super::number::{short, triple};
+use super::number::{short, triple, with_error};
 use super::unit::Unit;
-use crate::contact::{Correction, RelativeCurvature, Touch};
-use nalgebra::{Point3, Vector3};
+use crate::contact::{ContactError, Correction, Curved, RelativeCurvature, Touch, force_error};
+use crate::model::Grain;
+use nalgebra::Vector3;
 use serde::Serialize;
 use std::fmt;
 
@@ -32,8 +33,13 @@ pub struct ContactReport {
     pub indentation_um: f64,
     /// Normal force, in newtons.
     pub normal_force_n: f64,
+    /// Its standard error, from those of the curvatures; `null` where one of them is not known, or may be that of no
+    /// single contact.
+    pub normal_force_error_n: Option<f64>,
     /// Stiffness, in newtons per metre.
     pub normal_stiffness_n_per_m: f64,
+    /// What to know of these figures.
+    pub warnings: Vec<String>,
 }
 
 /// Where and how curved a body is touched.
@@ -47,6 +53,8 @@ pub struct TouchRecord {
     pub normal: [f64; 3],
     /// Principal curvatures, the larger first, in one over the unit.
     pub principal_curvatures: [f64; 2],
+    /// Their standard error; `null` where it is not known: of fits to the points themselves, and of rounded edges.
+    pub curvature_error: Option<f64>,
     /// Radius of the cap by which an edge was rounded.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub edge_radius: Option<f64>,
@@ -63,30 +71,89 @@ pub struct Load {
     pub indentation_um: f64,
 }
 
+/// Share of the smaller radius up to which Hertz's theory holds.
+const HERTZIAN: f64 = 0.1;
+
+/// A force that is known less well than to this share is told of.
+const UNCERTAIN: f64 = 0.1;
+
 impl TouchRecord {
-    /// The record of a body whose origin lies at `centre` of the scan.
-    pub fn new(input: String, centre: &Point3<f64>, normal: &Vector3<f64>, touch: &Touch) -> Self {
+    /// The record of a grain that is touched.
+    pub fn new(input: String, grain: &Grain, normal: &Vector3<f64>, touch: &Touch) -> Self {
+        let towards = touch.point.normalize();
         Self {
             input,
-            point: (centre + touch.point).coords.into(),
+            point: (grain.frame().centre + touch.point).coords.into(),
             normal: (*normal).into(),
             principal_curvatures: touch.principal,
+            curvature_error: match touch.cap {
+                Some(_) => None,
+                None => grain.curvature_error(&towards),
+            },
             edge_radius: touch.cap.map(|cap| cap.radius),
         }
+    }
+
+    fn curved(&self) -> Option<Curved> {
+        Some(Curved {
+            principal: self.principal_curvatures,
+            error: self.curvature_error?,
+        })
     }
 }
 
 impl ContactReport {
-    /// The report of a contact under a load.
+    /// The report of a contact under a load, the bodies' first principal directions at `angle_rad` to each other.
+    ///
+    /// # Errors
+    ///
+    /// See [`ContactError`].
     pub fn new(
         first: TouchRecord,
         second: Option<TouchRecord>,
-        relative: &RelativeCurvature,
+        angle_rad: f64,
         load: &Load,
-    ) -> Self {
+    ) -> Result<Self, ContactError> {
+        let flat = Some(Curved::PLANE);
+        let other = second.as_ref().map_or(flat, TouchRecord::curved);
+        let principal = |record: &TouchRecord| record.principal_curvatures;
+        let relative = RelativeCurvature::new(
+            principal(&first),
+            second.as_ref().map_or([0.0; 2], principal),
+            angle_rad,
+        )?;
         let indentation_m = 1e-6 * load.indentation_um;
         let (metres, modulus) = (load.unit.metres(), load.effective_modulus_pa);
-        Self {
+        let force = relative.normal_force_n(metres, indentation_m, modulus);
+        let share = first
+            .curved()
+            .zip(other)
+            .map(|(one, other)| force_error(&one, &other, angle_rad));
+        let mut warnings = Vec::new();
+        if indentation_m > HERTZIAN * relative.smaller_radius() * metres {
+            warnings.push(format!(
+                "the indentation is {:.0} % of the smaller radius of curvature; Hertz's theory is for less than {:.0} %",
+                100.0 * indentation_m / (relative.smaller_radius() * metres),
+                100.0 * HERTZIAN
+            ));
+        }
+        match share {
+            None => warnings.push(
+                "how certain the curvature is there is not known, so the force has no standard error: fit the scan \
+                 without --seams none, --symmetry and --edge-radius for one"
+                    .into(),
+            ),
+            Some(Err(_)) => warnings.push(
+                "the curvature is less certain there than it is large, so the force has no standard error".into(),
+            ),
+            Some(Ok(share)) if share > UNCERTAIN => warnings.push(format!(
+                "the curvature is so uncertain there that the force is known to {:.0} % only; fit with --segments 1, \
+                 or a finer scan",
+                100.0 * share
+            )),
+            Some(Ok(_)) => (),
+        }
+        Ok(Self {
             unit: load.unit,
             first,
             second,
@@ -96,13 +163,15 @@ impl ContactReport {
             correction: relative.correction(Correction::Elliptic),
             effective_modulus_pa: modulus,
             indentation_um: load.indentation_um,
-            normal_force_n: relative.normal_force_n(metres, indentation_m, modulus),
+            normal_force_n: force,
+            normal_force_error_n: share.and_then(Result::ok).map(|share| share * force),
             normal_stiffness_n_per_m: relative.normal_stiffness_n_per_m(
                 metres,
                 indentation_m,
                 modulus,
             ),
-        }
+            warnings,
+        })
     }
 }
 
@@ -110,7 +179,10 @@ impl TouchRecord {
     fn write(&self, f: &mut fmt::Formatter<'_>, unit: Unit) -> fmt::Result {
         writeln!(f, "body          {}", escaped(&self.input))?;
         writeln!(f, "touched at    {} {unit}", triple(self.point))?;
-        let radii = self.principal_curvatures.map(|k| short(1.0 / k));
+        let radii = self.principal_curvatures.map(|k| {
+            let error = self.curvature_error.map(|error| error / (k * k));
+            with_error(1.0 / k, error)
+        });
         write!(
             f,
             "curved with   radii {} and {} {unit}",
@@ -143,7 +215,11 @@ impl fmt::Display for ContactReport {
             short(self.indentation_um),
             short(1e-6 * self.effective_modulus_pa)
         )?;
-        writeln!(f, "normal force  {} N", short(self.normal_force_n))?;
+        writeln!(
+            f,
+            "normal force  {} N",
+            with_error(self.normal_force_n, self.normal_force_error_n)
+        )?;
         write!(
             f,
             "stiffness     {} N/m",
