@@ -57,7 +57,7 @@ struct GrainFile {
     /// Of the whole sphere: a_l^m of the real orthonormal harmonics at index l(l+1) + m.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     harmonics: Option<Vec<f64>>,
-    /// Standard errors of the curvature in 216 cells of directions, where they are known.
+    /// Standard errors of the curvature in 864 cells of directions, where they are known.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     curvature_errors: Option<Vec<f64>>,
 }
@@ -107,7 +107,7 @@ pub enum LoadError {
     )]
     Surface,
     /// The errors of the curvature are none.
-    #[error("the model is not sound: `curvature_errors` must hold 216 numbers, none below zero")]
+    #[error("the model is not sound: `curvature_errors` must hold 864 numbers, none below zero")]
     CurvatureErrors,
     /// The cells do not tile the sphere.
     #[error("the model is not sound: {0}")]
