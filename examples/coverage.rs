@@ -93,8 +93,8 @@ fn row(
             told.dimensions.ok_or("a finite inertia")?,
         );
         let pairs = [
-            (told.area, errors.area),
-            (told.volume, errors.volume),
+            (told.area.ok_or("an area")?, errors.area),
+            (told.volume.ok_or("a volume")?, errors.volume),
             (moments[0], errors.moments[0]),
             (moments[1], errors.moments[1]),
             (moments[2], errors.moments[2]),

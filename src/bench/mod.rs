@@ -50,6 +50,8 @@ pub struct BenchScan {
     pub reference: &'static str,
     /// Settings left out: more coefficients than half of the points.
     pub skipped: usize,
+    /// Settings whose fits are no bodies, or far from the points.
+    pub refused: usize,
     /// The settings fitted, family by family.
     pub rows: Vec<BenchRow>,
 }

@@ -205,6 +205,7 @@ mod tests {
             noise: Some(0.005),
             reference: "truth",
             skipped: 0,
+            refused: 0,
             rows,
         };
         plot(&scan, Cost::Coefficients).unwrap()

@@ -23,10 +23,17 @@ pub fn run(
     settings.retain(|setting| setting.is_supported_by(points));
 
     let mut reference = "truth";
+    let mut refused = 0;
     let mut rows = Vec::with_capacity(settings.len());
     for (done, setting) in settings.iter().enumerate() {
         progress(setting, done, settings.len());
-        let (row, found) = measure(subject, setting)?;
+        let (row, found) = match measure(subject, setting) {
+            Err(error) if error.is_of_fit() => {
+                refused += 1;
+                continue;
+            }
+            measured => measured?,
+        };
         if subject.truth.is_none() {
             reference = found.kind.name();
         }
@@ -38,6 +45,7 @@ pub fn run(
         noise: subject.truth.as_ref().map(|truth| truth.noise),
         reference,
         skipped: all - settings.len(),
+        refused,
         rows,
     })
 }

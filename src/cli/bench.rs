@@ -119,7 +119,14 @@ fn heading(scan: &BenchScan) -> String {
         1 => "; 1 setting has more coefficients than half of the points".into(),
         count => format!("; {count} settings have more coefficients than half of the points"),
     };
-    format!("{}; errors against {reference}{skipped}", scan.title())
+    let refused = match scan.refused {
+        0 => String::new(),
+        count => format!("; {count} settings give no body near the points"),
+    };
+    format!(
+        "{}; errors against {reference}{skipped}{refused}",
+        scan.title()
+    )
 }
 
 /// The rows on a Pareto front, by coefficients. Shares are of the mean radius.

@@ -123,11 +123,11 @@ mod tests {
             limit: 0.1,
             noise: None,
             mean_radius: 1.0,
-            reference: ReferenceRecord {
+            reference: Some(ReferenceRecord {
                 kind: "faces",
                 area: 1.0,
                 volume: 1.0,
-            },
+            }),
             seconds: Seconds::default(),
             warnings: Vec::new(),
         }

@@ -4,9 +4,10 @@ use super::args::FittingArgs;
 use super::console::{Console, say};
 use super::progress::Progress;
 use super::{inputs, threads};
-use crate::fit::{self, FitOptions, Fitted, PreparedScan, Stage, Work};
+use crate::fit::{self, FitOptions, Fitted, PreparedScan, Stage, Work, largest_body};
 use crate::report::{Seconds, escaped};
 use anyhow::{Context, Result};
+use std::borrow::Cow;
 use std::time::Instant;
 
 /// A fit, and what came with it.
@@ -27,6 +28,7 @@ impl FittingArgs {
             max_degree: self.max_degree,
             max_segments: self.max_segments,
             tolerance: self.tolerance,
+            extrapolate: self.extrapolate,
             exhaustive: self.exhaustive,
         };
         options.check()?;
@@ -49,6 +51,10 @@ pub(super) fn fit_scan(
     let name = args.name();
     progress.stage(format_args!("Reading {}", escaped(&name)));
     let scan = inputs::scan(&args.scan, &args.input)?;
+    let (scan, others_left_out) = match args.largest {
+        true => largest_body(&scan),
+        false => (Cow::Borrowed(&scan), None),
+    };
     let read = started.elapsed().as_secs_f64();
 
     progress.stage("Finding the surface, the centre and the axes");
@@ -66,10 +72,11 @@ pub(super) fn fit_scan(
         progress: Some(&tell),
         ..fit::Context::default()
     };
-    let fitted = prepared.fit(options, &context).with_context(failed)?;
+    let mut fitted = prepared.fit(options, &context).with_context(failed)?;
+    fitted.warnings.extend(others_left_out);
     Ok(ScanFit {
         fitted,
-        scan_warnings: scan.warnings,
+        scan_warnings: scan.warnings.clone(),
         seconds: Seconds {
             read,
             search: started.elapsed().as_secs_f64() - read,

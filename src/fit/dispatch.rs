@@ -11,6 +11,7 @@ use super::options::{FitOptions, Seams, Tolerance};
 use super::outcome::{EstimateSummary, Fitted, Residuals};
 use super::prepare::{CellGrid, PreparedScan, Sample};
 use super::segments;
+use super::sound;
 use super::warning::FitWarning;
 use crate::model::{Frame, Grain, Stretch, Surface};
 use crate::sphere::Symmetry;
@@ -31,17 +32,19 @@ impl PreparedScan<'_> {
     ///
     /// # Errors
     /// [`FitError`] if the options are out of range or ask for other mirror planes than the scan was
-    /// prepared for, or if the fit was cancelled.
+    /// prepared for, if the fit was cancelled, or if what was fitted is no body or far from the points.
     pub fn fit(&self, options: &FitOptions, context: &Context<'_>) -> Result<Fitted, FitError> {
         options.check()?;
         if options.symmetry != self.symmetry {
             return Err(FitError::OtherSymmetry);
         }
-        context.run(|| match options.seams {
+        let fitted = context.run(|| match options.seams {
             _ if options.symmetry != Symmetry::NONE => mirrored(self, options, context),
             Seams::None => independent(self, options, context),
             Seams::Blended => estimated(self, options, context),
-        })
+        })?;
+        sound::check(&fitted, options)?;
+        Ok(fitted)
     }
 
     /// What is known before any fit.
@@ -56,6 +59,7 @@ impl PreparedScan<'_> {
             asymmetry: None,
             estimate: None,
             whole: None,
+            unseen: self.unseen,
             warnings: self.warnings.clone(),
             posterior: None,
         }

@@ -1,6 +1,7 @@
 //! Why a fit cannot be made.
 
 use super::context::Cancelled;
+use nalgebra::Vector3;
 
 /// Why a fit cannot be made.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -81,12 +82,61 @@ pub enum FitError {
     },
     /// The numbers of the scan are too large or too small to compute with.
     #[error(
-        "the scan is {size:e} of its units across; moments of inertia of such a size cannot be \
-         written as numbers: scale the scan to another unit"
+        "the scan is some {size:e} of its units across; area and volume of such a size cannot be written as numbers: \
+         scale the scan to another unit"
     )]
     Scale {
-        /// Cube root of the volume.
+        /// About half its length.
         size: f64,
+    },
+    /// The scan holds several bodies.
+    #[error(
+        "the scan holds {bodies} separate bodies, and one grain can be fitted: cut one out, or keep the largest \
+         (--largest)"
+    )]
+    SeveralBodies {
+        /// Number of bodies.
+        bodies: usize,
+    },
+    /// There are inner surfaces, which the radius of a grain cannot tell.
+    #[error(
+        "the scan holds {cavities} inner surfaces, hollows that a fitted surface has not: keep the outer surface \
+         (--largest), and its volume is that of the grain without hollows"
+    )]
+    Hollow {
+        /// Number of inner surfaces.
+        cavities: usize,
+    },
+    /// The fitted surface goes through the centre.
+    #[error(
+        "the fitted radius falls to {radius:.3e} towards ({:.2}, {:.2}, {:.2}), and so there is no body: look whether \
+         the points there are of one grain, and whether there are any; else ask for a lower degree",
+        direction.x, direction.y, direction.z
+    )]
+    NotPositive {
+        /// The radius, in the scan's unit.
+        radius: f64,
+        /// The direction, in the scan's frame.
+        direction: Vector3<f64>,
+    },
+    /// The radius could not be proved to be above zero.
+    #[error(
+        "the fitted radius could not be shown to be above zero everywhere; the least that was met is {found:.3e}: \
+         look whether the points are of one grain, or ask for a lower degree"
+    )]
+    Unproved {
+        /// The least radius that was met, in the scan's unit.
+        found: f64,
+    },
+    /// The surface is far from the points.
+    #[error(
+        "the surface is off its points by {:.0} % of the mean radius (RMS): they are not of one surface; look for \
+         several bodies, a ring, or what the grain stands on, and cut out one grain",
+        100.0 * share
+    )]
+    FarFromPoints {
+        /// Root mean square of the radial residuals, as a share of the mean radius.
+        share: f64,
     },
     /// A coordinate is not finite.
     #[error("point {index} is not finite; remove it from the scan")]
@@ -135,6 +185,16 @@ pub enum FitError {
     /// The fit was asked to stop.
     #[error("the fit was cancelled")]
     Cancelled,
+}
+
+impl FitError {
+    /// Whether it is a fault of what was fitted, so that other settings may give a body.
+    pub fn is_of_fit(&self) -> bool {
+        matches!(
+            self,
+            Self::NotPositive { .. } | Self::Unproved { .. } | Self::FarFromPoints { .. }
+        )
+    }
 }
 
 impl From<Cancelled> for FitError {

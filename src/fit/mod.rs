@@ -15,12 +15,16 @@ mod context;
 mod dispatch;
 mod error;
 mod estimate;
+mod gaps;
 mod linear;
 mod mirrored;
+mod neighbours;
 mod options;
 mod outcome;
 mod prepare;
 mod segments;
+mod sound;
+mod unseen;
 mod warning;
 
 pub use candidate::{Candidate, Rejection, Search, Work};
@@ -33,7 +37,10 @@ pub use options::{
     Tolerance,
 };
 pub use outcome::{EstimateSummary, Fitted, Residuals};
-pub use prepare::{PreparedScan, Reference, ReferenceKind, ScannedSurface, scanned_surface};
+pub use prepare::{
+    PreparedScan, Reference, ReferenceKind, ScannedSurface, largest_body, scanned_surface,
+};
+pub use unseen::Unseen;
 pub use warning::FitWarning;
 
 use crate::scan::Scan;

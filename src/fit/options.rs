@@ -22,6 +22,8 @@ pub struct FitOptions {
     pub max_segments: Option<usize>,
     /// Error that is good enough.
     pub tolerance: Tolerance,
+    /// Tell figures of the whole surface where much of it was not seen, with the errors of a guess.
+    pub extrapolate: bool,
     /// Fit every candidate, also those that cannot win any more. The choice is the same.
     pub exhaustive: bool,
 }
@@ -36,6 +38,7 @@ impl Default for FitOptions {
             max_degree: None,
             max_segments: None,
             tolerance: Tolerance::Auto,
+            extrapolate: false,
             exhaustive: false,
         }
     }

@@ -3,6 +3,7 @@
 use super::candidate::Search;
 use super::estimate::{Estimate, Figures, NoInterval, RadiusError, StandardErrors};
 use super::prepare::Reference;
+use super::unseen::Unseen;
 use super::warning::FitWarning;
 use crate::measure::MassProperties;
 use crate::model::Grain;
@@ -31,6 +32,8 @@ pub struct Fitted {
     /// The expansion of the whole sphere that comes as near to the estimate as the chosen cells. `None` where there are no
     /// cells.
     pub whole: Option<Grain>,
+    /// What the scan did not see, if it is large: figures of the whole surface are guesses then.
+    pub unseen: Option<Unseen>,
     /// What a user should know of the scan and the fit.
     pub warnings: Vec<FitWarning>,
     pub(crate) posterior: Option<Box<Estimate>>,
@@ -53,6 +56,9 @@ pub struct EstimateSummary {
     pub largest_difference: Option<f64>,
 }
 
+/// Mean radius below which, or above the inverse of which, variances of moments, tenth powers of lengths, are no numbers.
+const SMALLEST: f64 = 1e-25;
+
 /// Radial residuals: radius of the point minus radius of the grain in its direction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Residuals {
@@ -64,7 +70,8 @@ pub struct Residuals {
 
 impl Fitted {
     /// Standard errors of figures that are told of the grain: its mass properties and its length, width and
-    /// thickness, all in the scan's frame. Computed when asked for.
+    /// thickness, all in the scan's frame. Where much of the surface was not seen, they allow for what holes are known
+    /// to hide. Computed when asked for.
     ///
     /// # Errors
     /// [`NoInterval`] where none could be trusted.
@@ -73,17 +80,28 @@ impl Fitted {
         told: &MassProperties,
         dimensions: &Vector3<f64>,
     ) -> Result<StandardErrors, NoInterval> {
-        let posterior = self.posterior.as_ref().ok_or(NoInterval::NotEstimated)?;
+        if !(SMALLEST..1.0 / SMALLEST).contains(&self.mean_radius) {
+            return Err(NoInterval::OutOfRange);
+        }
         let frame = self.grain.frame();
         let principal = told.principal().ok_or(NoInterval::NotFinite)?;
-        posterior.errors(&Figures {
+        let figures = Figures {
             area: told.area,
             volume: told.volume,
             centroid: frame.to_local(&told.centroid),
             inertia: frame.axes.transpose() * told.inertia * frame.axes,
             moments: principal.moments,
             dimensions: *dimensions,
-        })
+        };
+        let posterior = self.posterior.as_ref().ok_or(NoInterval::NotEstimated);
+        match &self.unseen {
+            Some(unseen) => {
+                let beside =
+                    posterior.and_then(|posterior| posterior.errors_beside_holes(&figures));
+                Ok(unseen.errors(&figures, self.mean_radius, beside.ok()))
+            }
+            None => posterior?.errors(&figures),
+        }
     }
 
     /// The grain with the [errors of its curvature](crate::model::CurvatureErrors), which a file of it keeps for its contacts. Without,

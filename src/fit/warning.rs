@@ -1,14 +1,28 @@
 //! What a user should know of a scan and its fit, as data; sentences are made where they are shown.
 
 use super::candidate::Rejection;
+use crate::measure::{FacesDefect, Fill};
 use nalgebra::Vector3;
 
 /// Something odd about a scan or its fit that did not stop it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum FitWarning {
-    /// The scan's faces do not enclose one body: the reference is the triangulation of the points' directions.
-    FacesNotClosed,
+    /// The scan's faces do not say what is inside: the surface is fitted to their points, and the reference is the
+    /// triangulation of these points' directions.
+    FacesNotClosed(FacesDefect),
+    /// Small holes between the scan's faces were closed in the reference.
+    Filled(Fill),
+    /// Parts of the faces that are too small for bodies were left out.
+    Dust {
+        /// Their number.
+        parts: usize,
+    },
+    /// All bodies but the largest were left out, as asked for.
+    OthersLeftOut {
+        /// Their number.
+        others: usize,
+    },
     /// Points that stand apart from their neighbours were left out.
     Strays {
         /// Their number.

@@ -15,10 +15,10 @@ const LARGEST_EXPONENT: f64 = 1020.0;
 
 /// The length and the place that a body's own unit and origin are.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Unit {
+pub(crate) struct Unit {
     /// Lengths at unit size times this are the body's: a power of two.
-    pub(super) length: f64,
-    pub(super) origin: Point3<f64>,
+    pub(crate) length: f64,
+    pub(crate) origin: Point3<f64>,
 }
 
 impl Unit {
@@ -39,7 +39,7 @@ impl Unit {
     }
 
     /// That of a mesh: half the longest side of its box, and the middle of it.
-    pub(super) fn of(mesh: &Mesh) -> Self {
+    pub(crate) fn of(mesh: &Mesh) -> Self {
         let Some(first) = mesh.vertices.first() else {
             return Self::OWN;
         };
@@ -54,7 +54,7 @@ impl Unit {
     }
 
     /// The mesh at unit size.
-    pub(super) fn mesh(&self, mesh: &Mesh) -> Mesh {
+    pub(crate) fn mesh(&self, mesh: &Mesh) -> Mesh {
         let place = |vertex: &Point3<f64>| Point3::from((vertex - self.origin) / self.length);
         Mesh {
             vertices: mesh.vertices.iter().map(place).collect(),
@@ -62,15 +62,15 @@ impl Unit {
         }
     }
 
-    pub(super) fn point(&self, point: &Point3<f64>) -> Point3<f64> {
+    pub(crate) fn point(&self, point: &Point3<f64>) -> Point3<f64> {
         self.origin + point.coords * self.length
     }
 
-    pub(super) fn area(&self, area: f64) -> f64 {
+    pub(crate) fn area(&self, area: f64) -> f64 {
         area * self.length * self.length
     }
 
-    pub(super) fn volume(&self, volume: f64) -> f64 {
+    pub(crate) fn volume(&self, volume: f64) -> f64 {
         self.area(volume) * self.length
     }
 

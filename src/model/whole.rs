@@ -103,6 +103,12 @@ impl Whole {
         values
     }
 
+    /// The expansion in directions of equal z, order by order: A and B of A Re w^m + B Im w^m with w = x + iy.
+    pub(super) fn each_order(&self, z: f64, mut each: impl FnMut(f64, f64)) {
+        let value = |[[a]]: &Sums<1, 1>, [[b]]: &Sums<1, 1>| each(*a, *b);
+        self.degrees.sums(&self.coefficients, &[z], value);
+    }
+
     /// Radii and surface gradients in directions of equal z, given by their x and y.
     pub(crate) fn radii_and_gradients_at(
         &self,

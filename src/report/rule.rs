@@ -34,8 +34,12 @@ pub(super) fn rule(fitted: &Fitted, options: &FitOptions, unit: Option<Unit>) ->
         let limit = format!("{} ({source})", length(search.limit));
         let is_all = options.segments == Some(1) && options.tolerance == Tolerance::Auto;
         return match search.work.candidates {
+            _ if rms > search.limit && choice.segments == 1 => format!(
+                "no degree allowed is within {limit} of the estimate; allow more (--max-degree) or a larger error \
+                 (--tolerance)"
+            ),
             _ if rms > search.limit => format!(
-                "the smallest difference from the estimate; the limit of {limit} is not met"
+                "none of the covers tried is within {limit} of the estimate; this one is nearest"
             ),
             _ if is_all => format!(
                 "the lowest degree that leaves out no more than {} of the estimate",
@@ -44,9 +48,9 @@ pub(super) fn rule(fitted: &Fitted, options: &FitOptions, unit: Option<Unit>) ->
             _ if choice.segments == 1 => {
                 format!("the lowest degree within {limit} of the estimate")
             }
-            1 => format!("the cheapest cover forecast, within {limit} of the estimate"),
+            1 => format!("the only cover tried, within {limit} of the estimate"),
             covers => format!(
-                "the fewest coefficients among {covers} covers within {limit} of the estimate"
+                "the fewest coefficients of the {covers} covers tried that are within {limit} of the estimate"
             ),
         };
     }
@@ -60,6 +64,13 @@ pub(super) fn rule(fitted: &Fitted, options: &FitOptions, unit: Option<Unit>) ->
         Some(rms) if rms <= search.limit => {
             format!("the fewest coefficients whose held-out RMS is within {limit}")
         }
-        _ => format!("no candidate is within {limit}; this one has the least held-out RMS"),
+        _ => format!(
+            "no candidate is within {limit}; this one has the least held-out RMS (try a larger --max-degree{}, or \
+             --tolerance)",
+            match fitted.grain.surface().mirrored() {
+                Some(_) => "",
+                None => " or --max-segments",
+            }
+        ),
     }
 }

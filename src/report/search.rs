@@ -31,8 +31,8 @@ pub struct SearchReport {
     pub noise: Option<f64>,
     /// Mean radius over all directions.
     pub mean_radius: f64,
-    /// What the candidates are compared with.
-    pub reference: ReferenceRecord,
+    /// What the candidates are compared with; `null` where much of the surface was not seen.
+    pub reference: Option<ReferenceRecord>,
     /// Wall-clock time.
     pub seconds: Seconds,
     /// What is odd about the scan or the fit: whole sentences.
@@ -83,7 +83,7 @@ impl SearchReport {
             limit: search.limit,
             noise: search.noise,
             mean_radius: fitted.mean_radius,
-            reference: fitted.reference.into(),
+            reference: fitted.unseen.is_none().then(|| fitted.reference.into()),
             seconds: Seconds::default(),
             warnings: sentences(scan_warnings, &fitted.warnings),
         }

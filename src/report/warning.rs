@@ -1,7 +1,8 @@
 //! Warnings and reasons as sentences.
 
 use super::number::short;
-use crate::fit::{FitWarning, NoInterval, Rejection};
+use crate::fit::{FitWarning, NoInterval, Rejection, Unseen};
+use crate::measure::{FacesDefect, Fill};
 use std::fmt;
 
 impl fmt::Display for Rejection {
@@ -25,11 +26,45 @@ impl fmt::Display for Rejection {
 impl fmt::Display for FitWarning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
-            Self::FacesNotClosed => write!(
+            Self::FacesNotClosed(FacesDefect::Open { holes, share }) => write!(
                 f,
-                "The faces do not enclose one body, so the reference surface is the triangulation of \
-                 the points' directions."
+                "Closing the holes between the faces ({holes}) would take {:.0} % of their area, and is left: the \
+                 surface is fitted to the faces, and compared with the triangulation of their points' directions.",
+                100.0 * share
             ),
+            Self::FacesNotClosed(defect) => write!(
+                f,
+                "What the faces enclose cannot be told, for {defect}: the surface is fitted to the faces, and compared \
+                 with the triangulation of their points' directions."
+            ),
+            Self::Filled(Fill {
+                holes, edges, area, ..
+            }) => write!(
+                f,
+                "{} in the surface that the fit is compared with: {edges} edges, and {} of its area.",
+                match holes {
+                    1 => "A small hole was closed".into(),
+                    _ => format!("{holes} small holes were closed"),
+                },
+                short(area)
+            ),
+            Self::Dust { parts } => write!(
+                f,
+                "{} left out: each has below 1 % of the vertices and of the area of the faces.",
+                match parts {
+                    1 => "A detached part was".into(),
+                    _ => format!("{parts} detached parts were"),
+                }
+            ),
+            Self::OthersLeftOut { others: 1 } => {
+                write!(f, "Another body was left out; the largest was kept.")
+            }
+            Self::OthersLeftOut { others } => {
+                write!(
+                    f,
+                    "{others} other bodies were left out; the largest was kept."
+                )
+            }
             Self::Strays { strays: 1, points } => write!(
                 f,
                 "1 of {points} points stands apart from its neighbours by more than 10 % of the radius \
@@ -83,9 +118,28 @@ impl fmt::Display for FitWarning {
             Self::LimitNotMet { rms, limit } => write!(
                 f,
                 "The segments differ from the estimate by {} (RMS), more than the limit of {}: allow more \
-                 of them (--max-segments) or a larger error (--tolerance).",
+                 of them (--max-segments) or a larger error (--tolerance), or ask for one expansion (--segments 1).",
                 short(rms),
                 short(limit)
+            ),
+        }
+    }
+}
+
+impl fmt::Display for Unseen {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let advice = "scan what is missing, or take the guess (--extrapolate)";
+        match *self {
+            Self::Hole { half_angle } => write!(
+                f,
+                "no point lies in a cap of {:.0} degrees, and what the surface does there is a guess; {advice}",
+                half_angle.to_degrees()
+            ),
+            Self::Open { share, .. } => write!(
+                f,
+                "holes between the faces would take {:.0} % of their area to close, and what the surface does there is \
+                 a guess; {advice}",
+                100.0 * share
             ),
         }
     }
@@ -105,6 +159,10 @@ impl fmt::Display for NoInterval {
                  resolves"
             ),
             Self::NotFinite => write!(f, "the figures are not finite"),
+            Self::OutOfRange => write!(
+                f,
+                "in this unit squares of the figures are beyond the range of numbers; change the unit"
+            ),
             Self::NotEstimated => write!(f, "the model is fitted to the points themselves"),
         }
     }

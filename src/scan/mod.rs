@@ -19,6 +19,7 @@ mod xyz;
 
 use std::path::Path;
 
+use crate::mesh::Mesh;
 use nalgebra::Point3;
 
 pub use error::{ParseError, Place, ReadError};
@@ -42,6 +43,17 @@ pub struct Scan {
 }
 
 impl Scan {
+    /// The scan that a mesh is.
+    pub(crate) fn from_mesh(mesh: Mesh) -> Self {
+        let mut scan = Self {
+            points: mesh.vertices,
+            triangles: mesh.triangles,
+            ..Self::default()
+        };
+        inspect::inspect(&mut scan);
+        scan
+    }
+
     /// Whether all points lie in one plane, or do not span one: they enclose nothing.
     pub fn is_flat(&self) -> bool {
         check::check(&self.points).map_or(true, |span| span.flat)

@@ -8,21 +8,21 @@ use std::sync::Arc;
 /// The series of c_m cos(m phi) + s_m sin(m phi), m = 0, 1, ..., at phi = 2 pi t / n,
 /// t = 0, ..., n - 1. Terms are given as c_m + i s_m, for fewer than n / 2 + 1 orders; s_0 is not
 /// read, and zero where it is written. Error: rounding.
-pub(super) struct AzimuthFft {
+pub(crate) struct AzimuthFft {
     points: usize,
     to_values: Arc<dyn ComplexToReal<f64>>,
     to_terms: Arc<dyn RealToComplex<f64>>,
 }
 
 /// What a transform writes to on its way: one for each thread.
-pub(super) struct Workspace {
+pub(crate) struct Workspace {
     spectrum: Vec<Complex<f64>>,
     scratch: Vec<Complex<f64>>,
 }
 
 impl AzimuthFft {
     /// Transforms of `points` > 0 points.
-    pub(super) fn new(points: usize) -> Self {
+    pub(crate) fn new(points: usize) -> Self {
         let mut planner = RealFftPlanner::new();
         Self {
             points,
@@ -32,16 +32,16 @@ impl AzimuthFft {
     }
 
     /// Number of points.
-    pub(super) fn points(&self) -> usize {
+    pub(crate) fn points(&self) -> usize {
         self.points
     }
 
     /// Azimuth of point t.
-    pub(super) fn azimuth(&self, t: usize) -> f64 {
+    pub(crate) fn azimuth(&self, t: usize) -> f64 {
         2.0 * PI * t as f64 / self.points as f64
     }
 
-    pub(super) fn workspace(&self) -> Workspace {
+    pub(crate) fn workspace(&self) -> Workspace {
         let scratch = self.to_values.get_scratch_len();
         Workspace {
             spectrum: self.to_values.make_input_vec(),
@@ -50,7 +50,7 @@ impl AzimuthFft {
     }
 
     /// Values of the series at all points.
-    pub(super) fn synthesis(
+    pub(crate) fn synthesis(
         &self,
         terms: &[Complex<f64>],
         values: &mut [f64],
@@ -69,7 +69,7 @@ impl AzimuthFft {
 
     /// The transpose: the sums of values[t] cos(m phi_t) + i values[t] sin(m phi_t). Overwrites
     /// `values`.
-    pub(super) fn adjoint(
+    pub(crate) fn adjoint(
         &self,
         values: &mut [f64],
         terms: &mut [Complex<f64>],

@@ -18,6 +18,7 @@ mod symmetry;
 mod transform;
 mod triangulation;
 
+pub(crate) use azimuth_fft::AzimuthFft;
 pub use cap::{Cap, Places};
 pub use cap_basis::{CapBasis, coefficient_count};
 pub use cell_weight::MARGIN;

@@ -33,7 +33,8 @@ fn writes_a_table_and_plots_and_nothing_else() {
     assert!(scan["noise"].is_null());
     let rows = scan["rows"].as_array().unwrap();
     let skipped = scan["skipped"].as_u64().unwrap() as usize;
-    assert_eq!(rows.len() + skipped, 20 + 16 * 7 + 5 * 5 + 7 + 7);
+    let refused = scan["refused"].as_u64().unwrap() as usize;
+    assert_eq!(rows.len() + skipped + refused, 20 + 16 * 7 + 5 * 5 + 7 + 7);
     assert!(rows.len() > 30 && skipped > 30);
 
     for row in rows {

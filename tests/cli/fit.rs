@@ -84,6 +84,7 @@ fn check_consistency(report: &Value, asked: &[&str]) {
         "coefficients_touched",
         "principal",
         "dimensions",
+        "not_measured",
         "standard_errors",
         "no_standard_errors",
         "area",

@@ -10,6 +10,7 @@ mod mesh;
 mod search;
 #[cfg(unix)]
 mod signals;
+mod sound;
 mod streams;
 mod symmetry;
 mod synth;

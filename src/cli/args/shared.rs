@@ -40,6 +40,15 @@ pub(in crate::cli) struct FittingArgs {
     #[arg(value_name = "SCAN")]
     pub(in crate::cli) scan: PathBuf,
 
+    /// Of several bodies in the scan, fit the largest
+    #[arg(long, help_heading = SEARCH)]
+    pub(in crate::cli) largest: bool,
+
+    /// Tell area, volume, moments and size where much of the surface was not seen, as guesses with the errors of
+    /// guesses
+    #[arg(long, help_heading = SEARCH)]
+    pub(in crate::cli) extrapolate: bool,
+
     /// How segments are joined: blended (overlapping cells, fitted together) or none (k x k
     /// independent segments of the angle domain, with steps between them)
     #[arg(long, value_name = "blended|none", default_value = "blended", help_heading = SEARCH)]

@@ -19,8 +19,8 @@
 //! with n'' the transpose of n', radii r' in units of their mean m. Multiplied with how much worse or better than noise the
 //! nearest points are met.
 
-use super::neighbours::Neighbours;
 use super::outcome::{Estimate, bending_variance, spare};
+use crate::fit::neighbours::Neighbours;
 use crate::measure::Curvature;
 use crate::model::{CurvatureErrors, Grain, StarSurface, Surface};
 use crate::sphere::CubeCell;

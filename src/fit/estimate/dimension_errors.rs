@@ -13,10 +13,10 @@
 use super::dimensions::{End, Extent, LARGEST_TURN, Reach};
 use super::figures::INERTIA;
 use super::functionals::{combined, dot};
-use super::neighbours::Neighbours;
 use super::outcome::Estimate;
 use super::outcome::{slope_variance, variance};
 use super::posterior::Conditioned;
+use crate::fit::neighbours::Neighbours;
 use crate::measure::PrincipalInertia;
 use crate::sphere::HarmonicBasis;
 use nalgebra::Vector3;

@@ -16,10 +16,10 @@ use super::dimension_errors::dimensions;
 use super::dimensions::Reach;
 use super::figures::{Figures, INERTIA, MassList, derivatives, form, mass};
 use super::functionals::{INTEGRALS, RingSurface, combined, dot, list, unlist};
-use super::gaps::{largest_gap, random_gap};
 use super::outcome::Estimate;
 use super::posterior::Posterior;
 use super::unresolved::{kurtosis, limit};
+use crate::fit::gaps::{largest_gap, random_gap};
 use crate::measure::{Moments, PrincipalInertia};
 use nalgebra::{Matrix3, SMatrix, Vector3};
 use std::f64::consts::PI;
@@ -61,6 +61,8 @@ pub enum NoInterval {
     },
     /// The figures are not finite.
     NotFinite,
+    /// Squares of the figures are beyond the range of numbers.
+    OutOfRange,
     /// The model is fitted to the points themselves, not to an estimate.
     NotEstimated,
 }
@@ -79,6 +81,11 @@ impl Estimate {
         if half_angle > LARGEST_HOLE.max(random_gap(self.cloud.len())) {
             return Err(NoInterval::Hole { half_angle });
         }
+        self.errors_beside_holes(told)
+    }
+
+    /// The same, with what holes hide only as far as the prior tells it.
+    pub(crate) fn errors_beside_holes(&self, told: &Figures) -> Result<StandardErrors, NoInterval> {
         let posterior = self.posterior();
         let kurtosis = kurtosis(&posterior.residuals(&self.coefficients));
         if kurtosis > limit(self.cloud.len()) {

@@ -13,9 +13,9 @@
 //! then cover .59 of them, and .82 without; 95 % intervals cover .93 to .99 either way.
 
 use super::draws::Draws;
-use super::neighbours::Neighbours;
 use super::outcome::Estimate;
 use super::posterior::{Conditioned, Posterior};
+use crate::fit::neighbours::Neighbours;
 use nalgebra::Vector3;
 
 /// Points whose errors of prediction are taken together.

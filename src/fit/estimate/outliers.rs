@@ -1,9 +1,9 @@
 //! Points that stand alone: far from the estimate, and far from what their neighbours say of it.
 
-use super::neighbours::Neighbours;
 use super::outcome::spare;
 use super::posterior::Posterior;
 use super::spectrum_fit::SpectrumFit;
+use crate::fit::neighbours::Neighbours;
 use nalgebra::Vector3;
 
 /// Rounds of leaving out outliers.

@@ -65,6 +65,8 @@ pub(crate) fn search(
         let level = levels.level(levels.noise_parts, degree);
         FittedLevel::new(&level).residual_variance().sqrt()
     });
+    // Points that are all met tell of no noise.
+    let noise = noise.filter(|noise| *noise > 0.0);
     let tolerance = options.tolerance.length(prepared.mean_radius);
     let limit = tolerance.hypot(noise.unwrap_or(0.0));
 

@@ -2,25 +2,32 @@
 
 mod axes;
 mod centre;
+mod facets;
+mod gap;
+mod largest;
+mod pieces;
 mod reference;
 mod samples;
 mod strays;
 mod surface;
 mod thin;
 
+pub use largest::largest_body;
 pub use reference::{Reference, ReferenceKind};
 pub(crate) use samples::{CellGrid, Sample, Samples};
 pub use surface::{ScannedSurface, scanned_surface};
 
 use super::error::FitError;
+use super::unseen::Unseen;
 use super::warning::FitWarning;
-use crate::measure::{MassProperties, mesh_properties};
+use crate::measure::{MassProperties, Unit, mesh_properties};
 use crate::mesh::Mesh;
 use crate::model::Frame;
 use crate::scan::Scan;
 use crate::sphere::Symmetry;
 use axes::principal_axes;
 use centre::{deepest_centre, facing_away_share};
+use facets::on_large_faces;
 use nalgebra::{Matrix3, Point3, Vector3};
 use std::borrow::Cow;
 
@@ -31,6 +38,9 @@ const LARGEST_SHARE_AWAY: f64 = 0.05;
 /// Share of the area that may face away from the centroid before another centre is looked for: a few
 /// slivers of a noisy mesh.
 const NEGLIGIBLE_SHARE: f64 = 1e-4;
+
+/// Least volume of a scan whose box is some two units long: points in one plane, rounded, have 1e-16.
+const LEAST_VOLUME: f64 = 1e-11;
 
 /// A scan made ready to be fitted.
 #[derive(Debug, Clone)]
@@ -45,6 +55,8 @@ pub struct PreparedScan<'a> {
     /// The mirror planes that the axes were chosen for.
     pub(crate) symmetry: Symmetry,
     pub(crate) warnings: Vec<FitWarning>,
+    /// What was not seen, if it is large.
+    pub(crate) unseen: Option<Unseen>,
     points: Cow<'a, [Point3<f64>]>,
     representatives: Option<Vec<Point3<f64>>>,
 }
@@ -55,47 +67,53 @@ impl<'a> PreparedScan<'a> {
     /// # Errors
     /// [`FitError`] if the scan is not one closed surface round a centre.
     pub fn new(scan: &'a Scan, symmetry: Symmetry) -> Result<Self, FitError> {
-        let ScannedSurface {
-            mesh,
-            kind,
-            points,
-            representatives,
-            mut warnings,
-        } = scanned_surface(scan)?;
+        let mut surface = scanned_surface(scan)?;
+        // Moments go with the fifth power of the size, and would be the first to leave the range of numbers.
+        let unit = Unit::of(&surface.mesh);
+        let mesh = unit.mesh(&surface.mesh);
         let properties = mesh_properties(&mesh)
             .ok()
-            .filter(|properties| properties.volume > 0.0)
+            .filter(|properties| properties.volume > LEAST_VOLUME)
             .ok_or(FitError::NoVolume {
                 points: scan.points.len(),
             })?;
-        // Moments go with the fifth power of the size: that is what over- or underflows first.
-        let moment = properties.inertia.trace();
-        if !(moment.is_normal() && properties.centroid.iter().all(|x| x.is_finite())) {
-            return Err(FitError::Scale {
-                size: properties.volume.cbrt(),
-            });
-        }
-        let centre = star_centre(&mesh, properties.centroid, &mut warnings)?;
+        let centre = star_centre(&mesh, properties.centroid, &mut surface.warnings)?;
         let frame = Frame {
-            centre,
+            centre: unit.point(&centre),
             axes: match symmetry {
                 Symmetry::NONE => principal_axes(&mesh, &properties),
                 _ => Matrix3::identity(),
             },
         };
+        let semi_axes = semi_axes(&properties, &frame) * unit.length;
+        let reference = Reference {
+            kind: surface.kind,
+            area: unit.area(properties.area),
+            volume: unit.volume(properties.volume),
+        };
+        if !(reference.volume.is_normal() && reference.area.is_normal()) {
+            return Err(FitError::Scale { size: unit.length });
+        }
+        let on_faces = surface
+            .seen_faces()
+            .map(|faces| on_large_faces(faces, &frame, &semi_axes));
+        let on_faces = on_faces.unwrap_or_default();
+        if !on_faces.is_empty() {
+            surface.points.to_mut().extend(&on_faces);
+            if let Some(representatives) = &mut surface.representatives {
+                representatives.extend(&on_faces);
+            }
+        }
         Ok(Self {
-            mean_radius: mean_radius(&mesh, &centre),
-            semi_axes: semi_axes(&properties, &frame),
+            mean_radius: mean_radius(&mesh, &centre) * unit.length,
+            semi_axes,
             frame,
-            reference: Reference {
-                kind,
-                area: properties.area,
-                volume: properties.volume,
-            },
+            reference,
             symmetry,
-            warnings,
-            points,
-            representatives,
+            warnings: surface.warnings,
+            unseen: surface.unseen,
+            points: surface.points,
+            representatives: surface.representatives,
         })
     }
 

@@ -1,11 +1,15 @@
 //! The surface that a scan draws: a closed mesh through its points, by its own faces or by the
 //! triangulation of their directions.
 
+use super::gap::Gap;
+use super::pieces::Pieces;
 use super::reference::ReferenceKind;
 use super::strays::{LEAST_STRAY, find_strays};
 use super::thin::{Thinned, WHOLE_CLOUD, thin};
 use crate::fit::error::FitError;
+use crate::fit::unseen::Unseen;
 use crate::fit::warning::FitWarning;
+use crate::measure::{FacesDefect, Fill, scanned_body, without_dust};
 use crate::mesh::Mesh;
 use crate::scan::Scan;
 use crate::sphere::triangulate_directions;
@@ -18,9 +22,11 @@ const LARGEST_SCATTER: f64 = 0.1;
 /// Share of strays beyond which the scan holds more than one grain.
 const LARGEST_SHARE_OF_STRAYS: f64 = 0.2;
 
-/// A gap in the scan is told of when no point lies within this angle (radians) and three times the
-/// mean spacing of the points.
-const WIDE_GAP: f64 = 0.2;
+/// Points of the scan, or a part of them.
+type Points<'a> = Cow<'a, [Point3<f64>]>;
+
+/// Rounds of leaving out strays.
+const STRAY_ROUNDS: usize = 5;
 
 /// The surface that a scan draws, and the points that lie on it.
 #[derive(Debug, Clone)]
@@ -29,20 +35,34 @@ pub struct ScannedSurface<'a> {
     pub mesh: Mesh,
     /// What the mesh is made of.
     pub kind: ReferenceKind,
+    /// The faces that were seen, where they are not those of the mesh.
+    pub(crate) faces: Option<Mesh>,
     /// The points to fit: without strays and without vertices that no face uses.
     pub(crate) points: Cow<'a, [Point3<f64>]>,
     /// One point per small patch of directions, where the cloud is large.
     pub(crate) representatives: Option<Vec<Point3<f64>>>,
+    /// What was not seen, if it is large.
+    pub(crate) unseen: Option<Unseen>,
     /// What a user should know.
     pub warnings: Vec<FitWarning>,
 }
 
-/// Finds the surface that a scan draws: its own faces if they enclose one body, else the
+impl ScannedSurface<'_> {
+    /// The faces that were seen; none of a cloud.
+    pub(crate) fn seen_faces(&self) -> Option<&Mesh> {
+        match self.kind {
+            ReferenceKind::Faces => self.faces.as_ref().or(Some(&self.mesh)),
+            ReferenceKind::Directions => self.faces.as_ref(),
+        }
+    }
+}
+
+/// Finds the surface that a scan draws: its own faces if they enclose one body, small holes closed, else the
 /// triangulation of the directions of its points, without outliers, as seen from their mean.
 ///
 /// # Errors
-/// [`FitError`] if a point is not finite, if the points enclose no volume, or if too many of them
-/// do not lie on one surface round a centre.
+/// [`FitError`] if a point is not finite, if the points enclose no volume, if there are several bodies, or if
+/// too many points do not lie on one surface round a centre.
 pub fn scanned_surface(scan: &Scan) -> Result<ScannedSurface<'_>, FitError> {
     if let Some(index) = scan
         .points
@@ -51,21 +71,30 @@ pub fn scanned_surface(scan: &Scan) -> Result<ScannedSurface<'_>, FitError> {
     {
         return Err(FitError::NotFinite { index });
     }
+    if scan.is_flat() {
+        let points = scan.points.len();
+        return Err(FitError::NoVolume { points });
+    }
     match &scan.topology {
         Some(topology) if topology.closed && topology.bodies == 1 => {
             Ok(from_faces(scan, &topology.unreferenced))
         }
-        Some(_) => {
-            let mut surface = from_directions(scan)?;
-            surface.warnings.push(FitWarning::FacesNotClosed);
-            Ok(surface)
-        }
-        None => from_directions(scan),
+        Some(_) => from_parts(scan),
+        None => from_directions(Cow::Borrowed(&scan.points)),
     }
 }
 
+/// Of faces that are closed and of one piece.
 fn from_faces<'a>(scan: &'a Scan, unreferenced: &[u32]) -> ScannedSurface<'a> {
-    let points = without(&scan.points, unreferenced);
+    let mesh = Mesh {
+        vertices: scan.points.clone(),
+        triangles: scan.triangles.clone(),
+    };
+    closed(mesh, without(&scan.points, unreferenced))
+}
+
+/// A closed mesh, and those of its vertices that were seen.
+fn closed(mesh: Mesh, points: Cow<'_, [Point3<f64>]>) -> ScannedSurface<'_> {
     let representatives = (points.len() > WHOLE_CLOUD).then(|| {
         let Thinned {
             representatives, ..
@@ -73,68 +102,154 @@ fn from_faces<'a>(scan: &'a Scan, unreferenced: &[u32]) -> ScannedSurface<'a> {
         select(&points, &representatives)
     });
     ScannedSurface {
-        mesh: Mesh {
-            vertices: scan.points.clone(),
-            triangles: scan.triangles.clone(),
-        },
+        mesh,
         kind: ReferenceKind::Faces,
+        faces: None,
         points,
         representatives,
+        unseen: None,
         warnings: Vec::new(),
     }
 }
 
-fn from_directions(scan: &Scan) -> Result<ScannedSurface<'_>, FitError> {
-    let centre = middle(&scan.points);
-    if scan.points.len() <= WHOLE_CLOUD {
-        let mesh = mesh_of_directions(scan.points.clone(), &centre)?;
-        let strays = find_strays(&mesh, &centre);
-        if strays.scatter > LARGEST_SCATTER {
-            return Err(FitError::Scattered {
-                scatter: strays.scatter,
-            });
+/// Of faces with holes, or in several parts.
+fn from_parts(scan: &Scan) -> Result<ScannedSurface<'static>, FitError> {
+    let cleaned = without_dust(scan);
+    let body = scanned_body(cleaned.as_ref().map_or(scan, |(cleaned, _)| cleaned));
+    let Some(body) = body else {
+        return from_directions(Cow::Owned(scan.points.clone()));
+    };
+    match (body.defect, body.bodies, body.cavities) {
+        (Some(FacesDefect::Overlapping { parts: bodies }), _, _) | (_, bodies @ 2.., _) => {
+            return Err(FitError::SeveralBodies { bodies });
         }
-        refuse_background(strays.indices.len(), scan.points.len())?;
-        let (mesh, points) = if strays.indices.is_empty() {
-            (mesh, Cow::Borrowed(scan.points.as_slice()))
-        } else {
-            // By value: a stray that the file holds twice goes twice.
-            let strays = select(&scan.points, &strays.indices);
-            let kept: Vec<_> = scan
-                .points
-                .iter()
-                .filter(|point| !strays.contains(point))
-                .copied()
-                .collect();
-            (mesh_of_directions(kept.clone(), &centre)?, Cow::Owned(kept))
-        };
-        let warnings = warnings(&mesh, &centre, strays.indices.len(), scan.points.len());
-        return Ok(ScannedSurface {
-            mesh,
-            kind: ReferenceKind::Directions,
-            points,
-            representatives: None,
-            warnings,
+        (_, _, cavities @ 1..) => return Err(FitError::Hollow { cavities }),
+        _ => {}
+    }
+    let mut surface = match body.defect {
+        None => filled(body.mesh, body.fill),
+        Some(defect) => {
+            let cloud = from_directions(Cow::Owned(body.mesh.vertices.clone()))?;
+            let unseen = match defect {
+                FacesDefect::Open { holes, share } => Some(Unseen::Open { holes, share }),
+                _ => cloud.unseen,
+            };
+            let mut warnings = cloud.warnings;
+            warnings.push(FitWarning::FacesNotClosed(defect));
+            ScannedSurface {
+                faces: Some(body.mesh),
+                unseen,
+                warnings,
+                ..cloud
+            }
+        }
+    };
+    let dust = cleaned.map(|(_, parts)| FitWarning::Dust { parts });
+    surface.warnings.extend(dust);
+    Ok(surface)
+}
+
+/// Of faces whose small holes are closed by triangles, which were not seen.
+fn filled(mesh: Mesh, fill: Option<Fill>) -> ScannedSurface<'static> {
+    let seen = mesh.triangles.len() - fill.map_or(0, |fill| fill.triangles);
+    let seen = mesh.triangles[..seen].to_vec();
+    // Vertices are numbered as triangles come: those of the fill alone are last.
+    let vertices = seen
+        .as_flattened()
+        .iter()
+        .max()
+        .map_or(0, |last| *last as usize + 1);
+    let points = mesh.vertices[..vertices].to_vec();
+    let faces = Mesh {
+        vertices: points.clone(),
+        triangles: seen,
+    };
+    ScannedSurface {
+        faces: Some(faces),
+        warnings: fill.map(FitWarning::Filled).into_iter().collect(),
+        ..closed(mesh, Cow::Owned(points))
+    }
+}
+
+/// Of points alone.
+fn from_directions(points: Cow<'_, [Point3<f64>]>) -> Result<ScannedSurface<'_>, FitError> {
+    let all = points.len();
+    let pieces = Pieces::new(&points);
+    if pieces.bodies > 1 {
+        return Err(FitError::SeveralBodies {
+            bodies: pieces.bodies,
         });
     }
-    let Thinned {
-        representatives,
+    let points = match pieces.is_dusty {
+        true => Cow::Owned(pieces.largest(&points)),
+        false => points,
+    };
+    let (mesh, points, representatives) = match points.len() <= WHOLE_CLOUD {
+        true => {
+            let (mesh, points) = whole(points)?;
+            (mesh, points, None)
+        }
+        false => {
+            let centre = middle(&points);
+            let Thinned {
+                representatives,
+                strays,
+            } = thin(&points, &centre, LEAST_STRAY);
+            refuse_background(strays.len(), points.len())?;
+            let representatives = select(&points, &representatives);
+            let mesh = mesh_of_directions(representatives.clone(), &centre)?;
+            refuse_scattered(find_strays(&mesh, &centre).scatter)?;
+            let kept = match strays.is_empty() {
+                true => points,
+                false => Cow::Owned(without(&points, &strays).into_owned()),
+            };
+            (mesh, kept, Some(representatives))
+        }
+    };
+    let strays = all - points.len();
+    refuse_background(strays, all)?;
+    let gap = Gap::new(&mesh);
+    let strays = (strays > 0).then_some(FitWarning::Strays {
         strays,
-    } = thin(&scan.points, &centre, LEAST_STRAY);
-    refuse_background(strays.len(), scan.points.len())?;
-    let representatives = select(&scan.points, &representatives);
-    let mesh = mesh_of_directions(representatives.clone(), &centre)?;
-    let scatter = find_strays(&mesh, &centre).scatter;
-    if scatter > LARGEST_SCATTER {
-        return Err(FitError::Scattered { scatter });
-    }
+        points: all,
+    });
     Ok(ScannedSurface {
-        warnings: warnings(&mesh, &centre, strays.len(), scan.points.len()),
+        unseen: Unseen::hole(gap.half_angle, points.len()),
+        warnings: strays.into_iter().chain(gap.warning()).collect(),
         mesh,
         kind: ReferenceKind::Directions,
-        points: without(&scan.points, &strays),
-        representatives: Some(representatives),
+        faces: None,
+        points,
+        representatives,
     })
+}
+
+/// The triangulation of all points of a small cloud but its strays, and these points. With the first strays gone, those
+/// that hid behind them stand apart.
+fn whole(mut points: Points<'_>) -> Result<(Mesh, Points<'_>), FitError> {
+    let all = points.len();
+    for _ in 0..STRAY_ROUNDS {
+        let centre = middle(&points);
+        let mesh = mesh_of_directions(points.to_vec(), &centre)?;
+        let strays = find_strays(&mesh, &centre);
+        refuse_scattered(strays.scatter)?;
+        refuse_background(all - points.len() + strays.indices.len(), all)?;
+        if strays.indices.is_empty() {
+            return Ok((mesh, points));
+        }
+        // By value: a stray that the file holds twice goes twice.
+        let strays = select(&points, &strays.indices);
+        points.to_mut().retain(|point| !strays.contains(point));
+    }
+    let mesh = mesh_of_directions(points.to_vec(), &middle(&points))?;
+    Ok((mesh, points))
+}
+
+fn refuse_scattered(scatter: f64) -> Result<(), FitError> {
+    match scatter > LARGEST_SCATTER {
+        true => Err(FitError::Scattered { scatter }),
+        false => Ok(()),
+    }
 }
 
 fn refuse_background(strays: usize, points: usize) -> Result<(), FitError> {
@@ -175,39 +290,6 @@ fn mesh_of_directions(points: Vec<Point3<f64>>, centre: &Point3<f64>) -> Result<
         vertices: points,
         triangles,
     })
-}
-
-fn warnings(mesh: &Mesh, centre: &Point3<f64>, strays: usize, points: usize) -> Vec<FitWarning> {
-    let mut warnings = Vec::new();
-    if strays > 0 {
-        warnings.push(FitWarning::Strays { strays, points });
-    }
-    let (half_angle, direction) = widest_gap(mesh, centre);
-    let spacing = (4.0 * std::f64::consts::PI / mesh.vertices.len() as f64).sqrt();
-    if half_angle > WIDE_GAP.max(3.0 * spacing) {
-        warnings.push(FitWarning::Gap {
-            half_angle,
-            direction,
-        });
-    }
-    warnings
-}
-
-/// Angular radius and direction of the largest empty cap: the largest circumscribed circle of the
-/// triangulation.
-fn widest_gap(mesh: &Mesh, centre: &Point3<f64>) -> (f64, Vector3<f64>) {
-    let mut widest = (-1.0, Vector3::z());
-    let mut least = f64::INFINITY;
-    for corners in &mesh.triangles {
-        let [a, b, c] = corners.map(|i| (mesh.vertices[i as usize] - centre).normalize());
-        let pole = (b - a).cross(&(c - a)).normalize();
-        let cosine = pole.dot(&a);
-        if cosine < least {
-            least = cosine;
-            widest = (cosine.clamp(-1.0, 1.0).acos(), pole);
-        }
-    }
-    widest
 }
 
 fn select(points: &[Point3<f64>], indices: &[u32]) -> Vec<Point3<f64>> {

@@ -62,7 +62,9 @@ pub(crate) fn search(
     let noise_level = (!only_one).then(|| fit(noise_parts, top));
     let noise = noise_level
         .as_ref()
-        .map(|level| level.residual_variance().sqrt());
+        .map(|level| level.residual_variance().sqrt())
+        // Points that are all met tell of no noise.
+        .filter(|noise| *noise > 0.0);
     let limit = options
         .tolerance
         .length(prepared.mean_radius)

@@ -32,6 +32,22 @@ pub(super) fn parts(mesh: &Mesh) -> Vec<Vec<usize>> {
     parts
 }
 
+/// Some triangles of a mesh and their vertices.
+pub(super) fn part(mesh: &Mesh, triangles: &[usize]) -> Mesh {
+    let mut numbers = HashMap::new();
+    let mut own = Mesh::default();
+    for &triangle in triangles {
+        let named = mesh.triangles[triangle].map(|corner| {
+            *numbers.entry(corner).or_insert_with(|| {
+                own.vertices.push(mesh.vertices[corner as usize]);
+                own.vertices.len() as u32 - 1
+            })
+        });
+        own.triangles.push(named);
+    }
+    own
+}
+
 /// The root of a vertex's tree; halves the path to it on the way.
 fn root(parents: &mut [u32], mut vertex: u32) -> u32 {
     while parents[vertex as usize] != vertex {
@@ -65,19 +81,8 @@ impl Part {
             }
             volume += (a - first).dot(&(b - first).cross(&(c - first))) / 6.0;
         }
-        let mut numbers = HashMap::new();
-        let mut own = Mesh::default();
-        for corners in corners() {
-            let named = corners.map(|corner| {
-                *numbers.entry(corner).or_insert_with(|| {
-                    own.vertices.push(mesh.vertices[corner as usize]);
-                    own.vertices.len() as u32 - 1
-                })
-            });
-            own.triangles.push(named);
-        }
         Self {
-            mesh: own,
+            mesh: part(mesh, triangles),
             low,
             high,
             volume,

@@ -11,6 +11,8 @@ pub struct Fill {
     pub holes: usize,
     /// Edges of their rims.
     pub edges: usize,
+    /// Triangles that close them: the last of the mesh.
+    pub triangles: usize,
     /// Area of the triangles that close them, in the unit squared. It is part of the area.
     pub area: f64,
 }
@@ -55,6 +57,7 @@ pub(super) fn fill(
     let fill = Fill {
         holes: rims.len(),
         edges: rims.iter().map(Vec::len).sum(),
+        triangles: mesh.triangles.len() - triangles,
         area: filled,
     };
     Ok((mesh, fill))

@@ -5,6 +5,7 @@
 
 mod bodies;
 mod fill;
+mod parts;
 mod rims;
 
 use crate::Mesh;
@@ -13,6 +14,7 @@ use bodies::arrange;
 pub use fill::Fill;
 use fill::fill;
 use nalgebra::Point3;
+pub(crate) use parts::{largest_part, without_dust};
 use rims::rims;
 use thiserror::Error;
 

@@ -1,7 +1,7 @@
 //! Parts of the sphere where expansions are blended.
 
 use super::bound::{Bound, CapBound, angle};
-use super::sampled::Samples;
+use super::recentred::Recentring;
 use super::{Judged, Part};
 use crate::model::Blended;
 use nalgebra::Vector3;
@@ -18,6 +18,7 @@ pub(super) fn bounds(surface: &Blended) -> Vec<CapBound> {
 pub(super) struct BlendPart<'a> {
     surface: &'a Blended,
     bounds: &'a [CapBound],
+    recentring: &'a Recentring,
     face: usize,
     tangents: [[f64; 2]; 2],
     cells: Vec<u16>,
@@ -25,11 +26,16 @@ pub(super) struct BlendPart<'a> {
 
 impl<'a> BlendPart<'a> {
     /// The six faces.
-    pub(super) fn faces(surface: &'a Blended, bounds: &'a [CapBound]) -> Vec<Self> {
+    pub(super) fn faces(
+        surface: &'a Blended,
+        bounds: &'a [CapBound],
+        recentring: &'a Recentring,
+    ) -> Vec<Self> {
         let face = |face| {
             let part = Self {
                 surface,
                 bounds,
+                recentring,
                 face,
                 tangents: [[-1.0, 1.0]; 2],
                 cells: (0..surface.cover().cells().len() as u16).collect(),
@@ -81,7 +87,7 @@ impl Part for BlendPart<'_> {
         let radius = angle(0.5 * farthest.into_iter().fold(0.0, f64::max));
         let value = self.surface.radius(&middle);
         // The mean of the bounds, weighed in the worst way, is enough if this is not below zero.
-        let (mut excess, mut sampled) = (0.0, 0);
+        let (mut excess, mut recentred) = (0.0, 0);
         for cell in cells() {
             let bound = &self.bounds[cell];
             let mut least = match bound.holds(&middle) {
@@ -89,10 +95,11 @@ impl Part for BlendPart<'_> {
                 false => bound.everywhere(),
             };
             if least < enough
-                && let Some(samples) = Samples::new(bound.degree())
-                && let Some(found) = samples.least(self.surface.expansion(cell), &middle, radius)
+                && let Some((found, work)) =
+                    self.recentring
+                        .least(self.surface.expansion(cell), &middle, radius)
             {
-                sampled += samples.count() * bound.terms();
+                recentred += work;
                 least = least.max(found);
             }
             let [lightest, heaviest] = self.surface.cover().weight(cell).range(&corners);
@@ -103,8 +110,8 @@ impl Part for BlendPart<'_> {
         Judged {
             least: if excess >= 0.0 { enough } else { least },
             value: Some(value),
-            // Samples are evaluated many at once.
-            work: 2 * terms + sampled / 4,
+            // Values for that are evaluated many at once.
+            work: 2 * terms + recentred / 4,
         }
     }
 

@@ -88,11 +88,6 @@ impl CapBound {
         self.size.mean.abs() + self.size.rest
     }
 
-    /// The degree of the expansion.
-    pub(super) fn degree(&self) -> usize {
-        self.size.degree
-    }
-
     /// Whether a direction is in the cap.
     pub(super) fn holds(&self, n: &Vector3<f64>) -> bool {
         0.5 * (n - self.cap.centre).norm_squared() <= self.cap.height

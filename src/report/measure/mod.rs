@@ -187,7 +187,7 @@ impl MeasureReport {
 }
 
 impl NotMeasured {
-    fn new(measure: &'static str, error: &SurveyError) -> Self {
+    pub(in crate::report) fn new(measure: &'static str, error: &SurveyError) -> Self {
         let reason = error.to_string();
         Self { measure, reason }
     }

@@ -14,7 +14,12 @@ const BEST: usize = 4;
 const LEAST_STEP: f64 = 1e-3;
 
 /// Half-angle of the largest cap without any of these unit vectors, in radians; pi if there are none.
-pub(super) fn largest_gap(directions: &[Vector3<f64>]) -> f64 {
+pub(crate) fn largest_gap(directions: &[Vector3<f64>]) -> f64 {
+    largest_cap(directions).0
+}
+
+/// Half-angle and middle of the largest cap without any of these unit vectors.
+pub(crate) fn largest_cap(directions: &[Vector3<f64>]) -> (f64, Vector3<f64>) {
     let neighbours = Neighbours::new(directions);
     let clearance = |n: &Vector3<f64>| {
         let nearest = neighbours.nearest(n, 1);
@@ -47,14 +52,15 @@ pub(super) fn largest_gap(directions: &[Vector3<f64>]) -> f64 {
                 _ => step *= 0.5,
             }
         }
-        largest
+        (largest, n)
     });
-    found.fold(0.0, f64::max)
+    let larger = |a: (f64, Vector3<f64>), b: (f64, Vector3<f64>)| if b.0 > a.0 { b } else { a };
+    found.fold((0.0, Vector3::z()), larger)
 }
 
 /// Half-angle, in radians, of a cap of which random directions leave one empty with a few percent: with the share
 /// (ln n + 5) / n of the sphere.
-pub(super) fn random_gap(points: usize) -> f64 {
+pub(crate) fn random_gap(points: usize) -> f64 {
     let n = (points as f64).max(1.0);
     let share = ((n.ln() + 5.0) / n).min(1.0);
     (1.0 - 2.0 * share).acos()

@@ -1,0 +1,242 @@
+//! What `grainform fit` tells.
+
+mod figures;
+mod text;
+
+use super::estimate::{EstimateRecord, EvaluationRecord};
+use super::measure::{Dimensions, NotMeasured, Principal, rows};
+use super::rule::rule;
+use super::unit::Unit;
+use super::warning::sentences;
+use crate::fit::{FitOptions, Fitted, Reference, StandardErrors, Tolerance};
+use crate::model::Mirrored;
+use crate::sphere::Symmetry;
+use figures::Figures;
+use serde::Serialize;
+
+/// The result of a fit.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct FitReport {
+    /// The scan.
+    pub input: String,
+    /// Unit of lengths, where it was told; areas and volumes are in its square and cube.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub unit: Option<Unit>,
+    /// Distinct points that the fit rests on.
+    pub points: usize,
+    /// Degree of the segments' expansions.
+    pub degree: usize,
+    /// Number of segments.
+    pub segments: usize,
+    /// Axes of the scan normal to the mirror planes; left out without these.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub symmetry: Option<Symmetry>,
+    /// Root mean square difference of the radius between mirror images of the scan; left out likewise.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub asymmetry: Option<f64>,
+    /// Coefficients that the model holds: (degree + 1)^2 per segment, fewer where a segment was
+    /// reduced.
+    pub coefficients: usize,
+    /// Area of the fitted surface, integrated exactly; `null`, as the next three, where it is in `not_measured`.
+    pub area: Option<f64>,
+    /// Volume of the fitted surface, integrated exactly.
+    pub volume: Option<f64>,
+    /// Principal moments of inertia and their axes.
+    pub principal: Option<Principal>,
+    /// Extents of the fitted surface along the principal axes, descending.
+    pub dimensions: Option<Dimensions>,
+    /// Figures that cannot be told: those of what was not seen, unless asked for, and those that no number holds.
+    pub not_measured: Vec<NotMeasured>,
+    /// Standard errors of the figures above; `null` where none can be trusted.
+    pub standard_errors: Option<StandardErrorsRecord>,
+    /// Why there are none: half a sentence.
+    pub no_standard_errors: Option<String>,
+    /// Coefficients that one evaluation of the surface touches, as a mean over all directions.
+    pub coefficients_touched: f64,
+    /// What the fit is compared with; `null` where much of the surface was not seen.
+    pub reference: Option<ReferenceRecord>,
+    /// `area` against the reference, which is itself off.
+    pub area_error: Option<f64>,
+    /// `volume` against the reference, which is itself off.
+    pub volume_error: Option<f64>,
+    /// Root mean square of the radial residuals of all points.
+    pub rms: f64,
+    /// Largest absolute radial residual.
+    pub max: f64,
+    /// Root mean square of the radial errors of points that were left out of the fit one by one.
+    pub heldout_rms: Option<f64>,
+    /// Mean radius over all directions.
+    pub mean_radius: f64,
+    /// What the points say of the radius, before it is cut in segments; `null` of independent segments and mirrored
+    /// fits, which are fitted to the points themselves.
+    pub estimate: Option<EstimateRecord>,
+    /// Root mean square difference of the model's radius from the estimate, over all directions; `null` likewise.
+    pub estimate_rms: Option<f64>,
+    /// What an evaluation of the model costs.
+    pub evaluation: EvaluationRecord,
+    /// What an evaluation costs of the expansion of the whole sphere that is as near to the estimate; `null` where the
+    /// model has no cells.
+    pub whole: Option<EvaluationRecord>,
+    /// Standard deviation of the points' noise; `null` where it was not estimated.
+    pub noise: Option<f64>,
+    /// The error that was good enough: the difference from the estimate, or the held-out RMS of independent segments and
+    /// mirrored fits.
+    pub limit: f64,
+    /// The tolerance asked for; left out where it is that of the default.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tolerance: Option<f64>,
+    /// Why this degree and number of segments: half a sentence.
+    pub rule: String,
+    /// The largest jump of the radius between neighbouring segments.
+    pub seam_jump: f64,
+    /// Segments fitted at a lower degree because they hold too few points.
+    pub reduced_segments: usize,
+    /// The largest loss of the conversion to published coefficients, where these were asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub harmonics_loss: Option<f64>,
+    /// Wall-clock time.
+    pub seconds: Seconds,
+    /// What the search could leave out.
+    pub skipped: Skipped,
+    /// What is odd about the scan or the fit: whole sentences.
+    pub warnings: Vec<String>,
+}
+
+/// Standard errors (one standard deviation) of a fitted grain's figures.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct StandardErrorsRecord {
+    /// Of the area.
+    pub area: f64,
+    /// Of the volume.
+    pub volume: f64,
+    /// Of the principal moments.
+    pub moments: [f64; 3],
+    /// Of the dimensions.
+    pub dimensions: Dimensions,
+    /// What noise adds to the dimensions, as a mean: an extent is between the points farthest out.
+    pub dimensions_excess: Dimensions,
+    /// Of the centroid's coordinates along the grain's axes.
+    pub centroid: [f64; 3],
+    /// Of the inertia tensor about the centroid, along the grain's axes.
+    pub inertia: [[f64; 3]; 3],
+}
+
+/// The surface that a fit is compared with.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ReferenceRecord {
+    /// "faces" (the scan's own) or "directions" (triangulated between the points).
+    pub kind: &'static str,
+    /// Its area.
+    pub area: f64,
+    /// Its volume.
+    pub volume: f64,
+}
+
+/// Wall-clock seconds of the stages.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+pub struct Seconds {
+    /// Reading the scan.
+    pub read: f64,
+    /// Reference surface, centre, axes, and the fits of all candidates.
+    pub search: f64,
+    /// Meshing and writing files.
+    pub mesh: f64,
+    /// Everything.
+    pub total: f64,
+}
+
+/// Work that could not change the choice.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Skipped {
+    /// Candidates not fitted.
+    pub candidates: usize,
+    /// Segments not fitted.
+    pub segments: usize,
+}
+
+impl FitReport {
+    /// The report of a fit, for the options it was made with; `scan_warnings` are the reader's.
+    pub fn new(
+        input: String,
+        unit: Option<Unit>,
+        fitted: &Fitted,
+        options: &FitOptions,
+        scan_warnings: &[String],
+    ) -> Self {
+        let search = &fitted.search;
+        let mirrored = fitted.grain.surface().mirrored();
+        let choice = search.choice();
+        let figures = Figures::new(fitted, options);
+        let reference = fitted.unseen.is_none().then_some(fitted.reference);
+        let beside = |found: Option<f64>, of: fn(&Reference) -> f64| {
+            Some(found? / of(reference.as_ref()?) - 1.0)
+        };
+        Self {
+            input,
+            unit,
+            points: fitted.points,
+            degree: mirrored.map_or(choice.degree, Mirrored::degree),
+            segments: choice.segments,
+            symmetry: mirrored.map(Mirrored::symmetry),
+            asymmetry: fitted.asymmetry,
+            coefficients: fitted.grain.coefficient_count(),
+            area: figures.area,
+            volume: figures.volume,
+            principal: figures.principal,
+            dimensions: figures.dimensions,
+            not_measured: figures.not_measured,
+            standard_errors: figures.standard_errors,
+            no_standard_errors: figures.no_standard_errors,
+            coefficients_touched: fitted.grain.coefficients_touched(),
+            area_error: beside(figures.area, |reference| reference.area),
+            volume_error: beside(figures.volume, |reference| reference.volume),
+            reference: reference.map(Into::into),
+            rms: fitted.residuals.rms,
+            max: fitted.residuals.max,
+            heldout_rms: choice.heldout_rms,
+            mean_radius: fitted.mean_radius,
+            estimate: fitted.estimate.map(Into::into),
+            estimate_rms: choice.estimate_rms,
+            evaluation: EvaluationRecord::new(&fitted.grain),
+            whole: fitted.whole.as_ref().map(EvaluationRecord::new),
+            noise: search.noise,
+            limit: search.limit,
+            tolerance: (options.tolerance != Tolerance::Auto)
+                .then(|| options.tolerance.length(fitted.mean_radius)),
+            rule: rule(fitted, options, unit),
+            seam_jump: fitted.grain.seam_jump(),
+            reduced_segments: choice.reduced_segments,
+            harmonics_loss: None,
+            seconds: Seconds::default(),
+            skipped: Skipped {
+                candidates: search.work.candidates_skipped,
+                segments: search.work.segments_skipped,
+            },
+            warnings: sentences(scan_warnings, &fitted.warnings),
+        }
+    }
+}
+
+impl From<StandardErrors> for StandardErrorsRecord {
+    fn from(errors: StandardErrors) -> Self {
+        Self {
+            area: errors.area,
+            volume: errors.volume,
+            moments: errors.moments.into(),
+            dimensions: Dimensions::new(errors.dimensions),
+            dimensions_excess: Dimensions::new(errors.dimensions_excess),
+            centroid: errors.centroid.into(),
+            inertia: rows(&errors.inertia),
+        }
+    }
+}
+
+impl From<Reference> for ReferenceRecord {
+    fn from(reference: Reference) -> Self {
+        Self {
+            kind: reference.kind.name(),
+            area: reference.area,
+            volume: reference.volume,
+        }
+    }
+}

@@ -1,0 +1,201 @@
+//! The report of a fit for a person.
+
+use super::{FitReport, ReferenceRecord};
+use crate::fit::ReferenceKind;
+use crate::report::escape::escaped;
+use crate::report::number::{percent, short, with_error};
+use crate::report::unit::Labels;
+use crate::scan::plural;
+use crate::sphere::Symmetry;
+use std::fmt;
+
+impl ReferenceRecord {
+    /// What it is, in words.
+    fn description(&self) -> &'static str {
+        if self.kind == ReferenceKind::Faces.name() {
+            "the scan's own faces"
+        } else {
+            "the points, triangulated by direction"
+        }
+    }
+}
+
+impl fmt::Display for FitReport {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let labels = Labels(self.unit);
+        let mm = labels.length();
+        let share = |length: f64| {
+            let share = 100.0 * length / self.mean_radius;
+            match share.abs() {
+                0.0 | 0.001.. => format!("{share:.3}"),
+                _ => format!("{share:.1e}"),
+            }
+        };
+        let of_radius = |length: f64| {
+            format!(
+                "{}{mm} ({} % of the mean radius)",
+                short(length),
+                share(length)
+            )
+        };
+        let (area, volume) = (labels.area(), labels.volume());
+        let heldout = self.heldout_rms.map_or("unknown".into(), of_radius);
+        let points = plural(self.points, "point");
+        writeln!(f, "scan          {}, {points}", escaped(&self.input))?;
+        write!(f, "model         degree {}, ", self.degree)?;
+        match self.symmetry {
+            Some(symmetry) => writeln!(
+                f,
+                "{} on {}",
+                plural(self.coefficients, "coefficient"),
+                mirroring(symmetry)
+            )?,
+            None if self.segments == 1 => {
+                writeln!(f, "the whole sphere, {}", self.evaluation)?;
+            }
+            None => {
+                let segments = plural(self.segments, "segment");
+                writeln!(f, "{segments}, {}", self.evaluation)?;
+            }
+        }
+        if let Some(whole) = &self.whole {
+            writeln!(f, "              as one expansion: {whole}")?;
+        }
+        writeln!(f, "chosen for    {}", self.rule)?;
+        if let Some(tolerance) = self.tolerance {
+            writeln!(
+                f,
+                "tolerance     {}{}, {} % of the mean radius",
+                short(tolerance),
+                self.unit
+                    .map_or(" in the scan's unit".into(), |_| labels.length()),
+                share(tolerance)
+            )?;
+        }
+        if let Some(estimate) = &self.estimate {
+            writeln!(
+                f,
+                "estimate      degree {}, known to {}",
+                estimate.degree,
+                of_radius(estimate.deviation)
+            )?;
+        }
+        if let Some(rms) = self.estimate_rms {
+            writeln!(f, "difference    RMS {} from the estimate", of_radius(rms))?;
+            if let Some(largest) = self.estimate.and_then(|e| e.largest_difference) {
+                writeln!(f, "              largest {}", of_radius(largest))?;
+            }
+        }
+        let errors = self.standard_errors.as_ref();
+        if let Some(found) = self.area {
+            let error = errors.map(|errors| errors.area);
+            writeln!(f, "area          {}{area}", with_error(found, error))?;
+        }
+        if let Some(found) = self.volume {
+            let error = errors.map(|errors| errors.volume);
+            writeln!(f, "volume        {}{volume}", with_error(found, error))?;
+        }
+        if let Some(dimensions) = &self.dimensions {
+            let errors = errors.map(|errors| &errors.dimensions);
+            writeln!(
+                f,
+                "size          {} x {} x {}{mm}",
+                with_error(dimensions.length, errors.map(|errors| errors.length)),
+                with_error(dimensions.width, errors.map(|errors| errors.width)),
+                with_error(dimensions.thickness, errors.map(|errors| errors.thickness)),
+            )?;
+        }
+        for (reason, names) in self.not_told() {
+            writeln!(f, "not told      {}: {reason}", names.join(", "))?;
+        }
+        if let Some(reference) = &self.reference {
+            self.compare(reference, f)?;
+        }
+        writeln!(f, "held-out RMS  {heldout}")?;
+        writeln!(f, "residuals     RMS {}", of_radius(self.rms))?;
+        writeln!(f, "              largest {}", of_radius(self.max))?;
+        if self.seam_jump > 0.0 {
+            writeln!(f, "seam jump     largest {}", of_radius(self.seam_jump))?;
+        }
+        if let Some(asymmetry) = self.asymmetry {
+            writeln!(f, "asymmetry     RMS {}", of_radius(asymmetry))?;
+        }
+        if let Some(noise) = self.noise {
+            writeln!(f, "noise         {}", of_radius(noise))?;
+        }
+        writeln!(f, "mean radius   {}{mm}", short(self.mean_radius))?;
+        if self.reduced_segments > 0 {
+            let (count, s) = match self.reduced_segments {
+                1 => (plural(1, "segment"), "s"),
+                count => (plural(count, "segment"), ""),
+            };
+            writeln!(
+                f,
+                "reduced       {count} need{s} no higher degree, or hold{s} too few points for it"
+            )?;
+        }
+        if let Some(loss) = self.harmonics_loss {
+            writeln!(f, "harmonics     converted with a loss of {loss:.1e}{mm}")?;
+        }
+        if errors.is_some() {
+            writeln!(f, "Figures after ± are standard errors.")?;
+        }
+        if let Some(reason) = &self.no_standard_errors {
+            writeln!(f, "No standard errors: {reason}.")?;
+        }
+        write!(f, "Lengths are in {}.", labels.name())
+    }
+}
+
+impl FitReport {
+    /// The figures that are not told, by reason.
+    fn not_told(&self) -> Vec<(&str, Vec<&str>)> {
+        let mut by_reason: Vec<(&str, Vec<&str>)> = Vec::new();
+        for missing in &self.not_measured {
+            match by_reason
+                .iter_mut()
+                .find(|(reason, _)| *reason == missing.reason)
+            {
+                Some((_, names)) => names.push(missing.measure),
+                None => by_reason.push((&missing.reason, vec![missing.measure])),
+            }
+        }
+        by_reason
+    }
+
+    /// Area and volume beside those of a polyhedron, which are themselves off.
+    fn compare(&self, reference: &ReferenceRecord, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let description = reference.description();
+        let labels = Labels(self.unit);
+        let area = format!("{}{}", short(reference.area), labels.area());
+        let volume = format!("{}{}", short(reference.volume), labels.volume());
+        writeln!(
+            f,
+            "polyhedron    {description}: area {area}, volume {volume}"
+        )?;
+        let (Some(area), Some(volume)) = (self.area_error, self.volume_error) else {
+            return Ok(());
+        };
+        let [area, volume] = [area, volume].map(percent);
+        writeln!(
+            f,
+            "              the surface has {area} area, {volume} volume beside it, whose facets are off themselves"
+        )
+    }
+}
+
+/// What the expansion covers, and along which axes it is mirrored.
+fn mirroring(symmetry: Symmetry) -> String {
+    let part = match symmetry.images() {
+        1 => "the whole sphere",
+        2 => "one half",
+        4 => "one quarter",
+        _ => "one octant",
+    };
+    let names = symmetry.names();
+    let axes = match names.as_slice() {
+        [most @ .., last] if !most.is_empty() => format!("{} and {last}", most.join(", ")),
+        names => names.concat(),
+    };
+    format!("{part}, mirrored along {axes}")
+}
