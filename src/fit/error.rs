@@ -138,6 +138,15 @@ pub enum FitError {
         /// Root mean square of the radial residuals, as a share of the mean radius.
         share: f64,
     },
+    /// The surface goes far beyond the points.
+    #[error(
+        "the surface holds {times:.1} times the volume of the polyhedron of its points: they are not of one grain; look \
+         for several bodies, or what the grain stands on, and cut out one grain"
+    )]
+    FarBeyondPoints {
+        /// Its volume over that of the polyhedron.
+        times: f64,
+    },
     /// A coordinate is not finite.
     #[error("point {index} is not finite; remove it from the scan")]
     NotFinite {
@@ -192,7 +201,10 @@ impl FitError {
     pub fn is_of_fit(&self) -> bool {
         matches!(
             self,
-            Self::NotPositive { .. } | Self::Unproved { .. } | Self::FarFromPoints { .. }
+            Self::NotPositive { .. }
+                | Self::Unproved { .. }
+                | Self::FarFromPoints { .. }
+                | Self::FarBeyondPoints { .. }
         )
     }
 }

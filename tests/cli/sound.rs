@@ -136,7 +136,7 @@ fn halves_of_two_beans_and_points_in_a_plane_are_refused() {
     refused(&folder, "halves.xyz", "cannot fit halves.xyz");
     let flat: Vec<[f64; 3]> = both.iter().map(|&[x, y, _]| [x, y, 0.1 * x]).collect();
     save(&folder, "flat.xyz", &flat);
-    refused(&folder, "flat.xyz", "do not enclose a volume");
+    refused(&folder, "flat.xyz", "enclose no volume");
 }
 
 #[test]

@@ -2,6 +2,7 @@
 
 use crate::fit::gaps::largest_cap;
 use crate::fit::warning::FitWarning;
+use crate::measure::Unit;
 use crate::mesh::Mesh;
 use nalgebra::{Point3, Vector3};
 
@@ -21,6 +22,7 @@ pub(super) struct Gap {
 impl Gap {
     /// That of the vertices of a closed mesh, as seen from the middle of its area.
     pub(super) fn new(mesh: &Mesh) -> Self {
+        let mesh = &Unit::of(mesh).mesh(mesh);
         let centre = middle_of_area(mesh);
         let seen = |vertex: &Point3<f64>| (vertex - centre).try_normalize(0.0).unwrap_or_default();
         let directions: Vec<Vector3<f64>> = mesh.vertices.iter().map(seen).collect();

@@ -1,12 +1,15 @@
 //! Points that stand apart from their neighbours: outliers of the scan.
 
 use crate::mesh::Mesh;
-use nalgebra::Point3;
+use nalgebra::{Point3, Vector3};
 
 /// A point is a stray when its radius differs from the median of its neighbours' by more than this
 /// fraction, whatever the scatter. Real shape between neighbours of a scan of 1500 points differs by
-/// 2 % at the sharpest tip of the test grains.
+/// 2 % at the sharpest tip of the test grains. ...
 pub(crate) const LEAST_STRAY: f64 = 0.1;
+
+/// ... Neighbours farther apart than this, in radians, may differ by as much more.
+const NEAR: f64 = 0.15;
 
 /// ... and by more than this many times the scatter of the cloud (standard deviation estimated by
 /// the median, so that the strays themselves do not hide it).
@@ -28,28 +31,41 @@ pub(crate) struct Strays {
 struct Comparison {
     deviation: f64,
     spread: f64,
+    /// How far they are, at least 1, in units of [`NEAR`].
+    distance: f64,
 }
 
 /// Compares every vertex's distance from `centre` with those of the vertices it shares a triangle
 /// with.
 pub(crate) fn find_strays(mesh: &Mesh, centre: &Point3<f64>) -> Strays {
-    let radii: Vec<f64> = mesh.vertices.iter().map(|p| (p - centre).norm()).collect();
+    let rays: Vec<Vector3<f64>> = mesh.vertices.iter().map(|p| p - centre).collect();
+    let radii: Vec<f64> = rays.iter().map(Vector3::norm).collect();
     let mut neighbours = vec![Vec::new(); radii.len()];
     for &[a, b, c] in &mesh.triangles {
         for (from, to) in [(a, b), (b, c), (c, a)] {
-            neighbours[from as usize].push(radii[to as usize]);
+            neighbours[from as usize].push(to as usize);
         }
     }
     let comparisons: Vec<Comparison> = neighbours
-        .iter_mut()
-        .zip(&radii)
-        .map(|(around, radius)| compare(around, *radius))
+        .iter()
+        .enumerate()
+        .map(|(own, around)| {
+            let mut others: Vec<f64> = around.iter().map(|&i| radii[i]).collect();
+            let mut angles: Vec<f64> = around.iter().map(|&i| rays[own].angle(&rays[i])).collect();
+            Comparison {
+                distance: (median(&mut angles).unwrap_or(0.0) / NEAR).max(1.0),
+                ..compare(&mut others, radii[own])
+            }
+        })
         .collect();
     let mut deviations: Vec<f64> = comparisons.iter().map(|c| c.deviation).collect();
     // 1.4826: standard deviation over median absolute deviation of a normal distribution.
     let scatter = 1.4826 * median(&mut deviations).unwrap_or(0.0);
-    let limit = LEAST_STRAY.max(SCATTERS * scatter);
-    let is_stray = |c: &Comparison| c.deviation > limit.max(SPREADS * c.spread);
+    let limit = |c: &Comparison| {
+        let least = LEAST_STRAY * c.distance;
+        least.max(SCATTERS * scatter).max(SPREADS * c.spread)
+    };
+    let is_stray = |c: &Comparison| c.deviation > limit(c);
     Strays {
         indices: (0..radii.len() as u32)
             .filter(|&i| is_stray(&comparisons[i as usize]))
@@ -64,6 +80,7 @@ fn compare(around: &mut [f64], radius: f64) -> Comparison {
         return Comparison {
             deviation: 0.0,
             spread: 0.0,
+            distance: 1.0,
         };
     }
     for other in around.iter_mut() {
@@ -72,6 +89,7 @@ fn compare(around: &mut [f64], radius: f64) -> Comparison {
     Comparison {
         deviation: (radius - middle).abs() / middle,
         spread: median(around).unwrap_or(0.0),
+        distance: 1.0,
     }
 }
 
