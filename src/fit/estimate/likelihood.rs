@@ -81,7 +81,7 @@ impl Evidence {
     /// The spectrum of least F that one step may reach, and by how much F is lower there: damped Newton steps
     /// (Levenberg, Marquardt).
     pub(crate) fn most_likely(&self, start: &Spectrum) -> (Spectrum, f64) {
-        let bounds: [[f64; 2]; 4] = std::array::from_fn(|i| {
+        let bounds: Bounds = std::array::from_fn(|i| {
             let ([low, high], at, step) = (BOUNDS[i], start.0[i], STEPS[i]);
             [(at - step).max(low), (at + step).min(high)]
         });
@@ -89,25 +89,9 @@ impl Evidence {
         let (mut at, mut cost) = (*start, first);
         let mut damping = 1e-3;
         for _ in 0..MOST_STEPS {
-            let mut gradient = Vector4::from(self.value(&at).1);
-            let mut hessian = self.curvature(&at);
-            for (i, [low, high]) in bounds.into_iter().enumerate() {
-                let is_held =
-                    at.0[i] <= low && gradient[i] > 0.0 || at.0[i] >= high && gradient[i] < 0.0;
-                if is_held {
-                    hessian.fill_row(i, 0.0);
-                    hessian.fill_column(i, 0.0);
-                    hessian[(i, i)] = 1.0;
-                    gradient[i] = 0.0;
-                }
-            }
-            let scale = hessian.diagonal();
+            let newton = Step::new(self, &at, &bounds);
             let lower = (0..12).find_map(|_| {
-                let damped = hessian + Matrix4::from_diagonal(&(scale * damping));
-                let step = damped.cholesky()?.solve(&gradient);
-                let next = Spectrum(std::array::from_fn(|i| {
-                    (at.0[i] - step[i]).clamp(bounds[i][0], bounds[i][1])
-                }));
+                let next = newton.to(&at, damping, &bounds)?;
                 let value = self.value(&next).0;
                 if value < cost {
                     damping *= 0.1;
@@ -122,6 +106,12 @@ impl Evidence {
             if gain < GAIN {
                 break;
             }
+        }
+        // Costs near the least differ by rounding only, on which the place must not hang.
+        for _ in 0..LAST_STEPS {
+            at = Step::new(self, &at, &bounds)
+                .to(&at, 0.0, &bounds)
+                .unwrap_or(at);
         }
         (at, first - cost)
     }
@@ -148,11 +138,51 @@ impl Evidence {
     }
 }
 
+/// Bounds of the logarithms.
+type Bounds = [[f64; 2]; 4];
+
+/// A Newton step that keeps to bounds.
+struct Step {
+    gradient: Vector4<f64>,
+    hessian: Matrix4<f64>,
+}
+
+impl Step {
+    fn new(evidence: &Evidence, at: &Spectrum, bounds: &Bounds) -> Self {
+        let mut gradient = Vector4::from(evidence.value(at).1);
+        let mut hessian = evidence.curvature(at);
+        for (i, &[low, high]) in bounds.iter().enumerate() {
+            let is_held =
+                at.0[i] <= low && gradient[i] > 0.0 || at.0[i] >= high && gradient[i] < 0.0;
+            if is_held {
+                hessian.fill_row(i, 0.0);
+                hessian.fill_column(i, 0.0);
+                hessian[(i, i)] = 1.0;
+                gradient[i] = 0.0;
+            }
+        }
+        Self { gradient, hessian }
+    }
+
+    /// Where it leads to, damped (Levenberg, Marquardt).
+    fn to(&self, at: &Spectrum, damping: f64, bounds: &Bounds) -> Option<Spectrum> {
+        let scale = self.hessian.diagonal() * damping;
+        let damped = self.hessian + Matrix4::from_diagonal(&scale);
+        let step = damped.cholesky()?.solve(&self.gradient);
+        Some(Spectrum(std::array::from_fn(|i| {
+            (at.0[i] - step[i]).clamp(bounds[i][0], bounds[i][1])
+        })))
+    }
+}
+
 /// Steps to the least F at most; ten are usual.
 const MOST_STEPS: usize = 60;
 
 /// Fall of F below which they end.
 const GAIN: f64 = 1e-6;
+
+/// Steps after that.
+const LAST_STEPS: usize = 2;
 
 /// Step of the differences by which second derivatives are found.
 const DIFFERENCE: f64 = 1e-4;
