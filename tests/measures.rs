@@ -34,6 +34,9 @@ fn figures(mesh: &Mesh) -> Result<Vec<(i32, f64)>, SurveyError> {
     all.extend(survey.minimum_box()?.extents.iter().map(|d| (1, *d)));
     let form = survey.form()?;
     all.extend([form.aspect_ratio, form.elongation, form.flatness].map(|x| (0, x)));
+    let ratios = survey.side_ratios()?;
+    all.extend([ratios.short_to_long, ratios.intermediate_to_long].map(|x| (0, x)));
+    all.push((0, ratios.short_to_intermediate));
     all.push((1, survey.inscribed()?.radius));
     all.push((1, survey.enclosing()?.radius));
     let sphericity = survey.sphericity()?;

@@ -46,7 +46,7 @@ pub use deviation::Deviation;
 pub use ellipsoid::EquivalentEllipsoid;
 pub use enclosing_ball::{Ball, EnclosingBallError, enclosing_ball};
 pub use extents::extents;
-pub use form::Form;
+pub use form::{Form, SideRatios};
 pub use four_triangles::four_triangles;
 pub use grain::grain_properties;
 pub(crate) use grain::mirrored_properties;

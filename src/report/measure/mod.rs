@@ -15,7 +15,9 @@ pub use records::{
 
 use super::unit::Unit;
 use crate::fit::ReferenceKind;
-use crate::measure::{Convexity, Form, ScannedBody, Spectrum, Sphericity, Survey, SurveyError};
+use crate::measure::{
+    Convexity, Form, ScannedBody, SideRatios, Spectrum, Sphericity, Survey, SurveyError,
+};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -91,6 +93,9 @@ pub struct Measures {
     /// The box of least volume.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub minimum_box: Option<BoxRecord>,
+    /// Ratios of the sides of the box of least volume.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ratios: Option<SideRatios>,
     /// Ratios of the extents along the principal axes.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub form: Option<Form>,
@@ -203,6 +208,7 @@ impl Measures {
             Measure::Principal => self.principal = Some(Principal::new(&survey.principal()?)),
             Measure::Dimensions => self.dimensions = Some(Dimensions::new(survey.dimensions()?)),
             Measure::MinimumBox => self.minimum_box = Some(survey.minimum_box()?.into()),
+            Measure::Ratios => self.ratios = Some(survey.side_ratios()?),
             Measure::Form => self.form = Some(survey.form()?),
             Measure::Spheres => {
                 self.spheres = Some(Spheres {
