@@ -105,20 +105,14 @@ fn triangles_have_no_curvature_and_a_fitted_grain_has_that_of_its_body() {
     assert_eq!(survey.roundness(), Err(SurveyError::Flat));
 
     let semi_axes = Vector3::new(3.0, 2.5, 2.0);
-    let scan = synthesize(&SynthOptions {
-        axes: Some(semi_axes),
-        points: 6146,
-        ..SynthOptions::clean(Body::Ellipsoid)
-    })
+    let scan = synthesize(
+        &SynthOptions::clean(Body::Ellipsoid)
+            .with_axes(semi_axes)
+            .with_points(6146),
+    )
     .unwrap();
-    let scan = Scan {
-        points: scan.points,
-        ..Scan::default()
-    };
-    let options = FitOptions {
-        tolerance: Tolerance::OfMeanRadius(5e-5),
-        ..FitOptions::default()
-    };
+    let scan = Scan::from_points(scan.points);
+    let options = FitOptions::default().with_tolerance(Tolerance::OfMeanRadius(5e-5));
     let grain = fit(&scan, &options).unwrap().grain;
     let survey = Survey::of_grain(&grain, Scheme::Exact);
     let curvature = survey.curvature().unwrap();

@@ -31,16 +31,9 @@ pub(crate) fn print() -> Result<(), Box<dyn std::error::Error>> {
             let solid = body.surface();
             let known = solid.integrals().properties;
             let truth = figures(&Survey::of_surface(solid.as_ref(), known))?;
-            let points = synthesize(&SynthOptions {
-                noise,
-                seed: 1,
-                ..SynthOptions::clean(body)
-            })?
-            .points;
-            let scan = Scan {
-                points,
-                ..Scan::default()
-            };
+            let points =
+                synthesize(&SynthOptions::clean(body).with_noise(noise).with_seed(1))?.points;
+            let scan = Scan::from_points(points);
             let grain = fit(&scan, &FitOptions::default())?.grain;
             columns.push((truth, figures(&Survey::of_grain(&grain, Scheme::Exact))?));
         }

@@ -45,6 +45,7 @@ impl From<ReferenceKind> for Measured {
 /// Measures of a solid of density one: those that were asked for. Their definitions, formulas, ranges
 /// and sources are at what each is made from in [`crate::measure`].
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct MeasureReport {
     /// The scan or model.
     pub input: String,
@@ -71,6 +72,7 @@ pub struct MeasureReport {
 /// The measures of a solid; absent are those that were not asked for, and `null` in the report those that
 /// cannot be had.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Measures {
     /// Area.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -133,6 +135,7 @@ pub struct Measures {
 
 /// A measure that cannot be had.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct NotMeasured {
     /// Which.
     pub measure: &'static str,

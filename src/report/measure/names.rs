@@ -51,6 +51,7 @@ pub enum Measure {
 /// A name that no [`Measure`] has.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("there is no measure named {name:?}; known are {}", Measure::ALL.map(Measure::name).join(", "))]
+#[non_exhaustive]
 pub struct UnknownMeasure {
     /// The name asked for.
     pub name: String,
