@@ -55,7 +55,7 @@ pub use inscribed_ball::{InscribedBallError, inscribed_ball};
 pub use integrals::{Integrals, MAX_EVALUATIONS, integrate};
 pub use mass::{MassProperties, Moments, PrincipalInertia};
 pub use mesh::{MeshIntegralError, mesh_properties};
-pub use minimum_box::{OrientedBox, box_along, minimum_box};
+pub use minimum_box::{OrientedBox, minimum_box};
 pub use outline::Outline;
 pub use projection::{OUTLINE_AZIMUTHS, ProjectionError, project};
 pub use roundness::ROUNDNESS_ORDER;

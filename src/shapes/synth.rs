@@ -16,6 +16,15 @@ const OUTLIER_STEP: f64 = 0.2;
 
 /// What to scan and how badly.
 #[derive(Debug, Clone, PartialEq)]
+///
+/// ```
+/// use grainform::shapes::{Body, SynthOptions, synthesize};
+///
+/// let options = SynthOptions::clean(Body::Bean).with_points(500).with_noise(0.005);
+/// let scan = synthesize(&options)?;
+/// assert!(scan.points.len() >= 500);
+/// # Ok::<(), grainform::shapes::SynthError>(())
+/// ```
 #[non_exhaustive]
 pub struct SynthOptions {
     /// The body.

@@ -39,6 +39,17 @@ const LARGEST_OVERHANG: f64 = 0.01;
 /// and outlines are those of a mesh of it, good to 1e-4 where it is smooth. Of a mesh, everything is that of
 /// the polyhedron.
 ///
+/// ```
+/// use grainform::Mesh;
+/// use grainform::measure::Survey;
+///
+/// let ball = Mesh::radial(8, |_| 2.0);
+/// let survey = Survey::of_mesh(&ball)?;
+/// assert!((survey.enclosing()?.radius - 2.0).abs() < 1e-9);
+/// assert!(survey.sphericity()?.wadell > 0.99);
+/// # Ok::<(), grainform::measure::SurveyError>(())
+/// ```
+///
 /// Everything is computed at unit size, so any unit of length will do. A ratio that is outside of its range
 /// is an error, never a figure.
 ///
