@@ -15,16 +15,15 @@ pub const MAX_NOISE: f64 = 0.1;
 const OUTLIER_STEP: f64 = 0.2;
 
 /// What to scan and how badly.
-#[derive(Debug, Clone, PartialEq)]
 ///
 /// ```
 /// use grainform::shapes::{Body, SynthOptions, synthesize};
 ///
-/// let options = SynthOptions::clean(Body::Bean).with_points(500).with_noise(0.005);
-/// let scan = synthesize(&options)?;
-/// assert!(scan.points.len() >= 500);
+/// let options = SynthOptions::clean(Body::Bean).with_points(386).with_noise(0.005);
+/// assert_eq!(synthesize(&options)?.points.len(), 386);
 /// # Ok::<(), grainform::shapes::SynthError>(())
 /// ```
+#[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct SynthOptions {
     /// The body.
