@@ -56,26 +56,15 @@ fn product_rate() -> f64 {
 }
 
 fn stages(points: usize, runs: usize, rate: f64) {
-    let options = SynthOptions {
-        points,
-        ..SynthOptions::clean(Body::Maize)
-    };
-    let scan = Scan {
-        points: synthesize(&options).expect("valid options").points,
-        ..Scan::default()
-    };
-    let samples = scan.points.len() as f64;
+    let options = SynthOptions::clean(Body::Maize).with_points(points);
+    let scan = Scan::from_points(synthesize(&options).expect("valid options").points);
+    let samples = scan.points().len() as f64;
     let prepare = || PreparedScan::new(&scan, Symmetry::NONE).expect("a grain");
     let cells = FitOptions::default();
-    let estimate = FitOptions {
-        segments: Some(1),
-        ..FitOptions::default()
-    };
-    let independent = FitOptions {
-        seams: Seams::None,
-        exhaustive: true,
-        ..FitOptions::default()
-    };
+    let estimate = FitOptions::default().with_segments(1);
+    let independent = FitOptions::default()
+        .with_seams(Seams::None)
+        .with_exhaustive(true);
 
     let preparing = median(runs, prepare);
     let prepared = prepare();

@@ -20,10 +20,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     rayon::ThreadPoolBuilder::new()
         .num_threads(1)
         .build_global()?;
-    let scan = Scan {
-        points: synthesize(&SynthOptions::clean(Body::Maize))?.points,
-        ..Scan::default()
-    };
+    let scan = Scan::from_points(synthesize(&SynthOptions::clean(Body::Maize))?.points);
     let grain = fit(&scan, &FitOptions::default())?.grain;
     let surface = scanned_surface(&scan)?;
     let time = |of_model: bool, only: &[Measure]| {

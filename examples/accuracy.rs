@@ -17,11 +17,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     for body in [Body::Bean, Body::Chickpea, Body::Maize] {
         for sampling in Sampling::ALL {
             for noise in [0.0, 0.005] {
-                let options = SynthOptions {
-                    sampling,
-                    noise,
-                    ..SynthOptions::clean(body)
-                };
+                let options = SynthOptions::clean(body)
+                    .with_sampling(sampling)
+                    .with_noise(noise);
                 println!("{}", row(&options)?);
             }
         }
@@ -32,10 +30,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 /// One scan, fitted with the default options, against the closed form.
 fn row(options: &SynthOptions) -> Result<String, Box<dyn std::error::Error>> {
     let synthetic = synthesize(options)?;
-    let scan = Scan {
-        points: synthetic.points,
-        ..Scan::default()
-    };
+    let scan = Scan::from_points(synthetic.points);
     let fitted = fit(&scan, &FitOptions::default())?;
     let (found, truth) = (
         grain_properties(&fitted.grain).properties,
@@ -44,7 +39,7 @@ fn row(options: &SynthOptions) -> Result<String, Box<dyn std::error::Error>> {
     Ok(format!(
         "| {} | {} | {} | {} % | {} | {} | {:+.3} % | {:+.3} % | {:.3} % |",
         options.body,
-        scan.points.len(),
+        scan.points().len(),
         options.sampling,
         100.0 * options.noise,
         fitted.grain.segments(),

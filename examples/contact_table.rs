@@ -69,19 +69,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         semi_axes: Vector3::new(2.0, 2.0, 1.0),
     };
     row("closed form", &ellipsoid)?;
-    let scan = synthesize(&SynthOptions {
-        points: 6146,
-        ..SynthOptions::clean(Body::Ellipsoid)
-    })?;
-    let scan = Scan {
-        points: scan.points,
-        ..Scan::default()
-    };
+    let scan = synthesize(&SynthOptions::clean(Body::Ellipsoid).with_points(6146))?;
+    let scan = Scan::from_points(scan.points);
     for tolerance in [1e-3, 1e-4] {
-        let options = FitOptions {
-            tolerance: Tolerance::OfMeanRadius(tolerance),
-            ..FitOptions::default()
-        };
+        let options = FitOptions::default().with_tolerance(Tolerance::OfMeanRadius(tolerance));
         let name = format!("blended cells, to {} %", 100.0 * tolerance);
         row(&name, &fit(&scan, &options)?.grain)?;
     }

@@ -66,16 +66,13 @@ fn row(
     let mut covered = [0; FIGURES.len()];
     let mut bias = [0.0; FIGURES.len()];
     for seed in 0..scans {
-        let synthetic = synthesize(&SynthOptions {
-            noise,
-            seed,
-            points,
-            ..SynthOptions::clean(body)
-        })?;
-        let scan = Scan {
-            points: synthetic.points,
-            ..Scan::default()
-        };
+        let synthetic = synthesize(
+            &SynthOptions::clean(body)
+                .with_noise(noise)
+                .with_seed(seed)
+                .with_points(points),
+        )?;
+        let scan = Scan::from_points(synthetic.points);
         let options = FitOptions::default();
         let told = FitReport::new(
             body.to_string(),

@@ -45,10 +45,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         study.mirrored(Symmetry::OCTANT, degree)?;
     }
     println!("\nAdaptive, blended:\n\n{HEAD}");
-    let scan = Scan {
-        points: study.points.clone(),
-        ..Scan::default()
-    };
+    let scan = Scan::from_points(study.points.clone());
     let fitted = fit(&scan, &FitOptions::default())?;
     let found = grain_properties(&fitted.grain);
     let grain = &fitted.grain;

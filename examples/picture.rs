@@ -26,7 +26,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut svg = head()?;
     let left = View::new(centre, [205.0, 145.0]);
     let mut dots = vec![String::new(); SHADES];
-    for point in &scan.points {
+    for point in scan.points() {
         if let Some(shade) = left.shade(&normal(point)) {
             write!(dots[shade], "M{}h0", left.place(point))?;
         }

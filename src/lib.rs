@@ -33,9 +33,13 @@ pub mod shapes;
 pub mod sphere;
 mod vectorize;
 
+pub use export::save_grain;
 pub use fit::{FitError, FitOptions, Fitted, Seams, Tolerance, fit};
 pub use mesh::Mesh;
-pub use model::{Grain, StarSurface};
+pub use model::{Grain, StarSurface, load_grain};
+/// The vectors and matrices of this library's functions.
+pub use nalgebra;
+pub use scan::Scan;
 
 /// Compiles the examples of the README.
 #[cfg(doctest)]

@@ -10,26 +10,21 @@ use grainform::{FitOptions, Fitted, Seams, StarSurface, Tolerance, fit};
 const GRAINS: [Body; 3] = [Body::Bean, Body::Chickpea, Body::Maize];
 
 fn made(body: Body, sampling: Sampling, noise: f64) -> (Scan, SyntheticScan) {
-    let synthetic = synthesize(&SynthOptions {
-        sampling,
-        noise,
-        ..SynthOptions::clean(body)
-    })
+    let synthetic = synthesize(
+        &SynthOptions::clean(body)
+            .with_sampling(sampling)
+            .with_noise(noise),
+    )
     .expect("valid options");
-    let scan = Scan {
-        points: synthetic.points.clone(),
-        ..Scan::default()
-    };
+    let scan = Scan::from_points(synthetic.points.clone());
     (scan, synthetic)
 }
 
 /// Independent segments, searched to the tolerance that suits them.
 fn independent() -> FitOptions {
-    FitOptions {
-        seams: Seams::None,
-        tolerance: Tolerance::OfMeanRadius(0.003),
-        ..FitOptions::default()
-    }
+    FitOptions::default()
+        .with_seams(Seams::None)
+        .with_tolerance(Tolerance::OfMeanRadius(0.003))
 }
 
 /// Points that a warning says were left out.
@@ -150,17 +145,12 @@ fn no_candidate_that_passes_misses_the_true_radius_by_more_than_a_tenth_anywhere
     for body in GRAINS {
         for sampling in Sampling::ALL {
             let (scan, _) = made(body, sampling, 0.0);
-            let exhaustive = FitOptions {
-                exhaustive: true,
-                ..independent()
-            };
+            let exhaustive = independent().with_exhaustive(true);
             let search = fit(&scan, &exhaustive).expect("a grain").search;
             for candidate in search.candidates.iter().filter(|c| c.rejected.is_none()) {
-                let options = FitOptions {
-                    degree: Some(candidate.degree),
-                    segments: Some(candidate.segments),
-                    ..independent()
-                };
+                let options = independent()
+                    .with_degree(candidate.degree)
+                    .with_segments(candidate.segments);
                 assert_near_everywhere(body, sampling, &scan, &options, 0.1);
             }
         }
@@ -183,11 +173,9 @@ fn blended_covers_miss_the_true_radius_by_what_they_tell() {
     for body in GRAINS {
         let (scan, synthetic) = made(body, Sampling::Random, 0.0);
         for (segments, degree) in [(1, 0), (6, 3), (24, 1), (54, 2)] {
-            let options = FitOptions {
-                degree: Some(degree),
-                segments: Some(segments),
-                ..FitOptions::default()
-            };
+            let options = FitOptions::default()
+                .with_degree(degree)
+                .with_segments(segments);
             let fitted = fit(&scan, &options).expect("a grain");
             let told = fitted.search.choice().heldout_rms.expect("an estimate");
             let missed = distance(&fitted, body);
@@ -206,10 +194,7 @@ fn skipping_candidates_does_not_change_the_choice() {
             let (scan, _) = made(body, Sampling::Cube, noise);
             for options in [FitOptions::default(), independent()] {
                 let quick = fit(&scan, &options).expect("a grain");
-                let exhaustive = FitOptions {
-                    exhaustive: true,
-                    ..options
-                };
+                let exhaustive = options.with_exhaustive(true);
                 let all = fit(&scan, &exhaustive).expect("a grain");
                 assert_eq!(quick.search.chosen, all.search.chosen, "{body} {noise}");
                 assert_eq!(quick.grain.coefficients(), all.grain.coefficients());
@@ -238,15 +223,9 @@ fn a_sphere_needs_one_coefficient_and_is_exact() {
 #[test]
 fn a_missing_cap_is_told_of_and_bridged() {
     for body in GRAINS {
-        let synthetic = synthesize(&SynthOptions {
-            missing_cap: 25.0,
-            ..SynthOptions::clean(body)
-        })
-        .expect("valid options");
-        let scan = Scan {
-            points: synthetic.points,
-            ..Scan::default()
-        };
+        let synthetic =
+            synthesize(&SynthOptions::clean(body).with_missing_cap(25.0)).expect("valid options");
+        let scan = Scan::from_points(synthetic.points);
         let fitted = fit(&scan, &FitOptions::default()).expect("a grain");
         assert!(
             matches!(fitted.warnings[..], [FitWarning::Gap { .. }]),
@@ -262,11 +241,11 @@ fn a_missing_cap_is_told_of_and_bridged() {
 #[test]
 fn gross_outliers_are_left_out_and_counted() {
     let (_, clean) = made(Body::Maize, Sampling::Fibonacci, 0.0);
-    let synthetic = synthesize(&SynthOptions {
-        sampling: Sampling::Fibonacci,
-        outliers: 0.01,
-        ..SynthOptions::clean(Body::Maize)
-    })
+    let synthetic = synthesize(
+        &SynthOptions::clean(Body::Maize)
+            .with_sampling(Sampling::Fibonacci)
+            .with_outliers(0.01),
+    )
     .expect("valid options");
     let moved = synthetic
         .points
@@ -274,10 +253,7 @@ fn gross_outliers_are_left_out_and_counted() {
         .zip(&clean.points)
         .filter(|(a, b)| a != b)
         .count();
-    let scan = Scan {
-        points: synthetic.points,
-        ..Scan::default()
-    };
+    let scan = Scan::from_points(synthetic.points);
     let fitted = fit(&scan, &FitOptions::default()).expect("a grain");
     let left_out: usize = fitted.warnings.iter().map(left_out).sum();
     assert_eq!(left_out, moved, "{:?}", fitted.warnings);

@@ -11,16 +11,11 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 fn maize() -> Scan {
-    let options = SynthOptions {
-        points: 3000,
-        sampling: Sampling::Fibonacci,
-        noise: 0.002,
-        ..SynthOptions::clean(Body::Maize)
-    };
-    Scan {
-        points: synthesize(&options).expect("valid options").points,
-        ..Scan::default()
-    }
+    let options = SynthOptions::clean(Body::Maize)
+        .with_points(3000)
+        .with_sampling(Sampling::Fibonacci)
+        .with_noise(0.002);
+    Scan::from_points(synthesize(&options).expect("valid options").points)
 }
 
 /// Of every family, and the mirror planes to prepare for.
@@ -28,18 +23,9 @@ fn families() -> [FitOptions; 4] {
     let default = FitOptions::default();
     [
         default.clone(),
-        FitOptions {
-            segments: Some(1),
-            ..default.clone()
-        },
-        FitOptions {
-            seams: Seams::None,
-            ..default.clone()
-        },
-        FitOptions {
-            symmetry: "y".parse().expect("an axis"),
-            ..default
-        },
+        default.clone().with_segments(1),
+        default.clone().with_seams(Seams::None),
+        default.with_symmetry("y".parse().expect("an axis")),
     ]
 }
 
@@ -144,13 +130,11 @@ fn a_scan_prepared_for_other_mirrors_is_refused() {
 fn degrees_out_of_range_are_refused_and_bounds_are_kept() {
     let scan = maize();
     let bound = |segments: Option<usize>, degree: Option<usize>, max_degree: Option<usize>| {
-        let options = FitOptions {
-            segments,
-            degree,
-            max_degree,
-            tolerance: Tolerance::OfMeanRadius(1e-3),
-            ..FitOptions::default()
-        };
+        let options = FitOptions::default()
+            .with_segments(segments)
+            .with_degree(degree)
+            .with_max_degree(max_degree)
+            .with_tolerance(Tolerance::OfMeanRadius(1e-3));
         fit(&scan, &options)
     };
     for (segments, degree, largest) in [(None, 21, 20), (Some(24), 21, 20), (Some(1), 81, 80)] {
@@ -180,11 +164,14 @@ fn degrees_out_of_range_are_refused_and_bounds_are_kept() {
 #[test]
 fn warnings_are_data_and_sentences() {
     let scan = maize();
-    let most = scan.points.len();
-    let half = Scan {
-        points: scan.points.iter().filter(|p| p.z > -0.5).copied().collect(),
-        ..Scan::default()
-    };
+    let most = scan.points().len();
+    let half = Scan::from_points(
+        scan.points()
+            .iter()
+            .filter(|p| p.z > -0.5)
+            .copied()
+            .collect(),
+    );
     let found = fit(&half, &FitOptions::default()).expect("half a grain");
     let gap = |warning: &FitWarning| match *warning {
         FitWarning::Gap {
@@ -202,19 +189,18 @@ fn warnings_are_data_and_sentences() {
     assert!(sentence.starts_with("No point lies within "), "{sentence}");
 
     // One that stands alone, and one too few.
-    let mut spiked = scan.clone();
-    spiked.points[most / 3].coords *= 1.08;
+    let mut spiked = scan.points().to_vec();
+    spiked[most / 3].coords *= 1.08;
+    let spiked = Scan::from_points(spiked);
     let found = fit(&spiked, &FitOptions::default()).expect("a grain");
     assert_eq!(found.warnings, [FitWarning::Outliers { outliers: 1 }]);
     assert_eq!(found.points, most - 1);
     let sentence = found.warnings[0].to_string();
     assert!(sentence.starts_with("1 point stands alone"), "{sentence}");
 
-    let options = FitOptions {
-        max_segments: Some(6),
-        max_degree: Some(1),
-        ..FitOptions::default()
-    };
+    let options = FitOptions::default()
+        .with_max_segments(6)
+        .with_max_degree(1);
     let found = fit(&scan, &options).expect("a grain");
     let [FitWarning::LimitNotMet { rms, limit }] = found.warnings[..] else {
         panic!("{:?}", found.warnings);
@@ -230,7 +216,7 @@ fn a_default_fit_reloads_to_the_same_bits() {
     let [cells, whole, ..] = families();
     for options in [cells, whole] {
         let grain = fit(&scan, &options).expect("a grain").grain;
-        let again = model::parse_grain(&model::save_grain(&grain)).expect("a model");
+        let again = model::grain_from_json(&model::grain_to_json(&grain)).expect("a model");
         assert_eq!(again.coefficients(), grain.coefficients());
         for n in [
             Vector3::x(),

@@ -84,7 +84,7 @@ fn made_files_are_read_or_refused_as_their_manifest_says() {
 }
 
 fn compare(file: &str, scan: &Scan, control: &Scan) {
-    let places = |scan: &Scan| scan.points.iter().map(|p| p.coords).collect::<Vec<_>>();
+    let places = |scan: &Scan| scan.points().iter().map(|p| p.coords).collect::<Vec<_>>();
     let (mut found, mut expected) = (places(scan), places(control));
     assert_eq!(expected.len(), 162);
     // The digits of the text control, and the first byte that one file replaces.
@@ -115,9 +115,9 @@ fn compare(file: &str, scan: &Scan, control: &Scan) {
             "{file}: {found} is not {expected}"
         );
     }
-    if !scan.triangles.is_empty() {
-        assert_eq!(scan.triangles.len(), control.triangles.len(), "{file}");
-        assert!(scan.topology.as_ref().unwrap().volume > 0.0, "{file}");
+    if !scan.triangles().is_empty() {
+        assert_eq!(scan.triangles().len(), control.triangles().len(), "{file}");
+        assert!(scan.topology().unwrap().volume > 0.0, "{file}");
     }
 }
 
@@ -200,9 +200,9 @@ fn found_files_are_read_or_refused_as_their_table_says() {
         if let Some(scan) = held_to(class, &folder.join(file)) {
             let is_stl = file.ends_with(".stl") || file.ends_with("formatDetection");
             let found = if is_stl {
-                scan.triangles.len()
+                scan.triangles().len()
             } else {
-                scan.points.len()
+                scan.points().len()
             };
             assert_eq!(found, count, "{file}");
         }
@@ -227,7 +227,7 @@ fn held_to(class: Class, path: &Path) -> Option<Scan> {
     match (outcome, class) {
         (Ok(scan), Well | Either) => Some(scan),
         (Ok(scan), Warn) => {
-            assert!(!scan.warnings.is_empty(), "{name} leaves no warning");
+            assert!(!scan.warnings().is_empty(), "{name} leaves no warning");
             Some(scan)
         }
         (Err(error), Refuse | Either) => {

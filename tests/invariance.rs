@@ -11,12 +11,10 @@ use std::sync::OnceLock;
 fn points() -> &'static [Point3<f64>] {
     static POINTS: OnceLock<Vec<Point3<f64>>> = OnceLock::new();
     POINTS.get_or_init(|| {
-        let options = SynthOptions {
-            points: 3000,
-            sampling: Sampling::Random,
-            noise: 0.002,
-            ..SynthOptions::clean(Body::Maize)
-        };
+        let options = SynthOptions::clean(Body::Maize)
+            .with_points(3000)
+            .with_sampling(Sampling::Random)
+            .with_noise(0.002);
         synthesize(&options).expect("valid options").points
     })
 }
@@ -27,16 +25,11 @@ const BOTH: [Seams; 2] = [Seams::Blended, Seams::None];
 fn fitted(seams: Seams, points: Vec<Point3<f64>>) -> Fitted {
     let options = match seams {
         Seams::Blended => FitOptions::default(),
-        Seams::None => FitOptions {
-            seams,
-            tolerance: Tolerance::OfMeanRadius(0.003),
-            ..FitOptions::default()
-        },
+        Seams::None => FitOptions::default()
+            .with_seams(seams)
+            .with_tolerance(Tolerance::OfMeanRadius(0.003)),
     };
-    let scan = Scan {
-        points,
-        ..Scan::default()
-    };
+    let scan = Scan::from_points(points);
     fit(&scan, &options).expect("a grain")
 }
 
@@ -181,11 +174,9 @@ fn a_symmetric_body_is_fitted_alike_wherever_it_lies() {
 
 #[test]
 fn a_dense_cloud_is_fitted_alike_in_any_order() {
-    let options = SynthOptions {
-        points: 60_000,
-        noise: 0.002,
-        ..SynthOptions::clean(Body::Bean)
-    };
+    let options = SynthOptions::clean(Body::Bean)
+        .with_points(60_000)
+        .with_noise(0.002);
     let made = synthesize(&options).expect("valid options").points;
     for seams in BOTH {
         let forward = fitted(seams, made.clone());
@@ -196,13 +187,9 @@ fn a_dense_cloud_is_fitted_alike_in_any_order() {
 
 #[test]
 fn sizes_whose_volumes_cannot_be_written_are_refused() {
-    // The volume of the smaller one is below the least number.
-    for (scale, words) in [(1e-104, "enclose no volume"), (1e103, "scale the scan")] {
-        let scan = Scan {
-            points: points().iter().map(|p| p * scale).collect(),
-            ..Scan::default()
-        };
+    for scale in [1e-104, 1e103] {
+        let scan = Scan::from_points(points().iter().map(|p| p * scale).collect());
         let error = fit(&scan, &FitOptions::default()).expect_err("out of scale");
-        assert!(error.to_string().contains(words), "{error}");
+        assert!(error.to_string().contains("scale the scan"), "{error}");
     }
 }

@@ -136,7 +136,7 @@ fn every_scalar_type_serves_as_a_coordinate() {
         let body: Vec<u8> = rows.collect();
         let scan = binary_ply(&format!("element vertex 4\n{axes}"), &body).unwrap();
         assert_eq!(
-            scan.points[1..3],
+            scan.points()[1..3],
             [[7.0, 0.0, 0.0], [0.0, 8.0, 0.0]].map(Point3::from)
         );
     }
@@ -166,7 +166,7 @@ fn not_a_number_is_refused_in_every_format() {
 fn remarks_in_another_encoding_are_passed_over() {
     let header = b"ply\nformat ascii 1.0\ncomment \xe9t\xe9\nobj_info\nelement vertex 4\n";
     let bytes = [header, AXES.as_bytes(), b"end_header\n", BODY.as_bytes()].concat();
-    assert_eq!(parse_scan(&bytes, None).unwrap().points.len(), 4);
+    assert_eq!(parse_scan(&bytes, None).unwrap().points().len(), 4);
 }
 
 #[test]
@@ -179,7 +179,7 @@ fn text_stl_is_read_in_every_legal_dress() {
         "solid facet normal",
     ] {
         assert_eq!(
-            text_stl(start, "endsolid").unwrap().triangles.len(),
+            text_stl(start, "endsolid").unwrap().triangles().len(),
             2,
             "{start}"
         );
@@ -189,8 +189,8 @@ fn text_stl_is_read_in_every_legal_dress() {
         "solid a",
         &format!("endsolid a\nsolid b\n{second}endsolid b\n"),
     );
-    assert_eq!(two.unwrap().triangles.len(), 3);
-    assert!(text_stl("solid", "").unwrap().warnings[0].contains("endsolid"));
+    assert_eq!(two.unwrap().triangles().len(), 3);
+    assert!(text_stl("solid", "").unwrap().warnings()[0].contains("endsolid"));
     assert!(text_stl("solid", "facet normal 0 0 0\n").is_err());
 }
 
@@ -199,28 +199,28 @@ fn a_binary_stl_may_start_with_solid_and_end_with_spare_bytes() {
     for title in [&b"solid part1\n"[..], b"solid", b"solid\xff facet normal"] {
         let mut bytes = binary_stl(title);
         let scan = parse_scan(&bytes, None).unwrap();
-        assert_eq!((scan.points.len(), scan.warnings.len()), (4, 0));
+        assert_eq!((scan.points().len(), scan.warnings().len()), (4, 0));
         bytes.push(0);
         let scan = parse_scan(&bytes, Some("stl")).unwrap();
-        assert_eq!((scan.points.len(), scan.warnings.len()), (4, 1));
+        assert_eq!((scan.points().len(), scan.warnings().len()), (4, 1));
     }
 }
 
 #[test]
 fn a_whole_solid_is_closed_and_wound_outwards() {
     let scan = parse_scan(&binary_stl(b""), None).unwrap();
-    let topology = scan.topology.unwrap();
+    let topology = scan.topology().unwrap();
     assert!(topology.closed && topology.volume > 0.16);
-    assert_eq!(scan.warnings, [""; 0]);
+    assert_eq!(scan.warnings(), [""; 0]);
 }
 
 #[test]
 fn flat_points_are_read_with_a_warning() {
     let scan = parse_scan(b"0 0 0\n1 0 0\n0 1 0\n1 1 0", None).unwrap();
     assert!(
-        scan.warnings[0].contains("one plane"),
+        scan.warnings()[0].contains("one plane"),
         "{:?}",
-        scan.warnings
+        scan.warnings()
     );
 }
 
@@ -229,8 +229,8 @@ fn a_faraway_scan_keeps_its_digits() {
     let text = "5000000.001 0 0\n5000000.002 1 0\n5000000.003 0 1\n5000000.004 1 1.5\n";
     let ply = text_ply(&format!("element vertex 4\n{AXES}"), text).unwrap();
     let xyz = parse_scan(text.as_bytes(), Some("xyz")).unwrap();
-    assert_eq!(ply.points, xyz.points);
-    assert_eq!(xyz.points[0].x, 5_000_000.001);
+    assert_eq!(ply.points(), xyz.points());
+    assert_eq!(xyz.points()[0].x, 5_000_000.001);
 }
 
 #[test]

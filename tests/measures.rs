@@ -34,6 +34,9 @@ fn figures(mesh: &Mesh) -> Result<Vec<(i32, f64)>, SurveyError> {
     all.extend(survey.minimum_box()?.extents.iter().map(|d| (1, *d)));
     let form = survey.form()?;
     all.extend([form.aspect_ratio, form.elongation, form.flatness].map(|x| (0, x)));
+    let ratios = survey.side_ratios()?;
+    all.extend([ratios.short_to_long, ratios.intermediate_to_long].map(|x| (0, x)));
+    all.push((0, ratios.short_to_intermediate));
     all.push((1, survey.inscribed()?.radius));
     all.push((1, survey.enclosing()?.radius));
     let sphericity = survey.sphericity()?;
@@ -102,20 +105,14 @@ fn triangles_have_no_curvature_and_a_fitted_grain_has_that_of_its_body() {
     assert_eq!(survey.roundness(), Err(SurveyError::Flat));
 
     let semi_axes = Vector3::new(3.0, 2.5, 2.0);
-    let scan = synthesize(&SynthOptions {
-        axes: Some(semi_axes),
-        points: 6146,
-        ..SynthOptions::clean(Body::Ellipsoid)
-    })
+    let scan = synthesize(
+        &SynthOptions::clean(Body::Ellipsoid)
+            .with_axes(semi_axes)
+            .with_points(6146),
+    )
     .unwrap();
-    let scan = Scan {
-        points: scan.points,
-        ..Scan::default()
-    };
-    let options = FitOptions {
-        tolerance: Tolerance::OfMeanRadius(5e-5),
-        ..FitOptions::default()
-    };
+    let scan = Scan::from_points(scan.points);
+    let options = FitOptions::default().with_tolerance(Tolerance::OfMeanRadius(5e-5));
     let grain = fit(&scan, &options).unwrap().grain;
     let survey = Survey::of_grain(&grain, Scheme::Exact);
     let curvature = survey.curvature().unwrap();

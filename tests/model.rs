@@ -1,7 +1,7 @@
 //! The grain of independent segments: evaluation, mesh, file, published coefficients.
 
 use grainform::measure::{Moments, grain_properties, integrate, mesh_properties};
-use grainform::model::{Grain, Region, Segmented, StarSurface, parse_grain, save_grain};
+use grainform::model::{Grain, Region, Segmented, StarSurface, grain_from_json, grain_to_json};
 use grainform::scan::Scan;
 use grainform::shapes::{Body, SynthOptions, synthesize};
 use grainform::sphere::{GaussLegendre, cube_grid, harmonics};
@@ -9,21 +9,14 @@ use grainform::{FitOptions, Seams, fit};
 use nalgebra::Vector3;
 
 fn grain(degree: usize, parts: usize) -> Grain {
-    let made = synthesize(&SynthOptions {
-        offset: Vector3::new(40.0, -3.0, 7.0),
-        ..SynthOptions::clean(Body::Chickpea)
-    })
-    .expect("valid options");
-    let scan = Scan {
-        points: made.points,
-        ..Scan::default()
-    };
-    let options = FitOptions {
-        seams: Seams::None,
-        degree: Some(degree),
-        segments: Some(parts * parts),
-        ..FitOptions::default()
-    };
+    let made =
+        synthesize(&SynthOptions::clean(Body::Chickpea).with_offset(Vector3::new(40.0, -3.0, 7.0)))
+            .expect("valid options");
+    let scan = Scan::from_points(made.points);
+    let options = FitOptions::default()
+        .with_seams(Seams::None)
+        .with_degree(degree)
+        .with_segments(parts * parts);
     fit(&scan, &options).expect("a grain").grain
 }
 
@@ -124,28 +117,28 @@ fn one_segment_has_no_seam_and_several_have() {
 #[test]
 fn a_saved_grain_is_the_same_to_the_last_bit() {
     let grain = grain(3, 5);
-    let loaded = parse_grain(&save_grain(&grain)).expect("a model");
+    let loaded = grain_from_json(&grain_to_json(&grain)).expect("a model");
     assert_eq!(loaded.frame(), grain.frame());
     assert_eq!(loaded.segments(), 25);
     assert_eq!(loaded.coefficients(), grain.coefficients());
-    assert_eq!(save_grain(&loaded), save_grain(&grain));
+    assert_eq!(grain_to_json(&loaded), grain_to_json(&grain));
 }
 
 #[test]
 fn unsound_models_are_refused() {
-    let text = save_grain(&grain(1, 2));
-    assert!(parse_grain("{}").is_err());
-    assert!(parse_grain("solid grain").is_err());
-    assert!(parse_grain(&text.replace("\"version\": 3", "\"version\": 4")).is_err());
-    assert!(parse_grain(&text.replace("grainform model", "other model")).is_err());
+    let text = grain_to_json(&grain(1, 2));
+    assert!(grain_from_json("{}").is_err());
+    assert!(grain_from_json("solid grain").is_err());
+    assert!(grain_from_json(&text.replace("\"version\": 3", "\"version\": 4")).is_err());
+    assert!(grain_from_json(&text.replace("grainform model", "other model")).is_err());
     assert!(
-        parse_grain(&text.replace("\"parts_per_angle\": 2", "\"parts_per_angle\": 3")).is_err()
+        grain_from_json(&text.replace("\"parts_per_angle\": 2", "\"parts_per_angle\": 3")).is_err()
     );
     assert!(
-        parse_grain(&text.replace("\"parts_per_angle\": 2", "\"parts_per_angle\": 4000000000"))
+        grain_from_json(&text.replace("\"parts_per_angle\": 2", "\"parts_per_angle\": 4000000000"))
             .is_err()
     );
-    assert!(parse_grain(&text.replace("\"centre\"", "\"center\"")).is_err());
+    assert!(grain_from_json(&text.replace("\"centre\"", "\"center\"")).is_err());
     let first = text.find("\"segments\"").expect("segments are named");
     let digit = first
         + text[first..]
@@ -155,10 +148,10 @@ fn unsound_models_are_refused() {
         let end = digit + text[digit..].find([',', '\n']).expect("a separator");
         let start = text[..digit].rfind([' ', '\n']).expect("a separator") + 1;
         let mutilated = format!("{}{broken}{}", &text[..start], &text[end..]);
-        assert!(parse_grain(&mutilated).is_err(), "{broken}");
+        assert!(grain_from_json(&mutilated).is_err(), "{broken}");
     }
     let halved = &text[..text.len() / 2];
-    assert!(parse_grain(halved).is_err());
+    assert!(grain_from_json(halved).is_err());
 }
 
 #[test]

@@ -47,18 +47,18 @@ fn files() -> Vec<(&'static str, Vec<u8>)> {
 
 fn check_invariants(scan: &Scan) {
     assert!(
-        scan.points
+        scan.points()
             .iter()
             .flat_map(|p| p.iter())
             .all(|c| c.is_finite())
     );
-    let corners = scan.triangles.as_flattened();
+    let corners = scan.triangles().as_flattened();
     assert!(
         corners
             .iter()
-            .all(|&corner| (corner as usize) < scan.points.len())
+            .all(|&corner| (corner as usize) < scan.points().len())
     );
-    assert_eq!(scan.topology.is_some(), !scan.triangles.is_empty());
+    assert_eq!(scan.topology().is_some(), !scan.triangles().is_empty());
 }
 
 #[test]
@@ -78,13 +78,13 @@ fn a_file_cut_at_any_byte_is_refused_or_read_soundly() {
 fn a_mesh_comes_back_from_every_format() {
     for (extension, bytes) in files() {
         let scan = parse_scan(&bytes, None).unwrap();
-        assert_eq!(scan.warnings, [""; 0], "{extension}");
+        assert_eq!(scan.warnings(), [""; 0], "{extension}");
         let same = |point: &Point3<f64>| mesh().vertices.contains(point);
         assert!(
-            scan.points.len() == 4 && scan.points.iter().all(same),
+            scan.points().len() == 4 && scan.points().iter().all(same),
             "{extension}"
         );
-        if let Some(topology) = scan.topology {
+        if let Some(topology) = scan.topology() {
             assert!(topology.closed && topology.volume > 0.0, "{extension}");
         }
     }
@@ -115,7 +115,8 @@ proptest! {
         let mesh = Mesh { vertices: points.clone(), triangles: Vec::new() };
         write_obj(&mesh, &mut obj).unwrap();
         for bytes in [ply, xyz, obj] {
-            prop_assert_eq!(&parse_scan(&bytes, None).unwrap().points, &points);
+            let scan = parse_scan(&bytes, None).unwrap();
+            prop_assert_eq!(scan.points(), &points[..]);
         }
     }
 
@@ -134,10 +135,10 @@ proptest! {
         write_obj(&mesh, &mut obj).unwrap();
         for bytes in [stl, ply, obj] {
             let scan = parse_scan(&bytes, None).unwrap();
-            prop_assert!(scan.points.len() == 4 && scan.triangles.len() == 4);
-            prop_assert!(scan.points.iter().all(|point| mesh.vertices.contains(point)));
-            prop_assert_eq!(scan.warnings.is_empty(), volume > 0.0);
-            let topology = scan.topology.unwrap();
+            prop_assert!(scan.points().len() == 4 && scan.triangles().len() == 4);
+            prop_assert!(scan.points().iter().all(|point| mesh.vertices.contains(point)));
+            prop_assert_eq!(scan.warnings().is_empty(), volume > 0.0);
+            let topology = scan.topology().unwrap();
             prop_assert!(topology.closed);
             prop_assert!((topology.volume - volume.abs()).abs() < 1e-6 * volume.abs());
         }

@@ -9,19 +9,14 @@ use nalgebra::{Point3, Vector3};
 const GRAINS: [Body; 3] = [Body::Bean, Body::Chickpea, Body::Maize];
 
 fn fitted(points: Vec<Point3<f64>>) -> Fitted {
-    let scan = Scan {
-        points,
-        ..Scan::default()
-    };
+    let scan = Scan::from_points(points);
     fit(&scan, &FitOptions::default()).expect("a grain")
 }
 
 fn cloud(body: Body, noise: f64, outliers: f64) -> Vec<Point3<f64>> {
-    let options = SynthOptions {
-        noise,
-        outliers,
-        ..SynthOptions::clean(body)
-    };
+    let options = SynthOptions::clean(body)
+        .with_noise(noise)
+        .with_outliers(outliers);
     synthesize(&options).expect("valid options").points
 }
 
@@ -47,11 +42,9 @@ fn one_percent_of_outliers_changes_the_volume_by_less_than_a_tenth_of_a_percent(
 fn outliers_of_few_points_are_not_followed() {
     let truth = Body::Bean.surface().integrals().properties;
     for seed in 1..=6 {
-        let options = SynthOptions {
-            outliers: 0.01,
-            seed,
-            ..SynthOptions::clean(Body::Bean)
-        };
+        let options = SynthOptions::clean(Body::Bean)
+            .with_outliers(0.01)
+            .with_seed(seed);
         let points = synthesize(&options).expect("valid options").points;
         let area = grain_properties(&fitted(points).grain).properties.area;
         let error = area / truth.area - 1.0;

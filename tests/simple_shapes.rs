@@ -170,10 +170,7 @@ fn check(case: &Better) {
 #[test]
 fn places_beyond_a_fitted_grain_deviate_to_the_negative() {
     let synthetic = synthesize(&SynthOptions::clean(Body::Sphere)).expect("a scan");
-    let scan = Scan {
-        points: synthetic.points,
-        ..Scan::default()
-    };
+    let scan = Scan::from_points(synthetic.points);
     let fitted = fit(&scan, &FitOptions::default()).expect("a grain");
     let directions = Sampling::Fibonacci.directions(100, 0).unwrap();
     let places: Vec<_> = directions.iter().map(|n| Point3::from(n * 5.1)).collect();

@@ -10,10 +10,7 @@ use nalgebra::{Point3, Vector3};
 use proptest::prelude::*;
 
 fn try_fit(points: Vec<Point3<f64>>, options: &FitOptions) -> Result<Fitted, FitError> {
-    let scan = Scan {
-        points,
-        ..Scan::default()
-    };
+    let scan = Scan::from_points(points);
     fit(&scan, options)
 }
 
@@ -49,11 +46,9 @@ fn assert_sound(fitted: &Fitted) {
 }
 
 fn cloud(body: Body, points: usize, sampling: Sampling) -> Vec<Point3<f64>> {
-    let options = SynthOptions {
-        points,
-        sampling,
-        ..SynthOptions::clean(body)
-    };
+    let options = SynthOptions::clean(body)
+        .with_points(points)
+        .with_sampling(sampling);
     synthesize(&options).expect("valid options").points
 }
 
@@ -62,12 +57,10 @@ fn every_partition_and_degree_gives_a_sound_grain() {
     let points = cloud(Body::Bean, 1538, Sampling::Cube);
     for parts in [1, 2, 3, 5, 8, 13, 21, 34, 64] {
         for degree in [0, 1, 3, 6, 12] {
-            let options = FitOptions {
-                seams: Seams::None,
-                degree: Some(degree),
-                segments: Some(parts * parts),
-                ..FitOptions::default()
-            };
+            let options = FitOptions::default()
+                .with_seams(Seams::None)
+                .with_degree(degree)
+                .with_segments(parts * parts);
             assert_sound(&try_fit(points.clone(), &options).expect("a grain"));
         }
     }
@@ -93,11 +86,9 @@ fn every_blended_cover_and_degree_gives_a_sound_grain() {
             (384, 3),
             (1536, 1),
         ] {
-            let options = FitOptions {
-                degree: Some(degree),
-                segments: Some(segments),
-                ..FitOptions::default()
-            };
+            let options = FitOptions::default()
+                .with_degree(degree)
+                .with_segments(segments);
             assert_sound(&try_fit(points.clone(), &options).expect("a grain"));
         }
     }
@@ -107,12 +98,10 @@ fn every_blended_cover_and_degree_gives_a_sound_grain() {
 fn adaptive_covers_keep_to_the_bounds_asked_for() {
     let points = cloud(Body::Maize, 6146, Sampling::Fibonacci);
     for (max_segments, max_degree) in [(6, 0), (6, 6), (9, 3), (30, 1), (100, 2), (600, 8)] {
-        let options = FitOptions {
-            max_segments: Some(max_segments),
-            max_degree: Some(max_degree),
-            tolerance: Tolerance::OfMeanRadius(1e-4),
-            ..FitOptions::default()
-        };
+        let options = FitOptions::default()
+            .with_max_segments(max_segments)
+            .with_max_degree(max_degree)
+            .with_tolerance(Tolerance::OfMeanRadius(1e-4));
         let fitted = try_fit(points.clone(), &options).expect("a grain");
         assert_sound(&fitted);
         assert!(fitted.grain.segments() <= max_segments);

@@ -32,7 +32,8 @@ pub(crate) struct Curves {
 impl Curves {
     pub(crate) fn new(subject: &Subject) -> Result<Self, FitError> {
         let rows = |settings: Vec<Setting>| -> Result<Vec<BenchRow>, FitError> {
-            let supported = |setting: &Setting| setting.is_supported_by(subject.scan.points.len());
+            let supported =
+                |setting: &Setting| setting.is_supported_by(subject.scan.points().len());
             let settings = settings.into_iter().filter(supported);
             settings.map(|s| Ok(measure(subject, &s)?.0)).collect()
         };
@@ -41,7 +42,7 @@ impl Curves {
         let mut curves = Self {
             scan: subject.name.clone(),
             dense: degrees
-                .map(|l| dense::seconds(&subject.scan.points, l))
+                .map(|l| dense::seconds(subject.scan.points(), l))
                 .collect(),
             whole,
             uniform: rows(Family::Uniform.settings())?,

@@ -24,7 +24,7 @@ coefficients: held-out RMS, and distance to the truth, in % of the mean radius.
 
 /// The rows of one scan; without those that its points cannot bear in either family.
 pub(crate) fn rows(subject: &Subject) -> Result<Vec<String>, FitError> {
-    let points = subject.scan.points.len();
+    let points = subject.scan.points().len();
     let fit = |setting: Setting| -> Option<Result<BenchRow, FitError>> {
         let is_supported = setting.is_supported_by(points);
         is_supported.then(|| measure(subject, &setting).map(|(row, _)| row))

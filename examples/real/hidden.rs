@@ -45,7 +45,7 @@ pub(crate) fn print(scans: &Path) -> Result<(), Box<dyn Error>> {
         let column = |of: fn(&Row) -> f64| median(&rows.iter().map(of).collect::<Vec<_>>());
         println!(
             "| {name} | {} | {:.3} % | {:.3} % | {:.3} % | {:.3} % | {:.0} | {:.0} | {:.2} |",
-            scan.points.len(),
+            scan.points().len(),
             column(|row| row.cells),
             column(|row| row.estimate),
             column(|row| row.rival),
@@ -101,7 +101,7 @@ struct Row {
 }
 
 fn judge(scan: &Scan, seed: u64) -> Result<Row, FitError> {
-    let mut points = scan.points.clone();
+    let mut points = scan.points().to_vec();
     points.sort_by(|a, b| {
         let order = a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y));
         order.then(a.z.total_cmp(&b.z))
@@ -111,17 +111,11 @@ fn judge(scan: &Scan, seed: u64) -> Result<Row, FitError> {
     let (hidden, points): (Vec<Point3<f64>>, Vec<_>) = points
         .into_iter()
         .partition(|_| random.next_u32() % ONE_IN == 0);
-    let seen = Scan {
-        points,
-        ..Scan::default()
-    };
+    let seen = Scan::from_points(points);
     let started = Instant::now();
     let fitted = fit(&seen, &FitOptions::default())?;
     let seconds = started.elapsed().as_secs_f64();
-    let whole = FitOptions {
-        segments: Some(1),
-        ..FitOptions::default()
-    };
+    let whole = FitOptions::default().with_segments(1);
     let whole = fit(&seen, &whole)?;
 
     let rays = |grain: &Grain, points: &[Point3<f64>]| -> Vec<(Vector3<f64>, f64)> {
@@ -138,7 +132,7 @@ fn judge(scan: &Scan, seed: u64) -> Result<Row, FitError> {
     Ok(Row {
         cells: percent * rms(grain),
         estimate: percent * rms(&whole.grain),
-        rival: percent * rival::best(&rays(grain, &seen.points), &rays(grain, &hidden)),
+        rival: percent * rival::best(&rays(grain, seen.points()), &rays(grain, &hidden)),
         told: percent * fitted.search.choice().heldout_rms.unwrap_or(f64::NAN),
         coefficients: grain.coefficient_count() as f64,
         touched: grain.coefficients_touched(),

@@ -54,10 +54,7 @@ impl Particle {
             let error: f64 = StandardNormal.sample(&mut random);
             Point3::from(n * (self.radius(n) + noise * self.mean_radius * error))
         });
-        Scan {
-            points: points.collect(),
-            ..Scan::default()
-        }
+        Scan::from_points(points.collect())
     }
 }
 

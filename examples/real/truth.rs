@@ -29,18 +29,9 @@ pub(crate) fn print(scans: &Path, every: usize) -> Result<(), Box<dyn Error>> {
         ("default", FitOptions::default()),
         (
             "0.01 %",
-            FitOptions {
-                tolerance: Tolerance::OfMeanRadius(1e-4),
-                ..FitOptions::default()
-            },
+            FitOptions::default().with_tolerance(Tolerance::OfMeanRadius(1e-4)),
         ),
-        (
-            "--segments 1",
-            FitOptions {
-                segments: Some(1),
-                ..FitOptions::default()
-            },
-        ),
+        ("--segments 1", FitOptions::default().with_segments(1)),
     ];
     println!(
         "| points | noise | model | RMS: median, 90 % | coefficients | touched | area: median | volume: median | \

@@ -96,18 +96,15 @@ fn main() {
 
 /// Fits a cloud and prints what became of it.
 fn row(name: &str, points: Vec<Point3<f64>>, k: usize, degree: usize) {
-    let scan = Scan {
-        points,
-        ..Scan::default()
-    };
-    let count = scan.points.len();
+    let scan = Scan::from_points(points);
+    let count = scan.points().len();
     let fitted = match fit(&scan, &options(k, degree)) {
         Ok(fitted) => fitted,
         Err(refusal) => {
             return println!("| {name} | {count} | {k} | {degree} | refused: {refusal} |");
         }
     };
-    let samples = samples_by_segment(&fitted, &scan.points);
+    let samples = samples_by_segment(&fitted, scan.points());
     let study = Study::of(segmented(&fitted.grain).partition(), degree, &samples);
     let Verdict {
         error,

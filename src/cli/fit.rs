@@ -6,7 +6,7 @@ use super::fitting::{ScanFit, fit_scan, say_stats};
 use super::outputs;
 use crate::export::MeshFormat;
 use crate::fit::Fitted;
-use crate::model::save_grain;
+use crate::model::grain_to_json;
 use crate::report::{FitReport, largest_loss, write_harmonics};
 use anyhow::Result;
 use std::time::Instant;
@@ -82,7 +82,7 @@ fn write_files(args: &FitArgs, fitted: &Fitted) -> Result<Option<f64>> {
         outputs::write(path, |file| format.write(&mesh, file))?;
     }
     if let Some(path) = &args.output {
-        let text = save_grain(&fitted.grain_with_errors());
+        let text = grain_to_json(&fitted.grain_with_errors());
         outputs::write(path, |file| Ok(writeln!(file, "{text}")?))?;
     }
     let Some(path) = &args.harmonics else {

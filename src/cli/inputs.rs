@@ -1,7 +1,7 @@
 //! What is read: scans and models, from files or from standard input.
 
 use super::args::{InputArgs, LimitArgs};
-use crate::model::{Grain, parse_grain};
+use crate::model::{Grain, grain_from_json};
 use crate::scan::{ReadError, Scan, parse_file, read_bytes, read_stream};
 use anyhow::{Result, anyhow};
 use std::io;
@@ -50,6 +50,6 @@ pub(super) fn parse_scan(path: &Path, bytes: &[u8], input: &InputArgs) -> Result
 
 /// The grain in the bytes of a model file.
 pub(super) fn parse_model(path: &Path, bytes: &[u8]) -> Result<Grain> {
-    parse_grain(&String::from_utf8_lossy(bytes))
+    grain_from_json(&String::from_utf8_lossy(bytes))
         .map_err(|error| anyhow!("cannot read a model from {}: {error}", name(path)))
 }

@@ -1,8 +1,9 @@
-//! Writing meshes and point clouds, whole or not at all.
+//! Writing grains, meshes and point clouds, whole or not at all.
 
 mod atomic;
 mod error;
 mod format;
+mod grain;
 mod mesh;
 mod points;
 mod temporary;
@@ -14,6 +15,7 @@ use crate::mesh::Mesh;
 pub use atomic::write_atomically;
 pub use error::{SaveError, WriteError};
 pub use format::MeshFormat;
+pub use grain::save_grain;
 pub use mesh::{write_obj, write_ply, write_stl};
 pub use points::{write_points_ply, write_points_xyz};
 pub use temporary::{remove_temporaries, sweep};

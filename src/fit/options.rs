@@ -4,7 +4,18 @@ use super::error::FitError;
 use crate::sphere::{MAX_FACE_PARTS, Symmetry, coefficient_count};
 
 /// Settings of a fit; the default asks for nothing and searches.
+///
+/// ```
+/// use grainform::{FitOptions, Tolerance};
+///
+/// let options = FitOptions::default()
+///     .with_tolerance(Tolerance::OfMeanRadius(0.005))
+///     .with_max_degree(3);
+/// assert!(options.check().is_ok());
+/// assert!(options.with_segments(7).check().is_err());
+/// ```
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct FitOptions {
     /// How expansions are joined.
     pub seams: Seams,
@@ -111,6 +122,56 @@ pub const MAX_CELLS: usize = 6 * (MAX_FACE_PARTS as usize) * (MAX_FACE_PARTS as 
 
 /// Largest number of coefficients of blended cells that can be asked for: a minute of work.
 pub const MAX_COEFFICIENTS: usize = 20_000;
+
+/// Each sets one field; a number can be given as it is.
+impl FitOptions {
+    /// The same with other [`seams`](Self::seams).
+    pub fn with_seams(self, seams: Seams) -> Self {
+        Self { seams, ..self }
+    }
+
+    /// The same with another [`symmetry`](Self::symmetry).
+    pub fn with_symmetry(self, symmetry: Symmetry) -> Self {
+        Self { symmetry, ..self }
+    }
+
+    /// The same with this [`degree`](Self::degree).
+    pub fn with_degree(self, degree: impl Into<Option<usize>>) -> Self {
+        let degree = degree.into();
+        Self { degree, ..self }
+    }
+
+    /// The same with this number of [`segments`](Self::segments).
+    pub fn with_segments(self, segments: impl Into<Option<usize>>) -> Self {
+        let segments = segments.into();
+        Self { segments, ..self }
+    }
+
+    /// The same with this [`max_degree`](Self::max_degree).
+    pub fn with_max_degree(self, max_degree: impl Into<Option<usize>>) -> Self {
+        let max_degree = max_degree.into();
+        Self { max_degree, ..self }
+    }
+
+    /// The same with this [`max_segments`](Self::max_segments).
+    pub fn with_max_segments(self, max_segments: impl Into<Option<usize>>) -> Self {
+        let max_segments = max_segments.into();
+        Self {
+            max_segments,
+            ..self
+        }
+    }
+
+    /// The same with another [`tolerance`](Self::tolerance).
+    pub fn with_tolerance(self, tolerance: Tolerance) -> Self {
+        Self { tolerance, ..self }
+    }
+
+    /// The same, fitting [every candidate](Self::exhaustive) or not.
+    pub fn with_exhaustive(self, exhaustive: bool) -> Self {
+        Self { exhaustive, ..self }
+    }
+}
 
 impl FitOptions {
     /// Checks that every setting is in range and that they go together.

@@ -11,6 +11,7 @@ use nalgebra::Vector3;
 
 /// A fitted grain and what is known of it.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct Fitted {
     /// The grain, in the scan's frame and unit.
     pub grain: Grain,
@@ -41,6 +42,7 @@ pub struct Fitted {
 
 /// What an estimate says of itself. Lengths are in the scan's unit.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct EstimateSummary {
     /// Largest degree of its expansion.
     pub degree: usize,
@@ -61,6 +63,7 @@ const SMALLEST: f64 = 1e-25;
 
 /// Radial residuals: radius of the point minus radius of the grain in its direction.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Residuals {
     /// Root mean square, in the scan's unit.
     pub rms: f64,

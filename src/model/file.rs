@@ -73,10 +73,10 @@ struct CellRecord {
     coefficients: Vec<f64>,
 }
 
-/// Why a model file cannot be read.
+/// Why a text is not a grain.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
-pub enum LoadError {
+pub enum ModelError {
     /// Not JSON of the expected form.
     #[error("not a grainform model: {0}; write one with `grainform fit SCAN -o MODEL.json`")]
     Form(#[from] serde_json::Error),
@@ -118,7 +118,7 @@ pub enum LoadError {
 }
 
 /// The JSON text of a grain.
-pub fn save_grain(grain: &Grain) -> String {
+pub fn grain_to_json(grain: &Grain) -> String {
     let Frame { centre, axes } = grain.frame();
     let stretch = grain.stretch();
     let mut file = GrainFile {
@@ -166,15 +166,15 @@ pub fn save_grain(grain: &Grain) -> String {
 /// The grain that a JSON text describes.
 ///
 /// # Errors
-/// [`LoadError`] if the text is not a model of a known version, or is not sound: among others, if its radius
+/// [`ModelError`] if the text is not a model of a known version, or is not sound: among others, if its radius
 /// is not above zero everywhere, which is proved ([`Grain::least_radius`]).
-pub fn parse_grain(text: &str) -> Result<Grain, LoadError> {
+pub fn grain_from_json(text: &str) -> Result<Grain, ModelError> {
     let file: GrainFile = serde_json::from_str(text)?;
     if file.format != FORMAT {
-        return Err(LoadError::Format { found: file.format });
+        return Err(ModelError::Format { found: file.format });
     }
     if !(1..=VERSION).contains(&file.version) {
-        return Err(LoadError::Version {
+        return Err(ModelError::Version {
             found: file.version,
         });
     }
@@ -198,7 +198,7 @@ pub fn parse_grain(text: &str) -> Result<Grain, LoadError> {
         }
         ((None, None), (Some(found), Some(segments)), (None, None), None) => {
             if found > LARGEST_PARTITION {
-                return Err(LoadError::Partition { found });
+                return Err(ModelError::Partition { found });
             }
             Surface::Segmented(Segmented::new(AngularPartition::new(found), segments)?)
         }
@@ -208,7 +208,7 @@ pub fn parse_grain(text: &str) -> Result<Grain, LoadError> {
         ((None, None), (None, None), (None, None), Some(harmonics)) => {
             Surface::Whole(Whole::new(harmonics)?)
         }
-        _ => return Err(LoadError::Surface),
+        _ => return Err(ModelError::Surface),
     };
     let frame = Frame {
         centre: Point3::from(file.centre),
@@ -222,7 +222,7 @@ pub fn parse_grain(text: &str) -> Result<Grain, LoadError> {
     grain.least_radius()?;
     match file.curvature_errors {
         Some(errors) => {
-            let errors = CurvatureErrors::new(errors).ok_or(LoadError::CurvatureErrors)?;
+            let errors = CurvatureErrors::new(errors).ok_or(ModelError::CurvatureErrors)?;
             Ok(grain.with_curvature_errors(errors))
         }
         None => Ok(grain),

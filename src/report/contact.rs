@@ -11,6 +11,7 @@ use std::fmt;
 
 /// The contact of a grain with a plane, or with another grain.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct ContactReport {
     /// Unit of the scans' lengths.
     pub unit: Unit,
@@ -44,6 +45,7 @@ pub struct ContactReport {
 
 /// Where and how curved a body is touched.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct TouchRecord {
     /// The model.
     pub input: String,
@@ -62,6 +64,7 @@ pub struct TouchRecord {
 
 /// What a contact is loaded with.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Load {
     /// The unit of the scans' lengths.
     pub unit: Unit,

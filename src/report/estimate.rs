@@ -11,6 +11,7 @@ use std::time::Instant;
 
 /// What the points say of the radius before it is cut in segments: lengths in the scan's unit.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct EstimateRecord {
     /// Largest degree of its expansion.
     pub degree: usize,
@@ -49,6 +50,7 @@ impl From<EstimateSummary> for EstimateRecord {
 
 /// What an evaluation of a surface costs.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct EvaluationRecord {
     /// Largest degree.
     pub degree: usize,

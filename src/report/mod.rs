@@ -22,7 +22,7 @@ pub use contact::{ContactReport, Load, TouchRecord};
 #[cfg(feature = "cli")]
 pub(crate) use escape::escaped;
 pub use estimate::{EstimateRecord, EvaluationRecord};
-pub use fit::{FitReport, ReferenceRecord, Seconds, Skipped};
+pub use fit::{FitReport, ReferenceRecord, Seconds, Skipped, StandardErrorsRecord};
 pub use harmonics::{largest_loss, write_harmonics};
 pub use measure::{
     BoxRecord, CurvatureRecord, Dimensions, EllipsoidRecord, FacesRecord, FillRecord, Measure,

@@ -10,6 +10,7 @@ use std::io::{self, Write};
 
 /// The candidates of a search and the choice.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct SearchReport {
     /// The scan.
     pub input: String,
@@ -41,6 +42,7 @@ pub struct SearchReport {
 
 /// One degree and number of segments. Errors are `null` where it could not be fitted.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct CandidateRecord {
     /// Degree of the segments' expansions.
     pub degree: usize,

@@ -10,6 +10,7 @@ use std::fmt;
 
 /// A synthetic scan and the closed form it was taken from. Lengths are in millimetres.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct SynthReport {
     /// Name of the body.
     pub body: &'static str,

@@ -46,6 +46,7 @@ pub enum ReadError {
 
 /// A place in a scan file, for messages.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Place {
     /// A line of text, counted from one.
     Line(usize),
@@ -53,6 +54,8 @@ pub enum Place {
     Byte(usize),
     /// A point, counted from zero.
     Point(usize),
+    /// A triangle, counted from zero.
+    Triangle(usize),
     /// A record of binary data.
     Record {
         /// What the record is: `vertex`, `face`, `facet` or `row`.
@@ -70,6 +73,7 @@ impl fmt::Display for Place {
             Self::Line(line) => write!(f, "line {line}"),
             Self::Byte(byte) => write!(f, "byte {byte}"),
             Self::Point(point) => write!(f, "point {point} (counted from 0)"),
+            Self::Triangle(triangle) => write!(f, "triangle {triangle} (counted from 0)"),
             Self::Record { what, number, byte } => {
                 write!(f, "{what} {number} (counted from 0, at byte {byte})")
             }
@@ -165,7 +169,7 @@ pub enum ParseError {
     },
     /// A face names a point that does not exist.
     #[error(
-        "{place}: the face names point {index}, but the file has {}, numbered from \
+        "{place}: the face names point {index}, but the scan has {}, numbered from \
          {first}; export the scan again", plural(*points, "point")
     )]
     IndexOutOfRange {

@@ -29,27 +29,117 @@ pub use topology::Topology;
 pub(crate) use topology::each_edge;
 pub(crate) use weld::first_at_same_place;
 
-/// The points of a scan, in f64, in the file's own frame and unit.
+/// The points of a scan, in f64, in the file's own frame and unit, and the triangles between them.
+///
+/// Points and triangles do not change any more, so what is known of the triangles is true of them.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Scan {
-    /// All points in file order, duplicates included.
-    pub points: Vec<Point3<f64>>,
-    /// Three indices into `points` per triangle; empty when the file holds points only.
-    pub triangles: Vec<[u32; 3]>,
-    /// How the triangles hang together; none when there are no triangles.
-    pub topology: Option<Topology>,
-    /// What was odd in the file, but did not stop the reader: whole sentences.
-    pub warnings: Vec<String>,
+    pub(crate) points: Vec<Point3<f64>>,
+    pub(crate) triangles: Vec<[u32; 3]>,
+    pub(crate) topology: Option<Topology>,
+    pub(crate) warnings: Vec<String>,
 }
 
 impl Scan {
-    /// The scan that a mesh is.
-    pub(crate) fn from_mesh(mesh: Mesh) -> Self {
-        let mut scan = Self {
+    /// A scan of points without triangles. They are taken as they are: what cannot be fitted is refused there.
+    pub fn from_points(points: Vec<Point3<f64>>) -> Self {
+        Self {
+            points,
+            ..Self::default()
+        }
+    }
+
+    /// A scan of the vertices and triangles of a mesh, looked over as those of a file are: see [`parse_scan`].
+    ///
+    /// ```
+    /// use grainform::nalgebra::point;
+    /// use grainform::{Mesh, Scan};
+    ///
+    /// let tetrahedron = Mesh {
+    ///     vertices: vec![
+    ///         point![0.0, 0.0, 0.0],
+    ///         point![1.0, 0.0, 0.0],
+    ///         point![0.0, 1.0, 0.0],
+    ///         point![0.0, 0.0, 1.0],
+    ///     ],
+    ///     triangles: vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]],
+    /// };
+    /// let scan = Scan::from_mesh(tetrahedron)?;
+    /// assert!(scan.topology().is_some_and(|topology| topology.closed));
+    /// # Ok::<(), grainform::scan::ParseError>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// [`ParseError`] where a triangle names a vertex that does not exist, or the vertices are none, not finite, all
+    /// the same or all on one line.
+    pub fn from_mesh(mesh: Mesh) -> Result<Self, ParseError> {
+        let points = mesh.vertices.len();
+        if u32::try_from(points).is_err() {
+            return Err(ParseError::TooManyPoints { points });
+        }
+        let last = |corners: &[u32; 3]| corners.iter().fold(0, |last, &corner| last.max(corner));
+        let named = mesh.triangles.iter().map(last).enumerate();
+        if let Some((triangle, index)) = named.max_by_key(|&(_, index)| index)
+            && index as usize >= points
+        {
+            return Err(ParseError::IndexOutOfRange {
+                place: Place::Triangle(triangle),
+                index: index.into(),
+                points,
+                first: 0,
+            });
+        }
+        let mut scan = Self::of_mesh(mesh);
+        scan.look_over(false)?;
+        Ok(scan)
+    }
+
+    fn of_mesh(mesh: Mesh) -> Self {
+        Self {
             points: mesh.vertices,
             triangles: mesh.triangles,
             ..Self::default()
-        };
+        }
+    }
+
+    /// All points in file order, duplicates included.
+    pub fn points(&self) -> &[Point3<f64>] {
+        &self.points
+    }
+
+    /// Three indices into [`Self::points`] per triangle; empty when there are points only.
+    pub fn triangles(&self) -> &[[u32; 3]] {
+        &self.triangles
+    }
+
+    /// How the triangles hang together; none when there are no triangles.
+    pub fn topology(&self) -> Option<&Topology> {
+        self.topology.as_ref()
+    }
+
+    /// What was odd, but did not stop the reader: whole sentences.
+    pub fn warnings(&self) -> &[String] {
+        &self.warnings
+    }
+
+    /// Checks the points, closes the gaps between loose triangles, and inspects these.
+    fn look_over(&mut self, are_loose: bool) -> Result<(), ParseError> {
+        let span = check::check(&self.points)?;
+        if span.flat {
+            let warning = "All points lie in one plane: they do not enclose a body.";
+            self.warnings.push(warning.into());
+        }
+        if are_loose {
+            weld::close_gaps(self, span.extent);
+        }
+        inspect::inspect(self);
+        Ok(())
+    }
+
+    /// The scan that a part of another scan's faces is.
+    pub(crate) fn from_part(mesh: Mesh) -> Self {
+        let mut scan = Self::of_mesh(mesh);
         inspect::inspect(&mut scan);
         scan
     }
@@ -112,15 +202,7 @@ pub fn parse_scan(bytes: &[u8], extension: Option<&str>) -> Result<Scan, ParseEr
     if format == Format::Stl && scan.triangles.is_empty() {
         return Err(ParseError::NoFacets);
     }
-    let span = check::check(&scan.points)?;
-    if span.flat {
-        let warning = "All points lie in one plane: they do not enclose a body.";
-        scan.warnings.push(warning.into());
-    }
-    if format == Format::Stl {
-        weld::close_gaps(&mut scan, span.extent);
-    }
-    inspect::inspect(&mut scan);
+    scan.look_over(format == Format::Stl)?;
     Ok(scan)
 }
 
@@ -128,4 +210,46 @@ pub fn parse_scan(bytes: &[u8], extension: Option<&str>) -> Result<Scan, ParseEr
 pub(crate) fn plural(count: usize, noun: &str) -> String {
     let s = if count == 1 { "" } else { "s" };
     format!("{count} {noun}{s}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::point;
+
+    fn tetrahedron() -> Mesh {
+        Mesh {
+            vertices: vec![
+                point![0.0, 0.0, 0.0],
+                point![1.0, 0.0, 0.0],
+                point![0.0, 1.0, 0.0],
+                point![0.0, 0.0, 1.0],
+            ],
+            triangles: vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]],
+        }
+    }
+
+    #[test]
+    fn a_scan_of_a_mesh_keeps_its_faces_and_knows_what_they_enclose() {
+        let scan = Scan::from_mesh(tetrahedron()).unwrap();
+        assert_eq!(scan.triangles(), tetrahedron().triangles);
+        let topology = scan.topology().unwrap();
+        assert!(topology.closed && (topology.volume - 1.0 / 6.0).abs() < 1e-15);
+        let scan = Scan::from_points(tetrahedron().vertices);
+        assert!(scan.triangles().is_empty() && scan.topology().is_none());
+    }
+
+    #[test]
+    fn a_mesh_that_names_a_vertex_it_has_not_is_refused_with_the_triangle() {
+        let mut mesh = tetrahedron();
+        mesh.triangles[2][1] = 4;
+        let error = Scan::from_mesh(mesh).unwrap_err().to_string();
+        let start =
+            "triangle 2 (counted from 0): the face names point 4, but the scan has 4 points";
+        assert!(error.starts_with(start), "{error}");
+        let mut mesh = tetrahedron();
+        mesh.vertices[0].x = f64::NAN;
+        let place = Place::Point(0);
+        assert_eq!(Scan::from_mesh(mesh), Err(ParseError::NotFinite { place }));
+    }
 }

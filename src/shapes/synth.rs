@@ -15,7 +15,16 @@ pub const MAX_NOISE: f64 = 0.1;
 const OUTLIER_STEP: f64 = 0.2;
 
 /// What to scan and how badly.
+///
+/// ```
+/// use grainform::shapes::{Body, SynthOptions, synthesize};
+///
+/// let options = SynthOptions::clean(Body::Bean).with_points(386).with_noise(0.005);
+/// assert_eq!(synthesize(&options)?.points.len(), 386);
+/// # Ok::<(), grainform::shapes::SynthError>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct SynthOptions {
     /// The body.
     pub body: Body,
@@ -53,6 +62,50 @@ impl SynthOptions {
             offset: Vector3::zeros(),
             seed: 0,
         }
+    }
+
+    /// The same with these [`axes`](Self::axes).
+    pub fn with_axes(self, axes: impl Into<Option<Vector3<f64>>>) -> Self {
+        let axes = axes.into();
+        Self { axes, ..self }
+    }
+
+    /// The same with another number of [`points`](Self::points).
+    pub fn with_points(self, points: usize) -> Self {
+        Self { points, ..self }
+    }
+
+    /// The same with another [`sampling`](Self::sampling).
+    pub fn with_sampling(self, sampling: Sampling) -> Self {
+        Self { sampling, ..self }
+    }
+
+    /// The same with this [`noise`](Self::noise).
+    pub fn with_noise(self, noise: f64) -> Self {
+        Self { noise, ..self }
+    }
+
+    /// The same with this share of [`outliers`](Self::outliers).
+    pub fn with_outliers(self, outliers: f64) -> Self {
+        Self { outliers, ..self }
+    }
+
+    /// The same with this [`missing_cap`](Self::missing_cap).
+    pub fn with_missing_cap(self, missing_cap: f64) -> Self {
+        Self {
+            missing_cap,
+            ..self
+        }
+    }
+
+    /// The same at another [`offset`](Self::offset).
+    pub fn with_offset(self, offset: Vector3<f64>) -> Self {
+        Self { offset, ..self }
+    }
+
+    /// The same with another [`seed`](Self::seed).
+    pub fn with_seed(self, seed: u64) -> Self {
+        Self { seed, ..self }
     }
 }
 

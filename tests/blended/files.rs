@@ -1,7 +1,7 @@
 //! Blended grains as JSON.
 
 use crate::grains::{all, blended, blended_within, plain, ragged, segmented, turned, whole};
-use grainform::model::{LoadError, Stretch, parse_grain, save_grain};
+use grainform::model::{ModelError, Stretch, grain_from_json, grain_to_json};
 use grainform::sphere::CubeCell;
 use grainform::{Grain, StarSurface};
 use nalgebra::Vector3;
@@ -26,14 +26,14 @@ fn grains_of_all_kinds_are_the_same_to_the_last_bit_once_saved() {
         grains.push(stretched.expect("a frame"));
     }
     for grain in grains {
-        let text = save_grain(&grain);
+        let text = grain_to_json(&grain);
         assert!(text.contains("\"version\": 3"));
-        let loaded = parse_grain(&text).expect("a model");
+        let loaded = grain_from_json(&text).expect("a model");
         assert_eq!(loaded.frame(), grain.frame());
         assert_eq!(loaded.stretch(), grain.stretch());
         assert_eq!(loaded.coefficients(), grain.coefficients());
         assert_eq!(cells(&loaded), cells(&grain));
-        assert_eq!(save_grain(&loaded), text);
+        assert_eq!(grain_to_json(&loaded), text);
         let n = Vector3::new(0.36, -0.48, 0.8);
         assert_eq!(loaded.radius(&n).to_bits(), grain.radius(&n).to_bits());
     }
@@ -49,16 +49,16 @@ fn a_file_of_the_first_version_is_still_read() {
         "parts_per_angle": 2,
         "segments": [[5.0], [6.0], [7.0], [8.0, 0.1, 0.2, 0.3]]
     }"#;
-    let grain = parse_grain(text).expect("a model");
+    let grain = grain_from_json(text).expect("a model");
     assert_eq!(grain.segments(), 4);
     assert!(grain.surface().segmented().is_some());
     assert_eq!(grain.coefficients()[3], [8.0, 0.1, 0.2, 0.3]);
     let n = Vector3::new(0.0, 0.6, 0.8);
     assert!((grain.radius(&n) - 5.0).abs() < 1e-15);
-    let again = save_grain(&grain);
+    let again = grain_to_json(&grain);
     assert!(again.contains("\"version\": 3"));
     assert_eq!(
-        parse_grain(&again).expect("a model").coefficients(),
+        grain_from_json(&again).expect("a model").coefficients(),
         grain.coefficients()
     );
 }
@@ -73,7 +73,7 @@ fn a_file_of_the_second_version_is_still_read() {
         "symmetry": "xyz",
         "coefficients": [5.0]
     }"#;
-    let grain = parse_grain(text).expect("a model");
+    let grain = grain_from_json(text).expect("a model");
     assert!(grain.surface().mirrored().is_some());
     assert!(grain.stretch().is_none());
 }
@@ -88,33 +88,33 @@ fn stretches_and_harmonics_that_are_not_sound_are_refused() {
     ];
     for factors in numbers {
         let found = spoilt(&grain, |value| value["stretch"] = factors.clone());
-        assert!(matches!(found, Err(LoadError::Invalid(_))), "{found:?}");
+        assert!(matches!(found, Err(ModelError::Invalid(_))), "{found:?}");
     }
     for factors in [json!([1.0, 1.0]), json!([1.0, 1.0, null]), json!("none")] {
         let found = spoilt(&grain, |value| value["stretch"] = factors.clone());
-        assert!(matches!(found, Err(LoadError::Form(_))), "{found:?}");
+        assert!(matches!(found, Err(ModelError::Form(_))), "{found:?}");
     }
     for own in [json!([]), json!([1.0, 2.0]), json!(vec![1.0; 130 * 130])] {
         let found = spoilt(&grain, |value| value["harmonics"] = own.clone());
-        assert!(matches!(found, Err(LoadError::Invalid(_))), "{found:?}");
+        assert!(matches!(found, Err(ModelError::Invalid(_))), "{found:?}");
     }
     for own in [json!([null]), json!(["1"]), json!(1.0)] {
         let found = spoilt(&grain, |value| value["harmonics"] = own.clone());
-        assert!(matches!(found, Err(LoadError::Form(_))), "{found:?}");
+        assert!(matches!(found, Err(ModelError::Form(_))), "{found:?}");
     }
-    let text = save_grain(&grain).replacen("\"harmonics\": [", "\"harmonics\": [1e999,", 1);
-    assert!(parse_grain(&text).is_err());
+    let text = grain_to_json(&grain).replacen("\"harmonics\": [", "\"harmonics\": [1e999,", 1);
+    assert!(grain_from_json(&text).is_err());
     let cells = spoilt(&blended(CubeCell::uniform(1), plain()), |value| {
         value["harmonics"] = json!([1.0]);
     });
-    assert!(matches!(cells, Err(LoadError::Surface)), "{cells:?}");
+    assert!(matches!(cells, Err(ModelError::Surface)), "{cells:?}");
 }
 
 /// The text of a grain with something changed.
-fn spoilt(grain: &Grain, spoil: impl Fn(&mut Value)) -> Result<Grain, LoadError> {
-    let mut value: Value = serde_json::from_str(&save_grain(grain)).expect("JSON");
+fn spoilt(grain: &Grain, spoil: impl Fn(&mut Value)) -> Result<Grain, ModelError> {
+    let mut value: Value = serde_json::from_str(&grain_to_json(grain)).expect("JSON");
     spoil(&mut value);
-    parse_grain(&value.to_string())
+    grain_from_json(&value.to_string())
 }
 
 #[test]
@@ -130,7 +130,7 @@ fn cells_that_do_not_tile_are_refused() {
                 spoil(&mut cells);
                 value["cells"] = json!(cells);
             });
-            assert!(matches!(found, Err(LoadError::Cover(_))), "{found:?}");
+            assert!(matches!(found, Err(ModelError::Cover(_))), "{found:?}");
         };
         refused(&|cells| drop(cells.pop()));
         refused(&|cells| cells.clear());
@@ -151,7 +151,7 @@ fn cells_that_do_not_tile_are_refused() {
         for number in faulty {
             for name in ["face", "parts", "row", "column"] {
                 let found = spoilt(&grain, |value| value["cells"][0][name] = number.clone());
-                assert!(matches!(found, Err(LoadError::Form(_))), "{found:?}");
+                assert!(matches!(found, Err(ModelError::Form(_))), "{found:?}");
             }
         }
     }
@@ -168,16 +168,16 @@ fn coefficients_that_make_no_expansion_are_refused() {
         let found = spoilt(&grain, |value| {
             value["cells"][3]["coefficients"] = own.clone()
         });
-        assert!(matches!(found, Err(LoadError::Invalid(_))), "{found:?}");
+        assert!(matches!(found, Err(ModelError::Invalid(_))), "{found:?}");
     }
-    let text = save_grain(&grain);
+    let text = grain_to_json(&grain);
     for broken in ["1e999", "null", "\"NaN\"", "NaN"] {
         let start = text.find("\"coefficients\": [").expect("coefficients") + 17;
         let end = start + text[start..].find(',').expect("numbers");
         let mutilated = format!("{}{broken}{}", &text[..start], &text[end..]);
-        assert!(parse_grain(&mutilated).is_err(), "{broken}");
+        assert!(grain_from_json(&mutilated).is_err(), "{broken}");
     }
-    assert!(parse_grain(&text[..text.len() / 2]).is_err());
+    assert!(grain_from_json(&text[..text.len() / 2]).is_err());
 }
 
 #[test]
@@ -186,7 +186,7 @@ fn a_file_with_both_kinds_of_surface_or_none_is_refused() {
         blended(CubeCell::uniform(1), plain()),
         segmented(2, plain()),
     );
-    let parts: Value = serde_json::from_str(&save_grain(&parted)).expect("JSON");
+    let parts: Value = serde_json::from_str(&grain_to_json(&parted)).expect("JSON");
     for names in [
         &["segments"][..],
         &["parts_per_angle"],
@@ -197,18 +197,18 @@ fn a_file_with_both_kinds_of_surface_or_none_is_refused() {
                 value[*name] = parts[*name].clone();
             }
         });
-        assert!(matches!(both, Err(LoadError::Surface)), "{both:?}");
+        assert!(matches!(both, Err(ModelError::Surface)), "{both:?}");
         let neither = spoilt(&parted, |value| {
             for name in names {
                 value.as_object_mut().expect("an object").remove(*name);
             }
         });
-        assert!(matches!(neither, Err(LoadError::Surface)), "{neither:?}");
+        assert!(matches!(neither, Err(ModelError::Surface)), "{neither:?}");
     }
     let nothing = spoilt(&joined, |value| {
         value.as_object_mut().expect("an object").remove("cells");
     });
-    assert!(matches!(nothing, Err(LoadError::Surface)), "{nothing:?}");
+    assert!(matches!(nothing, Err(ModelError::Surface)), "{nothing:?}");
 }
 
 #[test]
@@ -216,29 +216,32 @@ fn other_versions_and_unknown_fields_are_refused() {
     let grain = blended(CubeCell::uniform(1), plain());
     for version in [0, 4, 99] {
         let found = spoilt(&grain, |value| value["version"] = json!(version));
-        assert!(matches!(found, Err(LoadError::Version { .. })), "{found:?}");
+        assert!(
+            matches!(found, Err(ModelError::Version { .. })),
+            "{found:?}"
+        );
     }
     assert!(spoilt(&grain, |value| value["colour"] = json!("brown")).is_err());
     assert!(spoilt(&grain, |value| value["cells"][0]["colour"] = json!("brown")).is_err());
     let skewed = spoilt(&grain, |value| value["axes"][0] = json!([0.6, 0.0, 0.8]));
-    assert!(matches!(skewed, Err(LoadError::Invalid(_))), "{skewed:?}");
+    assert!(matches!(skewed, Err(ModelError::Invalid(_))), "{skewed:?}");
 }
 
 #[test]
 fn margins_are_kept_checked_and_left_out_where_they_are_the_usual() {
     let wide = blended_within(ragged(1, 9, 2), 0.6, turned());
     let margin = |grain: &Grain| grain.surface().blended().map(|s| s.cover().margin());
-    let loaded = parse_grain(&save_grain(&wide)).expect("a model");
+    let loaded = grain_from_json(&grain_to_json(&wide)).expect("a model");
     assert_eq!(margin(&loaded), Some(0.6));
     let usual = blended(ragged(1, 9, 2), turned());
-    assert!(!save_grain(&usual).contains("margin"));
+    assert!(!grain_to_json(&usual).contains("margin"));
     assert_eq!(margin(&usual), Some(grainform::sphere::MARGIN));
     for number in [json!(0.0), json!(-0.4), json!(1.5), json!(1e300)] {
         let found = spoilt(&wide, |value| value["margin"] = number.clone());
-        assert!(matches!(found, Err(LoadError::Cover(_))), "{found:?}");
+        assert!(matches!(found, Err(ModelError::Cover(_))), "{found:?}");
     }
     let found = spoilt(&wide, |value| value["margin"] = json!("wide"));
-    assert!(matches!(found, Err(LoadError::Form(_))), "{found:?}");
+    assert!(matches!(found, Err(ModelError::Form(_))), "{found:?}");
     let found = spoilt(&segmented(2, plain()), |value| value["margin"] = json!(0.4));
-    assert!(matches!(found, Err(LoadError::Surface)), "{found:?}");
+    assert!(matches!(found, Err(ModelError::Surface)), "{found:?}");
 }

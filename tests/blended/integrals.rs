@@ -39,12 +39,11 @@ pub(crate) fn check(grain: &Grain, bound: f64) {
 }
 
 fn fitted(body: Body) -> Grain {
-    let scan = Scan {
-        points: synthesize(&SynthOptions::clean(body))
+    let scan = Scan::from_points(
+        synthesize(&SynthOptions::clean(body))
             .expect("valid options")
             .points,
-        ..Scan::default()
-    };
+    );
     fit(&scan, &FitOptions::default()).expect("a grain").grain
 }
 

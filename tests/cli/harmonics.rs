@@ -165,7 +165,7 @@ fn publish(name: &str, options: &[&str]) -> (Published, Grain, f64) {
     let published = read(&text("a.csv"));
     // The header has fewer digits than the report.
     assert!((published.loss / number(&report, "harmonics_loss") - 1.0).abs() < 0.1);
-    let grain = model::parse_grain(&text("m.json")).unwrap();
+    let grain = model::grain_from_json(&text("m.json")).unwrap();
     (published, grain, number(&report, "mean_radius"))
 }
 

@@ -93,6 +93,44 @@ fn a_model_of_the_whole_sphere_is_measured_meshed_and_touched() {
     }
 }
 
+/// A brick of 10 x 4 x 1, standing askew.
+#[test]
+fn ratios_of_the_source_and_of_others_are_told_under_their_names() {
+    let folder = folder();
+    let (sin, cos) = 0.4_f64.sin_cos();
+    let corners = (0..8).map(|i| {
+        let side = |bit: usize, length: f64| if i & bit == 0 { 0.0 } else { length };
+        let (x, y, z) = (side(1, 1.0), side(2, 10.0), side(4, 4.0));
+        format!("v {} {} {z}\n", cos * x - sin * y, sin * x + cos * y)
+    });
+    let faces = [
+        "1 3 4 2", "5 6 8 7", "1 2 6 5", "3 7 8 4", "1 5 7 3", "2 4 8 6",
+    ];
+    let faces = faces.map(|face| format!("f {face}\n")).concat();
+    let brick = corners.collect::<String>() + &faces;
+    std::fs::write(folder.path().join("brick.obj"), brick).unwrap();
+    let only = ["measure", "brick.obj", "--only", "ratios,form"];
+    let report = json(&folder, &only);
+    for (group, name, expected) in [
+        ("ratios", "short_to_long", 0.1),
+        ("ratios", "intermediate_to_long", 0.4),
+        ("ratios", "short_to_intermediate", 0.25),
+        ("form", "aspect_ratio", 10.0),
+        ("form", "elongation", 0.4),
+        ("form", "flatness", 0.25),
+    ] {
+        let found = number(&report[group], name);
+        assert!((found / expected - 1.0).abs() < 1e-9, "{name}: {found}");
+    }
+    let text = succeed(&folder, &only);
+    for line in [
+        "ratios        S/L 0.1000, I/L 0.4000, S/I 0.2500 of the minimum box\n",
+        "form          aspect ratio L/T 10.0000, elongation W/L 0.4000, flatness T/W 0.2500\n",
+    ] {
+        assert!(text.contains(line), "{text}");
+    }
+}
+
 #[test]
 fn only_what_is_asked_for_is_told() {
     let folder = folder();

@@ -16,11 +16,11 @@ fn meshes_of_all_formats_are_closed_and_of_the_size_asked_for() {
         ];
         let report = json(&folder, &words);
         let scan = read_scan(&folder.path().join(name)).unwrap();
-        assert_eq!(scan.warnings, [""; 0], "{name}");
-        assert_eq!(scan.points.len(), 6 * 12 * 12 + 2, "{name}");
+        assert_eq!(scan.warnings(), [""; 0], "{name}");
+        assert_eq!(scan.points().len(), 6 * 12 * 12 + 2, "{name}");
         let mesh = Mesh {
-            vertices: scan.points,
-            triangles: scan.triangles,
+            vertices: scan.points().to_vec(),
+            triangles: scan.triangles().to_vec(),
         };
         mesh.check_closed().unwrap();
         let measured = json(&folder, &["measure", name]);
@@ -48,9 +48,9 @@ fn a_model_file_holds_what_was_fitted() {
     let folder = folder();
     let report = json(&folder, &["fit", &grain("bean.ply"), "-o", "m.json"]);
     let text = std::fs::read_to_string(folder.path().join("m.json")).unwrap();
-    let grain = model::parse_grain(&text).unwrap();
+    let grain = model::grain_from_json(&text).unwrap();
     assert_eq!(report["coefficients"], grain.coefficient_count());
     assert_eq!(report["segments"], grain.segments());
     assert_eq!(report["degree"], grain.degree());
-    assert_eq!(model::save_grain(&grain) + "\n", text);
+    assert_eq!(model::grain_to_json(&grain) + "\n", text);
 }

@@ -74,7 +74,7 @@ fn the_published_octant_and_its_header_rebuild_the_radius() {
         .map(|row| row.split(',').nth(2).unwrap().parse().unwrap())
         .collect();
     let json = std::fs::read_to_string(folder.path().join("a.json")).unwrap();
-    let fitted = model::parse_grain(&json).unwrap();
+    let fitted = model::grain_from_json(&json).unwrap();
     for n in [[0.48, -0.6, 0.64], [-0.6, 0.0, -0.8], [0.0, 0.0, -1.0]] {
         let n = Vector3::from(n);
         let y = harmonics(3, &n.abs());
@@ -160,7 +160,7 @@ fn the_order_of_the_points_does_not_matter() {
         assert!((a - b).abs() < 1e-9 * a.max(1.0), "{name}");
     }
     let read = scan::read_scan(&folder.path().join("b.xyz")).unwrap();
-    assert_eq!(read.points.len(), text.lines().count());
+    assert_eq!(read.points().len(), text.lines().count());
 }
 
 #[test]

@@ -37,7 +37,7 @@ fn the_same_seed_gives_the_same_scan_in_both_formats() {
         let report = json(&folder, &words);
         assert_eq!(report["points"], 500);
         let path = folder.path().join(name);
-        grainform::scan::read_scan(&path).unwrap().points
+        grainform::scan::read_scan(&path).unwrap().points().to_vec()
     };
     let first = make("1", "a.ply");
     assert_eq!(first, make("1", "b.xyz"));
@@ -68,7 +68,7 @@ fn a_shape_has_the_axes_asked_for_and_its_exact_figures() {
     assert_eq!(number(&report, "relative_error"), 1e-14);
     assert_eq!(report["axes"], serde_json::json!([3.0, 3.0, 0.5]));
     let path = folder.path().join("c.ply");
-    for p in grainform::scan::read_scan(&path).unwrap().points {
+    for p in grainform::scan::read_scan(&path).unwrap().points() {
         let place = (p.x.hypot(p.y) / 3.0).max(p.z.abs() / 0.5);
         assert!((place - 1.0).abs() < 1e-12, "{p}");
     }

@@ -16,12 +16,10 @@ const LEAST_POINTS: usize = 1000;
 
 /// A chickpea of about so many points.
 pub(crate) fn chickpea(points: usize, sampling: Sampling) -> Vec<Point3<f64>> {
-    let options = SynthOptions {
-        points,
-        sampling,
-        noise: ROUGHNESS,
-        ..SynthOptions::clean(Body::Chickpea)
-    };
+    let options = SynthOptions::clean(Body::Chickpea)
+        .with_points(points)
+        .with_sampling(sampling)
+        .with_noise(ROUGHNESS);
     synthesize(&options).expect("valid options").points
 }
 

@@ -9,12 +9,10 @@ use rayon::prelude::*;
 
 /// Asks for the segments' own, independent expansions: k x k of them, all of one degree.
 pub(crate) fn options(k: usize, degree: usize) -> FitOptions {
-    FitOptions {
-        seams: Seams::None,
-        degree: Some(degree),
-        segments: Some(k * k),
-        ..FitOptions::default()
-    }
+    FitOptions::default()
+        .with_seams(Seams::None)
+        .with_degree(degree)
+        .with_segments(k * k)
 }
 
 /// Agreement with extended precision, relative to the radius, that the fit promises wherever

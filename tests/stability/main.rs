@@ -16,12 +16,9 @@ use nalgebra::{Point3, Vector3};
 use solvers::{Basis, Solver, design};
 
 fn assert_promise(points: Vec<Point3<f64>>, k: usize, degree: usize) {
-    let scan = Scan {
-        points,
-        ..Scan::default()
-    };
+    let scan = Scan::from_points(points);
     let fitted = fit(&scan, &options(k, degree)).expect("a grain");
-    let segments = samples_by_segment(&fitted, &scan.points);
+    let segments = samples_by_segment(&fitted, scan.points());
     let verdict = judge(&fitted.grain, degree, &segments);
     assert!(
         verdict.error <= PROMISE && verdict.lowered == 0,
@@ -67,12 +64,9 @@ fn segments_of_dense_clouds_are_widened_to_all_samples_of_their_caps() {
 /// The largest distance from extended precision in any segment, relative to its largest radius;
 /// infinite if a factorization breaks down.
 fn error_of(basis: Basis, solver: Solver, k: usize, degree: usize) -> f64 {
-    let scan = Scan {
-        points: even_in_angles(k, degree),
-        ..Scan::default()
-    };
+    let scan = Scan::from_points(even_in_angles(k, degree));
     let fitted = fit(&scan, &options(k, degree)).expect("a grain");
-    let segments = samples_by_segment(&fitted, &scan.points);
+    let segments = samples_by_segment(&fitted, scan.points());
     let errors = segments.iter().enumerate().map(|(segment, samples)| {
         let cap = segmented(&fitted.grain).partition().cap(segment);
         let exact = extended::fitted_radii(degree, &cap, samples);

@@ -15,6 +15,7 @@ use crate::scan::Scan;
 use crate::sphere::triangulate_directions;
 use nalgebra::{Point3, Vector3};
 use std::borrow::Cow;
+use std::ops::RangeInclusive;
 
 /// Median scatter of neighbouring radii beyond which points do not form one surface.
 const LARGEST_SCATTER: f64 = 0.1;
@@ -24,6 +25,9 @@ const LARGEST_SHARE_OF_STRAYS: f64 = 0.2;
 
 /// Points of the scan, or a part of them.
 type Points<'a> = Cow<'a, [Point3<f64>]>;
+
+/// Sizes beyond which volumes are no numbers.
+const SIZES: RangeInclusive<f64> = 1e-100..=1e100;
 
 /// Rounds of leaving out strays.
 const STRAY_ROUNDS: usize = 5;
@@ -70,6 +74,14 @@ pub fn scanned_surface(scan: &Scan) -> Result<ScannedSurface<'_>, FitError> {
         .position(|p| !p.iter().all(|x| x.is_finite()))
     {
         return Err(FitError::NotFinite { index });
+    }
+    let first = scan.points.first().copied().unwrap_or_default();
+    let size = scan
+        .points
+        .iter()
+        .fold(0.0, |most: f64, p| most.max((p - first).amax()));
+    if size > 0.0 && !SIZES.contains(&size) {
+        return Err(FitError::Scale { size });
     }
     if scan.is_flat() {
         let points = scan.points.len();

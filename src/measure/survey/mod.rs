@@ -11,8 +11,8 @@ use super::nodes::{Integrand, grain_nodes, octant_nodes};
 use super::unit::Unit;
 use super::{
     Ball, Convexity, CurvatureStatistics, EquivalentEllipsoid, Form, MassProperties, OrientedBox,
-    Outline, PrincipalInertia, ScannedBody, Spectrum, Sphericity, convex_hull, enclosing_ball,
-    extents, inscribed_ball, minimum_box, project,
+    Outline, PrincipalInertia, ScannedBody, SideRatios, Spectrum, Sphericity, convex_hull,
+    enclosing_ball, extents, inscribed_ball, minimum_box, project,
 };
 use crate::Mesh;
 use crate::model::{Grain, StarSurface};
@@ -39,6 +39,17 @@ const LARGEST_OVERHANG: f64 = 0.01;
 /// and outlines are those of a mesh of it, good to 1e-4 where it is smooth. Of a mesh, everything is that of
 /// the polyhedron.
 ///
+/// ```
+/// use grainform::Mesh;
+/// use grainform::measure::Survey;
+///
+/// let ball = Mesh::radial(8, |_| 2.0);
+/// let survey = Survey::of_mesh(&ball)?;
+/// assert!((survey.enclosing()?.radius - 2.0).abs() < 1e-9);
+/// assert!(survey.sphericity()?.wadell > 0.99);
+/// # Ok::<(), grainform::measure::SurveyError>(())
+/// ```
+///
 /// Everything is computed at unit size, so any unit of length will do. A ratio that is outside of its range
 /// is an error, never a figure.
 ///
@@ -50,6 +61,7 @@ pub struct Survey<'a> {
     extents: OnceCell<Result<Vector3<f64>, SurveyError>>,
     mesh: OnceCell<Mesh>,
     hull: OnceCell<Result<Mesh, SurveyError>>,
+    minimum_box: OnceCell<Result<OrientedBox, SurveyError>>,
     elements: OnceCell<Vec<Element>>,
     inscribed: OnceCell<Result<Ball, SurveyError>>,
     enclosing: OnceCell<Result<Ball, SurveyError>>,
@@ -102,6 +114,7 @@ impl<'a> Survey<'a> {
             extents: OnceCell::new(),
             mesh: OnceCell::new(),
             hull: OnceCell::new(),
+            minimum_box: OnceCell::new(),
             elements: OnceCell::new(),
             inscribed: OnceCell::new(),
             enclosing: OnceCell::new(),
@@ -174,12 +187,16 @@ impl<'a> Survey<'a> {
     ///
     /// When there is no convex hull.
     pub fn minimum_box(&self) -> Result<OrientedBox, SurveyError> {
-        let found = minimum_box(self.hull()?)?;
-        let held = match self.body.surface() {
-            Some((surface, origin)) => hold(surface, &origin, self.mesh(), &found.axes),
-            None => found,
-        };
-        Ok(self.unit.oriented_box(held))
+        Ok(self.unit.oriented_box(self.unit_minimum_box()?))
+    }
+
+    /// Ratios of the sides of the box of least volume.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::minimum_box`].
+    pub fn side_ratios(&self) -> Result<SideRatios, SurveyError> {
+        Ok(SideRatios::new(&self.unit_minimum_box()?.extents).checked()?)
     }
 
     /// Ratios of the dimensions along the principal axes.
@@ -345,6 +362,17 @@ impl<'a> Survey<'a> {
             })
         };
         self.extents.get_or_init(dimensions).clone()
+    }
+
+    fn unit_minimum_box(&self) -> Result<OrientedBox, SurveyError> {
+        let least = || {
+            let found = minimum_box(self.hull()?)?;
+            Ok(match self.body.surface() {
+                Some((surface, origin)) => hold(surface, &origin, self.mesh(), &found.axes),
+                None => found,
+            })
+        };
+        self.minimum_box.get_or_init(least).clone()
     }
 
     fn unit_inscribed(&self) -> Result<Ball, SurveyError> {

@@ -1,6 +1,8 @@
 use super::bound::{Bound, CapBound};
 use super::*;
-use crate::model::{Blended, Frame, Mirrored, Segmented, Stretch, Whole, parse_grain, save_grain};
+use crate::model::{
+    Blended, Frame, Mirrored, Segmented, Stretch, Whole, grain_from_json, grain_to_json,
+};
 use crate::shapes::Sampling;
 use crate::sphere::{AngularPartition, CapBasis, Cover, CubeCell, MARGIN};
 use nalgebra::{Matrix3, Point3, Rotation3};
@@ -175,11 +177,11 @@ fn bounds_hold_on_the_cap() {
 
 #[test]
 fn models_that_are_not_sound_do_not_load() {
-    let text = save_grain(&grains(0.3, 1)[4]);
+    let text = grain_to_json(&grains(0.3, 1)[4]);
     let spoilt = |coefficients: serde_json::Value| {
         let mut file: serde_json::Value = serde_json::from_str(&text).expect("JSON");
         file["harmonics"] = coefficients;
-        parse_grain(&file.to_string())
+        grain_from_json(&file.to_string())
             .err()
             .map(|error| error.to_string())
     };

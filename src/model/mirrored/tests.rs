@@ -1,6 +1,6 @@
 use super::*;
 use crate::measure::grain_properties;
-use crate::model::{Frame, Grain, Region, Surface, parse_grain, save_grain};
+use crate::model::{Frame, Grain, Region, Surface, grain_from_json, grain_to_json};
 use crate::sphere::{cube_grid, harmonics};
 use nalgebra::{Point3, Rotation3};
 
@@ -93,24 +93,24 @@ fn grain(symmetry: &str) -> Grain {
 fn a_saved_grain_is_the_same_to_the_last_bit() {
     for name in SYMMETRIES {
         let grain = grain(name);
-        let text = save_grain(&grain);
+        let text = grain_to_json(&grain);
         assert!(text.contains(&format!("\"symmetry\": \"{name}\"")));
-        let loaded = parse_grain(&text).expect("a model");
+        let loaded = grain_from_json(&text).expect("a model");
         assert_eq!(loaded.frame(), grain.frame());
         assert_eq!(loaded.coefficients(), grain.coefficients());
         let symmetry = |grain: &Grain| grain.surface().mirrored().map(Mirrored::symmetry);
         assert_eq!(symmetry(&loaded), symmetry(&grain));
-        assert_eq!(save_grain(&loaded), text);
+        assert_eq!(grain_to_json(&loaded), text);
     }
 }
 
 #[test]
 fn a_broken_file_is_refused() {
     let spoilt = |name: &str, value: serde_json::Value| {
-        let text = save_grain(&grain("xz"));
+        let text = grain_to_json(&grain("xz"));
         let mut file: serde_json::Value = serde_json::from_str(&text).expect("JSON");
         file[name] = value;
-        let error = parse_grain(&file.to_string()).expect_err("refused");
+        let error = grain_from_json(&file.to_string()).expect_err("refused");
         error.to_string()
     };
     let numbers = serde_json::json!([1.0, 2.0, 3.0]);

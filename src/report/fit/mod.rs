@@ -16,6 +16,7 @@ use serde::Serialize;
 
 /// The result of a fit.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct FitReport {
     /// The scan.
     pub input: String,
@@ -104,6 +105,7 @@ pub struct FitReport {
 
 /// Standard errors (one standard deviation) of a fitted grain's figures.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct StandardErrorsRecord {
     /// Of the area.
     pub area: f64,
@@ -123,6 +125,7 @@ pub struct StandardErrorsRecord {
 
 /// The surface that a fit is compared with.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct ReferenceRecord {
     /// "faces" (the scan's own) or "directions" (triangulated between the points).
     pub kind: &'static str,
@@ -134,6 +137,7 @@ pub struct ReferenceRecord {
 
 /// Wall-clock seconds of the stages.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Seconds {
     /// Reading the scan.
     pub read: f64,
@@ -147,6 +151,7 @@ pub struct Seconds {
 
 /// Work that could not change the choice.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Skipped {
     /// Candidates not fitted.
     pub candidates: usize,

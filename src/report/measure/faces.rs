@@ -8,6 +8,7 @@ use std::fmt;
 
 /// The bodies that the faces of a scan enclose.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct FacesRecord {
     /// Bodies that share no point; of an open mesh, its parts.
     pub bodies: usize,
@@ -19,6 +20,7 @@ pub struct FacesRecord {
 
 /// What closes small holes.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct FillRecord {
     /// Number of holes.
     pub holes: usize,

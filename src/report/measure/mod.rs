@@ -15,7 +15,9 @@ pub use records::{
 
 use super::unit::Unit;
 use crate::fit::ReferenceKind;
-use crate::measure::{Convexity, Form, ScannedBody, Spectrum, Sphericity, Survey, SurveyError};
+use crate::measure::{
+    Convexity, Form, ScannedBody, SideRatios, Spectrum, Sphericity, Survey, SurveyError,
+};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -43,6 +45,7 @@ impl From<ReferenceKind> for Measured {
 /// Measures of a solid of density one: those that were asked for. Their definitions, formulas, ranges
 /// and sources are at what each is made from in [`crate::measure`].
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct MeasureReport {
     /// The scan or model.
     pub input: String,
@@ -69,6 +72,7 @@ pub struct MeasureReport {
 /// The measures of a solid; absent are those that were not asked for, and `null` in the report those that
 /// cannot be had.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Measures {
     /// Area.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -91,6 +95,9 @@ pub struct Measures {
     /// The box of least volume.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub minimum_box: Option<BoxRecord>,
+    /// Ratios of the sides of the box of least volume.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ratios: Option<SideRatios>,
     /// Ratios of the extents along the principal axes.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub form: Option<Form>,
@@ -128,6 +135,7 @@ pub struct Measures {
 
 /// A measure that cannot be had.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct NotMeasured {
     /// Which.
     pub measure: &'static str,
@@ -203,6 +211,7 @@ impl Measures {
             Measure::Principal => self.principal = Some(Principal::new(&survey.principal()?)),
             Measure::Dimensions => self.dimensions = Some(Dimensions::new(survey.dimensions()?)),
             Measure::MinimumBox => self.minimum_box = Some(survey.minimum_box()?.into()),
+            Measure::Ratios => self.ratios = Some(survey.side_ratios()?),
             Measure::Form => self.form = Some(survey.form()?),
             Measure::Spheres => {
                 self.spheres = Some(Spheres {

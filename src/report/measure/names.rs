@@ -22,7 +22,9 @@ pub enum Measure {
     Dimensions,
     /// The box of least volume.
     MinimumBox,
-    /// Aspect ratio, elongation, flatness.
+    /// Ratios of the sides of that box.
+    Ratios,
+    /// Aspect ratio, elongation and flatness of the extents.
     Form,
     /// The largest inscribed and the smallest enclosing sphere.
     Spheres,
@@ -49,6 +51,7 @@ pub enum Measure {
 /// A name that no [`Measure`] has.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("there is no measure named {name:?}; known are {}", Measure::ALL.map(Measure::name).join(", "))]
+#[non_exhaustive]
 pub struct UnknownMeasure {
     /// The name asked for.
     pub name: String,
@@ -56,7 +59,7 @@ pub struct UnknownMeasure {
 
 impl Measure {
     /// All measures, in the order of the report.
-    pub const ALL: [Self; 18] = [
+    pub const ALL: [Self; 19] = [
         Self::Area,
         Self::Volume,
         Self::Centroid,
@@ -64,6 +67,7 @@ impl Measure {
         Self::Principal,
         Self::Dimensions,
         Self::MinimumBox,
+        Self::Ratios,
         Self::Form,
         Self::Spheres,
         Self::Sphericity,
@@ -87,6 +91,7 @@ impl Measure {
             Self::Principal => "principal",
             Self::Dimensions => "dimensions",
             Self::MinimumBox => "minimum_box",
+            Self::Ratios => "ratios",
             Self::Form => "form",
             Self::Spheres => "spheres",
             Self::Sphericity => "sphericity",

@@ -9,6 +9,7 @@ use serde::Serialize;
 
 /// Principal moments of inertia about the centroid.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Principal {
     /// Ascending: the first belongs to the long axis.
     pub moments: [f64; 3],
@@ -27,6 +28,7 @@ impl Principal {
 
 /// Extents along the principal axes of inertia, in the order of the moments.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Dimensions {
     /// Along the axis of the least moment.
     pub length: f64,
@@ -50,6 +52,7 @@ impl Dimensions {
 
 /// A box in any orientation.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct BoxRecord {
     /// Longest side.
     pub length: f64,
@@ -81,6 +84,7 @@ impl From<OrientedBox> for BoxRecord {
 
 /// The spheres within and around a body.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Spheres {
     /// The largest sphere inside; `null` where none was found.
     pub inscribed: Option<SphereRecord>,
@@ -90,6 +94,7 @@ pub struct Spheres {
 
 /// A sphere.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct SphereRecord {
     /// Centre.
     pub centre: [f64; 3],
@@ -108,6 +113,7 @@ impl From<Ball> for SphereRecord {
 
 /// The ellipsoid of equal moments.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct EllipsoidRecord {
     /// Semi-axes, descending.
     pub semi_axes: [f64; 3],
@@ -126,6 +132,7 @@ impl From<EquivalentEllipsoid> for EllipsoidRecord {
 
 /// The outline of a body seen along an axis, see [`Outline`].
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct ProjectionRecord {
     /// "length", "width" or "thickness".
     pub along: &'static str,
@@ -192,6 +199,7 @@ impl ProjectionRecord {
 
 /// Curvature over a surface, positive where convex.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct CurvatureRecord {
     /// Mean curvature H.
     pub mean: Distribution,

@@ -128,10 +128,17 @@ impl MeasureReport {
 
     fn shape(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let measures = &self.measures;
+        if let Some(ratios) = measures.ratios {
+            writeln!(
+                f,
+                "ratios        S/L {:.4}, I/L {:.4}, S/I {:.4} of the minimum box",
+                ratios.short_to_long, ratios.intermediate_to_long, ratios.short_to_intermediate
+            )?;
+        }
         if let Some(form) = measures.form {
             writeln!(
                 f,
-                "form          aspect ratio {:.4}, elongation {:.4}, flatness {:.4}",
+                "form          aspect ratio L/T {:.4}, elongation W/L {:.4}, flatness T/W {:.4}",
                 form.aspect_ratio, form.elongation, form.flatness
             )?;
         }

@@ -1,8 +1,5 @@
-//! How good the shape descriptors of fitted grains are: those of the fit beside those of the closed form
-//! that the points were taken from, for the three synthetic grains at their native size, clean and with
-//! noise of 0.5 % of the mean radius.
-//!
-//! To run: `cargo run --release --example descriptors`
+//! Descriptors of fits beside those of the closed form that the points were taken from: the three synthetic
+//! grains at their native size, clean and with noise of 0.5 % of the mean radius.
 
 use grainform::measure::{Scheme, Survey, SurveyError};
 use grainform::scan::Scan;
@@ -25,7 +22,8 @@ const NAMES: [&str; 13] = [
     "largest curvature",
 ];
 
-fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// Prints a table for each noise.
+pub(crate) fn print() -> Result<(), Box<dyn std::error::Error>> {
     for noise in [0.0, 0.005] {
         println!("noise {} %\n", 100.0 * noise);
         let mut columns = Vec::new();
@@ -33,16 +31,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             let solid = body.surface();
             let known = solid.integrals().properties;
             let truth = figures(&Survey::of_surface(solid.as_ref(), known))?;
-            let points = synthesize(&SynthOptions {
-                noise,
-                seed: 1,
-                ..SynthOptions::clean(body)
-            })?
-            .points;
-            let scan = Scan {
-                points,
-                ..Scan::default()
-            };
+            let points =
+                synthesize(&SynthOptions::clean(body).with_noise(noise).with_seed(1))?.points;
+            let scan = Scan::from_points(points);
             let grain = fit(&scan, &FitOptions::default())?.grain;
             columns.push((truth, figures(&Survey::of_grain(&grain, Scheme::Exact))?));
         }
