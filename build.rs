@@ -5,8 +5,8 @@ use std::path::Path;
 fn main() {
     println!("cargo::rustc-check-cfg=cfg(shared)");
     println!("cargo::rerun-if-changed=build.rs");
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared");
-    if folder.is_dir() {
+    // Seen from the package, in which cargo runs this.
+    if Path::new("../shared").is_dir() {
         println!("cargo::rustc-cfg=shared");
         println!("cargo::rerun-if-changed=../shared");
     }
