@@ -88,13 +88,13 @@ mod tests {
     use super::*;
     use approx::assert_relative_eq;
 
-    /// A hole of half a sphere hides half of the directions; the radius there is off by a quarter.
+    /// A hole of 60 degrees hides a quarter of the directions; the radius there is off by a quarter.
     #[test]
     fn errors_of_a_guess_go_with_the_powers_of_the_radius() {
         let hole = Unseen::Hole {
-            half_angle: PI / 2.0,
+            half_angle: PI / 3.0,
         };
-        assert_relative_eq!(hole.share(), 0.5);
+        assert_relative_eq!(hole.share(), 0.25, max_relative = 1e-14);
         let open = Unseen::Open {
             holes: 1,
             share: 0.25,
@@ -109,15 +109,19 @@ mod tests {
             dimensions: Vector3::repeat(2.0),
         };
         let guess = hole.errors(&told, 4.0, None);
-        assert_relative_eq!(guess.area, 2.0 * 0.125 * 10.0);
-        assert_relative_eq!(guess.volume, 3.0 * 0.125 * 8.0);
-        assert_relative_eq!(guess.centroid.x, 2.25 * 0.125 * 4.0);
-        assert_relative_eq!(guess.moments.x, 5.0 * 0.125 * 2.0);
-        assert_relative_eq!(guess.inertia.m12, 5.0 * 0.125 * 2.0);
-        assert_relative_eq!(guess.dimensions.z, 0.25 * 4.0);
+        assert_relative_eq!(guess.area, 2.0 * 0.0625 * 10.0, max_relative = 1e-14);
+        assert_relative_eq!(guess.volume, 3.0 * 0.0625 * 8.0, max_relative = 1e-14);
+        assert_relative_eq!(guess.centroid.x, 2.25 * 0.0625 * 4.0, max_relative = 1e-14);
+        assert_relative_eq!(guess.moments.x, 5.0 * 0.0625 * 2.0, max_relative = 1e-14);
+        assert_relative_eq!(guess.inertia.m12, 5.0 * 0.0625 * 2.0, max_relative = 1e-14);
+        assert_relative_eq!(guess.dimensions.z, 0.25 * 4.0, max_relative = 1e-14);
         let both = hole.errors(&told, 4.0, Some(guess));
-        assert_relative_eq!(both.area, 2.0_f64.sqrt() * guess.area);
-        assert_relative_eq!(both.dimensions.x, 2.0_f64.sqrt() * guess.dimensions.x);
+        assert_relative_eq!(both.area, 2.0_f64.sqrt() * guess.area, max_relative = 1e-14);
+        assert_relative_eq!(
+            both.dimensions.x,
+            2.0_f64.sqrt() * guess.dimensions.x,
+            max_relative = 1e-14
+        );
     }
 
     #[test]

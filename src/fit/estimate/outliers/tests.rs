@@ -73,6 +73,19 @@ fn a_rough_part_of_the_surface_has_no_outliers() {
 }
 
 #[test]
+fn what_the_rest_of_the_surface_scatters_by_is_no_outlier_in_a_quiet_part() {
+    let quiet = |n: &Vector3<f64>| if n.z > 0.8 { 1e-4 } else { 0.02 };
+    let (directions, mut residuals) = noisy(quiet);
+    let top = Neighbours::new(&directions).nearest(&Vector3::z(), 1)[0];
+    for (residual, expected) in [(0.12, &[][..]), (0.25, &[top])] {
+        residuals[top] = residual;
+        let mut found = outliers(&directions, &residuals);
+        found.retain(|&at| directions[at].z > 0.9);
+        assert_eq!(found, expected);
+    }
+}
+
+#[test]
 fn the_deviation_is_told_by_the_median_size() {
     let sizes = [3.0, -1.0, 2.0, -100.0, 0.5];
     assert_eq!(robust_deviation(sizes.into_iter()), 1.4826 * 2.0);
