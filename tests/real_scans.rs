@@ -1,17 +1,12 @@
-//! Real scans from the folder beside the project, where it is there.
+//! Real scans from the folder beside the project. Ignored where it is absent.
 
 use grainform::measure::grain_properties;
 use grainform::scan::read_scan;
 use grainform::{FitError, FitOptions, Fitted, fit};
 use std::path::{Path, PathBuf};
 
-fn scans() -> Option<PathBuf> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/scans");
-    if !folder.is_dir() {
-        println!("skipped: {} is not there", folder.display());
-        return None;
-    }
-    Some(folder)
+fn scans() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/scans")
 }
 
 fn try_fit(path: &Path) -> Result<Fitted, FitError> {
@@ -39,8 +34,9 @@ fn deviations(path: &Path) -> (f64, f64) {
 }
 
 #[test]
+#[cfg_attr(not(shared), ignore = "needs ../shared")]
 fn real_grains_and_stones_are_fitted() {
-    let Some(scans) = scans() else { return };
+    let scans = scans();
     for (name, area_bound, volume_bound) in [
         ("barley/barley_S017_l1_38.stl", 0.02, 0.005),
         ("barley/barley_S017_l2_07_ascii.ply", 0.02, 0.005),
@@ -66,8 +62,9 @@ fn real_grains_and_stones_are_fitted() {
 }
 
 #[test]
+#[cfg_attr(not(shared), ignore = "needs ../shared")]
 fn every_third_kernel_of_the_batch_is_fitted() {
-    let Some(scans) = scans() else { return };
+    let scans = scans();
     let entries = std::fs::read_dir(scans.join("barley_batch")).expect("a folder");
     let mut paths: Vec<PathBuf> = entries
         .map(|entry| entry.expect("an entry").path())
@@ -82,8 +79,9 @@ fn every_third_kernel_of_the_batch_is_fitted() {
 }
 
 #[test]
+#[cfg_attr(not(shared), ignore = "needs ../shared")]
 fn what_is_not_star_shaped_is_refused_with_the_reason() {
-    let Some(scans) = scans() else { return };
+    let scans = scans();
     match try_fit(&scans.join("not_star/torus.STL")) {
         Err(FitError::NotStarShaped { share }) => assert!((0.1..0.5).contains(&share)),
         other => panic!("a torus: {:?}", other.map(|_| ())),
@@ -96,15 +94,17 @@ fn what_is_not_star_shaped_is_refused_with_the_reason() {
 }
 
 #[test]
+#[cfg_attr(not(shared), ignore = "needs ../shared")]
 fn folds_are_told_of() {
-    let Some(scans) = scans() else { return };
+    let scans = scans();
     let fitted = try_fit(&scans.join("stone/low_res_E34.ply")).expect("nearly star-shaped");
     assert!(told(&fitted, "faces away"));
 }
 
 #[test]
+#[cfg_attr(not(shared), ignore = "needs ../shared")]
 fn odd_clouds_of_the_hostile_folder_end_as_they_should() {
-    let Some(scans) = scans() else { return };
+    let scans = scans();
     let made = scans.join("../hostile/made");
     let error = try_fit(&made.join("ply_082_torus.ply")).expect_err("a torus");
     assert!(error.to_string().contains("faces away"), "{error}");

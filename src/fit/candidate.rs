@@ -138,3 +138,55 @@ pub(crate) fn choose(candidates: &[Candidate], limit: f64) -> usize {
         .or_else(|| candidates.iter().enumerate().min_by(least))
         .map_or(0, |(index, _)| index)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A candidate with so many coefficients, this held-out RMS and these deviations of area and volume.
+    fn candidate(coefficients: usize, rms: f64, [area, volume]: [f64; 2]) -> Candidate {
+        Candidate {
+            heldout_rms: Some(rms),
+            area_error: Some(area),
+            volume_error: Some(volume),
+            ..Candidate::unfitted(2, 4, coefficients)
+        }
+    }
+
+    #[test]
+    fn the_fewest_coefficients_within_the_limit_win() {
+        let candidates = [
+            candidate(36, 0.1, [0.0; 2]),
+            candidate(16, 0.5, [0.1; 2]),
+            candidate(9, 0.6, [0.0; 2]),
+        ];
+        assert_eq!(choose(&candidates, 0.5), 1);
+        assert_eq!(choose(&candidates, 0.6), 2);
+    }
+
+    #[test]
+    fn of_as_many_coefficients_the_least_deviation_wins_whatever_its_sign() {
+        let candidates = [
+            candidate(16, 0.1, [-0.05, 0.0]),
+            candidate(16, 0.4, [0.01, -0.02]),
+            candidate(16, 0.2, [0.0, 0.04]),
+        ];
+        assert_eq!(choose(&candidates, 0.5), 1);
+    }
+
+    #[test]
+    fn beyond_the_limit_the_least_error_wins_and_rejected_ones_only_where_all_are() {
+        let tears = Some(Rejection::Tears { by: 0.2 });
+        let mut candidates = [
+            candidate(9, 0.1, [0.0; 2]),
+            candidate(16, 0.8, [0.0; 2]),
+            candidate(36, 0.7, [0.1; 2]),
+        ];
+        candidates[0].rejected = tears;
+        assert_eq!(choose(&candidates, 0.5), 2);
+        for candidate in &mut candidates {
+            candidate.rejected = tears;
+        }
+        assert_eq!(choose(&candidates, 0.5), 0);
+    }
+}

@@ -82,3 +82,52 @@ impl Unseen {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+
+    /// A hole of 60 degrees hides a quarter of the directions; the radius there is off by a quarter.
+    #[test]
+    fn errors_of_a_guess_go_with_the_powers_of_the_radius() {
+        let hole = Unseen::Hole {
+            half_angle: PI / 3.0,
+        };
+        assert_relative_eq!(hole.share(), 0.25, max_relative = 1e-14);
+        let open = Unseen::Open {
+            holes: 1,
+            share: 0.25,
+        };
+        assert_relative_eq!(open.share(), 0.2);
+        let told = Figures {
+            area: 10.0,
+            volume: 8.0,
+            centroid: Vector3::zeros(),
+            inertia: Matrix3::from_diagonal(&Vector3::new(1.0, 2.0, 3.0)),
+            moments: Vector3::new(1.0, 2.0, 3.0),
+            dimensions: Vector3::repeat(2.0),
+        };
+        let guess = hole.errors(&told, 4.0, None);
+        assert_relative_eq!(guess.area, 2.0 * 0.0625 * 10.0, max_relative = 1e-14);
+        assert_relative_eq!(guess.volume, 3.0 * 0.0625 * 8.0, max_relative = 1e-14);
+        assert_relative_eq!(guess.centroid.x, 2.25 * 0.0625 * 4.0, max_relative = 1e-14);
+        assert_relative_eq!(guess.moments.x, 5.0 * 0.0625 * 2.0, max_relative = 1e-14);
+        assert_relative_eq!(guess.inertia.m12, 5.0 * 0.0625 * 2.0, max_relative = 1e-14);
+        assert_relative_eq!(guess.dimensions.z, 0.25 * 4.0, max_relative = 1e-14);
+        let both = hole.errors(&told, 4.0, Some(guess));
+        assert_relative_eq!(both.area, 2.0_f64.sqrt() * guess.area, max_relative = 1e-14);
+        assert_relative_eq!(
+            both.dimensions.x,
+            2.0_f64.sqrt() * guess.dimensions.x,
+            max_relative = 1e-14
+        );
+    }
+
+    #[test]
+    fn holes_are_told_of_beyond_thirty_degrees_and_what_chance_leaves() {
+        let hole = |degrees: f64, points| Unseen::hole(degrees.to_radians(), points).is_some();
+        assert!(!hole(29.0, 10_000) && hole(31.0, 10_000));
+        assert!(!hole(50.0, 20));
+    }
+}

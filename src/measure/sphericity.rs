@@ -103,6 +103,7 @@ mod tests {
         let operational = (48.0 / PI).cbrt() / enclosing;
         assert_relative_eq!(found.operational, operational, max_relative = 1e-14);
         assert_relative_eq!(found.inscribed_enclosing, 1.0 / 21.0_f64.sqrt());
+        assert_relative_eq!(found.inscribed_enclosing_root, 21.0_f64.powf(-0.25));
         assert_relative_eq!(found.krumbein, 0.5, max_relative = 1e-15);
         assert_relative_eq!(found.maximum_projection, 0.5, max_relative = 1e-15);
     }

@@ -119,6 +119,12 @@ mod tests {
     }
 
     #[test]
+    fn units_have_their_lengths() {
+        let lengths = ["um", "mm", "cm", "m"].map(|text| text.parse().map(Unit::metres));
+        assert_eq!(lengths, [1e-6, 1e-3, 1e-2, 1.0].map(Ok));
+    }
+
+    #[test]
     fn labels_have_powers_or_are_empty() {
         let labels = Labels(Some(Unit::Millimetre));
         assert_eq!(

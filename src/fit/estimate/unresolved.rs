@@ -66,5 +66,8 @@ mod tests {
         }
         assert!((kurtosis(&edges) - 3.0).abs() < 0.1);
         assert!(kurtosis(&[]).is_finite());
+        // (1 + 6 + 3) / (1 + 1)^2 of residuals that all have the size of the floor.
+        assert!((kurtosis(&[FLOOR, -FLOOR]) - 2.5).abs() < 1e-12);
+        assert!((limit(2400) - (3.6 + 8.0 * 0.1)).abs() < 1e-12);
     }
 }

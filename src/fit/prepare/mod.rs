@@ -189,3 +189,35 @@ fn mean_radius(mesh: &Mesh, centre: &Point3<f64>) -> f64 {
     }
     sum / whole
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::StarSurface;
+    use crate::shapes::{Ellipsoid, Solid};
+    use approx::assert_relative_eq;
+    use nalgebra::Vector3;
+
+    #[test]
+    fn the_mean_radius_is_that_over_all_directions_from_the_centre() {
+        let ellipsoid = Ellipsoid {
+            semi_axes: Vector3::new(3.0, 2.0, 1.0),
+        };
+        let mut mesh = Mesh::radial(48, |n| ellipsoid.radius(n));
+        let centre = Point3::new(5.0, -7.0, 2.0);
+        for vertex in &mut mesh.vertices {
+            *vertex += centre.coords;
+        }
+        let found = mean_radius(&mesh, &centre);
+        assert_relative_eq!(
+            found,
+            ellipsoid.integrals().mean_radius,
+            max_relative = 1e-3
+        );
+        let scan = Scan::from_mesh(mesh);
+        let prepared = PreparedScan::new(&scan, Symmetry::NONE).unwrap();
+        assert_relative_eq!(prepared.mean_radius, found, max_relative = 1e-6);
+        let ascending = Vector3::new(1.0, 2.0, 3.0);
+        assert_relative_eq!(prepared.semi_axes, ascending, max_relative = 1e-2);
+    }
+}

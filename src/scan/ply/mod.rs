@@ -22,3 +22,46 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Scan, ParseError> {
     }
     Ok(scan)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::point;
+
+    /// Three points of numbers of three types and the triangle over them, in a byte order.
+    fn binary(order: &str) -> Vec<u8> {
+        let header = "ply\nformat binary_ORDER_endian 1.0\nelement vertex 3\nproperty double x\n\
+                      property float y\nproperty short z\nelement face 1\n\
+                      property list ushort int vertex_indices\nend_header\n";
+        let mut bytes = header.replace("ORDER", order).into_bytes();
+        let mut put = |big_endian: &[u8]| match order {
+            "big" => bytes.extend(big_endian),
+            _ => bytes.extend(big_endian.iter().rev()),
+        };
+        for (x, y, z) in [(0.1_f64, 1.25_f32, 258_i16), (-2.0, 0.0, 1), (0.0, 3.0, -2)] {
+            put(&x.to_be_bytes());
+            put(&y.to_be_bytes());
+            put(&z.to_be_bytes());
+        }
+        put(&3_u16.to_be_bytes());
+        for corner in [0_i32, 2, 1] {
+            put(&corner.to_be_bytes());
+        }
+        bytes
+    }
+
+    #[test]
+    fn both_byte_orders_are_read() {
+        for order in ["big", "little"] {
+            let scan = parse(&binary(order)).unwrap();
+            let points = [
+                point![0.1, 1.25, 258.0],
+                point![-2.0, 0.0, 1.0],
+                point![0.0, 3.0, -2.0],
+            ];
+            assert_eq!(scan.points, points, "{order}");
+            assert_eq!(scan.triangles, [[0, 2, 1]], "{order}");
+            assert_eq!(scan.warnings, [""; 0], "{order}");
+        }
+    }
+}

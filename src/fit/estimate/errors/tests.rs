@@ -228,3 +228,54 @@ fn extents_change_by_their_ends_and_their_axes() {
         );
     }
 }
+
+/// Figures that are told as the estimate has them in the mean are off by its covariance only, the area by half of its
+/// excess too; what they are told off by is added as a square.
+#[test]
+fn errors_are_the_roots_of_variances_and_of_what_is_told_off() {
+    let axes = Vector3::new(1.5, 1.2, 0.9);
+    let estimate = estimated(&samples(&fibonacci(900), ellipsoid(axes), 0.02), axes);
+    let found = best(&estimate);
+    let variance = |at: usize| found.covariance[(at, at)];
+    let excess: Moments = unlist(&found.excess);
+    let half = 0.5 * excess.area;
+    assert!(half > 0.0);
+    let mean = Figures {
+        area: found.figures.area + half,
+        volume: found.figures.volume + excess.volume,
+        centroid: found.figures.centroid + excess.first,
+        inertia: found.figures.inertia + excess.second,
+        ..found.figures
+    };
+    let close = |found: f64, square: f64| {
+        assert!(
+            (found / square.sqrt() - 1.0).abs() < 1e-9,
+            "{found} {square}"
+        );
+    };
+    for off in [0.0, 0.07] {
+        let mut told = mean;
+        told.area += off;
+        told.volume -= off;
+        told.centroid.add_scalar_mut(off);
+        told.inertia.add_scalar_mut(-off);
+        told.dimensions.add_scalar_mut(off);
+        let errors = found.errors(&told);
+        let square = off * off;
+        close(errors.area, half * half + variance(0) + square);
+        close(errors.volume, variance(1) + square);
+        for i in 0..3 {
+            close(errors.centroid[i], variance(2 + i) + square);
+            close(errors.inertia[(i, i)], variance(INERTIA + i) + square);
+            close(errors.dimensions[i], found.dimension_variances[i] + square);
+        }
+        close(errors.inertia[(1, 2)], variance(INERTIA + 3) + square);
+    }
+    for i in 0..3 {
+        let axis = found.principal.axes.column(i);
+        let shift = axis.dot(&(excess.second * axis));
+        let square = turn_variance(&found.covariance, &found.principal.axes, i, i);
+        let moments = found.errors(&mean).moments[i];
+        close(moments, square + shift.powi(2) + found.repulsion(i).powi(2));
+    }
+}
