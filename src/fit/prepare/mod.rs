@@ -214,7 +214,7 @@ mod tests {
             ellipsoid.integrals().mean_radius,
             max_relative = 1e-3
         );
-        let scan = Scan::from_mesh(mesh);
+        let scan = Scan::from_mesh(mesh).unwrap();
         let prepared = PreparedScan::new(&scan, Symmetry::NONE).unwrap();
         assert_relative_eq!(prepared.mean_radius, found, max_relative = 1e-6);
         let ascending = Vector3::new(1.0, 2.0, 3.0);
