@@ -38,12 +38,12 @@ impl PreparedScan<'_> {
         if options.symmetry != self.symmetry {
             return Err(FitError::OtherSymmetry);
         }
-        let fitted = context.run(|| match options.seams {
+        let mut fitted = context.run(|| match options.seams {
             _ if options.symmetry != Symmetry::NONE => mirrored(self, options, context),
             Seams::None => independent(self, options, context),
             Seams::Blended => estimated(self, options, context),
         })?;
-        sound::check(&fitted, options)?;
+        fitted.warnings.extend(sound::check(&fitted, options)?);
         Ok(fitted)
     }
 

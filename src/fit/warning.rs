@@ -47,6 +47,11 @@ pub enum FitWarning {
         /// Its share of the area.
         share: f64,
     },
+    /// That the radius is above zero everywhere could not be proved.
+    Unproved {
+        /// The least one that was met, in the scan's unit.
+        found: f64,
+    },
     /// The mirror images of the scan differ.
     Asymmetric {
         /// Root mean square difference, as a share of the mean radius.

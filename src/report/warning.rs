@@ -103,6 +103,12 @@ impl fmt::Display for FitWarning {
                  centre and is smoothed over.",
                 100.0 * share
             ),
+            Self::Unproved { found } => write!(
+                f,
+                "The radius could not be shown to be above zero everywhere; the least that was met is {}. A file of the \
+                 model may be refused: ask for a lower degree, or for more segments.",
+                short(found)
+            ),
             Self::Asymmetric { share } => write!(
                 f,
                 "The scan is not symmetric about these planes: its mirror images differ by {:.1} % of \
