@@ -21,6 +21,7 @@ pub mod bench;
 #[doc(hidden)]
 pub mod cli;
 pub mod contact;
+mod disjoint_sets;
 mod elliptic;
 pub mod export;
 pub mod fit;

@@ -1,7 +1,7 @@
 //! The largest gap of a cloud: how much of the sphere no point tells of.
 
 use super::neighbours::Neighbours;
-use crate::sphere::cube_grid;
+use crate::sphere::{compass, cube_grid};
 use nalgebra::Vector3;
 
 /// Cells along an edge of the cube whose directions are tried first: 6 degrees apart.
@@ -9,6 +9,9 @@ const START: usize = 16;
 
 /// Directions from which the centre of the gap is looked for.
 const BEST: usize = 4;
+
+/// The first step of the search for it, in radians.
+const FIRST_STEP: f64 = 0.1;
 
 /// Angle, in radians, to which the centre is found.
 const LEAST_STEP: f64 = 1e-3;
@@ -35,23 +38,8 @@ pub(crate) fn largest_cap(directions: &[Vector3<f64>]) -> (f64, Vector3<f64>) {
         .collect();
     starts.sort_by(|a, b| b.0.total_cmp(&a.0));
     starts.truncate(BEST);
-    let found = starts.into_iter().map(|(mut largest, mut n)| {
-        let mut step = 0.1;
-        while step > LEAST_STEP {
-            let first = n.cross(&Vector3::ith(n.iamin(), 1.0)).normalize();
-            let second = n.cross(&first);
-            let best = (0..8)
-                .map(|i| {
-                    let (sin, cos) = (i as f64 * std::f64::consts::FRAC_PI_4).sin_cos();
-                    let next = (n + (first * cos + second * sin) * step).normalize();
-                    (clearance(&next), next)
-                })
-                .max_by(|a, b| a.0.total_cmp(&b.0));
-            match best {
-                Some((clear, next)) if clear > largest => (largest, n) = (clear, next),
-                _ => step *= 0.5,
-            }
-        }
+    let found = starts.into_iter().map(|(_, n)| {
+        let (n, largest) = compass(n, FIRST_STEP, LEAST_STEP, clearance);
         (largest, n)
     });
     let larger = |a: (f64, Vector3<f64>), b: (f64, Vector3<f64>)| if b.0 > a.0 { b } else { a };

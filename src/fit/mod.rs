@@ -22,6 +22,7 @@ mod neighbours;
 mod options;
 mod outcome;
 mod prepare;
+mod robust;
 mod segments;
 mod sound;
 mod unseen;

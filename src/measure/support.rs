@@ -2,15 +2,18 @@
 
 use super::Curvature;
 use crate::model::{Derivatives, StarSurface};
-use crate::sphere::cube_grid;
+use crate::sphere::{compass, cube_grid};
 use nalgebra::{Matrix3, Vector3};
 
 /// Cells along a cube's edge of the directions that the search starts from: 1538 directions, 6 degrees
 /// apart. A second maximum narrower than that can be missed.
 const START: usize = 16;
 
-/// Most steps of either stage; Newton's iteration takes some five, the compass some sixty.
+/// Most steps of Newton's iteration, which takes some five.
 const MAX_STEPS: usize = 200;
+
+/// The first step of the compass search, in radians.
+const FIRST_STEP: f64 = 0.05;
 
 /// Angle below which the compass search ends, in radians: the surface point is then off by as much of
 /// the radius.
@@ -60,7 +63,11 @@ pub(crate) fn support_near(
     let found = at(surface, towards, &climbed);
     match found.is_smooth {
         true => found,
-        false => at(surface, towards, &compass(climbed, height)),
+        false => at(
+            surface,
+            towards,
+            &compass(climbed, FIRST_STEP, LEAST_STEP, height).0,
+        ),
     }
 }
 
@@ -109,31 +116,6 @@ fn newton(
         match tried {
             Some((next, height)) => (n, highest) = (next, height),
             None => break,
-        }
-    }
-    n
-}
-
-/// Climbs from `n` by steps in eight tangential directions, halved where none leads up.
-fn compass(mut n: Vector3<f64>, height: impl Fn(&Vector3<f64>) -> f64) -> Vector3<f64> {
-    let mut highest = height(&n);
-    let mut step = 0.05;
-    for _ in 0..MAX_STEPS {
-        if step < LEAST_STEP {
-            break;
-        }
-        let first = n.cross(&Vector3::ith(n.iamin(), 1.0)).normalize();
-        let second = n.cross(&first);
-        let best = (0..8)
-            .map(|i| {
-                let (sin, cos) = (i as f64 * std::f64::consts::FRAC_PI_4).sin_cos();
-                let next = (n + (first * cos + second * sin) * step).normalize();
-                (next, height(&next))
-            })
-            .max_by(|one, other| one.1.total_cmp(&other.1));
-        match best {
-            Some((next, height)) if height > highest => (n, highest) = (next, height),
-            _ => step *= 0.5,
         }
     }
     n

@@ -1,5 +1,6 @@
 //! How the triangles of a scan hang together, in near-linear time.
 
+use crate::disjoint_sets::DisjointSets;
 use nalgebra::Point3;
 
 /// What the triangles of a scan bound.
@@ -101,28 +102,16 @@ pub(crate) fn each_edge(points: usize, triangles: &[[u32; 3]], mut visit: impl F
 
 /// Counts the parts that share no point, by union-find over the points.
 fn count_bodies(points: usize, triangles: &[[u32; 3]]) -> usize {
-    let mut parents: Vec<u32> = (0..points as u32).collect();
+    let mut sets = DisjointSets::new(points);
     let mut used = vec![false; points];
     for &[a, b, c] in triangles {
-        let root = root(&mut parents, a);
         for corner in [a, b, c] {
             used[corner as usize] = true;
-            let other = self::root(&mut parents, corner);
-            parents[other as usize] = root;
+            sets.join(a, corner);
         }
     }
-    let roots = (0..points).filter(|&point| used[point] && parents[point] == point as u32);
-    roots.count()
-}
-
-/// The root of a point's tree; halves the path to it on the way.
-fn root(parents: &mut [u32], mut point: u32) -> u32 {
-    while parents[point as usize] != point {
-        let grandparent = parents[parents[point as usize] as usize];
-        parents[point as usize] = grandparent;
-        point = grandparent;
-    }
-    point
+    let is_least = |&point: &u32| used[point as usize] && sets.of(point) == point;
+    (0..points as u32).filter(is_least).count()
 }
 
 fn volume(points: &[Point3<f64>], triangles: &[[u32; 3]]) -> f64 {

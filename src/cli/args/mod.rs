@@ -158,7 +158,7 @@ pub(super) struct MeasureArgs {
 /// Tell the normal force of a grain pressed against a plane or another grain, by the theory of Hertz
 ///
 /// The force follows from the curvature where they touch, which asks more of a fit than size does: fit
-/// with a tolerance of 0.01 %.
+/// with --segments 1.
 #[derive(Args)]
 pub(super) struct ContactArgs {
     /// A model written by `fit`

@@ -4,6 +4,7 @@ use super::outcome::spare;
 use super::posterior::Posterior;
 use super::spectrum_fit::SpectrumFit;
 use crate::fit::neighbours::Neighbours;
+use crate::fit::robust::{median, robust_deviation};
 use nalgebra::Vector3;
 
 /// Rounds of leaving out outliers.
@@ -25,9 +26,6 @@ const LEAST: f64 = 0.01;
 
 /// ... unless so many neighbours stand off on the same side: that is an edge.
 const COMPANY: usize = 2;
-
-/// Standard deviation over median absolute deviation of a normal distribution.
-const PER_MEDIAN: f64 = 1.4826;
 
 /// Positions of the points of a cloud that stand alone, ascending.
 pub(super) fn alone(posterior: &Posterior<'_>, fit: &SpectrumFit) -> Vec<usize> {
@@ -83,18 +81,6 @@ fn outliers(directions: &[Vector3<f64>], residuals: &[f64]) -> Vec<usize> {
             around[at].iter().filter(alike).count() < COMPANY
         })
         .collect()
-}
-
-/// Standard deviation of values round zero, told by the median of their sizes.
-pub(crate) fn robust_deviation(values: impl Iterator<Item = f64>) -> f64 {
-    let mut sizes: Vec<f64> = values.map(f64::abs).collect();
-    PER_MEDIAN * median(&mut sizes).unwrap_or(0.0)
-}
-
-/// The median, the upper one of two.
-pub(crate) fn median(values: &mut [f64]) -> Option<f64> {
-    let middle = values.len() / 2;
-    (!values.is_empty()).then(|| *values.select_nth_unstable_by(middle, f64::total_cmp).1)
 }
 
 #[cfg(test)]

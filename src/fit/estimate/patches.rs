@@ -3,8 +3,8 @@
 //! A mean over a patch is biased by slope and curvature inside it. One correction removes that: the patch
 //! means of all points' residuals against a first estimate are added to what it says at the patches.
 
-use super::outliers::{median, robust_deviation};
 use crate::fit::prepare::Sample;
+use crate::fit::robust::{median, robust_deviation};
 use crate::sphere::CubeCell;
 use nalgebra::Vector3;
 

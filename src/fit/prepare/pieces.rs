@@ -7,6 +7,7 @@
 
 use super::samples::order;
 use super::strays::LEAST_STRAY;
+use crate::disjoint_sets::DisjointSets;
 use crate::fit::gaps::largest_gap;
 use crate::fit::neighbours::Neighbours;
 use nalgebra::{Point3, Vector3};
@@ -191,31 +192,21 @@ fn hash(point: &Point3<f64>) -> u64 {
 fn pieces(points: &[Point3<f64>]) -> (Vec<Cloud>, Vec<Cloud>) {
     let places = coordinates(points);
     let neighbours = Neighbours::new(&places);
-    let mut parents: Vec<usize> = (0..points.len()).collect();
+    let mut sets = DisjointSets::new(points.len());
     for (own, place) in places.iter().enumerate() {
         for other in neighbours.nearest(place, LINKS + 1) {
-            let (one, other) = (root(&mut parents, own), root(&mut parents, other));
-            parents[one.max(other)] = one.min(other);
+            sets.join(own as u32, other as u32);
         }
     }
     let mut members = vec![Vec::new(); points.len()];
     for (own, point) in points.iter().enumerate() {
-        members[root(&mut parents, own)].push(*point);
+        members[sets.of(own as u32) as usize].push(*point);
     }
     members.retain(|piece| !piece.is_empty());
     let least = (LEAST_SHARE * points.len() as f64).max(LEAST_BODY as f64);
     members
         .into_iter()
         .partition(|piece| piece.len() as f64 >= least)
-}
-
-/// The root of a point's tree; halves the path to it on the way.
-fn root(parents: &mut [usize], mut point: usize) -> usize {
-    while parents[point] != point {
-        parents[point] = parents[parents[point]];
-        point = parents[point];
-    }
-    point
 }
 
 /// A ray's direction; of a point at the middle, none.

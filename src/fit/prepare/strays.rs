@@ -1,5 +1,6 @@
 //! Points that stand apart from their neighbours: outliers of the scan.
 
+use crate::fit::robust::{median, robust_deviation};
 use crate::mesh::Mesh;
 use nalgebra::{Point3, Vector3};
 
@@ -58,9 +59,7 @@ pub(crate) fn find_strays(mesh: &Mesh, centre: &Point3<f64>) -> Strays {
             }
         })
         .collect();
-    let mut deviations: Vec<f64> = comparisons.iter().map(|c| c.deviation).collect();
-    // 1.4826: standard deviation over median absolute deviation of a normal distribution.
-    let scatter = 1.4826 * median(&mut deviations).unwrap_or(0.0);
+    let scatter = robust_deviation(comparisons.iter().map(|c| c.deviation));
     let limit = |c: &Comparison| {
         let least = LEAST_STRAY * c.distance;
         least.max(SCATTERS * scatter).max(SPREADS * c.spread)
@@ -91,9 +90,4 @@ fn compare(around: &mut [f64], radius: f64) -> Comparison {
         spread: median(around).unwrap_or(0.0),
         distance: 1.0,
     }
-}
-
-fn median(values: &mut [f64]) -> Option<f64> {
-    let middle = values.len() / 2;
-    (!values.is_empty()).then(|| *values.select_nth_unstable_by(middle, f64::total_cmp).1)
 }

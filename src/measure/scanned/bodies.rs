@@ -2,6 +2,7 @@
 
 use super::{FacesDefect, Fill, ScannedBody};
 use crate::Mesh;
+use crate::disjoint_sets::DisjointSets;
 use crate::measure::winding::winding_number;
 use nalgebra::{Point3, Vector3};
 use std::collections::HashMap;
@@ -11,18 +12,15 @@ const PROBES: usize = 24;
 
 /// The triangles of each part of a mesh that shares no vertex with the rest, in order.
 pub(super) fn parts(mesh: &Mesh) -> Vec<Vec<usize>> {
-    let mut parents: Vec<u32> = (0..mesh.vertices.len() as u32).collect();
+    let mut sets = DisjointSets::new(mesh.vertices.len());
     for &[a, b, c] in &mesh.triangles {
-        let root = root(&mut parents, a);
-        for other in [b, c] {
-            let other = self::root(&mut parents, other);
-            parents[other as usize] = root;
-        }
+        sets.join(a, b);
+        sets.join(a, c);
     }
     let mut numbers = vec![usize::MAX; mesh.vertices.len()];
     let mut parts: Vec<Vec<usize>> = Vec::new();
     for (triangle, corners) in mesh.triangles.iter().enumerate() {
-        let number = &mut numbers[root(&mut parents, corners[0]) as usize];
+        let number = &mut numbers[sets.of(corners[0]) as usize];
         if *number == usize::MAX {
             *number = parts.len();
             parts.push(Vec::new());
@@ -46,16 +44,6 @@ pub(super) fn part(mesh: &Mesh, triangles: &[usize]) -> Mesh {
         own.triangles.push(named);
     }
     own
-}
-
-/// The root of a vertex's tree; halves the path to it on the way.
-fn root(parents: &mut [u32], mut vertex: u32) -> u32 {
-    while parents[vertex as usize] != vertex {
-        let grandparent = parents[parents[vertex as usize] as usize];
-        parents[vertex as usize] = grandparent;
-        vertex = grandparent;
-    }
-    vertex
 }
 
 /// One closed surface among several.

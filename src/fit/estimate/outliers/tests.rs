@@ -84,11 +84,3 @@ fn what_the_rest_of_the_surface_scatters_by_is_no_outlier_in_a_quiet_part() {
         assert_eq!(found, expected);
     }
 }
-
-#[test]
-fn the_deviation_is_told_by_the_median_size() {
-    let sizes = [3.0, -1.0, 2.0, -100.0, 0.5];
-    assert_eq!(robust_deviation(sizes.into_iter()), 1.4826 * 2.0);
-    assert_eq!(median(&mut [4.0, 1.0, 3.0, 2.0]), Some(3.0));
-    assert_eq!(median(&mut []), None);
-}

@@ -1,0 +1,29 @@
+//! Middle and spread of values, which a few wild ones do not move.
+
+/// Standard deviation over median absolute deviation of a normal distribution.
+const PER_MEDIAN: f64 = 1.4826;
+
+/// Standard deviation of values round zero, told by the median of their sizes.
+pub(crate) fn robust_deviation(values: impl Iterator<Item = f64>) -> f64 {
+    let mut sizes: Vec<f64> = values.map(f64::abs).collect();
+    PER_MEDIAN * median(&mut sizes).unwrap_or(0.0)
+}
+
+/// The median, the upper one of two.
+pub(crate) fn median(values: &mut [f64]) -> Option<f64> {
+    let middle = values.len() / 2;
+    (!values.is_empty()).then(|| *values.select_nth_unstable_by(middle, f64::total_cmp).1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_deviation_is_told_by_the_median_size() {
+        let sizes = [3.0, -1.0, 2.0, -100.0, 0.5];
+        assert_eq!(robust_deviation(sizes.into_iter()), 1.4826 * 2.0);
+        assert_eq!(median(&mut [4.0, 1.0, 3.0, 2.0]), Some(3.0));
+        assert_eq!(median(&mut []), None);
+    }
+}
