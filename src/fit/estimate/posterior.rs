@@ -4,27 +4,31 @@
 //! coefficients given the radii y are normal with the covariance C = (Y'WY / s^2 + V^-1)^-1 and the mean
 //! C Y'W y / s^2. Either the matrix is formed and factored, scaled by V so that it is safe
 //! (I + V^1/2 Y'WY V^1/2 / s^2, condition bounded by the data), or systems are solved by conjugate
-//! gradients with the harmonic transform, preconditioned by the matrix of an even cloud.
+//! gradients, preconditioned by the matrix of an even cloud.
 
 use super::cloud::Cloud;
 use super::spectrum::Spectrum;
 use super::stopping::{Enough, SHARE};
-use crate::sphere::{HarmonicBasis, ScatteredHarmonics, coefficient_count};
+use crate::sphere::{
+    AccurateHarmonics, HarmonicBasis, HarmonicGram, ScatteredHarmonics, coefficient_count,
+};
 use faer::linalg::matmul::triangular::{self, BlockStructure};
 use faer::linalg::solvers::{Llt, Solve};
 use faer::linalg::triangular_inverse::invert_lower_triangular;
 use faer::{Accum, Mat, MatMut, MatRef, Par, Side};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// A cloud ready to be conditioned on.
 pub(crate) struct Posterior<'a> {
     pub(crate) cloud: &'a Cloud,
     degree: usize,
-    pub(super) harmonics: ScatteredHarmonics,
-    /// Y'WY, where systems are solved by factoring.
+    harmonics: ScatteredHarmonics,
+    /// Y'WY, where systems are solved by factoring ...
     gram: Option<Mat<f64>>,
+    /// ... and where they are not, as an operator; made when it is first asked for.
+    operator: OnceLock<HarmonicGram>,
     /// Y'W y.
     right: Vec<f64>,
 }
@@ -50,12 +54,15 @@ impl<'a> Posterior<'a> {
         let harmonics = ScatteredHarmonics::new(degree, &cloud.directions);
         let mut right = vec![0.0; coefficient_count(degree)];
         let weighted = cloud.radii.iter().zip(&cloud.weights).map(|(r, w)| r * w);
-        harmonics.adjoint(&weighted.collect::<Vec<_>>(), &mut right);
+        // Of a clean cloud with a hole an error is made larger by what the prior expects over the noise, squared.
+        let accurate = AccurateHarmonics::new(degree, &cloud.directions);
+        accurate.adjoint(&weighted.collect::<Vec<_>>(), &mut right);
         Self {
             cloud,
             degree,
             harmonics,
             gram: factored.then(|| gram(cloud, degree)),
+            operator: OnceLock::new(),
             right,
         }
     }
@@ -113,6 +120,17 @@ impl<'a> Posterior<'a> {
         let mut sums = vec![0.0; coefficient_count(self.degree)];
         self.harmonics.adjoint(values, &mut sums);
         sums
+    }
+
+    /// Y'WY as an operator.
+    pub(super) fn operator(&self) -> &HarmonicGram {
+        let Cloud {
+            directions,
+            weights,
+            ..
+        } = self.cloud;
+        self.operator
+            .get_or_init(|| HarmonicGram::new(self.degree, directions, weights))
     }
 
     /// Measured less fitted radii.
