@@ -73,12 +73,10 @@ pub(crate) fn fit_spectrum(
             gradient: gradient.into(),
             proposal: evidence.most_likely(&spectrum),
         };
-        let newton_ = newton.get_or_insert_with(|| {
-            Newton::new(evidence.curvature(&spectrum), !posterior.is_factored())
-        });
+        let search = newton.get_or_insert_with(|| Newton::new(evidence.curvature(&spectrum)));
         let next = match is_last || round >= MOST_ROUNDS {
             true => Next::Here,
-            false => newton_.next(place),
+            false => search.next(place),
         };
         match next {
             Next::Here if counted == count => {
