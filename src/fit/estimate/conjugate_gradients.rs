@@ -1,6 +1,6 @@
 //! Posterior systems by conjugate gradients, preconditioned by the matrix of an even cloud.
 
-use super::posterior::Conditioned;
+use super::posterior::{Conditioned, Posterior};
 use super::stopping::Enough;
 use std::f64::consts::PI;
 
@@ -10,7 +10,8 @@ pub(crate) const MOST_STEPS: usize = 1000;
 impl Conditioned<'_> {
     /// (Y'WY / s^2 + V^-1) x.
     fn precision(&self, x: &[f64], out: &mut [f64]) {
-        self.posterior.operator().apply(x, out);
+        let Posterior { sums, cloud, .. } = self.posterior;
+        sums.gram(cloud).apply(x, out);
         for ((out, x), v) in out.iter_mut().zip(x).zip(&self.variances) {
             *out = *out / self.noise + x / v;
         }

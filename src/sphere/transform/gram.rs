@@ -9,11 +9,9 @@
 //!
 //! for every such h. The integrand has degree 4L, and its integral is a sum over a grid of 2L + 1
 //! Gauss-Legendre rings: there the matrix is Y'DY with a diagonal D, which has entries of either sign.
-//! Error: 1e-13 of the sum of the weights.
+//! Error: that of the coefficients w_j.
 
-use super::AccurateHarmonics;
 use super::gauss_grid::GaussGrid;
-use nalgebra::Vector3;
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -27,13 +25,14 @@ pub(crate) struct HarmonicGram {
 }
 
 impl HarmonicGram {
-    /// The matrix of the harmonics up to `degree` in directions with a weight each.
-    pub(crate) fn new(degree: usize, directions: &[Vector3<f64>], weights: &[f64]) -> Self {
-        let mut moments = vec![0.0; (2 * degree + 1).pow(2)];
-        AccurateHarmonics::new(2 * degree, directions).adjoint(weights, &mut moments);
+    /// The matrix of the harmonics up to `degree`, from the coefficients w_j of degree <= 2 `degree`.
+    ///
+    /// # Panics
+    /// If there are fewer than (2 `degree` + 1)² of them.
+    pub(crate) fn new(degree: usize, moments: &[f64]) -> Self {
         let wide = GaussGrid::new(2 * degree, 4 * degree);
         let mut diagonal = vec![0.0; wide.len()];
-        wide.synthesis(&moments, &mut diagonal);
+        wide.synthesis(moments, &mut diagonal);
         for (entry, weight) in diagonal.iter_mut().zip(wide.weights()) {
             *entry *= weight;
         }

@@ -111,7 +111,9 @@ fn the_gram_matrix_is_the_direct_sum() {
         let rows = direct(degree, &directions);
         let x = normals(rows[0].len(), 2);
         let mut found = vec![f64::NAN; x.len()];
-        HarmonicGram::new(degree, &directions, &weights).apply(&x, &mut found);
+        let mut moments = vec![0.0; (2 * degree + 1).pow(2)];
+        AccurateHarmonics::new(2 * degree, &directions).adjoint(&weights, &mut moments);
+        HarmonicGram::new(degree, &moments).apply(&x, &mut found);
         let values = rows.iter().zip(&weights).map(|(row, w)| w * dot(row, &x));
         let values: Vec<f64> = values.collect();
         let error = |(j, have): (usize, &f64)| {
