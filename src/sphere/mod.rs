@@ -35,5 +35,5 @@ pub(crate) use partition::{azimuth_fraction, polar_fraction};
 pub use quadrature::GaussLegendre;
 pub(crate) use ring_grid::RingGrid;
 pub use symmetry::{Symmetry, SymmetryError};
-pub(crate) use transform::ScatteredHarmonics;
+pub(crate) use transform::{AccurateHarmonics, HarmonicGram, ScatteredHarmonics};
 pub use triangulation::{TriangulationError, triangulate_directions};

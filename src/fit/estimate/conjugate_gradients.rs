@@ -1,5 +1,4 @@
-//! Posterior systems by conjugate gradients, with the harmonic transform, preconditioned by the matrix of an even
-//! cloud.
+//! Posterior systems by conjugate gradients, preconditioned by the matrix of an even cloud.
 
 use super::posterior::{Conditioned, Posterior};
 use super::stopping::Enough;
@@ -10,17 +9,11 @@ pub(crate) const MOST_STEPS: usize = 1000;
 
 impl Conditioned<'_> {
     /// (Y'WY / s^2 + V^-1) x.
-    fn precision(&self, x: &[f64], radii: &mut [f64], out: &mut [f64]) {
-        let Posterior {
-            harmonics, cloud, ..
-        } = self.posterior;
-        harmonics.synthesis(x, radii);
-        for (radius, weight) in radii.iter_mut().zip(&cloud.weights) {
-            *radius *= weight / self.noise;
-        }
-        harmonics.adjoint(radii, out);
+    fn precision(&self, x: &[f64], out: &mut [f64]) {
+        let Posterior { sums, cloud, .. } = self.posterior;
+        sums.gram(cloud).apply(x, out);
         for ((out, x), v) in out.iter_mut().zip(x).zip(&self.variances) {
-            *out += x / v;
+            *out = *out / self.noise + x / v;
         }
     }
 
@@ -38,12 +31,11 @@ impl Conditioned<'_> {
             .iter()
             .map(|v| 1.0 / (even + 1.0 / v))
             .collect();
-        let (mut radii, mut q) = (vec![0.0; self.posterior.cloud.len()], vec![0.0; count]);
-        let mut x = vec![0.0; count];
+        let (mut x, mut q) = (vec![0.0; count], vec![0.0; count]);
         let mut r = right.to_vec();
         if let Some(start) = start {
             x.copy_from_slice(start);
-            self.precision(&x, &mut radii, &mut q);
+            self.precision(&x, &mut q);
             r.iter_mut().zip(&q).for_each(|(r, q)| *r -= q);
         }
         let dot = |a: &[f64], b: &[f64]| -> f64 { a.iter().zip(b).map(|(a, b)| a * b).sum() };
@@ -52,7 +44,7 @@ impl Conditioned<'_> {
         let mut rz = dot(&r, &z);
         let mut energies: Vec<f64> = Vec::new();
         while energies.len() < MOST_STEPS && rz > 0.0 {
-            self.precision(&p, &mut radii, &mut q);
+            self.precision(&p, &mut q);
             let step = rz / dot(&p, &q);
             for i in 0..count {
                 x[i] += step * p[i];

@@ -12,6 +12,7 @@ use crate::fit::context::{Cancelled, Context};
 use crate::fit::prepare::Sample;
 use nalgebra::Vector3;
 use std::borrow::Cow;
+use std::sync::Arc;
 
 /// Strengths of the map: T = diag(semi-axes)^-k.
 const STRENGTHS: [f64; 3] = [1.0, 0.5, 0.0];
@@ -81,7 +82,7 @@ pub(super) fn rounder(
             break maps;
         }
         let best = best(&maps);
-        let posterior = Posterior::new(&best.cloud, compared, false);
+        let posterior = Posterior::with(&best.cloud, Arc::clone(&best.fit.sums));
         let alone = alone(&posterior, &best.fit);
         if alone.is_empty() {
             break maps;

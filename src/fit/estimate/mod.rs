@@ -30,6 +30,7 @@ mod posterior;
 mod spectrum;
 mod spectrum_fit;
 mod stopping;
+mod sums;
 mod surface;
 mod unresolved;
 
@@ -50,6 +51,7 @@ use patches::{Patches, WHOLE_CLOUD};
 use posterior::{Posterior, is_factored};
 use rayon::prelude::*;
 use spectrum_fit::{Count, SpectrumFit, fit_spectrum};
+use std::sync::Arc;
 use stopping::SETTLED;
 
 /// Degrees that are tried one after the other, as long as the last degrees carry something.
@@ -97,7 +99,10 @@ pub(crate) fn estimate(
     loop {
         context.check()?;
         let is_factored = is_factored(cloud.len(), degree);
-        let posterior = Posterior::new(&cloud, degree, is_factored && !is_found);
+        let posterior = match is_found {
+            true => Posterior::with(&cloud, Arc::clone(&fit.sums)),
+            false => Posterior::new(&cloud, degree, is_factored),
+        };
         if !std::mem::take(&mut is_found) {
             let mut coefficients = std::mem::take(&mut fit.coefficients);
             coefficients.resize(coefficient_count(degree), 0.0);
@@ -137,6 +142,7 @@ pub(crate) fn estimate(
         spectrum: fit.spectrum,
         unlearnt: fit.unlearnt,
         outliers,
+        sums: fit.sums,
         factor: fit.factor,
     })
 }
@@ -196,7 +202,7 @@ fn correct(
             sums[*patch as usize] += residual;
         }
     }
-    let posterior = Posterior::new(cloud, degree, false);
+    let posterior = Posterior::with(cloud, Arc::clone(&fit.sums));
     let fitted = posterior.radii(&fit.coefficients);
     for ((radius, fitted), (sum, count)) in cloud
         .radii
@@ -206,7 +212,7 @@ fn correct(
     {
         *radius = fitted + sum / count;
     }
-    let posterior = Posterior::new(cloud, degree, false);
+    let posterior = Posterior::with(cloud, Arc::clone(&fit.sums));
     let given = posterior.given(&fit.spectrum);
     fit.coefficients = given.mean(Some(&fit.coefficients), SETTLED).0;
 }

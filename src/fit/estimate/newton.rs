@@ -1,9 +1,10 @@
 //! The search for the most likely spectrum: a quasi-Newton method in four unknowns.
 //!
 //! At first each step leads to where the likelihood would be largest if the points said the same of each degree
-//! under every spectrum. Where such a step fails (uneven clouds), and from the start where there are few points per
-//! coefficient, Newton steps take over, whose second derivatives learn from the gradients on the way (the update of Broyden, Fletcher, Goldfarb and Shanno). A step
-//! fails that does not lower the cost; where no cost is known, one after which the gradient points back.
+//! under every spectrum. Where such a step fails or brings less than half of what it promised (uneven clouds), Newton
+//! steps take over, whose second derivatives learn from the gradients on the way (the update of Broyden, Fletcher,
+//! Goldfarb and Shanno). A step fails that does not lower the cost; where no cost is known, one after which the
+//! gradient points back.
 
 use super::spectrum::Spectrum;
 use super::spectrum::{BOUNDS, STEPS};
@@ -12,6 +13,9 @@ use nalgebra::{Matrix4, Vector4};
 /// The search ends where a step promises to lower the cost by less than this: a spectrum twenty times less likely
 /// would be told from it by three.
 const PROMISE: f64 = 0.3;
+
+/// Proposals are trusted as long as they bring this share of what they promise.
+const KEPT: f64 = 0.5;
 
 /// Steps that move no logarithm by more than this end the search too.
 const SETTLED: f64 = 0.003;
@@ -32,8 +36,10 @@ pub(crate) struct Place {
 pub(crate) struct Newton {
     best: Option<Place>,
     curvature: Matrix4<f64>,
-    /// Whether proposals have not failed yet.
+    /// Whether proposals have kept what they promised.
     trusts: bool,
+    /// By how much the last step should have lowered the cost.
+    promise: f64,
     /// Share of the full step.
     share: f64,
 }
@@ -49,12 +55,13 @@ pub(crate) enum Next {
 }
 
 impl Newton {
-    /// A search that knows these second derivatives, and follows proposals if it `trusts` them.
-    pub(crate) fn new(curvature: Matrix4<f64>, trusts: bool) -> Self {
+    /// A search that knows these second derivatives.
+    pub(crate) fn new(curvature: Matrix4<f64>) -> Self {
         Self {
             best: None,
             curvature,
-            trusts,
+            trusts: true,
+            promise: 0.0,
             share: 1.0,
         }
     }
@@ -75,8 +82,12 @@ impl Newton {
                 };
             }
         }
+        if let Some(best) = self.best.replace(place)
+            && let (Some(before), Some(now)) = (best.cost, place.cost)
+        {
+            self.trusts &= before - now > KEPT * self.promise;
+        }
         self.share = (2.0 * self.share).min(1.0);
-        self.best = Some(place);
         let (next, promise) = match self.trusts {
             true => place.proposal,
             false => {
@@ -85,6 +96,7 @@ impl Newton {
                 (next, -0.5 * moved.dot(&place.gradient))
             }
         };
+        self.promise = promise;
         match promise < PROMISE || is_settled(&place.spectrum, &next) {
             true => Next::Here,
             false => Next::Try(next),

@@ -3,6 +3,7 @@
 use super::cloud::Cloud;
 use super::posterior::{Conditioned, Posterior};
 use super::spectrum::Spectrum;
+use super::sums::Sums;
 use faer::linalg::solvers::Llt;
 use std::sync::Arc;
 
@@ -21,6 +22,8 @@ pub(crate) struct Estimate {
     pub(crate) unlearnt: Vec<f64>,
     /// Points left out because they stand alone.
     pub(crate) outliers: usize,
+    /// Sums over the harmonics in the directions of the cloud.
+    pub(super) sums: Arc<Sums>,
     /// The factored matrix of the problem, where it is small enough: 15 MB at degree 36.
     pub(crate) factor: Option<Arc<Llt<f64>>>,
 }
@@ -28,7 +31,7 @@ pub(crate) struct Estimate {
 impl Estimate {
     /// The cloud ready for [`Self::given`].
     pub(super) fn posterior(&self) -> Posterior<'_> {
-        Posterior::new(&self.cloud, self.degree, false)
+        Posterior::with(&self.cloud, Arc::clone(&self.sums))
     }
 
     /// The posterior of the coefficients.

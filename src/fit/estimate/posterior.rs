@@ -4,29 +4,29 @@
 //! coefficients given the radii y are normal with the covariance C = (Y'WY / s^2 + V^-1)^-1 and the mean
 //! C Y'W y / s^2. Either the matrix is formed and factored, scaled by V so that it is safe
 //! (I + V^1/2 Y'WY V^1/2 / s^2, condition bounded by the data), or systems are solved by conjugate
-//! gradients with the harmonic transform, preconditioned by the matrix of an even cloud.
+//! gradients, preconditioned by the matrix of an even cloud.
 
 use super::cloud::Cloud;
 use super::spectrum::Spectrum;
 use super::stopping::{Enough, SHARE};
-use crate::sphere::{HarmonicBasis, ScatteredHarmonics, coefficient_count};
+use super::sums::Sums;
+use crate::sphere::{HarmonicBasis, coefficient_count};
 use faer::linalg::matmul::triangular::{self, BlockStructure};
 use faer::linalg::solvers::{Llt, Solve};
 use faer::linalg::triangular_inverse::invert_lower_triangular;
 use faer::{Accum, Mat, MatMut, MatRef, Par, Side};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// A cloud ready to be conditioned on.
 pub(crate) struct Posterior<'a> {
     pub(crate) cloud: &'a Cloud,
-    degree: usize,
-    pub(super) harmonics: ScatteredHarmonics,
+    pub(super) sums: Arc<Sums>,
     /// Y'WY, where systems are solved by factoring.
     gram: Option<Mat<f64>>,
-    /// Y'W y.
-    right: Vec<f64>,
+    /// Y'W y, once it is asked for.
+    right: OnceLock<Vec<f64>>,
 }
 
 /// The matrix is factored where there are more coefficients per point than this: beyond .6 the cheap way fails on
@@ -47,16 +47,20 @@ const BLOCK: usize = 512;
 impl<'a> Posterior<'a> {
     /// Prepares a cloud for harmonics up to `degree`; `factored` says whether to form and factor the matrix.
     pub(crate) fn new(cloud: &'a Cloud, degree: usize, factored: bool) -> Self {
-        let harmonics = ScatteredHarmonics::new(degree, &cloud.directions);
-        let mut right = vec![0.0; coefficient_count(degree)];
-        let weighted = cloud.radii.iter().zip(&cloud.weights).map(|(r, w)| r * w);
-        harmonics.adjoint(&weighted.collect::<Vec<_>>(), &mut right);
+        let gram = factored.then(|| gram(cloud, degree));
+        Self {
+            gram,
+            ..Self::with(cloud, Arc::new(Sums::new(degree)))
+        }
+    }
+
+    /// The same of a cloud whose sums are at hand; nothing is factored.
+    pub(super) fn with(cloud: &'a Cloud, sums: Arc<Sums>) -> Self {
         Self {
             cloud,
-            degree,
-            harmonics,
-            gram: factored.then(|| gram(cloud, degree)),
-            right,
+            sums,
+            gram: None,
+            right: OnceLock::new(),
         }
     }
 
@@ -77,7 +81,7 @@ impl<'a> Posterior<'a> {
         spectrum: &Spectrum,
         factor: Option<Arc<Llt<f64>>>,
     ) -> Conditioned<'_> {
-        let degrees = spectrum.variances(self.degree);
+        let degrees = spectrum.variances(self.degree());
         let variances = degrees
             .iter()
             .enumerate()
@@ -93,7 +97,7 @@ impl<'a> Posterior<'a> {
 
     /// The largest degree.
     pub(crate) fn degree(&self) -> usize {
-        self.degree
+        self.sums.degree()
     }
 
     /// Whether the matrix is formed and factored.
@@ -104,14 +108,16 @@ impl<'a> Posterior<'a> {
     /// The radii that coefficients give at the points.
     pub(crate) fn radii(&self, coefficients: &[f64]) -> Vec<f64> {
         let mut radii = vec![0.0; self.cloud.len()];
-        self.harmonics.synthesis(coefficients, &mut radii);
+        self.sums
+            .harmonics(self.cloud)
+            .synthesis(coefficients, &mut radii);
         radii
     }
 
     /// Y' times a value per point.
     pub(super) fn adjoint(&self, values: &[f64]) -> Vec<f64> {
-        let mut sums = vec![0.0; coefficient_count(self.degree)];
-        self.harmonics.adjoint(values, &mut sums);
+        let mut sums = vec![0.0; coefficient_count(self.degree())];
+        self.sums.harmonics(self.cloud).adjoint(values, &mut sums);
         sums
     }
 
@@ -199,12 +205,11 @@ const PROBES_SETTLED: f64 = 2e-3;
 impl Conditioned<'_> {
     /// The mean of the coefficients, found from `start`, and the number of steps that it took.
     pub(crate) fn mean(&self, start: Option<&[f64]>, settled: f64) -> (Vec<f64>, usize) {
-        let right: Vec<f64> = self
-            .posterior
-            .right
-            .iter()
-            .map(|b| b / self.noise)
-            .collect();
+        let Posterior {
+            cloud, sums, right, ..
+        } = self.posterior;
+        let right = right.get_or_init(|| sums.weighted(cloud, &cloud.radii));
+        let right: Vec<f64> = right.iter().map(|b| b / self.noise).collect();
         self.solve(&right, start, settled)
     }
 

@@ -22,7 +22,7 @@ pub(crate) const BOUNDS: [[f64; 2]; 4] =
     [[-150.0, 2.0], [-0.51, 3.22], [-0.69, 4.1], [-12.7, -0.69]];
 
 /// Farthest that one step of a search may move the logarithms.
-pub(crate) const STEPS: [f64; 4] = [4.0, 0.5, 0.7, 0.7];
+pub(crate) const STEPS: [f64; 4] = [4.0, 0.5, 0.7, 1.5];
 
 /// Variances of degrees 0, 1 and 2, in squares of the mean radius: of size and place far above anything a grain has,
 /// of proportions as of a grain of which nothing is known (the middle of the hyperprior).

@@ -9,6 +9,7 @@ use super::newton::{Newton, Next, Place};
 use super::posterior::{Conditioned, Posterior};
 use super::spectrum::Spectrum;
 use super::stopping::SETTLED as MEAN_SETTLED;
+use super::sums::Sums;
 use faer::linalg::solvers::Llt;
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -26,6 +27,8 @@ pub(crate) struct SpectrumFit {
     pub(crate) unlearnt: Vec<f64>,
     /// Negative logarithm of the likelihood.
     pub(crate) cost: f64,
+    /// Sums over the harmonics in the directions of its cloud.
+    pub(crate) sums: Arc<Sums>,
     /// The factored matrix, where it is factored.
     pub(crate) factor: Option<Arc<Llt<f64>>>,
 }
@@ -73,12 +76,10 @@ pub(crate) fn fit_spectrum(
             gradient: gradient.into(),
             proposal: evidence.most_likely(&spectrum),
         };
-        let newton_ = newton.get_or_insert_with(|| {
-            Newton::new(evidence.curvature(&spectrum), !posterior.is_factored())
-        });
+        let search = newton.get_or_insert_with(|| Newton::new(evidence.curvature(&spectrum)));
         let next = match is_last || round >= MOST_ROUNDS {
             true => Next::Here,
-            false => newton_.next(place),
+            false => search.next(place),
         };
         match next {
             Next::Here if counted == count => {
@@ -87,6 +88,7 @@ pub(crate) fn fit_spectrum(
                     spectrum,
                     coefficients: mean,
                     unlearnt,
+                    sums: Arc::clone(&posterior.sums),
                     factor: given.factor,
                 };
             }

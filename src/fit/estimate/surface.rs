@@ -1,7 +1,6 @@
 //! An estimate as a surface: its radii, its expansion cut at a degree, and how sure it is as a whole.
 
 use super::outcome::Estimate;
-use super::posterior::Posterior;
 use crate::model::{Stretch, Whole};
 use crate::sphere::{RingGrid, ScatteredHarmonics, coefficient_count};
 use nalgebra::Vector3;
@@ -32,7 +31,7 @@ impl Estimate {
     /// Error of predictions of a point from all others, as root mean square, in the scan's unit: by generalised
     /// cross-validation, that is with the mean of the points' leverages.
     pub(crate) fn held_out(&self) -> f64 {
-        let posterior = Posterior::new(&self.cloud, self.degree, false);
+        let posterior = self.posterior();
         let residuals = posterior.residuals(&self.coefficients);
         let weighted = residuals.iter().zip(&self.cloud.weights);
         let squared: f64 = weighted.map(|(e, w)| w * e * e).sum();

@@ -1,6 +1,6 @@
 //! An expansion on an oversampled grid of the doubled sphere, ready to be interpolated from.
 
-use super::kernel::HALF_WIDTH;
+use super::oversampled::oversampled;
 use super::polar::PolarTable;
 use crate::sphere::azimuth_fft::{AzimuthFft, even_smooth_number};
 use realfft::num_complex::Complex;
@@ -8,53 +8,53 @@ use std::collections::BTreeMap;
 use std::f64::consts::PI;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// Least number of points around the sphere, so that a halo is copied from within the grid.
-const LEAST_POINTS: usize = 4 * HALF_WIDTH;
-
-/// Tables of all degrees that have been asked for.
-static GRIDS: Mutex<BTreeMap<usize, Arc<Grid>>> = Mutex::new(BTreeMap::new());
+/// Tables of all degrees and widths of the kernel that have been asked for.
+static GRIDS: Mutex<BTreeMap<[usize; 2], Arc<Grid>>> = Mutex::new(BTreeMap::new());
 
 /// A grid of rings theta_i = 2 pi i / n, i = 0, ..., n / 2, and equispaced azimuths, twice as fine as
-/// the degree needs, with a halo of HALF_WIDTH points around it: beyond a pole the function goes on
+/// the degree needs, with a halo of half the kernel's width around it: beyond a pole the function goes on
 /// as f(2 pi - theta, phi) = f(theta, phi + pi). Rows are stored ring by ring.
 pub(super) struct Grid {
     polar: PolarTable,
     fft: AzimuthFft,
     around: usize,
     orders: usize,
+    halo: usize,
 }
 
 impl Grid {
-    /// The grid of a degree. It is made once in a process, and kept.
-    pub(super) fn of_degree(degree: usize) -> Arc<Self> {
+    /// The grid of a degree, for a kernel of an even width. It is made once in a process, and kept.
+    pub(super) fn of_degree(degree: usize, width: usize) -> Arc<Self> {
         let kept = || GRIDS.lock().unwrap_or_else(PoisonError::into_inner);
-        let known = kept().get(&degree).cloned();
+        let known = kept().get(&[degree, width]).cloned();
         known.unwrap_or_else(|| {
-            let made = Arc::new(Self::new(degree));
-            Arc::clone(kept().entry(degree).or_insert(made))
+            let made = Arc::new(Self::new(degree, width));
+            Arc::clone(kept().entry([degree, width]).or_insert(made))
         })
     }
 
-    fn new(degree: usize) -> Self {
-        let least = (2 * (2 * degree + 1)).max(LEAST_POINTS);
+    fn new(degree: usize, width: usize) -> Self {
+        // At least as many that the halo is copied from within the grid.
+        let least = (2 * (2 * degree + 1)).max(2 * width);
         let around = least.next_multiple_of(2);
         let fft = AzimuthFft::new(even_smooth_number(least));
         Self {
-            polar: PolarTable::new(degree, around, fft.points()),
+            polar: oversampled(degree, width, around, fft.points()),
             fft,
             around,
             orders: degree + 1,
+            halo: width / 2,
         }
     }
 
     /// Length of a row with its halo.
     pub(super) fn stride(&self) -> usize {
-        self.fft.points() + 2 * HALF_WIDTH
+        self.fft.points() + 2 * self.halo
     }
 
     /// Number of points with the halo.
     pub(super) fn len(&self) -> usize {
-        (self.polar.rings() + 2 * HALF_WIDTH) * self.stride()
+        (self.polar.rings() + 2 * self.halo) * self.stride()
     }
 
     /// Polar angle in \[0, pi\] and azimuth in \[0, 2 pi\] as coordinates in grid steps, such that
@@ -74,19 +74,19 @@ impl Grid {
         let mut points = vec![0.0; self.len()];
         let mut workspace = self.fft.workspace();
         for (terms, row) in terms.chunks_exact(self.orders).zip(self.rings(&mut points)) {
-            self.fft.synthesis(terms, inner(row), &mut workspace);
+            self.fft.synthesis(terms, self.inner(row), &mut workspace);
         }
         for (ring, beyond) in self.beyond_poles() {
             let (ring, beyond) = self.two_rows(&mut points, ring, beyond);
-            let (ring, beyond) = (inner(ring), inner(beyond));
+            let (ring, beyond) = (self.inner(ring), self.inner(beyond));
             let half = ring.len() / 2;
             beyond[..half].copy_from_slice(&ring[half..]);
             beyond[half..].copy_from_slice(&ring[..half]);
         }
         for row in points.chunks_exact_mut(self.stride()) {
-            let end = row.len() - HALF_WIDTH;
-            row.copy_within(end - HALF_WIDTH..end, 0);
-            row.copy_within(HALF_WIDTH..2 * HALF_WIDTH, end);
+            let end = row.len() - self.halo;
+            row.copy_within(end - self.halo..end, 0);
+            row.copy_within(self.halo..2 * self.halo, end);
         }
         points
     }
@@ -94,15 +94,15 @@ impl Grid {
     /// The transpose of [`Self::synthesis`]. Overwrites `points`.
     pub(super) fn adjoint(&self, points: &mut [f64], coefficients: &mut [f64]) {
         for row in points.chunks_exact_mut(self.stride()) {
-            let end = row.len() - HALF_WIDTH;
-            for i in 0..HALF_WIDTH {
-                row[end - HALF_WIDTH + i] += row[i];
-                row[HALF_WIDTH + i] += row[end + i];
+            let end = row.len() - self.halo;
+            for i in 0..self.halo {
+                row[end - self.halo + i] += row[i];
+                row[self.halo + i] += row[end + i];
             }
         }
         for (ring, beyond) in self.beyond_poles() {
             let (ring, beyond) = self.two_rows(points, ring, beyond);
-            let (ring, beyond) = (inner(ring), inner(beyond));
+            let (ring, beyond) = (self.inner(ring), self.inner(beyond));
             let half = ring.len() / 2;
             for i in 0..half {
                 ring[half + i] += beyond[i];
@@ -112,7 +112,7 @@ impl Grid {
         let mut terms = vec![Complex::ZERO; self.polar.rings() * self.orders];
         let mut workspace = self.fft.workspace();
         for (terms, row) in terms.chunks_exact_mut(self.orders).zip(self.rings(points)) {
-            self.fft.adjoint(inner(row), terms, &mut workspace);
+            self.fft.adjoint(self.inner(row), terms, &mut workspace);
         }
         self.polar.adjoint(&terms, coefficients);
     }
@@ -121,14 +121,14 @@ impl Grid {
     fn rings<'a>(&self, points: &'a mut [f64]) -> impl Iterator<Item = &'a mut [f64]> {
         points
             .chunks_exact_mut(self.stride())
-            .skip(HALF_WIDTH)
+            .skip(self.halo)
             .take(self.polar.rings())
     }
 
     /// Rows of the grid with the rows of the halo that continue them beyond a pole.
     fn beyond_poles(&self) -> impl Iterator<Item = (usize, usize)> + use<> {
-        let (north, south) = (HALF_WIDTH, HALF_WIDTH + self.polar.rings() - 1);
-        (1..=HALF_WIDTH).flat_map(move |i| [(north + i, north - i), (south - i, south + i)])
+        let (north, south) = (self.halo, self.halo + self.polar.rings() - 1);
+        (1..=self.halo).flat_map(move |i| [(north + i, north - i), (south - i, south + i)])
     }
 
     /// Two different rows.
@@ -148,10 +148,10 @@ impl Grid {
             (high, low)
         }
     }
-}
 
-/// A row without its halo.
-fn inner(row: &mut [f64]) -> &mut [f64] {
-    let end = row.len() - HALF_WIDTH;
-    &mut row[HALF_WIDTH..end]
+    /// A row without its halo.
+    fn inner<'a>(&self, row: &'a mut [f64]) -> &'a mut [f64] {
+        let end = row.len() - self.halo;
+        &mut row[self.halo..end]
+    }
 }

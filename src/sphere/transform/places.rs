@@ -1,7 +1,7 @@
 //! Interpolation from a grid at places that do not change, and its transpose.
 
 use super::grid::Grid;
-use super::kernel::{WIDTH, weights};
+use super::kernel::weights;
 use crate::vectorize::vectorize;
 use nalgebra::Vector3;
 use std::f64::consts::PI;
@@ -10,7 +10,7 @@ use std::f64::consts::PI;
 const BAND: usize = 8;
 
 /// The places of some directions on a grid, in the order in which they are visited.
-pub(super) struct Places {
+pub(super) struct Places<const WIDTH: usize> {
     /// Length of a row of the grid.
     stride: usize,
     places: Vec<Place>,
@@ -25,7 +25,7 @@ struct Place {
     corner: u32,
 }
 
-impl Places {
+impl<const WIDTH: usize> Places<WIDTH> {
     pub(super) fn new(grid: &Grid, directions: &[Vector3<f64>]) -> Self {
         let mut visits: Vec<_> = directions
             .iter()

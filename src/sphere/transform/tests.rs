@@ -78,6 +78,55 @@ fn synthesis_is_the_direct_sum() {
 }
 
 #[test]
+fn wider_kernels_are_accurate() {
+    let directions = awkward(500);
+    for degree in DEGREES {
+        let rows = direct(degree, &directions);
+        let values = normals(directions.len(), 3);
+        let mut coefficients = vec![f64::NAN; rows[0].len()];
+        AccurateHarmonics::new(degree, &directions).adjoint(&values, &mut coefficients);
+        let error = |(j, have): (usize, &f64)| {
+            let want: f64 = rows.iter().zip(&values).map(|(row, v)| row[j] * v).sum();
+            (want - have).abs()
+        };
+        let error = coefficients
+            .iter()
+            .enumerate()
+            .map(error)
+            .fold(0.0, f64::max);
+        let error = error / norm(&values);
+        assert!(error < 1e-13, "L = {degree}: {error:e}");
+    }
+}
+
+#[test]
+fn the_gram_matrix_is_the_direct_sum() {
+    let directions = awkward(300);
+    let weights: Vec<f64> = normals(directions.len(), 5)
+        .iter()
+        .map(|w| w.abs())
+        .collect();
+    let total: f64 = weights.iter().sum();
+    for degree in [0, 1, 5, 24, 36] {
+        let rows = direct(degree, &directions);
+        let x = normals(rows[0].len(), 2);
+        let mut found = vec![f64::NAN; x.len()];
+        let mut moments = vec![0.0; (2 * degree + 1).pow(2)];
+        AccurateHarmonics::new(2 * degree, &directions).adjoint(&weights, &mut moments);
+        HarmonicGram::new(degree, &moments).apply(&x, &mut found);
+        let values = rows.iter().zip(&weights).map(|(row, w)| w * dot(row, &x));
+        let values: Vec<f64> = values.collect();
+        let error = |(j, have): (usize, &f64)| {
+            let want: f64 = rows.iter().zip(&values).map(|(row, v)| row[j] * v).sum();
+            (want - have).abs()
+        };
+        let error = found.iter().enumerate().map(error).fold(0.0, f64::max);
+        let error = error / (total * norm(&x));
+        assert!(error < 1e-13, "L = {degree}: {error:e}");
+    }
+}
+
+#[test]
 fn adjoint_is_the_direct_sum() {
     let directions = awkward(500);
     for degree in DEGREES {
