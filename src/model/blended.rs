@@ -1,7 +1,7 @@
 //! A radius made of overlapping expansions, blended so that no seam is left.
 
 use super::InvalidGrain;
-use super::grain::check_expansion;
+use super::invalid::check_expansion;
 use crate::sphere::{Cap, CapBasis, Cover, Jet};
 use crate::vectorize::vectorize;
 use nalgebra::Vector3;
