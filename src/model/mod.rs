@@ -1,5 +1,6 @@
 //! What a fitted grain is: evaluate, differentiate, mesh, save, load.
 
+mod blend;
 mod blended;
 mod curvature_errors;
 mod file;
@@ -9,6 +10,7 @@ mod least_radius;
 mod load;
 mod meshing;
 mod mirrored;
+mod position;
 mod published;
 mod seams;
 mod segmented;
@@ -24,6 +26,7 @@ pub use grain::{Grain, InvalidGrain, Surface};
 pub use least_radius::LeastRadius;
 pub use load::{LoadError, load_grain};
 pub use mirrored::Mirrored;
+pub use position::{Position, PositionDerivatives};
 pub use published::{PublishedExpansion, Region};
 pub use segmented::Segmented;
 pub(crate) use stretch::Ray;
