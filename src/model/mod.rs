@@ -1,5 +1,6 @@
 //! What a fitted grain is: evaluate, differentiate, mesh, save, load.
 
+mod blend;
 mod blended;
 mod curvature_errors;
 mod family;
@@ -10,6 +11,7 @@ mod invalid;
 mod least_radius;
 mod load;
 mod mirrored;
+mod position;
 mod published;
 mod ray;
 mod seams;
@@ -31,6 +33,7 @@ pub use invalid::InvalidGrain;
 pub use least_radius::LeastRadius;
 pub use load::{LoadError, load_grain};
 pub use mirrored::Mirrored;
+pub use position::{Position, PositionDerivatives};
 pub use published::{PublishedExpansion, Region};
 pub use segmented::Segmented;
 pub use star_grain::StarGrain;
