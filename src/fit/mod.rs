@@ -21,6 +21,7 @@ mod mirrored;
 mod neighbours;
 mod options;
 mod outcome;
+mod position;
 mod prepare;
 mod robust;
 mod segments;
