@@ -26,6 +26,7 @@ pub use grain::{Grain, InvalidGrain, Surface};
 pub use least_radius::LeastRadius;
 pub use load::{LoadError, load_grain};
 pub use mirrored::Mirrored;
+pub(crate) use position::area_normal;
 pub use position::{Position, PositionDerivatives};
 pub use published::{PublishedExpansion, Region};
 pub use segmented::Segmented;

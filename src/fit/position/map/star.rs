@@ -2,6 +2,7 @@
 
 use super::half_edges::{HalfEdges, next, previous};
 use super::rest::{Rest, density};
+use crate::sphere::tangents;
 use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 
 /// Longest step of a vertex, in distances to its nearest neighbour.
@@ -204,14 +205,4 @@ fn centroid(polygon: &[Vector2<f64>]) -> Option<Vector2<f64>> {
         sum += (one + other) * twice;
     }
     (area > 0.0).then(|| origin + sum / (3.0 * area))
-}
-
-/// Two unit tangents of the sphere: a x b = n.
-fn tangents(n: &Vector3<f64>) -> [Vector3<f64>; 2] {
-    let axis = match n.x.abs() < 0.6 {
-        true => Vector3::x(),
-        false => Vector3::y(),
-    };
-    let a = n.cross(&axis).normalize();
-    [a, n.cross(&a)]
 }
