@@ -26,6 +26,8 @@ const HELD_OUT: usize = 8;
 /// Samples of a mesh: its vertices first, then places inside large triangles.
 pub(super) struct Cloud<'a> {
     mesh: &'a Mesh,
+    /// Places of the vertices on the sphere from which fits start.
+    map: Vec<Vector3<f64>>,
     pub(super) points: Vec<Vector3<f64>>,
     /// Unit normals of the scan, outward.
     pub(super) normals: Vec<Vector3<f64>>,
@@ -54,7 +56,7 @@ pub(super) struct Distances {
 
 impl<'a> Cloud<'a> {
     /// The vertices of a closed mesh, with their places on the sphere.
-    pub(super) fn new(mesh: &'a Mesh, directions: Vec<Vector3<f64>>) -> Self {
+    pub(super) fn new(mesh: &'a Mesh, map: Vec<Vector3<f64>>) -> Self {
         let mut normals = vec![Vector3::zeros(); mesh.vertices.len()];
         for corners in &mesh.triangles {
             let [a, b, c] = corners.map(|corner| mesh.vertices[corner as usize]);
@@ -63,9 +65,9 @@ impl<'a> Cloud<'a> {
                 normals[corner as usize] += normal;
             }
         }
-        let mut order: Vec<usize> = (0..directions.len()).collect();
-        order.sort_by(|&one, &other| directions[one].z.total_cmp(&directions[other].z));
-        let mut is_held_out = vec![false; directions.len()];
+        let mut order: Vec<usize> = (0..map.len()).collect();
+        order.sort_by(|&one, &other| map[one].z.total_cmp(&map[other].z));
+        let mut is_held_out = vec![false; map.len()];
         for &vertex in order.iter().skip(HELD_OUT / 2).step_by(HELD_OUT) {
             is_held_out[vertex] = true;
         }
@@ -76,7 +78,8 @@ impl<'a> Cloud<'a> {
             weights: Vec::new(),
             inside: Vec::new(),
             mesh,
-            directions,
+            directions: map.clone(),
+            map,
             is_held_out,
         };
         cloud.weigh();
@@ -91,13 +94,14 @@ impl<'a> Cloud<'a> {
         self.mesh.triangles[triangle].map(|corner| self.directions[corner as usize])
     }
 
-    /// Adds places inside triangles that are large on the sphere, until there is one per `solid_angle`.
-    pub(super) fn refine(&mut self, solid_angle: impl Fn(&Vector3<f64>) -> f64) {
+    /// Starts anew from the map: the vertices, and places inside triangles that are large on the sphere, until there is
+    /// one per `solid_angle`.
+    pub(super) fn restart(&mut self, solid_angle: impl Fn(&Vector3<f64>) -> f64) {
         let vertices = self.vertices();
         self.inside.clear();
         self.points.truncate(vertices);
         self.normals.truncate(vertices);
-        self.directions.truncate(vertices);
+        self.directions.clone_from(&self.map);
         for triangle in 0..self.mesh.triangles.len() {
             let [a, b, c] = self.images(triangle);
             let middle = (a + b + c).normalize();

@@ -24,7 +24,7 @@ use crate::scan::Scan;
 use cloud::Cloud;
 use map::spherical_map;
 use nalgebra::Point3;
-use search::{Found, search};
+use search::search;
 use std::f64::consts::PI;
 
 /// A fitted surface, and what is known of it.
@@ -103,7 +103,7 @@ pub fn fit_position(
     let directions = spherical_map(&local, context)?;
     let mut cloud = Cloud::new(&local, directions);
     let found = context.run(|| search(&mut cloud, options, limit, context))?;
-    let Found { fitted, .. } = found.ok_or(FitError::NoEstimate)?;
+    let fitted = found.ok_or(FitError::NoEstimate)?;
     let distance = |found: cloud::Distances| Distance {
         rms: found.rms * radius,
         max: found.max * radius,

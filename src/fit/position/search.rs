@@ -23,8 +23,11 @@ const SAMPLES_PER_FUNCTION: f64 = 3.0;
 /// Most functions where nothing else is asked for: some seconds of work.
 const MOST_FUNCTIONS: usize = 1000;
 
-/// Cells are split as long as held-out samples are met this much better.
-const LEAST_GAIN: f64 = 0.85;
+/// Cells are split as long as held-out distances fall at least with this power of the number of functions.
+const LEAST_GAIN: f64 = 0.25;
+
+/// Distances of a fit without rounds over those after them: 1.2 to 3.5.
+const GAIN_OF_ROUNDS: f64 = 1.3;
 
 /// Share of the squared distances that the cells split at once hold.
 const SPLIT_SHARE: f64 = 0.8;
@@ -33,12 +36,6 @@ const SPLIT_SHARE: f64 = 0.8;
 const ROUGHNESS: f64 = 1e-7;
 const ACROSS: f64 = 0.3;
 
-/// A surface, and what its functions are.
-pub(super) struct Found {
-    pub(super) fitted: Fitted,
-    pub(super) functions: Functions,
-}
-
 /// Fits what the options ask for to samples of a body of about radius 1, within a `limit` of held-out distance.
 /// `None` if the samples do not determine a surface.
 pub(super) fn search(
@@ -46,27 +43,31 @@ pub(super) fn search(
     options: &FitOptions,
     limit: f64,
     context: &Context<'_>,
-) -> Result<Option<Found>, Cancelled> {
-    let functions = match options.segments {
-        Some(1) => Functions::whole(options.degree.unwrap_or(WHOLE_DEGREES[2])),
+) -> Result<Option<Fitted>, Cancelled> {
+    match options.segments {
+        Some(1) => {
+            let degree = options.degree.unwrap_or(WHOLE_DEGREES[2]);
+            return fit(&Functions::whole(degree), cloud, context);
+        }
         Some(segments) => {
             let parts = (segments / 6).isqrt() as u16;
-            on_cells(CubeCell::uniform(parts), options)
+            return fit(&on_cells(CubeCell::uniform(parts), options), cloud, context);
         }
-        None => {
-            for degree in WHOLE_DEGREES {
-                let found = fit(Functions::whole(degree), cloud, context)?;
-                if found
-                    .as_ref()
-                    .is_some_and(|found| is_enough(&found.fitted, limit))
-                {
-                    return Ok(found);
-                }
-            }
-            split(cloud, options, limit, context)?
+        None => {}
+    }
+    for degree in WHOLE_DEGREES {
+        let functions = Functions::whole(degree);
+        let is_near =
+            try_once(&functions, cloud).is_some_and(|once| once.held_out <= GAIN_OF_ROUNDS * limit);
+        if is_near
+            && let Some(fitted) = fit(&functions, cloud, context)?
+            && is_enough(&fitted, limit)
+        {
+            return Ok(Some(fitted));
         }
-    };
-    fit(functions, cloud, context)
+    }
+    let functions = split(cloud, options, limit, context)?;
+    fit(&functions, cloud, context)
 }
 
 fn is_enough(fitted: &Fitted, limit: f64) -> bool {
@@ -79,24 +80,47 @@ fn on_cells(cells: Vec<CubeCell>, options: &FitOptions) -> Functions {
 }
 
 fn fit(
-    functions: Functions,
+    functions: &Functions,
     cloud: &mut Cloud<'_>,
     context: &Context<'_>,
-) -> Result<Option<Found>, Cancelled> {
-    refine(cloud, &functions);
-    let fitted = Problem::new(&functions).run(cloud, context)?;
-    Ok(fitted.map(|fitted| Found { fitted, functions }))
+) -> Result<Option<Fitted>, Cancelled> {
+    restart(cloud, functions);
+    Problem::new(functions).run(cloud, context)
 }
 
-/// Adds samples until every cell has enough.
-fn refine(cloud: &mut Cloud<'_>, functions: &Functions) {
+/// What one fit without rounds tells of functions.
+struct Once {
+    /// Root of the mean squared distance of samples not used.
+    held_out: f64,
+    /// Sums of weighted squared distances of all samples, by cell.
+    errors: Vec<f64>,
+}
+
+fn try_once(functions: &Functions, cloud: &mut Cloud<'_>) -> Option<Once> {
+    restart(cloud, functions);
+    let problem = Problem::new(functions);
+    let rows = problem.rows(cloud);
+    let surface = problem.fit(cloud, &rows, [1.0, ACROSS], ROUGHNESS, Used::NotHeldOut)?;
+    let (held_out, squares) = cloud.distances(&surface, |at| cloud.is_held_out[at]);
+    let mut errors = vec![0.0; functions.cell_count()];
+    for (at, squared) in squares.iter().enumerate() {
+        errors[home(functions, &cloud.directions[at])] += cloud.weights[at] * squared;
+    }
+    Some(Once {
+        held_out: held_out.rms,
+        errors,
+    })
+}
+
+/// Starts from the map, with enough samples in every cell.
+fn restart(cloud: &mut Cloud<'_>, functions: &Functions) {
     let per_function =
         |solid_angle: f64| solid_angle / (SAMPLES_PER_FUNCTION * functions.per_cell() as f64);
     match functions.cover() {
-        None => cloud.refine(|_| per_function(4.0 * PI)),
+        None => cloud.restart(|_| per_function(4.0 * PI)),
         Some(cover) => {
             let areas: Vec<f64> = cover.cells().iter().map(CubeCell::solid_angle).collect();
-            cloud.refine(|n| per_function(areas[home(functions, n)]));
+            cloud.restart(|n| per_function(areas[home(functions, n)]));
         }
     }
 }
@@ -112,7 +136,8 @@ fn home(functions: &Functions, n: &Vector3<f64>) -> usize {
     most.map_or(0, |&(cell, _)| cell.into())
 }
 
-/// Splits cells until held-out samples are met well enough, or hardly any better, or there are too many.
+/// Splits cells until held-out samples are met well enough, or hardly any better, or there are too many. Cells of one
+/// size compete with what comes out.
 fn split(
     cloud: &mut Cloud<'_>,
     options: &FitOptions,
@@ -121,33 +146,40 @@ fn split(
 ) -> Result<Functions, Cancelled> {
     let mut functions = on_cells(CubeCell::uniform(1), options);
     let most = match options.max_segments {
-        Some(segments) => segments * functions.per_cell(),
-        None => MOST_FUNCTIONS,
+        Some(segments) => segments,
+        None => MOST_FUNCTIONS / functions.per_cell(),
     };
-    let mut before = f64::INFINITY;
-    for done in 0.. {
+    let mut once = try_once(&functions, cloud);
+    for done in 1.. {
         context.enter(Stage::Searching { done, all: None })?;
-        refine(cloud, &functions);
-        let problem = Problem::new(&functions);
-        let rows = problem.rows(cloud);
-        let weights = [1.0, ACROSS];
-        let surface = problem.fit(cloud, &rows, weights, ROUGHNESS, Used::NotHeldOut);
-        let Some(surface) = surface else { break };
-        cloud.project(&surface);
-        let (held_out, squares) = cloud.distances(&surface, |at| cloud.is_held_out[at]);
-        if held_out.rms <= limit || held_out.rms > LEAST_GAIN * before {
-            break;
-        }
-        before = held_out.rms;
-        let mut errors = vec![0.0; functions.cell_count()];
-        for (at, squared) in squares.iter().enumerate() {
-            errors[home(&functions, &cloud.directions[at])] += cloud.weights[at] * squared;
-        }
-        let room = (most.saturating_sub(functions.count())) / (3 * functions.per_cell());
-        let Some(finer) = quartered(&functions, &errors, room) else {
+        let Some(found) = once
+            .as_ref()
+            .filter(|found| found.held_out > GAIN_OF_ROUNDS * limit)
+        else {
             break;
         };
-        functions = on_cells(finer, options);
+        let room = most.saturating_sub(functions.cell_count()) / 3;
+        let Some(finer) = quartered(&functions, &found.errors, room) else {
+            break;
+        };
+        let finer = on_cells(finer, options);
+        let growth = finer.count() as f64 / functions.count() as f64;
+        let Some(next) = try_once(&finer, cloud) else {
+            break;
+        };
+        if next.held_out > found.held_out * growth.powf(-LEAST_GAIN) {
+            break;
+        }
+        (functions, once) = (finer, Some(next));
+    }
+    let parts = (functions.cell_count() / 6).isqrt() as u16;
+    let even = on_cells(CubeCell::uniform(parts), options);
+    let is_better = |even: Once| {
+        once.as_ref()
+            .is_none_or(|once| even.held_out < once.held_out)
+    };
+    if even.count() < functions.count() && try_once(&even, cloud).is_some_and(is_better) {
+        return Ok(even);
     }
     Ok(functions)
 }

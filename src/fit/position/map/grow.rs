@@ -27,6 +27,10 @@ const LARGE_RING: usize = 32;
 const LEAST_OF_MEAN: f64 = 2.3e-3;
 const LEAST_SQUARE: f64 = 1e-8;
 
+/// How often a vertex without a place is tried again, after so many sweeps.
+const RETRIES: usize = 3;
+const SWEEPS_BEFORE_RETRY: usize = 5;
+
 /// Vertices put back between looks at the cancel flag.
 const PATIENCE: usize = 1024;
 
@@ -155,16 +159,21 @@ impl<'a> Growing<'a> {
 
     /// Puts the origin of a collapsed half-edge back, and moves it and its neighbours.
     fn put_back(&mut self, h: u32) -> Result<(), MapError> {
-        let (v, parent) = (self.half_edges.origin(h), self.half_edges.target(h));
-        self.half_edges.split(h);
-        let ring: Vec<u32> = self.half_edges.around(v).collect();
-        for &own in &ring {
-            self.set_rest(own / 3);
+        let v = self.half_edges.origin(h);
+        let mut centre = self.split(h);
+        for _ in 0..RETRIES {
+            if centre.is_some() {
+                break;
+            }
+            // Numbers tell of no kernel: the ring is better when all others have moved.
+            self.half_edges.collapse(h);
+            self.rescale();
+            self.sweep(SWEEPS_BEFORE_RETRY);
+            centre = self.split(h);
         }
-        self.take_star(v);
-        let centre = self.star.kernel_centre(&self.places[parent as usize]);
         self.places[v as usize] = centre.ok_or(MapError::NoKernel { vertex: v })?;
         self.living.push(v);
+        let ring: Vec<u32> = self.half_edges.around(v).collect();
         for _ in 0..FIRST_STEPS {
             self.relax(v);
         }
@@ -175,6 +184,18 @@ impl<'a> Growing<'a> {
             }
         }
         Ok(())
+    }
+
+    /// Undoes a collapse, and finds a place for the vertex that comes back.
+    fn split(&mut self, h: u32) -> Option<Vector3<f64>> {
+        let (v, parent) = (self.half_edges.origin(h), self.half_edges.target(h));
+        self.half_edges.split(h);
+        let ring: Vec<u32> = self.half_edges.around(v).collect();
+        for own in ring {
+            self.set_rest(own / 3);
+        }
+        self.take_star(v);
+        self.star.kernel_centre(&self.places[parent as usize])
     }
 
     fn take_star(&mut self, v: u32) {

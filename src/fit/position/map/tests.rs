@@ -133,16 +133,13 @@ fn a_ball_is_mapped_to_its_directions_and_areas_are_kept_elsewhere() {
         .triangles
         .iter()
         .map(|t| area(t.map(|v| spindle.vertices[v as usize].coords)));
-    let ratios: Vec<f64> = on_sphere
-        .zip(on_surface.clone())
-        .map(|(image, own)| image / own)
-        .collect();
-    let mean = 8.0 * std::f64::consts::PI / on_surface.sum::<f64>();
-    assert!(
-        ratios
-            .iter()
-            .all(|ratio| (0.4..2.5).contains(&(ratio / mean)))
-    );
+    let mean = 8.0 * std::f64::consts::PI / on_surface.clone().sum::<f64>();
+    let is_far_off = |(image, own): &(f64, f64)| !(0.4..2.5).contains(&(image / own / mean));
+    let far_off = on_sphere
+        .zip(on_surface)
+        .filter(is_far_off)
+        .map(|(image, _)| image);
+    assert!(far_off.sum::<f64>() < 0.01 * 8.0 * std::f64::consts::PI);
 }
 
 #[test]
