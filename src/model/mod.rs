@@ -34,6 +34,7 @@ pub use invalid::InvalidGrain;
 pub use least_radius::LeastRadius;
 pub use load::{LoadError, load_grain};
 pub use mirrored::Mirrored;
+pub(crate) use position::area_normal;
 pub use position::{Position, PositionDerivatives};
 pub use position_grain::PositionGrain;
 pub use published::{PublishedExpansion, Region};
