@@ -42,7 +42,6 @@ pub use segmented::Segmented;
 pub use star_grain::StarGrain;
 pub use star_surface::{Derivatives, Radial, StarSurface};
 pub use stretch::Stretch;
-pub(crate) use surface::tangents;
 pub use surface::{Node, Surface, SurfaceElement, SurfaceJet};
 pub use tiling::Tiling;
 pub(crate) use tiling::{Parts, Piece};
