@@ -184,7 +184,7 @@ fn every_measure_of_the_ellipsoid_is_that_of_its_radius() {
         let [one, other] = [&have, &want].map(|survey| survey.curvature().unwrap());
         assert!(one.gauss_bonnet_error().abs() < 1e-4);
         near(one.mean().mean, other.mean().mean, 1e-4);
-        near(have.roundness().unwrap(), want.roundness().unwrap(), 1e-2);
+        near(have.roundness().unwrap(), want.roundness().unwrap(), 3e-2);
         let [one, other] = [&have, &want].map(|survey| survey.spectrum().unwrap());
         near(one.power[2], other.power[2], 1e-6);
         let [one, other] = [&have, &want].map(|survey| survey.projections().unwrap());
