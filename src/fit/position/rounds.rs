@@ -14,10 +14,10 @@ use crate::model::Position;
 use nalgebra::{Matrix3, Vector3};
 
 /// Weights of errors across the normal, beside 1 along it, round by round.
-const ACROSS: [f64; 3] = [0.3, 0.1, 0.1];
+const ACROSS: [f64; 5] = [0.3, 0.1, 0.03, 0.03, 0.03];
 
 /// The same in the last fit.
-const LAST_ACROSS: f64 = 0.1;
+const LAST_ACROSS: f64 = 0.03;
 
 /// Weights of the roughness, for points about a body of equal radius 1: of clean meshes, of noise of .5 and 1.5 % of
 /// the radius.
