@@ -35,7 +35,7 @@ impl PositionGrain {
 
     /// Refuses a surface that runs round the sphere the wrong way, or turns over within a degree or two: then its
     /// normals do not point outside. Looked for on a grid of 13 826 directions. That parts which lie
-    /// apart on the sphere do not cross tells [`self_crossing`](crate::measure::self_crossing).
+    /// apart on the sphere do not cross tells [`crossings`](crate::measure::crossings).
     ///
     /// # Errors
     /// [`InvalidGrain::Folded`] with a direction, [`InvalidGrain::InsideOut`], and [`InvalidGrain::OutOfRange`] if

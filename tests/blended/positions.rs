@@ -4,7 +4,7 @@
 use crate::grains::{plain, turned};
 use grainform::contact::{TouchError, touch};
 use grainform::measure::{
-    Curvature, Deviation, Scheme, Survey, feet, grain_properties, mesh_properties, self_crossing,
+    Curvature, Deviation, Scheme, Survey, crossings, feet, grain_properties, mesh_properties,
 };
 use grainform::model::{
     Frame, InvalidGrain, ModelError, Position, PositionGrain, Radial, SurfaceJet, grain_from_json,
@@ -259,7 +259,7 @@ fn a_banana_is_touched_where_it_reaches_farthest() {
         matches!(refused, Err(TouchError::Crossing { at }) if at[1] < 0.0),
         "{refused:?}"
     );
-    assert!(self_crossing(&banana.mesh(64)).is_none());
+    assert!(crossings(&banana.mesh(64)).is_empty());
 }
 
 #[test]

@@ -5,7 +5,6 @@
 //! [rounds](rounds) that also move the directions; cells are [split](search) where the distance asks for it.
 
 mod cloud;
-mod crossing;
 mod functions;
 mod least_squares;
 pub(crate) mod map;
