@@ -59,8 +59,8 @@ impl PositionGrain {
             let [a, b, c] = [i, j, k].map(place);
             let area = (b - a).cross(&(c - a));
             volume += a.dot(&b.cross(&c)) / 6.0;
-            // Written so that NaN fails.
-            if !(area.dot(&(normal(i) + normal(j) + normal(k))) > 0.0) {
+            let outwards = area.dot(&(normal(i) + normal(j) + normal(k)));
+            if outwards.is_nan() || outwards <= 0.0 {
                 let direction = self.frame.axes * directions[i as usize];
                 return Err(InvalidGrain::Folded {
                     direction: direction.into(),
