@@ -59,6 +59,7 @@ pub struct PositionFit {
 pub struct Distance {
     /// Root of the weighted mean square.
     pub rms: f64,
+    /// The largest.
     pub max: f64,
 }
 
@@ -156,3 +157,6 @@ fn compact(mesh: &Mesh) -> Mesh {
         vertices,
     }
 }
+
+#[cfg(test)]
+mod tests;

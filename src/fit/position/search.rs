@@ -20,7 +20,7 @@ const DEGREE: usize = 3;
 /// Samples per function.
 const SAMPLES_PER_FUNCTION: f64 = 3.0;
 
-/// Most functions where nothing else is asked for: some seconds of work.
+/// Most functions where nothing else is asked for, and the points are enough for them: some seconds of work.
 const MOST_FUNCTIONS: usize = 1000;
 
 /// Cells are split as long as held-out distances fall at least with this power of the number of functions.
@@ -100,8 +100,8 @@ fn try_once(functions: &Functions, cloud: &mut Cloud<'_>) -> Option<Once> {
     restart(cloud, functions);
     let problem = Problem::new(functions);
     let rows = problem.rows(cloud);
-    let surface = problem.fit(cloud, &rows, [1.0, ACROSS], ROUGHNESS, Used::NotHeldOut)?;
-    let (held_out, squares) = cloud.distances(&surface, |at| cloud.is_held_out[at]);
+    let surface = problem.fit(cloud, &rows, [1.0, ACROSS], ROUGHNESS, Used::NotLeftOut)?;
+    let (held_out, squares) = cloud.distances(&surface, |at| cloud.is_held_out(at));
     let mut errors = vec![0.0; functions.cell_count()];
     for (at, squared) in squares.iter().enumerate() {
         errors[home(functions, &cloud.directions[at])] += cloud.weights[at] * squared;
@@ -147,7 +147,10 @@ fn split(
     let mut functions = on_cells(CubeCell::uniform(1), options);
     let most = match options.max_segments {
         Some(segments) => segments,
-        None => MOST_FUNCTIONS / functions.per_cell(),
+        None => {
+            let told = (cloud.vertices() as f64 / SAMPLES_PER_FUNCTION) as usize;
+            MOST_FUNCTIONS.min(told) / functions.per_cell()
+        }
     };
     let mut once = try_once(&functions, cloud);
     for done in 1.. {
