@@ -1,7 +1,7 @@
 //! Real scans from the folder beside the project. Ignored where it is absent.
 
-use grainform::fit::MapError;
-use grainform::measure::grain_properties;
+use grainform::fit::{Context, MapError, fit_position};
+use grainform::measure::{grain_properties, mesh_properties};
 use grainform::scan::read_scan;
 use grainform::{FitError, FitOptions, Fitted, Surface, fit};
 use std::path::{Path, PathBuf};
@@ -122,4 +122,48 @@ fn odd_clouds_of_the_hostile_folder_end_as_they_should() {
     let half = try_fit(&made.join("ply_085_half_scan.ply")).expect("half a grain");
     assert!(told(&half, "is a guess"), "{:?}", half.warnings);
     assert!(try_fit(&made.join("ply_078_two_bodies.ply")).is_err());
+}
+
+#[test]
+#[cfg_attr(not(shared), ignore = "needs ../shared")]
+fn what_no_centre_sees_is_fitted_by_its_position() {
+    let scans = scans();
+    // Root mean square and largest distance, in % of the radius of the ball of equal volume.
+    for (name, rms, max) in [
+        ("barley/barley_S017_l3_18.stl", 0.22, 1.2),
+        ("stone/low_res_E34.ply", 0.30, 2.5),
+    ] {
+        let scan = read_scan(&scans.join(name)).expect("a readable scan");
+        let options = FitOptions::default().with_segments(54).with_degree(3);
+        let fit = fit_position(&scan, &options, &Context::default()).expect("one closed surface");
+        let percent = 100.0 / fit.radius;
+        assert_eq!(fit.surface.coefficient_count(), 3 * 864);
+        assert!(
+            fit.distance.rms * percent < rms,
+            "{name}: {:?}",
+            fit.distance
+        );
+        assert!(
+            fit.distance.max * percent < max,
+            "{name}: {:?}",
+            fit.distance
+        );
+        assert!(
+            fit.held_out.rms * percent < 1.5 * rms,
+            "{name}: {:?}",
+            fit.held_out
+        );
+        assert_eq!((fit.turned_over, fit.crossings), (0, 0), "{name}");
+        let (directions, triangles) = grainform::sphere::cube_grid(64);
+        let points = fit.surface.points_and_tangents(&directions);
+        let mesh = grainform::Mesh {
+            vertices: points.iter().map(|(x, _)| fit.frame.to_scan(x)).collect(),
+            triangles,
+        };
+        let volume = mesh_properties(&mesh).expect("a closed mesh").volume;
+        assert!(
+            (volume / fit.reference.volume - 1.0).abs() < 0.003,
+            "{name}: {volume}"
+        );
+    }
 }

@@ -36,8 +36,8 @@ pub(super) struct Cloud<'a> {
     pub(super) weights: Vec<f64>,
     /// Places inside triangles: the triangle.
     inside: Vec<Inside>,
-    /// Every so many of the vertices, in order of height on the sphere.
-    pub(super) is_held_out: Vec<bool>,
+    /// Every so many of the vertices, in order of height on the sphere, and the places in triangles that touch them.
+    pub(super) is_left_out: Vec<bool>,
 }
 
 /// A place inside a triangle.
@@ -67,9 +67,9 @@ impl<'a> Cloud<'a> {
         }
         let mut order: Vec<usize> = (0..map.len()).collect();
         order.sort_by(|&one, &other| map[one].z.total_cmp(&map[other].z));
-        let mut is_held_out = vec![false; map.len()];
+        let mut is_left_out = vec![false; map.len()];
         for &vertex in order.iter().skip(HELD_OUT / 2).step_by(HELD_OUT) {
-            is_held_out[vertex] = true;
+            is_left_out[vertex] = true;
         }
         let unit = |normal: Vector3<f64>| normal.try_normalize(0.0).unwrap_or_default();
         let mut cloud = Self {
@@ -80,13 +80,19 @@ impl<'a> Cloud<'a> {
             mesh,
             directions: map.clone(),
             map,
-            is_held_out,
+            is_left_out,
         };
         cloud.weigh();
         cloud
     }
 
-    fn vertices(&self) -> usize {
+    /// Whether a sample judges fits that do without it: a vertex, for places in triangles are no points of the scan.
+    pub(super) fn is_held_out(&self, sample: usize) -> bool {
+        sample < self.vertices() && self.is_left_out[sample]
+    }
+
+    /// The number of vertices, the first of the samples.
+    pub(super) fn vertices(&self) -> usize {
         self.mesh.vertices.len()
     }
 
@@ -128,8 +134,14 @@ impl<'a> Cloud<'a> {
                 });
             }
         }
-        self.is_held_out.truncate(vertices);
-        self.is_held_out.resize(self.points.len(), false);
+        self.is_left_out.truncate(vertices);
+        for place in &self.inside {
+            let corners = self.mesh.triangles[place.triangle];
+            let touches = corners
+                .iter()
+                .any(|corner| self.is_left_out[*corner as usize]);
+            self.is_left_out.push(touches);
+        }
         self.weigh();
     }
 

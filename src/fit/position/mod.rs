@@ -156,3 +156,6 @@ fn compact(mesh: &Mesh) -> Mesh {
         vertices,
     }
 }
+
+#[cfg(test)]
+mod tests;

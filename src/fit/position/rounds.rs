@@ -44,7 +44,7 @@ pub(super) struct Problem<'a> {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Used {
     All,
-    NotHeldOut,
+    NotLeftOut,
 }
 
 /// A surface and how good it is.
@@ -78,7 +78,7 @@ impl<'a> Problem<'a> {
         used: Used,
     ) -> Option<Position> {
         let term = |at: usize| {
-            let is_used = used == Used::All || !cloud.is_held_out[at];
+            let is_used = used == Used::All || !cloud.is_left_out[at];
             let weight = if is_used { cloud.weights[at] } else { 0.0 };
             let n = &cloud.normals[at];
             Term {
@@ -155,10 +155,10 @@ impl<'a> Problem<'a> {
         let mut best = (f64::INFINITY, ROUGHNESS[0]);
         for roughness in ROUGHNESS {
             let weights = [1.0, ACROSS[0]];
-            let Some(surface) = self.fit(cloud, &rows, weights, roughness, Used::NotHeldOut) else {
+            let Some(surface) = self.fit(cloud, &rows, weights, roughness, Used::NotLeftOut) else {
                 continue;
             };
-            let (held_out, _) = cloud.distances(&surface, |at| cloud.is_held_out[at]);
+            let (held_out, _) = cloud.distances(&surface, |at| cloud.is_held_out(at));
             if held_out.rms >= best.0 {
                 break;
             }
@@ -185,11 +185,11 @@ impl<'a> Problem<'a> {
         let rows = self.rows(cloud);
         let weights = [1.0, LAST_ACROSS];
         let fit = |used: Used| self.fit(cloud, &rows, weights, roughness, used);
-        let (Some(surface), Some(other)) = (fit(Used::All), fit(Used::NotHeldOut)) else {
+        let (Some(surface), Some(other)) = (fit(Used::All), fit(Used::NotLeftOut)) else {
             return Ok(None);
         };
         let (distances, _) = cloud.distances(&surface, |_| true);
-        let (held_out, _) = cloud.distances(&other, |at| cloud.is_held_out[at]);
+        let (held_out, _) = cloud.distances(&other, |at| cloud.is_held_out(at));
         Ok(Some(Fitted {
             faults: [
                 cloud.turned_over(&surface),
@@ -203,11 +203,13 @@ impl<'a> Problem<'a> {
     }
 }
 
-fn mesh(surface: &Position) -> Mesh {
+/// Pairs of triangles of the surface's mesh that cross without sharing a vertex.
+pub(super) fn crossing_pairs(surface: &Position) -> usize {
     let (directions, triangles) = cube_grid(RESOLUTION);
     let points = surface.points_and_tangents(&directions).into_iter();
-    Mesh {
+    crossings(&Mesh {
         vertices: points.map(|(point, _)| Point3::from(point)).collect(),
         triangles,
-    }
+    })
+    .len()
 }

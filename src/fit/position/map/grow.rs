@@ -1,6 +1,6 @@
 //! Vertices put back on the sphere one after the other, each into the kernel of its ring.
 
-use super::MapError;
+use super::error::MapError;
 use super::half_edges::HalfEdges;
 use super::rest::Rest;
 use super::star::Star;

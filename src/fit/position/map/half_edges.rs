@@ -5,7 +5,7 @@
 //! triangles of the edge, joins their outer neighbours and renames v to u. What dead triangles hold is left as it is:
 //! so collapses are undone in the opposite order from nothing but their half-edges.
 
-use super::MapError;
+use super::error::MapError;
 use crate::disjoint_sets::DisjointSets;
 use crate::mesh::{Mesh, MeshDefect};
 

@@ -24,14 +24,19 @@ use robust::Coord3D;
 use simplify::simplify;
 use std::f64::consts::PI;
 
-/// Sweeps of meshes up to [`LARGE`].
+/// What lessens the distortion as far as it is worth.
 const THOROUGH: Sweeps = Sweeps {
     on_the_way: 5,
     at_the_end: 20,
 };
 
-/// Most the degree of a map may be off 1.
-const DEGREE_ERROR: f64 = 1e-9;
+/// Least area of the faces round a vertex when a map is turned, for a mesh of diameter 1: so that faces of no area have
+/// a centroid.
+const LEAST_SHARE: f64 = 1e-12;
+
+/// Most the sum of solid angles over 4 pi may be off 1: rounding of triangles that are nearly great circles. Where no
+/// triangle turns over it is a whole number.
+const DEGREE_ERROR: f64 = 1e-6;
 
 /// A unit vector for every vertex of a mesh: a map of its triangles onto the sphere that is one to one and keeps their
 /// orientation. It is turned so that the vector at a point is the point's own direction as nearly as can be.
@@ -74,7 +79,7 @@ fn scaled(vertices: &[Point3<f64>]) -> Option<Vec<Vector3<f64>>> {
 /// Turns places to the points they belong to: the mean over the surface of their scalar products, with points taken
 /// from their centroid, becomes largest (Procrustes).
 fn turn(places: &mut [Vector3<f64>], mesh: &Mesh, points: &[Vector3<f64>]) {
-    let mut shares = vec![0.0; points.len()];
+    let mut shares = vec![LEAST_SHARE; points.len()];
     for corners in &mesh.triangles {
         let [a, b, c] = corners.map(|corner| points[corner as usize]);
         let area = (b - a).cross(&(c - a)).norm();
