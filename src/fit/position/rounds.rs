@@ -191,10 +191,7 @@ impl<'a> Problem<'a> {
         let (distances, _) = cloud.distances(&surface, |_| true);
         let (held_out, _) = cloud.distances(&other, |at| cloud.is_held_out(at));
         Ok(Some(Fitted {
-            faults: [
-                cloud.turned_over(&surface),
-                crossings(&mesh(&surface)).len(),
-            ],
+            faults: [cloud.turned_over(&surface), crossing_pairs(&surface)],
             surface,
             distances,
             held_out,
