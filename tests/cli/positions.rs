@@ -50,7 +50,7 @@ fn a_banana_is_fitted_measured_and_touched() {
         .iter()
         .map(|one| one["measure"].as_str().unwrap())
         .collect();
-    // Its outline bends back, and no ray from its centroid meets it.
+    // Its outline bends back, and rays from its centroid meet it twice, or not at all.
     assert_eq!(missing, ["angularity", "projections", "spectrum"]);
     let words =
         "contact b.json --towards 0,1,0 --unit mm --youngs-modulus-mpa 91 --indentation-um 1";
