@@ -6,15 +6,16 @@ use super::fitting::{ScanFit, fit_scan, say_stats};
 use super::outputs;
 use crate::export::MeshFormat;
 use crate::fit::Fitted;
-use crate::model::grain_to_json;
+use crate::model::{Surface, grain_to_json};
 use crate::report::{FitReport, largest_loss, write_harmonics};
-use anyhow::Result;
+use anyhow::{Result, bail};
 use std::time::Instant;
 
 pub(super) fn run(args: FitArgs, console: Console) -> Result<()> {
     let started = Instant::now();
     let fitting = &args.fitting;
-    let options = fitting.settle(console)?;
+    let options = fitting.settle(console)?.with_kind(args.surface.0);
+    options.check()?;
     args.meshing.check(args.mesh.is_some(), console)?;
     let is_taken = outputs::check(
         Some(&fitting.scan),
@@ -88,9 +89,14 @@ fn write_files(args: &FitArgs, fitted: &Fitted) -> Result<Option<f64>> {
     let Some(path) = &args.harmonics else {
         return Ok(None);
     };
-    let published = grain.published();
+    let Some(star) = grain.star() else {
+        bail!(
+            "the published coefficients are those of a radius: leave --harmonics out, or fit one (--surface star)"
+        );
+    };
+    let published = star.published();
     outputs::write(path, |mut file| {
-        Ok(write_harmonics(grain, &published, &mut file)?)
+        Ok(write_harmonics(star, &published, &mut file)?)
     })?;
     Ok(Some(largest_loss(&published)))
 }

@@ -1,6 +1,6 @@
 //! Values of arguments that have a notation of their own.
 
-use crate::fit::{Seams, Tolerance};
+use crate::fit::{Kind, Seams, Tolerance};
 use crate::measure::Scheme;
 use nalgebra::Vector3;
 use std::str::FromStr;
@@ -69,6 +69,23 @@ impl FromStr for SeamsArg {
             "blended" => Ok(Self(Seams::Blended)),
             "none" => Ok(Self(Seams::None)),
             _ => Err("expected blended or none"),
+        }
+    }
+}
+
+/// `auto`, `star` or `position`.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct KindArg(pub(super) Kind);
+
+impl FromStr for KindArg {
+    type Err = &'static str;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        match text {
+            "auto" => Ok(Self(Kind::Auto)),
+            "star" => Ok(Self(Kind::Star)),
+            "position" => Ok(Self(Kind::Position)),
+            _ => Err("expected auto, star or position"),
         }
     }
 }

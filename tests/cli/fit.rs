@@ -78,6 +78,7 @@ fn check_consistency(report: &Value, asked: &[&str]) {
     let mut expected = vec![
         "input",
         "points",
+        "surface",
         "degree",
         "segments",
         "coefficients",

@@ -4,7 +4,7 @@ mod shared;
 
 pub(super) use shared::{FittingArgs, InputArgs, LimitArgs, MeshingArgs};
 
-use super::values::{CloudFormat, SchemeArg, share, vector};
+use super::values::{CloudFormat, KindArg, SchemeArg, share, vector};
 use crate::export::MeshFormat;
 use crate::report::{Measure, Unit};
 use crate::shapes::{Body, Sampling};
@@ -14,6 +14,7 @@ use nalgebra::Vector3;
 use std::path::PathBuf;
 
 const OUTPUT: &str = "Output";
+const SEARCH: &str = "Search";
 const RUN: &str = "Run";
 
 /// Fits a small analytic surface, segmented spherical harmonics, to the 3D scan of a grain, and tells
@@ -70,6 +71,12 @@ pub(super) struct ManArgs {
 pub(super) struct FitArgs {
     #[command(flatten)]
     pub(super) fitting: FittingArgs,
+
+    /// What is fitted: star (a radius in every direction from a centre), position (of points over the sphere, of any
+    /// closed faces without handles), or auto: a radius, and where that hides area, ends above its limit or is
+    /// steep, the better of both
+    #[arg(long, value_name = "auto|star|position", default_value = "auto", help_heading = SEARCH)]
+    pub(super) surface: KindArg,
 
     /// Write the model here, as JSON (- for standard output)
     #[arg(short, long, value_name = "MODEL.json", help_heading = OUTPUT)]

@@ -5,11 +5,11 @@ mod text;
 
 use super::estimate::{EstimateRecord, EvaluationRecord};
 use super::measure::{Dimensions, NotMeasured, Principal, rows};
-use super::rule::rule;
+use super::rule::{kind_rule, rule};
 use super::unit::Unit;
 use super::warning::sentences;
 use crate::fit::{FitOptions, Fitted, Reference, StandardErrors, Tolerance};
-use crate::model::Mirrored;
+use crate::model::StarGrain;
 use crate::sphere::Symmetry;
 use figures::Figures;
 use serde::Serialize;
@@ -25,6 +25,11 @@ pub struct FitReport {
     pub unit: Option<Unit>,
     /// Distinct points that the fit rests on.
     pub points: usize,
+    /// "star" (a radius in every direction from a centre) or "position" (the position of points over the sphere).
+    pub surface: &'static str,
+    /// Why it is of this kind: half a sentence; left out of a radius that follows the scan.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub surface_rule: Option<String>,
     /// Degree of the segments' expansions.
     pub degree: usize,
     /// Number of segments.
@@ -60,13 +65,13 @@ pub struct FitReport {
     pub area_error: Option<f64>,
     /// `volume` against the reference, which is itself off.
     pub volume_error: Option<f64>,
-    /// Root mean square of the radial residuals of all points.
+    /// Root mean square of the residuals of all points: along rays, of positions along normals.
     pub rms: f64,
-    /// Largest absolute radial residual.
+    /// Largest absolute residual, likewise.
     pub max: f64,
     /// Root mean square of the radial errors of points that were left out of the fit one by one.
     pub heldout_rms: Option<f64>,
-    /// Mean radius over all directions.
+    /// Mean radius over all directions; of positions the radius of the ball of equal volume.
     pub mean_radius: f64,
     /// What the points say of the radius, before it is cut in segments; `null` of independent segments and mirrored
     /// fits, which are fitted to the points themselves.
@@ -169,7 +174,7 @@ impl FitReport {
         scan_warnings: &[String],
     ) -> Self {
         let search = &fitted.search;
-        let mirrored = fitted.grain.surface().mirrored();
+        let symmetry = Some(fitted.grain.symmetry()).filter(|mirrors| *mirrors != Symmetry::NONE);
         let choice = search.choice();
         let figures = Figures::new(fitted, options);
         let reference = fitted.unseen.is_none().then_some(fitted.reference);
@@ -180,9 +185,11 @@ impl FitReport {
             input,
             unit,
             points: fitted.points,
-            degree: mirrored.map_or(choice.degree, Mirrored::degree),
+            surface: fitted.grain.star().map_or("position", |_| "star"),
+            surface_rule: kind_rule(fitted, unit),
+            degree: symmetry.map_or(choice.degree, |_| fitted.grain.degree()),
             segments: choice.segments,
-            symmetry: mirrored.map(Mirrored::symmetry),
+            symmetry,
             asymmetry: fitted.asymmetry,
             coefficients: fitted.grain.coefficient_count(),
             area: figures.area,
@@ -203,13 +210,16 @@ impl FitReport {
             estimate: fitted.estimate.map(Into::into),
             estimate_rms: choice.estimate_rms,
             evaluation: EvaluationRecord::new(&fitted.grain),
-            whole: fitted.whole.as_ref().map(EvaluationRecord::new),
+            whole: fitted
+                .whole
+                .clone()
+                .map(|whole| EvaluationRecord::new(&whole.into())),
             noise: search.noise,
             limit: search.limit,
             tolerance: (options.tolerance != Tolerance::Auto)
                 .then(|| options.tolerance.length(fitted.mean_radius)),
             rule: rule(fitted, options, unit),
-            seam_jump: fitted.grain.seam_jump(),
+            seam_jump: fitted.grain.star().map_or(0.0, StarGrain::seam_jump),
             reduced_segments: choice.reduced_segments,
             harmonics_loss: None,
             seconds: Seconds::default(),
