@@ -184,8 +184,8 @@ impl CapBasis {
                     cap.tangents[1][axis] * per_tangent,
                 );
                 let c = cap.centre[axis] * per_height;
-                for i in 0..N {
-                    component[i] = e1 * e.du[k][i] + e2 * e.dv[k][i] - c * e.dx[k][i];
+                for (i, component) in component.iter_mut().enumerate() {
+                    *component = e1 * e.du[k][i] + e2 * e.dv[k][i] - c * e.dx[k][i];
                 }
             }
         }

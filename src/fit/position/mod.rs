@@ -6,6 +6,7 @@
 
 mod cloud;
 mod crossing;
+mod foot;
 mod functions;
 mod least_squares;
 pub(crate) mod map;

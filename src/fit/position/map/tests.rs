@@ -73,7 +73,13 @@ fn bodies_that_are_hard_to_map_have_a_map() {
     assert_mapped("slivers", &moved(sheared));
     let half = |_, n: Vector3<f64>| if n.z > 0.0 { Vector3::z() } else { n };
     assert_mapped("half the vertices coincide", &moved(half));
-    let four = |i: usize, n: Vector3<f64>| if i % 400 == 0 { n } else { Vector3::zeros() };
+    let four = |i: usize, n: Vector3<f64>| {
+        if i.is_multiple_of(400) {
+            n
+        } else {
+            Vector3::zeros()
+        }
+    };
     assert_mapped("all vertices but four coincide", &moved(four));
     let tentacles = |_, n: Vector3<f64>| {
         let grown = |k| 8.0 * ((n.dot(&arbitrary(k).normalize()) - 1.0) / 0.002).exp();
