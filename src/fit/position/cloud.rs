@@ -1,21 +1,18 @@
 //! What a surface is fitted to: places of a mesh, each with its direction on the sphere.
 
+use super::foot::foot_step;
 use super::map::is_upright;
 use crate::mesh::Mesh;
 use crate::model::{Position, area_normal};
-use crate::sphere::tangents;
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Vector3;
 use std::f64::consts::PI;
+
+/// Most parts per edge in which a triangle is cut.
+const MOST_PARTS: usize = 32;
 
 /// Share of the weight that goes with solid angle on the sphere, the rest with area: where the map has left much of
 /// the sphere to little surface, functions still need points.
 const SPHERE_SHARE: f64 = 0.2;
-
-/// Longest step of a direction to its foot point, in radians.
-const LONGEST_STEP: f64 = 0.05;
-
-/// Relative damping of the step.
-const DAMPING: f64 = 1e-3;
 
 /// Halvings of the steps of directions whose triangles would turn over, before they stay.
 const HALVINGS: usize = 12;
@@ -290,8 +287,11 @@ impl<'a> Cloud<'a> {
     }
 }
 
-/// Most parts per edge in which a triangle is cut.
-const MOST_PARTS: usize = 32;
+/// Solid angle of a triangle on the sphere.
+fn spherical_area([a, b, c]: [Vector3<f64>; 3]) -> f64 {
+    let volume = a.dot(&(b - a).cross(&(c - a)));
+    2.0 * volume.atan2(1.0 + a.dot(&b) + b.dot(&c) + c.dot(&a))
+}
 
 /// Barycentric coordinates of the middles of the parts when every edge is cut in so many.
 fn middles(parts: usize) -> Vec<[f64; 3]> {
@@ -307,30 +307,4 @@ fn middles(parts: usize) -> Vec<[f64; 3]> {
         }
     }
     found
-}
-
-/// The step of a direction that brings the surface's point nearest, to first order.
-fn foot_step(n: &Vector3<f64>, lacking: &Vector3<f64>, slopes: &Matrix3<f64>) -> Vector3<f64> {
-    let [a, b] = tangents(n);
-    let (along_a, along_b) = (slopes * a, slopes * b);
-    let (aa, ab, bb) = (
-        along_a.norm_squared(),
-        along_a.dot(&along_b),
-        along_b.norm_squared(),
-    );
-    let damping = DAMPING * (aa + bb);
-    let (aa, bb) = (aa + damping, bb + damping);
-    let (ga, gb) = (along_a.dot(lacking), along_b.dot(lacking));
-    let step = (a * (bb * ga - ab * gb) + b * (aa * gb - ab * ga)) / (aa * bb - ab * ab);
-    match step.norm() {
-        length if length > LONGEST_STEP => step * (LONGEST_STEP / length),
-        length if length.is_finite() => step,
-        _ => Vector3::zeros(),
-    }
-}
-
-/// Solid angle of a triangle on the sphere.
-fn spherical_area([a, b, c]: [Vector3<f64>; 3]) -> f64 {
-    let volume = a.dot(&(b - a).cross(&(c - a)));
-    2.0 * volume.atan2(1.0 + a.dot(&b) + b.dot(&c) + c.dot(&a))
 }

@@ -5,6 +5,7 @@
 //! [rounds](rounds) that also move the directions; cells are [split](search) where the distance asks for it.
 
 mod cloud;
+mod foot;
 mod functions;
 mod least_squares;
 pub(crate) mod map;
