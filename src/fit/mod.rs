@@ -25,6 +25,7 @@ mod prepare;
 mod robust;
 mod segments;
 mod sound;
+mod superquadric;
 mod unseen;
 mod warning;
 
@@ -40,6 +41,10 @@ pub use options::{
 pub use outcome::{EstimateSummary, Fitted, Residuals};
 pub use prepare::{
     PreparedScan, Reference, ReferenceKind, ScannedSurface, largest_body, scanned_surface,
+};
+pub use superquadric::{
+    Form, MAX_UNION_PARTS, MultiFit, ParameterErrors, SuperquadricFit, SuperquadricFitError,
+    fit_multi_superquadric, fit_superquadric,
 };
 pub use unseen::Unseen;
 pub use warning::FitWarning;

@@ -13,6 +13,7 @@ mod published;
 mod seams;
 mod segmented;
 mod stretch;
+mod superquadric;
 mod surface;
 mod whole;
 
@@ -28,5 +29,7 @@ pub use published::{PublishedExpansion, Region};
 pub use segmented::Segmented;
 pub(crate) use stretch::Ray;
 pub use stretch::Stretch;
+pub(crate) use superquadric::Octant;
+pub use superquadric::{EXPONENTS, InvalidSuperquadric, MultiSuperquadric, Part, Superquadric};
 pub use surface::{Derivatives, StarSurface};
 pub use whole::Whole;
