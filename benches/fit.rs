@@ -79,8 +79,12 @@ fn stages(points: usize, runs: usize, rate: f64) {
     let directions = Sampling::Random
         .directions(1_000_000, 0)
         .expect("enough directions");
-    let evaluating = median(3, || fitted.grain.radii(&directions));
-    let whole = fitted.whole.as_ref().unwrap_or(&fitted.grain);
+    let evaluating = median(3, || fitted.grain.star().unwrap().radii(&directions));
+    let whole = fitted
+        .whole
+        .as_ref()
+        .or(fitted.grain.star())
+        .expect("a radius");
     let evaluating_whole = median(3, || whole.radii(&directions));
 
     let searching = median(runs, || fit(&independent));

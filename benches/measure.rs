@@ -54,8 +54,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     row("everything", &Measure::ALL);
 
     let direction = Vector3::new(0.3, -0.2, -0.9).normalize();
+    let star = grain.star().expect("a radius");
     let evaluation = median(RUNS, || {
-        (0..1000).map(|_| grain.radius(&direction)).sum::<f64>()
+        (0..1000).map(|_| star.radius(&direction)).sum::<f64>()
     });
     let contact = median(RUNS, || {
         let touch = touch(&grain, &direction, None).ok()?;

@@ -42,7 +42,7 @@ fn row(options: &SynthOptions) -> Result<String, Box<dyn std::error::Error>> {
         scan.points().len(),
         options.sampling,
         100.0 * options.noise,
-        fitted.grain.segments(),
+        fitted.grain.star().unwrap().segments(),
         fitted.grain.coefficient_count(),
         100.0 * (found.area / truth.area - 1.0),
         100.0 * (found.volume / truth.volume - 1.0),

@@ -10,10 +10,11 @@
 
 use grainform::contact::{Correction, RelativeCurvature, touch};
 use grainform::fit::{DirectedSample, fit_mirrored};
+use grainform::model::Radial;
 use grainform::scan::Scan;
 use grainform::shapes::{Body, Ellipsoid, Sampling, SynthOptions, synthesize};
 use grainform::sphere::Symmetry;
-use grainform::{FitOptions, StarSurface, Tolerance, fit};
+use grainform::{FitOptions, Surface, Tolerance, fit};
 use nalgebra::Vector3;
 use std::path::Path;
 
@@ -68,7 +69,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let ellipsoid = Ellipsoid {
         semi_axes: Vector3::new(2.0, 2.0, 1.0),
     };
-    row("closed form", &ellipsoid)?;
+    row("closed form", &Radial(&ellipsoid))?;
     let scan = synthesize(&SynthOptions::clean(Body::Ellipsoid).with_points(6146))?;
     let scan = Scan::from_points(scan.points);
     for tolerance in [1e-3, 1e-4] {
@@ -90,7 +91,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 }
 
 /// Prints a surface's contacts at its rim and at its pole.
-fn row(name: &str, surface: &impl StarSurface) -> Result<(), Box<dyn std::error::Error>> {
+fn row(name: &str, surface: &impl Surface) -> Result<(), Box<dyn std::error::Error>> {
     let told = |towards: Vector3<f64>| {
         let touch = match touch(surface, &towards, Some(CAP * RADIUS)) {
             Ok(touch) => touch,

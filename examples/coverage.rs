@@ -4,6 +4,7 @@
 //! `cargo run --release --example coverage`
 
 use grainform::measure::support;
+use grainform::model::Radial;
 use grainform::report::FitReport;
 use grainform::scan::Scan;
 use grainform::shapes::{Body, SynthOptions, synthesize};
@@ -117,7 +118,11 @@ fn truth(body: Body) -> Result<[f64; FIGURES.len()], Box<dyn Error>> {
     let solid = synthesize(&SynthOptions::clean(body))?.truth.properties;
     let principal = solid.principal().ok_or("a finite inertia")?;
     let surface = body.surface();
-    let reach = |towards: Vector3<f64>| support(surface.as_ref(), &towards).point.dot(&towards);
+    let reach = |towards: Vector3<f64>| {
+        support(&Radial(surface.as_ref()), &towards)
+            .point
+            .dot(&towards)
+    };
     let extent = |i: usize| {
         let axis = principal.axes.column(i).into_owned();
         reach(axis) + reach(-axis)

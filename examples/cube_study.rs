@@ -48,7 +48,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let scan = Scan::from_points(study.points.clone());
     let fitted = fit(&scan, &FitOptions::default())?;
     let found = grain_properties(&fitted.grain);
-    let grain = &fitted.grain;
+    let grain = fitted.grain.star().ok_or("a model without a radius")?;
     let name = format!("{} cells", grain.segments());
     study.row(&name, grain.coefficient_count(), grain, &found);
     Ok(())

@@ -3,7 +3,7 @@
 //! `cargo run --release --example picture > docs/maize.svg`
 
 use grainform::scan::read_scan;
-use grainform::{FitOptions, fit};
+use grainform::{FitOptions, Surface, fit};
 use nalgebra::{Point3, Rotation3, Vector3};
 use std::fmt::Write;
 
@@ -19,7 +19,7 @@ const SHADES: usize = 24;
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let scan = read_scan("grains/maize.ply".as_ref())?;
     let fitted = fit(&scan, &FitOptions::default())?;
-    let grain = &fitted.grain;
+    let grain = fitted.grain.star().ok_or("a model without a radius")?;
     let centre = grain.frame().centre;
     let normal = |point: &Point3<f64>| grain.normal(&(point - centre).normalize());
 

@@ -37,7 +37,7 @@ mod vectorize;
 pub use export::save_grain;
 pub use fit::{FitError, FitOptions, Fitted, Seams, Tolerance, fit};
 pub use mesh::Mesh;
-pub use model::{Grain, StarSurface, load_grain};
+pub use model::{Grain, StarGrain, StarSurface, Surface, load_grain};
 /// The vectors and matrices of this library's functions.
 pub use nalgebra;
 pub use scan::Scan;

@@ -205,3 +205,24 @@ fn only_the_dispatch_knows_more_than_one_family() {
         assert!(known.len() <= may, "{module:?} knows {known:?}");
     }
 }
+
+/// Which family a model is of, only the models know, and the fits that make them.
+#[test]
+fn what_takes_a_surface_knows_no_family() {
+    let files = ["family", "blended", "segmented", "mirrored", "whole"];
+    for (module, targets) in edges() {
+        let room = module.first().map(String::as_str);
+        let makes = ["fit::dispatch", "fit::estimate::curvature"].contains(&&*module.join("::"));
+        for target in targets.iter().filter(|target| target[0] == "model") {
+            let known = target
+                .get(1)
+                .and_then(|file| files.iter().position(|f| f == file));
+            let may = match (room, known) {
+                (Some("model"), _) | (_, None) => true,
+                (Some("fit"), Some(file)) => file > 0 || makes,
+                _ => false,
+            };
+            assert!(may, "{module:?} imports {target:?}");
+        }
+    }
+}

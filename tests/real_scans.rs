@@ -2,7 +2,7 @@
 
 use grainform::measure::grain_properties;
 use grainform::scan::read_scan;
-use grainform::{FitError, FitOptions, Fitted, fit};
+use grainform::{FitError, FitOptions, Fitted, Surface, fit};
 use std::path::{Path, PathBuf};
 
 fn scans() -> PathBuf {

@@ -3,7 +3,7 @@
 use grainform::measure::grain_properties;
 use grainform::scan::Scan;
 use grainform::shapes::{Body, Sampling, SynthOptions, synthesize};
-use grainform::{FitOptions, Fitted, StarSurface, fit};
+use grainform::{FitOptions, Fitted, StarSurface, Surface, fit};
 use nalgebra::{Point3, Vector3};
 
 const GRAINS: [Body; 3] = [Body::Bean, Body::Chickpea, Body::Maize];
@@ -79,7 +79,10 @@ fn bridge(body: Body, towards: &Vector3<f64>, noise: f64) -> Bridge {
             .filter(move |n| (from..to).contains(&angle(n)));
         let pair = |n: &Vector3<f64>| {
             let point = n * surface.radius(n) - centre;
-            (point.norm(), fitted.grain.radius(&point.normalize()))
+            (
+                point.norm(),
+                fitted.grain.star().unwrap().radius(&point.normalize()),
+            )
         };
         within.map(pair).collect::<Vec<(f64, f64)>>()
     };

@@ -5,7 +5,7 @@ use grainform::measure::grain_properties;
 use grainform::scan::Scan;
 use grainform::shapes::{Body, Sampling, SynthOptions, synthesize};
 use grainform::sphere::cube_grid;
-use grainform::{FitOptions, StarSurface, Tolerance, fit};
+use grainform::{FitOptions, StarSurface, Surface, Tolerance, fit};
 use nalgebra::{Point3, Vector3};
 use proptest::prelude::*;
 
@@ -34,7 +34,7 @@ fn assert_sound(fitted: &Fitted) {
     assert!(properties.area.is_finite() && properties.volume.is_finite());
     assert!(properties.inertia.iter().all(|x| x.is_finite()));
     for n in cube_grid(6).0 {
-        let (radius, gradient) = fitted.grain.radius_and_gradient(&n);
+        let (radius, gradient) = fitted.grain.star().unwrap().radius_and_gradient(&n);
         assert!(radius.is_finite() && gradient.iter().all(|x| x.is_finite()));
         assert!(
             radius.abs() < 100.0 * fitted.mean_radius,
@@ -107,7 +107,7 @@ fn adaptive_covers_keep_to_the_bounds_asked_for() {
             .with_tolerance(Tolerance::OfMeanRadius(1e-4));
         let fitted = try_fit(points.clone(), &options).expect("a grain");
         assert_sound(&fitted);
-        assert!(fitted.grain.segments() <= max_segments);
+        assert!(fitted.grain.star().unwrap().segments() <= max_segments);
         assert!(fitted.grain.degree() <= max_degree);
     }
 }

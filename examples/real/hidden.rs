@@ -3,7 +3,7 @@
 use crate::rival;
 use crate::stats::{median, quantile};
 use grainform::scan::{Scan, read_scan};
-use grainform::{FitError, FitOptions, Grain, StarSurface, fit};
+use grainform::{FitError, FitOptions, Grain, StarSurface, Surface, fit};
 use nalgebra::{Point3, Vector3};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
@@ -124,6 +124,7 @@ fn judge(scan: &Scan, seed: u64) -> Result<Row, FitError> {
     };
     let rms = |grain: &Grain| {
         let rays = rays(grain, &hidden);
+        let grain = grain.star().expect("a radius");
         let errors = rays.iter().map(|(n, radius)| radius - grain.radius(n));
         (errors.map(|e| e * e).sum::<f64>() / rays.len() as f64).sqrt()
     };

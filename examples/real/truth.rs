@@ -4,7 +4,7 @@ use crate::particle::Particle;
 use crate::stats::{median, quantile};
 use grainform::measure::grain_properties;
 use grainform::shapes::Sampling;
-use grainform::{FitOptions, Fitted, Tolerance, fit};
+use grainform::{FitOptions, Fitted, Surface, Tolerance, fit};
 use nalgebra::Vector3;
 use std::error::Error;
 use std::path::Path;

@@ -105,12 +105,16 @@ fn row(name: &str, points: Vec<Point3<f64>>, k: usize, degree: usize) {
         }
     };
     let samples = samples_by_segment(&fitted, scan.points());
-    let study = Study::of(segmented(&fitted.grain).partition(), degree, &samples);
+    let study = Study::of(
+        segmented(fitted.grain.star().expect("a radius")).partition(),
+        degree,
+        &samples,
+    );
     let Verdict {
         error,
         widened,
         lowered,
-    } = judge(&fitted.grain, degree, &samples);
+    } = judge(fitted.grain.star().expect("a radius"), degree, &samples);
     println!(
         "| {name} | {count} | {k} | {degree} | {study} | {error:.0e} | {widened} | {lowered} |"
     );

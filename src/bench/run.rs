@@ -3,6 +3,7 @@
 use super::{BenchRow, BenchScan, Family, Setting, Subject, Truth, options};
 use crate::fit::{Context, FitError, FitOptions, Fitted, PreparedScan, Reference};
 use crate::measure::{Deviation, grain_properties};
+use crate::model::StarGrain;
 use std::time::Instant;
 
 /// A fit that takes longer, in seconds, is timed once: the noise of the clock is far below.
@@ -110,7 +111,7 @@ fn row(
         volume_error: found.volume / volume - 1.0,
         rms_error: truth
             .map(|truth| Deviation::from_places(grain, &truth.places).rms() / truth.mean_radius),
-        seam_jump: grain.seam_jump() / fitted.mean_radius,
+        seam_jump: grain.star().map_or(0.0, StarGrain::seam_jump) / fitted.mean_radius,
         rejected: choice.rejected.map(|reason| reason.to_string()),
     }
 }

@@ -6,7 +6,7 @@ use super::fitting::{ScanFit, fit_scan, say_stats};
 use super::outputs;
 use crate::export::MeshFormat;
 use crate::fit::Fitted;
-use crate::model::grain_to_json;
+use crate::model::{Surface, grain_to_json};
 use crate::report::{FitReport, largest_loss, write_harmonics};
 use anyhow::Result;
 use std::time::Instant;
@@ -85,12 +85,12 @@ fn write_files(args: &FitArgs, fitted: &Fitted) -> Result<Option<f64>> {
         let text = grain_to_json(&fitted.grain_with_errors());
         outputs::write(path, |file| Ok(writeln!(file, "{text}")?))?;
     }
-    let Some(path) = &args.harmonics else {
+    let (Some(path), Some(star)) = (&args.harmonics, grain.star()) else {
         return Ok(None);
     };
-    let published = grain.published();
+    let published = star.published();
     outputs::write(path, |mut file| {
-        Ok(write_harmonics(grain, &published, &mut file)?)
+        Ok(write_harmonics(star, &published, &mut file)?)
     })?;
     Ok(Some(largest_loss(&published)))
 }

@@ -4,6 +4,7 @@ use super::args::{MeshArgs, MeshingArgs};
 use super::console::Console;
 use super::{inputs, outputs, threads};
 use crate::export::MeshFormat;
+use crate::model::Surface;
 use anyhow::{Result, bail};
 
 /// Bytes that a mesh takes per square of its resolution, while it is made.

@@ -2,7 +2,7 @@
 
 use super::{EdgeError, TangentCap};
 use crate::measure::{Curvature, Support, support};
-use crate::model::StarSurface;
+use crate::model::{Surface, tangents};
 use nalgebra::Vector3;
 use std::f64::consts::TAU;
 use thiserror::Error;
@@ -20,7 +20,9 @@ const ONE_SIDE: f64 = 2e-3;
 /// A point of a body by which it touches a plane.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Touch {
-    /// The point, seen from the surface's origin: on an edge, before that is rounded.
+    /// The direction n of the point.
+    pub direction: Vector3<f64>,
+    /// The point, seen from the surface's centre: on an edge, before that is rounded.
     pub point: Vector3<f64>,
     /// Principal curvatures there, the larger first: one over length.
     pub principal: [f64; 2],
@@ -56,13 +58,14 @@ pub enum TouchError {
 ///
 /// See [`TouchError`].
 pub fn touch(
-    surface: &(impl StarSurface + ?Sized),
+    surface: &(impl Surface + ?Sized),
     towards: &Vector3<f64>,
     edge_radius: Option<f64>,
 ) -> Result<Touch, TouchError> {
     let found = support(surface, towards);
     if found.is_smooth {
         return Ok(Touch {
+            direction: found.direction,
             point: found.point,
             principal: found.curvature.principal,
             directions: found.curvature.directions,
@@ -79,17 +82,16 @@ pub fn touch(
 
 /// The two sides of an edge: those that are farthest apart of all round `n`.
 fn sides(
-    surface: &(impl StarSurface + ?Sized),
+    surface: &(impl Surface + ?Sized),
     n: &Vector3<f64>,
 ) -> Result<[Curvature; 2], TouchError> {
-    let first = n.cross(&Vector3::ith(n.iamin(), 1.0)).normalize();
-    let second = n.cross(&first);
+    let [first, second] = tangents(n);
     // Half a step off the axes, along which edges tend to run.
     let around: Vec<Curvature> = (0..AROUND)
         .map(|i| {
             let (sin, cos) = (TAU * (i as f64 + 0.5) / AROUND as f64).sin_cos();
             let aside = (n + (first * cos + second * sin) * ASIDE).normalize();
-            Curvature::new(&aside, &surface.derivatives(&aside))
+            Curvature::new(&aside, &surface.jet(&aside))
         })
         .collect();
     let apart = |one: &Curvature, other: &Curvature| (one.normal - other.normal).norm();
@@ -126,6 +128,7 @@ fn round(
     // Meusnier: the edge, seen from the direction of the contact, bends more than the side does.
     let bend = sides[0].along(&along) / normals[0].dot(towards);
     Ok(Touch {
+        direction: found.direction,
         point: found.point,
         principal: cap.principal_curvatures(1.0 / bend),
         directions: [along.cross(towards), along],
@@ -136,6 +139,7 @@ fn round(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::model::Radial;
     use crate::shapes::{Bicone, Body, Cuboid, Ellipsoid};
     use approx::assert_relative_eq;
 
@@ -144,10 +148,10 @@ mod tests {
         let ellipsoid = Ellipsoid {
             semi_axes: Vector3::new(2.0, 2.0, 1.0),
         };
-        let side = touch(&ellipsoid, &Vector3::x(), None).unwrap();
+        let side = touch(&Radial(&ellipsoid), &Vector3::x(), None).unwrap();
         assert_relative_eq!(side.principal[0], 2.0, max_relative = 1e-12);
         assert_relative_eq!(side.principal[1], 0.5, max_relative = 1e-12);
-        let top = touch(&ellipsoid, &Vector3::z(), None).unwrap();
+        let top = touch(&Radial(&ellipsoid), &Vector3::z(), None).unwrap();
         assert_relative_eq!(top.principal[0], 0.25, max_relative = 1e-12);
         assert!(top.cap.is_none());
     }
@@ -158,11 +162,11 @@ mod tests {
             radius: 4.0,
             half_height: 3.0,
         };
-        let refused = touch(&bicone, &Vector3::x(), None).unwrap_err();
+        let refused = touch(&Radial(&bicone), &Vector3::x(), None).unwrap_err();
         let turn: f64 = 2.0 * (4.0_f64 / 3.0).atan();
         assert!(matches!(refused, TouchError::Edge { turn_deg }
             if (turn_deg - turn.to_degrees()).abs() < 1e-4));
-        let found = touch(&bicone, &Vector3::x(), Some(0.1)).unwrap();
+        let found = touch(&Radial(&bicone), &Vector3::x(), Some(0.1)).unwrap();
         assert_relative_eq!(found.principal[0], 10.0, max_relative = 1e-9);
         let recess = 0.1 * (1.0 / (0.5 * turn).cos() - 1.0);
         assert_relative_eq!(
@@ -180,11 +184,11 @@ mod tests {
         };
         let diagonal = Vector3::repeat(1.0).normalize();
         assert_eq!(
-            touch(&cuboid, &diagonal, Some(0.1)),
+            touch(&Radial(&cuboid), &diagonal, Some(0.1)),
             Err(TouchError::Corner)
         );
         let bicone = Body::Bicone.surface();
-        let apex = touch(bicone.as_ref(), &Vector3::z(), Some(0.1));
+        let apex = touch(&Radial(bicone.as_ref()), &Vector3::z(), Some(0.1));
         assert_eq!(apex, Err(TouchError::Corner));
     }
 }

@@ -10,7 +10,7 @@ use std::path::Path;
 /// use grainform::nalgebra::Vector3;
 /// use grainform::scan::Scan;
 /// use grainform::shapes::{Body, SynthOptions, synthesize};
-/// use grainform::{FitOptions, StarSurface, fit, load_grain, save_grain};
+/// use grainform::{FitOptions, Surface, fit, load_grain, save_grain};
 ///
 /// let folder = tempfile::tempdir()?;
 /// let path = folder.path().join("sphere.json");
@@ -18,7 +18,7 @@ use std::path::Path;
 /// let grain = fit(&Scan::from_points(points), &FitOptions::default())?.grain;
 /// save_grain(&path, &grain)?;
 /// let loaded = load_grain(&path)?;
-/// assert_eq!(loaded.radius(&Vector3::x()), grain.radius(&Vector3::x()));
+/// assert_eq!(loaded.place(&Vector3::x()), grain.place(&Vector3::x()));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///

@@ -13,7 +13,7 @@ use super::prepare::{CellGrid, PreparedScan, Sample};
 use super::segments;
 use super::sound;
 use super::warning::FitWarning;
-use crate::model::{Frame, Grain, Stretch, Surface};
+use crate::model::{Family, Frame, StarGrain, Stretch};
 use crate::sphere::Symmetry;
 use nalgebra::Vector3;
 
@@ -48,9 +48,15 @@ impl PreparedScan<'_> {
     }
 
     /// What is known before any fit.
-    fn fitted(&self, grain: Grain, search: Search, residuals: Residuals, points: usize) -> Fitted {
+    fn fitted(
+        &self,
+        grain: StarGrain,
+        search: Search,
+        residuals: Residuals,
+        points: usize,
+    ) -> Fitted {
         Fitted {
-            grain,
+            grain: grain.into(),
             search,
             reference: self.reference,
             points,
@@ -78,7 +84,7 @@ fn mirrored(
     let grain = grain(
         prepared.frame(),
         Stretch::NONE,
-        Surface::Mirrored(fit.surface),
+        Family::Mirrored(fit.surface),
     );
     let mut fitted = prepared.fitted(grain, fit.search, fit.residuals, fit.points);
     fitted.warnings.extend(rejected(&fitted.search));
@@ -99,7 +105,7 @@ fn independent(
     let grain = grain(
         prepared.frame(),
         Stretch::NONE,
-        Surface::Segmented(fit.surface),
+        Family::Segmented(fit.surface),
     );
     let mut fitted = prepared.fitted(grain, fit.search, fit.residuals, fit.points);
     fitted.warnings.extend(rejected(&fitted.search));
@@ -128,7 +134,7 @@ fn estimated(
     let limit = tolerance.max(GOOD_ENOUGH * estimate.deviation());
     let stretch = estimate.stretch();
     let frame = prepared.frame();
-    let whole = |degree: usize| grain(frame, stretch, Surface::Whole(estimate.expansion(degree)));
+    let whole = |degree: usize| grain(frame, stretch, Family::Whole(estimate.expansion(degree)));
 
     // The estimate itself, unless a tolerance asks for less of it.
     let own_limit = match options.tolerance {
@@ -202,7 +208,7 @@ fn estimated(
                     limit,
                 });
             }
-            let cells = grain(frame, stretch, Surface::Blended(outcome.surface));
+            let cells = grain(frame, stretch, Family::Blended(outcome.surface));
             (cells, Some(whole(degree)))
         }
     };
@@ -249,12 +255,12 @@ impl Target for Plain<'_> {
     }
 }
 
-fn grain(frame: &Frame, stretch: Stretch, surface: Surface) -> Grain {
-    Grain::stretched(*frame, stretch, surface).expect("the axes are orthonormal")
+fn grain(frame: &Frame, stretch: Stretch, family: Family) -> StarGrain {
+    StarGrain::stretched(*frame, stretch, family).expect("the axes are orthonormal")
 }
 
 /// Residuals of all samples, in the grain's own frame.
-fn residuals(grain: &Grain, samples: &[Sample]) -> Residuals {
+fn residuals(grain: &StarGrain, samples: &[Sample]) -> Residuals {
     let directions: Vec<Vector3<f64>> = samples
         .iter()
         .map(|&[x, y, z, _]| Vector3::new(x, y, z))

@@ -6,7 +6,7 @@ use super::prepare::Reference;
 use super::unseen::Unseen;
 use super::warning::FitWarning;
 use crate::measure::MassProperties;
-use crate::model::Grain;
+use crate::model::{Grain, StarGrain, Surface};
 use nalgebra::Vector3;
 
 /// A fitted grain and what is known of it.
@@ -32,7 +32,7 @@ pub struct Fitted {
     pub estimate: Option<EstimateSummary>,
     /// The expansion of the whole sphere that comes as near to the estimate as the chosen cells. `None` where there are no
     /// cells.
-    pub whole: Option<Grain>,
+    pub whole: Option<StarGrain>,
     /// What the scan did not see, if it is large: figures of the whole surface are guesses then.
     pub unseen: Option<Unseen>,
     /// What a user should know of the scan and the fit.
@@ -110,11 +110,12 @@ impl Fitted {
     /// The grain with the [errors of its curvature](crate::model::CurvatureErrors), which a file of it keeps for its contacts. Without,
     /// if it was fitted to the points themselves.
     pub fn grain_with_errors(&self) -> Grain {
-        let errors = self.posterior.as_ref();
-        match errors.and_then(|posterior| posterior.curvature_errors(&self.grain)) {
-            Some(errors) => self.grain.clone().with_curvature_errors(errors),
-            None => self.grain.clone(),
-        }
+        let with_errors = || {
+            let star = self.grain.star()?;
+            let errors = self.posterior.as_ref()?.curvature_errors(star)?;
+            Some(star.clone().with_curvature_errors(errors).into())
+        };
+        with_errors().unwrap_or_else(|| self.grain.clone())
     }
 
     /// Standard deviations of the radius in directions of the scan's frame (unit vectors), in the scan's unit: of the

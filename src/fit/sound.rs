@@ -46,7 +46,10 @@ pub(super) fn check(fitted: &Fitted, options: &FitOptions) -> Result<Option<FitW
             return Err(FitError::FarBeyondPoints { times });
         }
     }
-    match fitted.grain.least_radius() {
+    let Some(star) = fitted.grain.star() else {
+        return Ok(None);
+    };
+    match star.least_radius() {
         Ok(_) => Ok(None),
         Err(InvalidGrain::NotPositive { radius, direction }) => Err(FitError::NotPositive {
             radius,

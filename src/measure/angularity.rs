@@ -26,21 +26,21 @@ mod tests {
     use super::*;
     use crate::measure::elements::{Element, surface_elements};
     use crate::measure::integrate;
-    use crate::model::StarSurface;
+    use crate::model::{Radial, StarSurface};
     use crate::shapes::{Ellipsoid, Solid, Sphere};
     use crate::sphere::{AngleRectangle, GaussLegendre};
     use approx::assert_relative_eq;
     use nalgebra::Vector3;
     use std::f64::consts::{PI, TAU};
 
-    fn elements(surface: &(impl StarSurface + Sync)) -> Vec<Element> {
+    fn elements(surface: &impl StarSurface) -> Vec<Element> {
         let sphere = AngleRectangle {
             theta: [0.0, PI],
             phi: [0.0, TAU],
         };
         let rule = GaussLegendre::new(100);
         let nodes = sphere.nodes(&rule, &rule);
-        surface_elements(surface, &nodes, &Vector3::zeros())
+        surface_elements(&Radial(surface), &nodes, &Vector3::zeros())
     }
 
     #[test]

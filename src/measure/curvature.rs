@@ -1,35 +1,33 @@
-//! Normals, fundamental forms and curvatures of a star-shaped surface at a point.
+//! Normals, fundamental forms and curvatures of a surface at a point.
 //!
-//! With r the radius, g its surface gradient and H its second covariant derivatives on the sphere, the
-//! surface X = r n has, for unit tangents s and t of the sphere at n,
+//! For unit tangents s and t of the sphere at n, the surface X has
 //!
 //! ```text
-//! X_s       = r s + (g.s) n                           W = sqrt(r² + |g|²)
-//! normal    = (r n - g) / W                           (outward)
-//! first     I(s, t)  = X_s . X_t  = r² s.t + (g.s)(g.t)
-//! second    II(s, t) = -X_st . normal = (r² s.t + 2 (g.s)(g.t) - r s.H t) / W
+//! normal    = X_s x X_t / |X_s x X_t|                 (outward where s x t = n)
+//! first     I(s, t)  = X_s . X_t
+//! second    II(s, t) = -X_st . normal
 //! ```
 //!
-//! These are (2.42)–(2.47) of Radvilaite 2016, where dot products are printed as plain ones, written
-//! for directions instead of angles: nothing is singular at the poles. The tangents are taken along
-//! g and across it, so that the first form is diagonal, E = W² and G = r², and nothing cancels. The
-//! second form is taken to the inward normal: curvatures are positive where the surface is convex.
+//! Of a star-shaped surface, with r the radius, g its surface gradient and H its second covariant derivatives on
+//! the sphere, these are (r n - g) / W, r² s.t + (g.s)(g.t) and (r² s.t + 2 (g.s)(g.t) - r s.H t) / W with
+//! W = sqrt(r² + |g|²): (2.42)–(2.47) of Radvilaite 2016, where dot products are printed as plain ones, written
+//! for directions instead of angles, so that nothing is singular at the poles. The tangents are turned until the first
+//! form is diagonal, so that nothing cancels. The second form is taken to the inward normal: curvatures are positive
+//! where the surface is convex.
 //!
 //! Error: that of the derivatives, times a few roundings.
 
-use crate::model::Derivatives;
+use crate::model::{SurfaceJet, tangents};
 use nalgebra::{Matrix2, Vector3};
 
-/// A gradient below this share of the radius is rounding and has no direction of its own.
-const LEAST_SLOPE: f64 = 1e-14;
-
-/// The shape of a surface round one of its points, in the frame of its [`Derivatives`].
+/// The shape of a surface round one of its points, in the frame of its [`SurfaceJet`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Curvature {
     /// Outward unit normal.
     pub normal: Vector3<f64>,
-    /// The derivatives of the surface along two orthogonal unit tangents of the sphere of directions:
-    /// length per radian, orthogonal to each other and to the normal.
+    /// Two orthogonal unit tangents of the sphere of directions.
+    pub steps: [Vector3<f64>; 2],
+    /// The derivatives of the surface along them: length per radian, orthogonal to each other and to the normal.
     pub tangents: [Vector3<f64>; 2],
     /// First fundamental form in these tangents, \[\[E, F\], \[F, G\]\], with F = 0: length squared.
     pub first: Matrix2<f64>,
@@ -44,44 +42,52 @@ pub struct Curvature {
 
 impl Curvature {
     /// The curvature in the direction of the unit vector `n`, where the surface has these derivatives.
-    /// Not finite where they are not, or where the radius is zero.
-    pub fn new(n: &Vector3<f64>, derivatives: &Derivatives) -> Self {
-        let Derivatives {
-            radius: r,
-            gradient,
-            hessian,
-        } = *derivatives;
-        let gradient = gradient - n * n.dot(&gradient);
-        let slope = gradient.norm();
-        let along = match slope > LEAST_SLOPE * r {
-            true => gradient / slope,
-            false => n.cross(&Vector3::ith(n.iamin(), 1.0)).normalize(),
+    /// Not finite where they are not, or where the surface has no normal.
+    pub fn new(n: &Vector3<f64>, jet: &SurfaceJet) -> Self {
+        let turned = |[s, t]: [Vector3<f64>; 2], angle: f64| {
+            let (sin, cos) = angle.sin_cos();
+            [s * cos + t * sin, t * cos - s * sin]
         };
-        let across = n.cross(&along);
-        let stretch = r.hypot(slope);
-        let normal = (n * r - gradient) / stretch;
-        let form = |s: &Vector3<f64>, t: &Vector3<f64>| s.dot(&(hessian * t));
-        let l = (r * r + 2.0 * slope * slope - r * form(&along, &along)) / stretch;
-        let m = -r * form(&along, &across) / stretch;
-        let n_n = (r * r - r * form(&across, &across)) / stretch;
+        let any = tangents(n);
+        let [along, across] = any.map(|step| jet.slopes * step);
+        let spread = (along - across).dot(&(along + across));
+        let steps = turned(any, 0.5 * (2.0 * along.dot(&across)).atan2(spread));
+        let tangents = steps.map(|step| jet.slopes * step);
+        let lengths = tangents.map(|tangent| tangent.norm());
+        let normal = tangents[0].cross(&tangents[1]).normalize();
+        let [x, y, z] = &jet.bends;
+        let bend = x * normal.x + y * normal.y + z * normal.z;
+        let form = |i: usize, j: usize| -steps[i].dot(&(bend * steps[j]));
+        let (l, m, n_n) = (form(0, 0), form(0, 1), form(1, 1));
 
         // Per unit length instead of per radian: the matrix of the shape operator is symmetric.
-        let (a, b, c) = (l / (stretch * stretch), m / (stretch * r), n_n / (r * r));
-        let units = [(along * r + n * slope) / stretch, across];
+        let [e, g] = lengths;
+        let (a, b, c) = (l / (e * e), m / (e * g), n_n / (g * g));
+        let units = [tangents[0] / e, tangents[1] / g];
         let (mean, half_spread) = (0.5 * (a + c), (0.5 * (a - c)).hypot(b));
-        let turn = 0.5 * (2.0 * b).atan2(a - c);
-        let (sin, cos) = turn.sin_cos();
         Self {
             normal,
-            tangents: [units[0] * stretch, units[1] * r],
-            first: Matrix2::new(stretch * stretch, 0.0, 0.0, r * r),
+            steps,
+            tangents,
+            first: Matrix2::new(e * e, 0.0, 0.0, g * g),
             second: Matrix2::new(l, m, m, n_n),
             principal: [mean + half_spread, mean - half_spread],
-            directions: [
-                units[0] * cos + units[1] * sin,
-                units[1] * cos - units[0] * sin,
-            ],
+            directions: turned(units, 0.5 * (2.0 * b).atan2(a - c)),
         }
+    }
+
+    /// The turn of the direction, in radians along the sphere, that moves along the surface by `step`.
+    pub(super) fn turn(&self, step: &Vector3<f64>) -> Vector3<f64> {
+        let along = |i: usize| {
+            let tangent = self.tangents[i];
+            self.steps[i] * (step.dot(&tangent) / tangent.norm_squared())
+        };
+        along(0) + along(1)
+    }
+
+    /// The area of the surface per solid angle of directions.
+    pub(super) fn area(&self) -> f64 {
+        self.tangents[0].norm() * self.tangents[1].norm()
     }
 
     /// Mean curvature H = (E N + G L - 2 F M) / (2 (E G - F²)): half the sum of the principal ones.
@@ -106,14 +112,14 @@ impl Curvature {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::StarSurface;
+    use crate::model::{Derivatives, Radial, StarSurface, Surface};
     use crate::shapes::{Body, Cylinder, Ellipsoid, Sampling};
     use approx::assert_relative_eq;
     use nalgebra::Rotation3;
     use proptest::prelude::*;
 
     fn at(surface: &(impl StarSurface + ?Sized), n: &Vector3<f64>) -> Curvature {
-        Curvature::new(n, &surface.derivatives(n))
+        Curvature::new(n, &Radial(surface).jet(n))
     }
 
     /// All over the sphere, and along the axes: both poles and four points of the equator.
@@ -187,7 +193,8 @@ mod tests {
                     hessian: one.hessian * size,
                 }
                 .turned(&turn);
-                let [one, other] = [Curvature::new(&n, &one), Curvature::new(&(turn * n), &other)];
+                let at = |n: Vector3<f64>, found: &Derivatives| Curvature::new(&n, &found.radial(&n));
+                let [one, other] = [at(n, &one), at(turn * n, &other)];
                 prop_assert!((turn * one.normal - other.normal).norm() < 1e-12);
                 let largest = one.principal[0].abs().max(one.principal[1].abs());
                 for (k, scaled) in one.principal.into_iter().zip(other.principal) {

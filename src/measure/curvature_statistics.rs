@@ -1,8 +1,7 @@
 //! Curvature over a whole surface, and the roundness that follows from it.
 
 use super::Curvature;
-use crate::model::StarSurface;
-use nalgebra::Vector3;
+use crate::model::{Node, Surface};
 use rayon::prelude::*;
 use serde::Serialize;
 use std::f64::consts::PI;
@@ -41,18 +40,14 @@ impl Distribution {
 }
 
 impl CurvatureStatistics {
-    /// That of a surface at the nodes of a quadrature: unit vectors and their weights in solid angle.
-    pub fn new(
-        surface: &(impl StarSurface + Sync + ?Sized),
-        nodes: &[(Vector3<f64>, f64)],
-    ) -> Self {
+    /// That of a surface at the nodes of a quadrature over its [tiling](Surface::tiling).
+    pub fn new(surface: &(impl Surface + Sync + ?Sized), nodes: &[Node]) -> Self {
         let nodes = nodes
             .par_iter()
-            .map(|(n, solid_angle)| {
-                let derivatives = surface.derivatives(n);
-                let r = derivatives.radius;
-                let area = r * r.hypot(derivatives.gradient.norm()) * solid_angle;
-                (Curvature::new(n, &derivatives).principal, area)
+            .map(|node| {
+                let (n, solid_angle) = surface.node(*node);
+                let curvature = Curvature::new(&n, &surface.jet(&n));
+                (curvature.principal, curvature.area() * solid_angle)
             })
             .collect();
         Self { nodes, unit: 1.0 }
@@ -145,9 +140,11 @@ impl CurvatureStatistics {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::model::{Radial, StarSurface};
     use crate::shapes::{Body, Ellipsoid, Sphere};
     use crate::sphere::{AngleRectangle, GaussLegendre};
     use approx::assert_relative_eq;
+    use nalgebra::Vector3;
     use std::f64::consts::TAU;
 
     fn statistics(surface: &(impl StarSurface + Sync + ?Sized)) -> CurvatureStatistics {
@@ -156,13 +153,13 @@ mod tests {
             phi: [0.0, TAU],
         };
         let rule = GaussLegendre::new(48);
-        let nodes: Vec<(Vector3<f64>, f64)> = sphere
+        let nodes: Vec<Node> = sphere
             .quarters()
             .into_iter()
             .flat_map(|part| part.quarters())
             .flat_map(|part| part.nodes(&rule, &rule))
             .collect();
-        CurvatureStatistics::new(surface, &nodes)
+        CurvatureStatistics::new(&Radial(surface), &nodes)
     }
 
     #[test]

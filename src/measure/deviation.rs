@@ -1,6 +1,7 @@
 //! How far a model is off, direction by direction: the error norms of the source.
 
-use crate::model::{Grain, StarSurface};
+use super::feet;
+use crate::model::{Grain, StarSurface, Surface};
 use nalgebra::{Point3, Vector3};
 
 /// Norms of weighted deviations (Radvilaite 2016, equations 2.21-2.26).
@@ -73,14 +74,18 @@ impl Deviation {
         Self::of(radii.map(|(n, weight)| (model.radius(n) / truth.radius(n) - 1.0, *weight)))
     }
 
-    /// Of a fitted grain from places of the true surface, in the scan's frame, along the rays from the
-    /// grain's centre; as lengths, all of equal weight.
+    /// Of a fitted grain from places of the true surface, in the scan's frame; as lengths, all of equal weight. Of a
+    /// star-shaped grain they are taken along the rays from its centre, of any other along its normals.
     pub fn from_places(grain: &Grain, places: &[Point3<f64>]) -> Self {
-        let centre = grain.frame().centre;
+        let Some(star) = grain.star() else {
+            let feet = feet(grain, places);
+            return Self::of(feet.iter().map(|foot| (-foot.distance, 1.0)));
+        };
+        let centre = star.frame().centre;
         Self::of(places.iter().map(|place| {
             let from_centre = place - centre;
             let distance = from_centre.norm();
-            (grain.radius(&(from_centre / distance)) - distance, 1.0)
+            (star.radius(&(from_centre / distance)) - distance, 1.0)
         }))
     }
 

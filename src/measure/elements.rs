@@ -2,9 +2,8 @@
 //! within.
 
 use crate::Mesh;
-use crate::model::StarSurface;
+use crate::model::{Node, Surface};
 use nalgebra::{Point3, Vector3};
-use rayon::prelude::*;
 
 /// Nodes on a mesh, as nearly as cutting all triangles alike comes to it.
 const NODES: usize = 40_000;
@@ -29,21 +28,19 @@ impl Element {
     }
 }
 
-/// The elements of a star-shaped surface about its origin, seen from a point `shift` before that: the
-/// nodes of a quadrature, unit vectors and their weights in solid angle.
+/// The elements of a surface, seen from a point `shift` before its centre, at the nodes of a quadrature over its
+/// tiling.
 pub(crate) fn surface_elements(
-    surface: &(impl StarSurface + Sync + ?Sized),
-    nodes: &[(Vector3<f64>, f64)],
+    surface: &(impl Surface + ?Sized),
+    nodes: &[Node],
     shift: &Vector3<f64>,
 ) -> Vec<Element> {
-    nodes
-        .par_iter()
-        .map(|(n, solid_angle)| {
-            let (r, gradient) = surface.radius_and_gradient(n);
-            Element {
-                place: n * r + shift,
-                area: (n * r - gradient) * (r * solid_angle),
-            }
+    let axes = surface.frame().axes;
+    let elements = surface.elements(nodes).into_iter();
+    elements
+        .map(|element| Element {
+            place: axes * element.place + shift,
+            area: axes * element.area,
         })
         .collect()
 }

@@ -4,7 +4,8 @@ use super::OrientedBox;
 use super::minimum_box::oriented;
 use super::support::support_near;
 use crate::Mesh;
-use crate::model::StarSurface;
+use crate::model::{Frame, Surface};
+use crate::sphere::cube_grid;
 use nalgebra::{Matrix3, Point3, Vector3};
 
 /// Extents of a mesh along three unit axes (columns of `axes`): the sides of the smallest box with
@@ -25,17 +26,58 @@ pub(super) fn bounds(points: &[Point3<f64>], axes: &Matrix3<f64>) -> [Vector3<f6
     [low, high]
 }
 
-/// Length, width and thickness of a surface about `origin`: its extents along three unit axes, the columns,
-/// in descending order. They are those between the planes across an axis that it touches, found from the
-/// vertices of a `mesh` of it that reach farthest. Error: rounding where it is smooth, 1e-12 on edges.
-pub(crate) fn dimensions_of_surface(
-    surface: &(impl StarSurface + ?Sized),
-    origin: &Point3<f64>,
-    mesh: &Mesh,
-    axes: &Matrix3<f64>,
-) -> Vector3<f64> {
-    let [low, high] = bounds_of_surface(surface, origin, mesh, axes);
-    sorted(high - low)
+/// A surface with places all over it.
+pub(super) struct Reach<'a> {
+    pub(super) surface: &'a (dyn Surface + Sync),
+    /// Its mesh of the resolution [`RESOLUTION`], seen from its centre.
+    pub(super) mesh: &'a Mesh,
+}
+
+/// Cells per edge of the cube of directions of a mesh on which hull, spheres and outlines are found:
+/// 24 578 vertices. They lie on the surface, and what is between them is cut off by at most 1e-4 of
+/// the radius of curvature.
+pub(super) const RESOLUTION: usize = 64;
+
+impl Reach<'_> {
+    /// Length, width and thickness: extents along three unit axes, the columns, in descending order. They are those
+    /// between the planes across an axis that the surface touches, found from the vertices of its mesh that reach
+    /// farthest. Error: rounding where it is smooth, 1e-12 on edges.
+    pub(super) fn dimensions(&self, axes: &Matrix3<f64>) -> Vector3<f64> {
+        let [low, high] = self.bounds(axes);
+        sorted(high - low)
+    }
+
+    /// The smallest box with these axes that holds the surface, likewise.
+    pub(super) fn hold(&self, axes: &Matrix3<f64>) -> OrientedBox {
+        oriented(self.bounds(axes), axes)
+    }
+
+    fn bounds(&self, axes: &Matrix3<f64>) -> [Vector3<f64>; 2] {
+        let (directions, _) = cube_grid(RESOLUTION);
+        let Frame { centre, axes: own } = self.surface.frame();
+        let reach = |towards: Vector3<f64>| {
+            let heights = self
+                .mesh
+                .vertices
+                .iter()
+                .map(|vertex| (vertex - centre).dot(&towards));
+            let higher = |best: (f64, usize), (i, height): (usize, f64)| match height > best.0 {
+                true => (height, i),
+                false => best,
+            };
+            let (height, farthest) = heights.enumerate().fold((f64::NEG_INFINITY, 0), higher);
+            let start = own * directions[farthest];
+            let touched = support_near(self.surface, &towards, &start)
+                .point
+                .dot(&towards);
+            centre.coords.dot(&towards) + touched.max(height)
+        };
+        let axis = |i: usize| axes.column(i).into_owned();
+        [
+            Vector3::from_fn(|i, _| -reach(-axis(i))),
+            Vector3::from_fn(|i, _| reach(axis(i))),
+        ]
+    }
 }
 
 /// Extents in descending order.
@@ -43,38 +85,4 @@ pub(super) fn sorted(extents: Vector3<f64>) -> Vector3<f64> {
     let mut sorted: [f64; 3] = extents.into();
     sorted.sort_by(|one, other| other.total_cmp(one));
     sorted.into()
-}
-
-/// The smallest box with these axes that holds a surface, likewise.
-pub(super) fn hold(
-    surface: &(impl StarSurface + ?Sized),
-    origin: &Point3<f64>,
-    mesh: &Mesh,
-    axes: &Matrix3<f64>,
-) -> OrientedBox {
-    oriented(bounds_of_surface(surface, origin, mesh, axes), axes)
-}
-
-fn bounds_of_surface(
-    surface: &(impl StarSurface + ?Sized),
-    origin: &Point3<f64>,
-    mesh: &Mesh,
-    axes: &Matrix3<f64>,
-) -> [Vector3<f64>; 2] {
-    let reach = |towards: Vector3<f64>| {
-        let farthest = mesh.vertices.iter().fold(*origin, |farthest, vertex| {
-            match (vertex - farthest).dot(&towards) > 0.0 {
-                true => *vertex,
-                false => farthest,
-            }
-        });
-        let start = (farthest - origin).try_normalize(0.0).unwrap_or(towards);
-        let touched = support_near(surface, &towards, &start).point.dot(&towards);
-        origin.coords.dot(&towards) + touched.max((farthest - origin).dot(&towards))
-    };
-    let axis = |i: usize| axes.column(i).into_owned();
-    [
-        Vector3::from_fn(|i, _| -reach(-axis(i))),
-        Vector3::from_fn(|i, _| reach(axis(i))),
-    ]
 }

@@ -66,21 +66,22 @@ pub struct Moments {
 }
 
 impl Moments {
-    /// Adds one quadrature node of a star-shaped surface r(n) with surface gradient g and the solid
-    /// angle dΩ as weight:
+    /// Adds a part of a surface at x with the vector area A, along the outward normal, and the cone that it spans
+    /// with the origin:
     ///
     /// ```text
-    /// S = ∫ r sqrt(r² + |g|²) dΩ      ∫ x dV   = ∫ n   r⁴/4 dΩ
-    /// V = ∫ r³/3 dΩ                   ∫ xxᵀ dV = ∫ nnᵀ r⁵/5 dΩ
+    /// S = |A|             ∫ x dV   = x (x.A)/4
+    /// V = (x.A)/3         ∫ xxᵀ dV = xxᵀ (x.A)/5
     /// ```
     ///
-    /// (Radvilaite 2016, equations 2.27, 2.34 and 2.39–2.41, written with the direction `n`.)
-    pub fn add_ray(&mut self, n: &Vector3<f64>, r: f64, g: &Vector3<f64>, solid_angle: f64) {
-        let cube = r * r * r * solid_angle;
-        self.area += r * (r * r + g.norm_squared()).sqrt() * solid_angle;
-        self.volume += cube / 3.0;
-        self.first += n * (cube * r / 4.0);
-        self.second += n * n.transpose() * (cube * r * r / 5.0);
+    /// Of a star-shaped surface these are r sqrt(r² + |g|²), r³/3, n r⁴/4 and nnᵀ r⁵/5 per solid angle
+    /// (Radvilaite 2016, equations 2.27, 2.34 and 2.39–2.41, written with the direction `n`).
+    pub fn add_element(&mut self, place: &Vector3<f64>, area: &Vector3<f64>) {
+        let cone = place.dot(area);
+        self.area += area.norm();
+        self.volume += cone / 3.0;
+        self.first += place * (cone / 4.0);
+        self.second += place * place.transpose() * (cone / 5.0);
     }
 
     /// Adds the triangle `a b c`, counter-clockwise from outside, and the tetrahedron it spans with

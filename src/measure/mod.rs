@@ -1,4 +1,4 @@
-//! Area, volume, inertia, size, form and curvature of star-shaped surfaces and of meshes, and how far one
+//! Area, volume, inertia, size, form and curvature of surfaces and of meshes, and how far one
 //! surface is from another.
 
 mod angularity;
@@ -14,9 +14,9 @@ mod elements;
 mod ellipsoid;
 mod enclosing_ball;
 mod extents;
+mod feet;
 mod form;
 mod four_triangles;
-mod grain;
 mod hull;
 mod inscribed_ball;
 mod integrals;
@@ -47,13 +47,12 @@ pub use deviation::Deviation;
 pub use ellipsoid::EquivalentEllipsoid;
 pub use enclosing_ball::{Ball, EnclosingBallError, enclosing_ball};
 pub use extents::extents;
+pub use feet::{Foot, feet};
 pub use form::{Form, SideRatios};
 pub use four_triangles::four_triangles;
-pub use grain::grain_properties;
-pub(crate) use grain::mirrored_properties;
 pub use hull::{HullError, convex_hull};
 pub use inscribed_ball::{InscribedBallError, inscribed_ball};
-pub use integrals::{Integrals, MAX_EVALUATIONS, integrate};
+pub use integrals::{Integrals, MAX_EVALUATIONS, grain_properties, integrate};
 pub use mass::{MassProperties, Moments, PrincipalInertia};
 pub use mesh::{MeshIntegralError, mesh_properties};
 pub use minimum_box::{OrientedBox, minimum_box};

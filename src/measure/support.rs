@@ -1,7 +1,7 @@
 //! Where a surface reaches farthest in a direction: the point by which it touches a plane.
 
 use super::Curvature;
-use crate::model::{Derivatives, StarSurface};
+use crate::model::Surface;
 use crate::sphere::{compass, cube_grid};
 use nalgebra::{Matrix3, Vector3};
 
@@ -25,9 +25,9 @@ const SMOOTH: f64 = 1e-6;
 /// The point of a surface that lies farthest in a direction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Support {
-    /// Direction of the point from the surface's origin, a unit vector.
+    /// The direction n of the point.
     pub direction: Vector3<f64>,
-    /// The point, seen from the surface's origin.
+    /// The point, seen from the surface's centre.
     pub point: Vector3<f64>,
     /// Curvature there: on an edge, that of one of its sides.
     pub curvature: Curvature,
@@ -40,13 +40,13 @@ pub struct Support {
 /// The best of a grid of directions is refined by Newton's iteration on the normal, and where that
 /// does not climb (on an edge or an apex) by a compass search. Error: rounding at a smooth point, 1e-12
 /// of the radius on an edge.
-pub fn support(surface: &(impl StarSurface + ?Sized), towards: &Vector3<f64>) -> Support {
-    let height = |n: &Vector3<f64>| surface.radius(n) * n.dot(towards);
+pub fn support(surface: &(impl Surface + ?Sized), towards: &Vector3<f64>) -> Support {
     let (directions, _) = cube_grid(START);
+    let heights = surface.places(&directions).into_iter();
     let start = directions
         .iter()
-        .fold((Vector3::z(), f64::NEG_INFINITY), |best, n| {
-            let height = height(n);
+        .zip(heights.map(|place| place.dot(towards)))
+        .fold((Vector3::z(), f64::NEG_INFINITY), |best, (n, height)| {
             if height > best.1 { (*n, height) } else { best }
         });
     support_near(surface, towards, &start.0)
@@ -54,11 +54,11 @@ pub fn support(surface: &(impl StarSurface + ?Sized), towards: &Vector3<f64>) ->
 
 /// The same, from a start that is known to lie on the way to it.
 pub(crate) fn support_near(
-    surface: &(impl StarSurface + ?Sized),
+    surface: &(impl Surface + ?Sized),
     towards: &Vector3<f64>,
     start: &Vector3<f64>,
 ) -> Support {
-    let height = |n: &Vector3<f64>| surface.radius(n) * n.dot(towards);
+    let height = |n: &Vector3<f64>| surface.place(n).dot(towards);
     let climbed = newton(surface, towards, *start, height);
     let found = at(surface, towards, &climbed);
     match found.is_smooth {
@@ -71,12 +71,12 @@ pub(crate) fn support_near(
     }
 }
 
-fn at(surface: &(impl StarSurface + ?Sized), towards: &Vector3<f64>, n: &Vector3<f64>) -> Support {
-    let derivatives = surface.derivatives(n);
-    let curvature = Curvature::new(n, &derivatives);
+fn at(surface: &(impl Surface + ?Sized), towards: &Vector3<f64>, n: &Vector3<f64>) -> Support {
+    let jet = surface.jet(n);
+    let curvature = Curvature::new(n, &jet);
     Support {
         direction: *n,
-        point: n * derivatives.radius,
+        point: jet.place,
         curvature,
         is_smooth: curvature.normal.cross(towards).norm() < SMOOTH
             && curvature.normal.dot(towards) > 0.0,
@@ -86,30 +86,30 @@ fn at(surface: &(impl StarSurface + ?Sized), towards: &Vector3<f64>, n: &Vector3
 /// Climbs from `n` as long as it gets higher: along the surface by the turn of the normal over the
 /// curvature, shortened where that leads down.
 fn newton(
-    surface: &(impl StarSurface + ?Sized),
+    surface: &(impl Surface + ?Sized),
     towards: &Vector3<f64>,
     mut n: Vector3<f64>,
     height: impl Fn(&Vector3<f64>) -> f64,
 ) -> Vector3<f64> {
     let mut highest = height(&n);
     for _ in 0..MAX_STEPS {
-        let derivatives: Derivatives = surface.derivatives(&n);
-        let curvature = Curvature::new(&n, &derivatives);
+        let curvature = Curvature::new(&n, &surface.jet(&n));
         let across = Matrix3::identity() - curvature.normal * curvature.normal.transpose();
         let turn = across * towards;
+        let size = curvature.area().sqrt();
         let step: Vector3<f64> = curvature
             .principal
             .into_iter()
             .zip(curvature.directions)
             .map(|(k, direction)| {
                 // A flat or hollow place is climbed by steps of its own size.
-                let k = k.max(0.1 / derivatives.radius);
+                let k = k.max(0.1 / size);
                 direction * (turn.dot(&direction) / k)
             })
             .sum();
-        let point = n * derivatives.radius;
+        let step = curvature.turn(&step);
         let tried = [1.0, 0.5, 0.25, 0.1, 0.01].into_iter().find_map(|share| {
-            let next = (point + step * share).try_normalize(0.0)?;
+            let next = (n + step * share).try_normalize(0.0)?;
             let height = height(&next);
             (height > highest).then_some((next, height))
         });
@@ -124,6 +124,7 @@ fn newton(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::model::Radial;
     use crate::shapes::{Body, Cuboid, Ellipsoid, Sampling};
     use approx::assert_relative_eq;
 
@@ -135,7 +136,7 @@ mod tests {
             for towards in Sampling::Cube.directions(98, 0).unwrap() {
                 let scaled = semi_axes.component_mul(&towards);
                 let exact = semi_axes.component_mul(&scaled) / scaled.norm();
-                let found = support(&Ellipsoid { semi_axes }, &towards);
+                let found = support(&Radial(&Ellipsoid { semi_axes }), &towards);
                 assert!(found.is_smooth, "{towards}");
                 assert_relative_eq!(found.point, exact, epsilon = 1e-7);
                 let height = found.point.dot(&towards);
@@ -150,7 +151,7 @@ mod tests {
             let surface = body.surface();
             let directions = Sampling::Fibonacci.directions(5000, 0).unwrap();
             for towards in Sampling::Fibonacci.directions(60, 0).unwrap() {
-                let found = support(surface.as_ref(), &towards);
+                let found = support(&Radial(surface.as_ref()), &towards);
                 assert!(found.is_smooth, "{body} along {towards}");
                 let height = found.point.dot(&towards);
                 for n in &directions {
@@ -165,7 +166,7 @@ mod tests {
         let cuboid = Cuboid {
             half_edges: Vector3::new(1.0, 2.0, 3.0),
         };
-        let found = support(&cuboid, &Vector3::new(0.5, 0.6, 0.7).normalize());
+        let found = support(&Radial(&cuboid), &Vector3::new(0.5, 0.6, 0.7).normalize());
         assert!(!found.is_smooth);
         assert_relative_eq!(found.point, Vector3::new(1.0, 2.0, 3.0), epsilon = 1e-9);
     }

@@ -5,9 +5,10 @@
 //! `margin` goes with `cells`; `curvature_errors` with any, if they are known. Version 2, which knew none of `harmonics`, `stretch`, `margin` and `curvature_errors`, and version 1,
 //! which knew segments only, are still read.
 
+use super::grain::Kind;
 use super::{
-    Blended, CurvatureErrors, Frame, Grain, InvalidGrain, Mirrored, Segmented, Stretch, Surface,
-    Whole,
+    Blended, CurvatureErrors, Family, Frame, Grain, InvalidGrain, Mirrored, Segmented, StarGrain,
+    Stretch, Surface, Whole,
 };
 use crate::sphere::{AngularPartition, Cover, CoverError, CubeCell, MARGIN, Symmetry};
 use nalgebra::{Matrix3, Point3, Vector3};
@@ -119,6 +120,7 @@ pub enum ModelError {
 
 /// The JSON text of a grain.
 pub fn grain_to_json(grain: &Grain) -> String {
+    let Kind::Star(grain) = grain.kind();
     let Frame { centre, axes } = grain.frame();
     let stretch = grain.stretch();
     let mut file = GrainFile {
@@ -136,8 +138,8 @@ pub fn grain_to_json(grain: &Grain) -> String {
         harmonics: None,
         curvature_errors: grain.curvature_errors().map(|e| e.of_cells().to_vec()),
     };
-    match grain.surface() {
-        Surface::Blended(surface) => {
+    match grain.family() {
+        Family::Blended(surface) => {
             let cells = surface.cover().cells().iter().zip(surface.coefficients());
             let record = |(cell, coefficients): (&CubeCell, &Vec<f64>)| CellRecord {
                 face: cell.face,
@@ -150,15 +152,15 @@ pub fn grain_to_json(grain: &Grain) -> String {
             let margin = surface.cover().margin();
             file.margin = (margin != MARGIN).then_some(margin);
         }
-        Surface::Segmented(surface) => {
+        Family::Segmented(surface) => {
             file.parts_per_angle = Some(surface.partition().per_angle());
             file.segments = Some(surface.coefficients().to_vec());
         }
-        Surface::Mirrored(surface) => {
+        Family::Mirrored(surface) => {
             file.symmetry = Some(surface.symmetry());
             file.coefficients = Some(surface.coefficients().to_vec());
         }
-        Surface::Whole(surface) => file.harmonics = Some(surface.coefficients().to_vec()),
+        Family::Whole(surface) => file.harmonics = Some(surface.coefficients().to_vec()),
     }
     serde_json::to_string_pretty(&file).expect("a record of numbers and strings is valid JSON")
 }
@@ -167,7 +169,7 @@ pub fn grain_to_json(grain: &Grain) -> String {
 ///
 /// # Errors
 /// [`ModelError`] if the text is not a model of a known version, or is not sound: among others, if its radius
-/// is not above zero everywhere, which is proved ([`Grain::least_radius`]).
+/// is not above zero everywhere, which is proved ([`StarGrain::least_radius`]).
 pub fn grain_from_json(text: &str) -> Result<Grain, ModelError> {
     let file: GrainFile = serde_json::from_str(text)?;
     if file.format != FORMAT {
@@ -194,19 +196,19 @@ pub fn grain_from_json(text: &str) -> Result<Grain, ModelError> {
             };
             let (cells, coefficients) = cells.into_iter().map(place).unzip();
             let cover = Cover::with_margin(cells, margin.unwrap_or(MARGIN))?;
-            Surface::Blended(Blended::new(cover, coefficients)?)
+            Family::Blended(Blended::new(cover, coefficients)?)
         }
         ((None, None), (Some(found), Some(segments)), (None, None), None) => {
             if found > LARGEST_PARTITION {
                 return Err(ModelError::Partition { found });
             }
-            Surface::Segmented(Segmented::new(AngularPartition::new(found), segments)?)
+            Family::Segmented(Segmented::new(AngularPartition::new(found), segments)?)
         }
         ((None, None), (None, None), (Some(symmetry), Some(coefficients)), None) => {
-            Surface::Mirrored(Mirrored::new(symmetry, coefficients)?)
+            Family::Mirrored(Mirrored::new(symmetry, coefficients)?)
         }
         ((None, None), (None, None), (None, None), Some(harmonics)) => {
-            Surface::Whole(Whole::new(harmonics)?)
+            Family::Whole(Whole::new(harmonics)?)
         }
         _ => return Err(ModelError::Surface),
     };
@@ -218,13 +220,13 @@ pub fn grain_from_json(text: &str) -> Result<Grain, ModelError> {
         Some(factors) => Stretch::new(factors.into())?,
         None => Stretch::NONE,
     };
-    let grain = Grain::stretched(frame, stretch, surface)?;
+    let grain = StarGrain::stretched(frame, stretch, surface)?;
     grain.least_radius()?;
     match file.curvature_errors {
         Some(errors) => {
             let errors = CurvatureErrors::new(errors).ok_or(ModelError::CurvatureErrors)?;
-            Ok(grain.with_curvature_errors(errors))
+            Ok(grain.with_curvature_errors(errors).into())
         }
-        None => Ok(grain),
+        None => Ok(grain.into()),
     }
 }

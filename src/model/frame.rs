@@ -1,6 +1,10 @@
 //! The grain's own frame: where its centre is, how its axes lie in the scan.
 
+use super::InvalidGrain;
 use nalgebra::{Matrix3, Point3, Vector3};
+
+/// How far axes may be from orthonormal: the rounding of a file with fewer digits than f64 has.
+const AXES_TOLERANCE: f64 = 1e-9;
 
 /// A right-handed orthonormal frame in the scan's coordinates.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -12,6 +16,12 @@ pub struct Frame {
 }
 
 impl Frame {
+    /// The scan's own frame.
+    pub const SCAN: Self = Self {
+        centre: Point3::new(0.0, 0.0, 0.0),
+        axes: Matrix3::new(1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0),
+    };
+
     /// Coordinates of a point of the scan in this frame.
     pub fn to_local(&self, point: &Point3<f64>) -> Vector3<f64> {
         self.axes.tr_mul(&(point - self.centre))
@@ -20,5 +30,20 @@ impl Frame {
     /// The point of the scan with the given coordinates in this frame.
     pub fn to_scan(&self, local: &Vector3<f64>) -> Point3<f64> {
         self.centre + self.axes * local
+    }
+
+    /// Refuses a frame that is not finite, or whose axes are not orthonormal and right-handed.
+    pub(in crate::model) fn check(&self) -> Result<(), InvalidGrain> {
+        if !self.centre.iter().all(|x| x.is_finite()) {
+            return Err(InvalidGrain::NotFinite {
+                what: "the centre".into(),
+            });
+        }
+        let deviation = self.axes.tr_mul(&self.axes) - Matrix3::identity();
+        // Written so that NaN fails.
+        match deviation.amax() < AXES_TOLERANCE && self.axes.determinant() > 0.0 {
+            true => Ok(()),
+            false => Err(InvalidGrain::Axes),
+        }
     }
 }

@@ -1,7 +1,8 @@
 //! One expansion of a part of the sphere, and its mirror images.
 
-use super::grain::check_expansion;
-use super::{Derivatives, InvalidGrain, StarSurface};
+use super::invalid::check_expansion;
+use super::star_surface::radial_slopes;
+use super::{Derivatives, InvalidGrain, StarSurface, Surface, SurfaceJet, Tiling};
 use crate::sphere::{Cap, CapBasis, Jet, Symmetry};
 use nalgebra::{Matrix3, Vector3};
 
@@ -86,6 +87,25 @@ impl StarSurface for Mirrored {
 
     fn derivatives(&self, n: &Vector3<f64>) -> Derivatives {
         Derivatives::on_sphere(n, &self.jet(n))
+    }
+}
+
+impl Surface for Mirrored {
+    fn place_and_slopes(&self, n: &Vector3<f64>) -> (Vector3<f64>, Matrix3<f64>) {
+        let found = self.radius_and_gradient(n);
+        (n * found.0, radial_slopes(n, found))
+    }
+
+    fn jet(&self, n: &Vector3<f64>) -> SurfaceJet {
+        self.derivatives(n).radial(n)
+    }
+
+    fn tiling(&self) -> Tiling {
+        Tiling::mirrored(self.symmetry)
+    }
+
+    fn may_cross(&self) -> bool {
+        false
     }
 }
 

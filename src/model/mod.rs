@@ -1,35 +1,51 @@
 //! What a fitted grain is: evaluate, differentiate, mesh, save, load.
 
+mod blend;
 mod blended;
 mod curvature_errors;
+mod family;
 mod file;
 mod frame;
 mod grain;
+mod invalid;
 mod least_radius;
 mod load;
-mod meshing;
 mod mirrored;
+mod position;
 mod published;
+mod ray;
 mod seams;
 mod segmented;
+mod star_grain;
+mod star_surface;
 mod stretch;
 mod superquadric;
 mod surface;
+mod tiling;
 mod whole;
 
 pub use blended::Blended;
 pub use curvature_errors::CurvatureErrors;
+pub use family::Family;
 pub use file::{ModelError, grain_from_json, grain_to_json};
 pub use frame::Frame;
-pub use grain::{Grain, InvalidGrain, Surface};
+pub use grain::Grain;
+pub use invalid::InvalidGrain;
 pub use least_radius::LeastRadius;
 pub use load::{LoadError, load_grain};
 pub use mirrored::Mirrored;
+pub use position::{Position, PositionDerivatives};
 pub use published::{PublishedExpansion, Region};
 pub use segmented::Segmented;
-pub(crate) use stretch::Ray;
+pub use star_grain::StarGrain;
+pub use star_surface::{Derivatives, Radial, StarSurface};
 pub use stretch::Stretch;
 pub(crate) use superquadric::Octant;
-pub use superquadric::{EXPONENTS, InvalidSuperquadric, MultiSuperquadric, Part, Superquadric};
-pub use surface::{Derivatives, StarSurface};
+pub use superquadric::{
+    EXPONENTS, InvalidSuperquadric, MultiSuperquadric, Part, Superquadric, SuperquadricGrain,
+};
+pub(crate) use surface::tangents;
+pub use surface::{Node, Surface, SurfaceElement, SurfaceJet};
+pub use tiling::Tiling;
+pub(crate) use tiling::{Parts, Piece};
 pub use whole::Whole;

@@ -1,6 +1,6 @@
 //! The coefficients as the dissertation publishes them: a_l^m of the real orthonormal harmonics.
 
-use super::{Grain, Surface};
+use super::{Family, StarGrain};
 use crate::sphere::{
     AngleRectangle, AngularPartition, Cap, CapBasis, CubeCell, GaussLegendre, HarmonicBasis,
     Symmetry, coefficient_count,
@@ -11,7 +11,7 @@ use std::f64::consts::TAU;
 /// An expansion r = sum of a_l^m Y_l^m in the real orthonormal harmonics.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PublishedExpansion {
-    /// Where it holds, in the grain's own frame; of a grain that is [stretched](Grain::stretched), in
+    /// Where it holds, in the grain's own frame; of a grain that is [stretched](StarGrain::stretched), in
     /// the directions of the stretched space.
     pub region: Region,
     /// a_l^m at index l(l+1) + m, in the scan's unit, with respect to the grain's own axes.
@@ -49,26 +49,26 @@ impl Region {
     }
 }
 
-impl Grain {
+impl StarGrain {
     /// The published coefficients of every segment. Exact but for rounding: the cap basis spans the
     /// same functions, which are continued over the whole sphere and projected there by a product
     /// rule that is exact for their degree. Those of the whole sphere are the model's own.
     pub fn published(&self) -> Vec<PublishedExpansion> {
-        let place = |segment: usize| match self.surface() {
-            Surface::Blended(surface) => {
+        let place = |segment: usize| match self.family() {
+            Family::Blended(surface) => {
                 let cover = surface.cover();
                 let (cell, margin) = (cover.cells()[segment], cover.margin());
                 Some((Region::Cell { cell, margin }, *cover.cap(segment)))
             }
-            Surface::Segmented(surface) => {
+            Family::Segmented(surface) => {
                 let rectangle = surface.partition().rectangle(segment);
                 Some((Region::Rectangle(rectangle), rectangle.cap()))
             }
-            Surface::Mirrored(surface) => {
+            Family::Mirrored(surface) => {
                 let symmetry = surface.symmetry();
                 Some((Region::Mirrored(symmetry), symmetry.cap()))
             }
-            Surface::Whole(_) => None,
+            Family::Whole(_) => None,
         };
         let basis = CapBasis::new(self.degree());
         let expansions = self.coefficients().iter().enumerate();

@@ -1,19 +1,19 @@
 //! How far independent expansions are apart where their segments meet.
 
-use super::{Grain, Segmented, Stretch, Surface};
+use super::{Family, Segmented, StarGrain, Stretch};
 use nalgebra::Vector3;
 
 /// Places looked at along the border of two segments.
 const PLACES: usize = 9;
 
-impl Grain {
+impl StarGrain {
     /// The largest jump of the radius across a border of two segments, or between the segments that
     /// meet at a pole, in the scan's unit. Looked for at 9 places per border; 0 where the expansions
     /// are blended or mirrored, or there is but one.
     pub fn seam_jump(&self) -> f64 {
-        match self.surface() {
-            Surface::Blended(_) | Surface::Mirrored(_) | Surface::Whole(_) => 0.0,
-            Surface::Segmented(surface) => surface.seam_jump(self.stretch()),
+        match self.family() {
+            Family::Blended(_) | Family::Mirrored(_) | Family::Whole(_) => 0.0,
+            Family::Segmented(surface) => surface.seam_jump(self.stretch()),
         }
     }
 }

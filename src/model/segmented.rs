@@ -1,7 +1,7 @@
 //! A radius made of independent expansions, one per segment of the angle domain.
 
 use super::InvalidGrain;
-use super::grain::check_expansion;
+use super::invalid::check_expansion;
 use crate::sphere::{AngularPartition, Cap, CapBasis, Jet};
 use nalgebra::Vector3;
 

@@ -13,12 +13,13 @@
 //! -1. So the gradient of r is T F'(T n) and its second derivative T F''(T n) T, and no derivative of q
 //! is needed.
 
-use super::{Derivatives, InvalidGrain};
+use super::ray::Ray;
+use super::{Derivatives, InvalidGrain, Node};
 use crate::sphere::Jet;
 use nalgebra::{Matrix3, Vector3};
 
 /// Positive factors along the x, y and z axes of the grain's own frame, by which the grain is
-/// multiplied before its radius is expanded: see [`Grain::stretched`](super::Grain::stretched).
+/// multiplied before its radius is expanded: see [`Grain::stretched`](super::StarGrain::stretched).
 ///
 /// Their product need not be one: radii in the stretched space may have another scale.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -28,19 +29,6 @@ pub struct Stretch {
 
 /// Largest ratio of two factors. Directions lose as many digits as it has.
 const LARGEST_RATIO: f64 = 1e6;
-
-/// A node of a quadrature over directions, and the radius there.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Ray {
-    /// A unit vector.
-    pub(crate) direction: Vector3<f64>,
-    /// Its weight.
-    pub(crate) solid_angle: f64,
-    /// Radius.
-    pub(crate) radius: f64,
-    /// Surface gradient.
-    pub(crate) gradient: Vector3<f64>,
-}
 
 impl Stretch {
     /// No stretch: the factors 1, 1, 1.
@@ -159,10 +147,7 @@ impl Stretch {
 
     /// A node of a quadrature over the directions of the stretched space, and its weight, as one over
     /// those of the grain's own frame: dΩ = det(T^-1) dΩ' / a³.
-    pub(crate) fn node(
-        &self,
-        (stretched, solid_angle): (Vector3<f64>, f64),
-    ) -> (Vector3<f64>, f64) {
+    pub(crate) fn node(&self, (stretched, solid_angle): Node) -> Node {
         let (direction, a) = self.back(&stretched);
         (
             direction,

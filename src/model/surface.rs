@@ -1,57 +1,122 @@
-//! The one trait that closed-form bodies and fitted models share.
+//! What every kind of grain is: a closed surface over the unit sphere.
 
-use crate::sphere::Jet;
-use nalgebra::{Matrix3, Vector3};
+use super::{Frame, Tiling};
+use crate::mesh::Mesh;
+use crate::sphere::cube_grid;
+use nalgebra::{Matrix3, Point3, Vector3};
 
-/// A closed surface that every ray from the origin meets once: r = r(n), n a unit vector.
+/// A node of a quadrature over directions: a unit vector, and its weight in solid angle.
+pub type Node = (Vector3<f64>, f64);
+
+/// A closed surface over the unit sphere: a place X(n) for each unit vector n, once round it, outside on
+/// the side of X_s x X_t for tangents s, t of the sphere with s x t = n.
 ///
-/// Everything is said in terms of the direction `n`, never of angles, so nothing is singular at the
-/// poles. With the surface gradient g (the tangential derivative of r on the unit sphere, a vector
-/// orthogonal to n), the outward normal is along `r n - g` and the element of area is
-/// `r sqrt(r^2 + |g|^2)` per unit solid angle.
+/// A star-shaped surface is the special case X(n) = r(n) n ([`Radial`](super::Radial)). Everything is said
+/// in terms of `n`, never of angles, so nothing is singular at the poles. Directions and places are along the
+/// axes of the scan; places are seen from the [centre](Frame::centre) of the surface, so that they keep their
+/// digits far from the scan's origin.
 ///
 /// On an edge derivatives are those of one of its sides.
-pub trait StarSurface {
-    /// Radius in the direction of the unit vector `n`.
-    fn radius(&self, n: &Vector3<f64>) -> f64;
+pub trait Surface {
+    /// Where the surface lies. Grids of directions are laid along its axes.
+    fn frame(&self) -> Frame {
+        Frame::SCAN
+    }
 
-    /// Radius and its surface gradient (length per radian, orthogonal to `n`).
-    fn radius_and_gradient(&self, n: &Vector3<f64>) -> (f64, Vector3<f64>);
+    /// X(n).
+    fn place(&self, n: &Vector3<f64>) -> Vector3<f64> {
+        self.place_and_slopes(n).0
+    }
 
-    /// Radius with its first and second derivatives, from the formulas of the surface.
-    fn derivatives(&self, n: &Vector3<f64>) -> Derivatives;
+    /// X(n), and its derivatives: times a unit tangent t of the sphere at `n`, the derivative of X along the
+    /// great circle of t, length per radian; times `n`, zero.
+    fn place_and_slopes(&self, n: &Vector3<f64>) -> (Vector3<f64>, Matrix3<f64>);
+
+    /// X(n) with its first and second derivatives, from the formulas of the surface.
+    fn jet(&self, n: &Vector3<f64>) -> SurfaceJet;
+
+    /// X in many directions, in their order.
+    fn places(&self, directions: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
+        directions.iter().map(|n| self.place(n)).collect()
+    }
+
+    /// The parts of the sphere on which the surface is smooth, for quadratures over it. They lie in a sphere
+    /// of nodes of the surface's own, which [`node`](Self::node) leads from.
+    fn tiling(&self) -> Tiling {
+        Tiling::octants()
+    }
+
+    /// A node of a quadrature over the [`tiling`](Self::tiling) as one over the directions of the scan.
+    fn node(&self, (local, solid_angle): Node) -> Node {
+        (self.frame().axes * local, solid_angle)
+    }
+
+    /// The parts of the surface that nodes of a quadrature over the [`tiling`](Self::tiling) stand for, along
+    /// the surface's own axes.
+    fn elements(&self, nodes: &[Node]) -> Vec<SurfaceElement> {
+        let axes = self.frame().axes;
+        let element = |node: &Node| {
+            let (n, solid_angle) = self.node(*node);
+            let (place, slopes) = self.place_and_slopes(&n);
+            let [s, t] = tangents(&n);
+            SurfaceElement {
+                place: axes.tr_mul(&place),
+                area: axes.tr_mul(&(slopes * s).cross(&(slopes * t))) * solid_angle,
+                solid_angle,
+            }
+        };
+        nodes.iter().map(element).collect()
+    }
+
+    /// Whether two parts of the surface may lie in one another: of a star-shaped one never.
+    fn may_cross(&self) -> bool {
+        true
+    }
+
+    /// X(n) in the scan.
+    fn point(&self, n: &Vector3<f64>) -> Point3<f64> {
+        self.frame().centre + self.place(n)
+    }
+
+    /// A closed, consistently oriented, manifold mesh with `resolution` cells along each edge of a
+    /// cube of directions: 6 N^2 + 2 vertices, 12 N^2 triangles, in the scan's frame.
+    fn mesh(&self, resolution: usize) -> Mesh {
+        let (directions, triangles) = cube_grid(resolution);
+        let Frame { centre, axes } = self.frame();
+        let directions: Vec<_> = directions.iter().map(|local| axes * local).collect();
+        let places = self.places(&directions).into_iter();
+        Mesh {
+            vertices: places.map(|place| centre + place).collect(),
+            triangles,
+        }
+    }
 }
 
-/// A radius and its derivatives on the unit sphere.
+/// A place of a surface and its derivatives on the unit sphere.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Derivatives {
-    /// Radius.
-    pub radius: f64,
-    /// Surface gradient: length per radian, orthogonal to the direction.
-    pub gradient: Vector3<f64>,
-    /// Second covariant derivatives on the sphere: length per square radian, symmetric, with the
-    /// direction in its kernel. Along a great circle of unit tangent t the radius has the second
-    /// derivative t.H t.
-    pub hessian: Matrix3<f64>,
+pub struct SurfaceJet {
+    /// X(n), seen from the centre.
+    pub place: Vector3<f64>,
+    /// First derivatives: the rows are the surface gradients of the three coordinates, length per radian.
+    pub slopes: Matrix3<f64>,
+    /// Second covariant derivatives on the sphere of the three coordinates, length per square radian: symmetric,
+    /// with the direction in their kernels.
+    pub bends: [Matrix3<f64>; 3],
 }
 
-impl Derivatives {
-    /// The derivatives on the sphere, at `n`, of a function of space.
-    pub(crate) fn on_sphere(n: &Vector3<f64>, jet: &Jet) -> Self {
-        let across = Matrix3::identity() - n * n.transpose();
-        Self {
-            radius: jet.value,
-            gradient: across * jet.gradient,
-            hessian: across * jet.hessian * across - across * jet.gradient.dot(n),
-        }
-    }
+/// A part of a surface that a node of a quadrature stands for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SurfaceElement {
+    /// Where it lies, seen from the centre along the surface's own axes.
+    pub place: Vector3<f64>,
+    /// Its area along its outward normal.
+    pub area: Vector3<f64>,
+    /// The solid angle of its directions n.
+    pub solid_angle: f64,
+}
 
-    /// The same in another frame, whose axes are the columns of `axes`.
-    pub(crate) fn turned(&self, axes: &Matrix3<f64>) -> Self {
-        Self {
-            radius: self.radius,
-            gradient: axes * self.gradient,
-            hessian: axes * self.hessian * axes.transpose(),
-        }
-    }
+/// Two unit tangents s, t of the sphere at `n`, with s x t = n.
+pub(crate) fn tangents(n: &Vector3<f64>) -> [Vector3<f64>; 2] {
+    let first = n.cross(&Vector3::ith(n.iamin(), 1.0)).normalize();
+    [first, n.cross(&first)]
 }

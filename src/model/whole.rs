@@ -3,7 +3,7 @@
 mod azimuth;
 mod degrees;
 
-use super::grain::check_expansion;
+use super::invalid::check_expansion;
 use super::{Derivatives, InvalidGrain, StarSurface};
 use crate::sphere::{HarmonicBasis, Jet};
 use crate::vectorize::vectorize;

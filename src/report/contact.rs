@@ -4,7 +4,7 @@ use super::escape::escaped;
 use super::number::{short, triple, with_error};
 use super::unit::Unit;
 use crate::contact::{ContactError, Correction, Curved, RelativeCurvature, Touch, force_error};
-use crate::model::Grain;
+use crate::model::{Grain, Surface};
 use nalgebra::Vector3;
 use serde::Serialize;
 use std::fmt;
@@ -83,7 +83,6 @@ const UNCERTAIN: f64 = 0.1;
 impl TouchRecord {
     /// The record of a grain that is touched.
     pub fn new(input: String, grain: &Grain, normal: &Vector3<f64>, touch: &Touch) -> Self {
-        let towards = touch.point.normalize();
         Self {
             input,
             point: (grain.frame().centre + touch.point).coords.into(),
@@ -91,7 +90,7 @@ impl TouchRecord {
             principal_curvatures: touch.principal,
             curvature_error: match touch.cap {
                 Some(_) => None,
-                None => grain.curvature_error(&towards),
+                None => grain.curvature_error(&touch.direction),
             },
             edge_radius: touch.cap.map(|cap| cap.radius),
         }

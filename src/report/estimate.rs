@@ -1,7 +1,7 @@
 //! What a fit tells of its estimate, and of what an evaluation costs.
 
 use crate::fit::EstimateSummary;
-use crate::model::{Grain, StarSurface};
+use crate::model::{Grain, Surface};
 use crate::scan::plural;
 use crate::sphere::cube_grid;
 use serde::Serialize;
@@ -58,7 +58,7 @@ pub struct EvaluationRecord {
     pub coefficients: usize,
     /// Coefficients that one evaluation touches, as a mean over all directions.
     pub touched: f64,
-    /// Nanoseconds of one radius, measured here and now.
+    /// Nanoseconds of one place, measured here and now.
     pub nanoseconds: f64,
 }
 
@@ -74,7 +74,7 @@ impl EvaluationRecord {
         let seconds = (0..REPEATS).map(|_| {
             let started = Instant::now();
             for n in &directions {
-                black_box(grain.radius(black_box(n)));
+                black_box(grain.place(black_box(n)));
             }
             started.elapsed().as_secs_f64()
         });

@@ -1,6 +1,6 @@
 //! The published coefficients a_l^m as CSV.
 
-use crate::model::{Grain, PublishedExpansion, Region, Stretch};
+use crate::model::{PublishedExpansion, Region, StarGrain, Stretch, Surface};
 use crate::sphere::{AngleRectangle, Symmetry};
 use std::io::{self, Write};
 
@@ -9,13 +9,13 @@ pub fn largest_loss(segments: &[PublishedExpansion]) -> f64 {
     segments.iter().fold(0.0, |most, s| most.max(s.loss))
 }
 
-/// Writes what [`Grain::published`] gave as CSV, a row per coefficient. Lines at the head, marked with
+/// Writes what [`StarGrain::published`] gave as CSV, a row per coefficient. Lines at the head, marked with
 /// `#`, say by which conventions to read it.
 ///
 /// # Errors
 /// Those of the writer.
 pub fn write_harmonics(
-    grain: &Grain,
+    grain: &StarGrain,
     segments: &[PublishedExpansion],
     writer: &mut impl Write,
 ) -> io::Result<()> {

@@ -3,6 +3,7 @@
 use super::number::{round, short};
 use super::unit::{Labels, Unit};
 use crate::fit::{FitOptions, Fitted, Tolerance};
+use crate::sphere::Symmetry;
 
 /// The rule of [`crate::fit`] as it decided here.
 pub(super) fn rule(fitted: &Fitted, options: &FitOptions, unit: Option<Unit>) -> String {
@@ -67,9 +68,9 @@ pub(super) fn rule(fitted: &Fitted, options: &FitOptions, unit: Option<Unit>) ->
         _ => format!(
             "no candidate is within {limit}; this one has the least held-out RMS (try a larger --max-degree{}, or \
              --tolerance)",
-            match fitted.grain.surface().mirrored() {
-                Some(_) => "",
-                None => " or --max-segments",
+            match fitted.grain.symmetry() {
+                Symmetry::NONE => " or --max-segments",
+                _ => "",
             }
         ),
     }

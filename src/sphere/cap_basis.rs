@@ -141,7 +141,9 @@ impl CapBasis {
     /// `n`. The number of coefficients sets the degree, at most that of the basis.
     pub fn value(&self, cap: &Cap, coefficients: &[f64], n: &Vector3<f64>) -> f64 {
         let [u, v, x] = cap.coordinates((*n).into());
-        self.expand(coefficients, [u], [v], [x]).value[0]
+        let (coefficients, _) = coefficients.as_chunks();
+        let [[value]] = self.expand::<1, 1>(coefficients, [u], [v], [x]).value;
+        value
     }
 
     /// Value and surface gradient (per radian, orthogonal to `n`) of an expansion.
@@ -152,35 +154,39 @@ impl CapBasis {
         n: &Vector3<f64>,
     ) -> (f64, Vector3<f64>) {
         let components = [[n.x], [n.y], [n.z]];
-        let (value, gradient) = self.values_and_gradients(cap, coefficients, &components);
+        let (coefficients, _) = coefficients.as_chunks();
+        let ([value], [gradient]) =
+            self.values_and_gradients::<1, 1>(cap, coefficients, &components);
         let in_space = Vector3::from(gradient.map(|[component]| component));
         (value[0], in_space - n * in_space.dot(n))
     }
 
-    /// Values of an expansion in N directions, given component by component, and their gradients
-    /// with respect to the components of n.
+    /// Values of K expansions, whose coefficients stand side by side, in N directions, given component by
+    /// component, and their gradients with respect to the components of n.
     #[inline(always)]
-    pub(crate) fn values_and_gradients<const N: usize>(
+    pub(crate) fn values_and_gradients<const K: usize, const N: usize>(
         &self,
         cap: &Cap,
-        coefficients: &[f64],
+        coefficients: &[[f64; K]],
         n: &[[f64; N]; 3],
-    ) -> ([f64; N], [[f64; N]; 3]) {
+    ) -> ([[f64; N]; K], [[[f64; N]; 3]; K]) {
         let (mut u, mut v, mut x) = ([0.0; N], [0.0; N], [0.0; N]);
         for i in 0..N {
             [u[i], v[i], x[i]] = cap.coordinates([n[0][i], n[1][i], n[2][i]]);
         }
         let e = self.expand(coefficients, u, v, x);
         let (per_tangent, per_height) = (1.0 / cap.tangent_length(), 2.0 / cap.height);
-        let mut gradients = [[0.0; N]; 3];
-        for (axis, gradient) in gradients.iter_mut().enumerate() {
-            let (e1, e2) = (
-                cap.tangents[0][axis] * per_tangent,
-                cap.tangents[1][axis] * per_tangent,
-            );
-            let c = cap.centre[axis] * per_height;
-            for (i, component) in gradient.iter_mut().enumerate() {
-                *component = e1 * e.du[i] + e2 * e.dv[i] - c * e.dx[i];
+        let mut gradients = [[[0.0; N]; 3]; K];
+        for (k, gradient) in gradients.iter_mut().enumerate() {
+            for (axis, component) in gradient.iter_mut().enumerate() {
+                let (e1, e2) = (
+                    cap.tangents[0][axis] * per_tangent,
+                    cap.tangents[1][axis] * per_tangent,
+                );
+                let c = cap.centre[axis] * per_height;
+                for i in 0..N {
+                    component[i] = e1 * e.du[k][i] + e2 * e.dv[k][i] - c * e.dx[k][i];
+                }
             }
         }
         (e.value, gradients)
@@ -188,12 +194,14 @@ impl CapBasis {
 
     /// Values of an expansion at many places.
     pub fn values(&self, coefficients: &[f64], places: &Places, out: &mut [f64]) {
+        let (coefficients, _) = coefficients.as_chunks();
         vectorize(
             #[inline(always)]
             || {
                 for (block, out) in out[..places.len()].chunks_mut(LANES).enumerate() {
-                    let e = self.expand_block(coefficients, places, block);
-                    for (out, value) in out.iter_mut().zip(e.value) {
+                    let [u, v, x] = places.block(block);
+                    let [values] = self.expand::<1, LANES>(coefficients, u, v, x).value;
+                    for (out, value) in out.iter_mut().zip(values) {
                         *out = value;
                     }
                 }
@@ -253,36 +261,25 @@ impl CapBasis {
         out
     }
 
+    /// Values of K expansions and partial derivatives with respect to u, v and x = 2w - 1, at N places at once.
     #[inline(always)]
-    fn expand_block(
+    fn expand<const K: usize, const N: usize>(
         &self,
-        coefficients: &[f64],
-        places: &Places,
-        block: usize,
-    ) -> Expansion<LANES> {
-        let [u, v, x] = places.block(block);
-        self.expand(coefficients, u, v, x)
-    }
-
-    /// Value and partial derivatives with respect to u, v and x = 2w - 1, at N places at once.
-    #[inline(always)]
-    fn expand<const N: usize>(
-        &self,
-        coefficients: &[f64],
+        coefficients: &[[f64; K]],
         u: [f64; N],
         v: [f64; N],
         x: [f64; N],
-    ) -> Expansion<N> {
+    ) -> Expansion<K, N> {
         let degree = coefficients
             .len()
             .isqrt()
             .saturating_sub(1)
             .min(self.degree);
         let mut out = Expansion {
-            value: [0.0; N],
-            du: [0.0; N],
-            dv: [0.0; N],
-            dx: [0.0; N],
+            value: [[0.0; N]; K],
+            du: [[0.0; N]; K],
+            dv: [[0.0; N]; K],
+            dx: [[0.0; N]; K],
         };
         let (mut re, mut im) = ([1.0; N], [0.0; N]);
         let (mut re_below, mut im_below) = ([0.0; N], [0.0; N]);
@@ -294,17 +291,19 @@ impl CapBasis {
                 }
             }
             let (mut p0, mut p, mut d0, mut d) = ([0.0; N], [*first; N], [0.0; N], [0.0; N]);
-            let (mut even, mut odd) = ([0.0; N], [0.0; N]);
-            let (mut even_x, mut odd_x) = ([0.0; N], [0.0; N]);
+            let (mut even, mut odd) = ([[0.0; N]; K], [[0.0; N]; K]);
+            let (mut even_x, mut odd_x) = ([[0.0; N]; K], [[0.0; N]; K]);
             for j in 0..=degree - m {
                 let at = column(m + j, m);
-                let a = coefficients[at];
-                let b = if m > 0 { coefficients[at + 1] } else { 0.0 };
-                for i in 0..N {
-                    even[i] += a * p[i];
-                    even_x[i] += a * d[i];
-                    odd[i] += b * p[i];
-                    odd_x[i] += b * d[i];
+                for k in 0..K {
+                    let a = coefficients[at][k];
+                    let b = if m > 0 { coefficients[at + 1][k] } else { 0.0 };
+                    for i in 0..N {
+                        even[k][i] += a * p[i];
+                        even_x[k][i] += a * d[i];
+                        odd[k][i] += b * p[i];
+                        odd_x[k][i] += b * d[i];
+                    }
                 }
                 if let Some(s) = steps.get(j) {
                     for i in 0..N {
@@ -315,23 +314,25 @@ impl CapBasis {
                 }
             }
             let order = m as f64;
-            for i in 0..N {
-                out.value[i] += re[i] * even[i] + im[i] * odd[i];
-                out.dx[i] += re[i] * even_x[i] + im[i] * odd_x[i];
-                out.du[i] += order * (re_below[i] * even[i] + im_below[i] * odd[i]);
-                out.dv[i] += order * (re_below[i] * odd[i] - im_below[i] * even[i]);
+            for k in 0..K {
+                for i in 0..N {
+                    out.value[k][i] += re[i] * even[k][i] + im[i] * odd[k][i];
+                    out.dx[k][i] += re[i] * even_x[k][i] + im[i] * odd_x[k][i];
+                    out.du[k][i] += order * (re_below[i] * even[k][i] + im_below[i] * odd[k][i]);
+                    out.dv[k][i] += order * (re_below[i] * odd[k][i] - im_below[i] * even[k][i]);
+                }
             }
         }
         out
     }
 }
 
-/// An expansion at N places.
-struct Expansion<const N: usize> {
-    value: [f64; N],
-    du: [f64; N],
-    dv: [f64; N],
-    dx: [f64; N],
+/// K expansions at N places.
+struct Expansion<const K: usize, const N: usize> {
+    value: [[f64; N]; K],
+    du: [[f64; N]; K],
+    dv: [[f64; N]; K],
+    dx: [[f64; N]; K],
 }
 
 /// First column of the functions of the given degree and order: (Re, Im) of an order stand together.

@@ -1,25 +1,25 @@
 //! Derivatives from the formulas of the model against differences of the radius.
 
 use crate::grains::{RADIUS, all, anywhere, critical, plain, segmented, tangents, towards, turned};
-use grainform::model::{Blended, Surface};
+use grainform::model::{Blended, Family};
 use grainform::sphere::{Cover, CubeCell};
-use grainform::{Grain, StarSurface};
+use grainform::{StarGrain, StarSurface};
 use nalgebra::Vector3;
 
 /// A sphere as all cells see it.
-fn sphere() -> Grain {
+fn sphere() -> StarGrain {
     let cells = CubeCell::uniform(2);
     let mut own = vec![0.0; 16];
     own[0] = RADIUS;
     let coefficients = vec![own; cells.len()];
     let cover = Cover::new(cells).expect("a cover");
     let surface = Blended::new(cover, coefficients).expect("sound");
-    Grain::new(turned(), Surface::Blended(surface)).expect("a frame")
+    StarGrain::new(turned(), Family::Blended(surface)).expect("a frame")
 }
 
 /// Checks the derivatives in a direction of the scan, by differences over a small angle, of which
 /// those of second order may be off by `bound` radii.
-pub(crate) fn check(grain: &Grain, n: &Vector3<f64>, bound: f64) {
+pub(crate) fn check(grain: &StarGrain, n: &Vector3<f64>, bound: f64) {
     let found = grain.derivatives(n);
     let (radius, gradient) = grain.radius_and_gradient(n);
     assert!((found.radius - radius).abs() < 1e-14 * RADIUS);
@@ -64,7 +64,7 @@ fn derivatives_of_independent_segments_are_those_of_the_radius() {
     for frame in [plain(), turned()] {
         for per_angle in [1, 2, 5] {
             let grain = segmented(per_angle, frame);
-            let surface = grain.surface().segmented().expect("segments");
+            let surface = grain.family().segmented().expect("segments");
             let partition = surface.partition();
             for segment in 0..partition.segments() {
                 for i in 0..9 {

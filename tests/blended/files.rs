@@ -3,13 +3,22 @@
 use crate::grains::{all, blended, blended_within, plain, ragged, segmented, turned, whole};
 use grainform::model::{ModelError, Stretch, grain_from_json, grain_to_json};
 use grainform::sphere::CubeCell;
-use grainform::{Grain, StarSurface};
+use grainform::{StarGrain, StarSurface, Surface};
 use nalgebra::Vector3;
 use serde_json::{Value, json};
 
-fn cells(grain: &Grain) -> Option<&[CubeCell]> {
+fn to_json(grain: &StarGrain) -> String {
+    grain_to_json(&grain.clone().into())
+}
+
+fn from_json(text: &str) -> Result<StarGrain, ModelError> {
+    let grain = grain_from_json(text)?;
+    Ok(grain.star().cloned().expect("a star-shaped grain"))
+}
+
+fn cells(grain: &StarGrain) -> Option<&[CubeCell]> {
     grain
-        .surface()
+        .family()
         .blended()
         .map(|surface| surface.cover().cells())
 }
@@ -22,18 +31,18 @@ fn grains_of_all_kinds_are_the_same_to_the_last_bit_once_saved() {
     grains.push(whole(17, turned()));
     let factors = Stretch::new(Vector3::new(0.1 + 0.2, 1.0, 1.0 / 3.0)).expect("factors");
     for grain in grains.clone() {
-        let stretched = Grain::stretched(*grain.frame(), factors, grain.surface().clone());
+        let stretched = StarGrain::stretched(grain.frame(), factors, grain.family().clone());
         grains.push(stretched.expect("a frame"));
     }
     for grain in grains {
-        let text = grain_to_json(&grain);
+        let text = to_json(&grain);
         assert!(text.contains("\"version\": 3"));
-        let loaded = grain_from_json(&text).expect("a model");
+        let loaded = from_json(&text).expect("a model");
         assert_eq!(loaded.frame(), grain.frame());
         assert_eq!(loaded.stretch(), grain.stretch());
         assert_eq!(loaded.coefficients(), grain.coefficients());
         assert_eq!(cells(&loaded), cells(&grain));
-        assert_eq!(grain_to_json(&loaded), text);
+        assert_eq!(to_json(&loaded), text);
         let n = Vector3::new(0.36, -0.48, 0.8);
         assert_eq!(loaded.radius(&n).to_bits(), grain.radius(&n).to_bits());
     }
@@ -49,16 +58,16 @@ fn a_file_of_the_first_version_is_still_read() {
         "parts_per_angle": 2,
         "segments": [[5.0], [6.0], [7.0], [8.0, 0.1, 0.2, 0.3]]
     }"#;
-    let grain = grain_from_json(text).expect("a model");
+    let grain = from_json(text).expect("a model");
     assert_eq!(grain.segments(), 4);
-    assert!(grain.surface().segmented().is_some());
+    assert!(grain.family().segmented().is_some());
     assert_eq!(grain.coefficients()[3], [8.0, 0.1, 0.2, 0.3]);
     let n = Vector3::new(0.0, 0.6, 0.8);
     assert!((grain.radius(&n) - 5.0).abs() < 1e-15);
-    let again = grain_to_json(&grain);
+    let again = to_json(&grain);
     assert!(again.contains("\"version\": 3"));
     assert_eq!(
-        grain_from_json(&again).expect("a model").coefficients(),
+        from_json(&again).expect("a model").coefficients(),
         grain.coefficients()
     );
 }
@@ -73,8 +82,8 @@ fn a_file_of_the_second_version_is_still_read() {
         "symmetry": "xyz",
         "coefficients": [5.0]
     }"#;
-    let grain = grain_from_json(text).expect("a model");
-    assert!(grain.surface().mirrored().is_some());
+    let grain = from_json(text).expect("a model");
+    assert!(grain.family().mirrored().is_some());
     assert!(grain.stretch().is_none());
 }
 
@@ -102,8 +111,8 @@ fn stretches_and_harmonics_that_are_not_sound_are_refused() {
         let found = spoilt(&grain, |value| value["harmonics"] = own.clone());
         assert!(matches!(found, Err(ModelError::Form(_))), "{found:?}");
     }
-    let text = grain_to_json(&grain).replacen("\"harmonics\": [", "\"harmonics\": [1e999,", 1);
-    assert!(grain_from_json(&text).is_err());
+    let text = to_json(&grain).replacen("\"harmonics\": [", "\"harmonics\": [1e999,", 1);
+    assert!(from_json(&text).is_err());
     let cells = spoilt(&blended(CubeCell::uniform(1), plain()), |value| {
         value["harmonics"] = json!([1.0]);
     });
@@ -111,10 +120,10 @@ fn stretches_and_harmonics_that_are_not_sound_are_refused() {
 }
 
 /// The text of a grain with something changed.
-fn spoilt(grain: &Grain, spoil: impl Fn(&mut Value)) -> Result<Grain, ModelError> {
-    let mut value: Value = serde_json::from_str(&grain_to_json(grain)).expect("JSON");
+fn spoilt(grain: &StarGrain, spoil: impl Fn(&mut Value)) -> Result<StarGrain, ModelError> {
+    let mut value: Value = serde_json::from_str(&to_json(grain)).expect("JSON");
     spoil(&mut value);
-    grain_from_json(&value.to_string())
+    from_json(&value.to_string())
 }
 
 #[test]
@@ -170,14 +179,14 @@ fn coefficients_that_make_no_expansion_are_refused() {
         });
         assert!(matches!(found, Err(ModelError::Invalid(_))), "{found:?}");
     }
-    let text = grain_to_json(&grain);
+    let text = to_json(&grain);
     for broken in ["1e999", "null", "\"NaN\"", "NaN"] {
         let start = text.find("\"coefficients\": [").expect("coefficients") + 17;
         let end = start + text[start..].find(',').expect("numbers");
         let mutilated = format!("{}{broken}{}", &text[..start], &text[end..]);
-        assert!(grain_from_json(&mutilated).is_err(), "{broken}");
+        assert!(from_json(&mutilated).is_err(), "{broken}");
     }
-    assert!(grain_from_json(&text[..text.len() / 2]).is_err());
+    assert!(from_json(&text[..text.len() / 2]).is_err());
 }
 
 #[test]
@@ -186,7 +195,7 @@ fn a_file_with_both_kinds_of_surface_or_none_is_refused() {
         blended(CubeCell::uniform(1), plain()),
         segmented(2, plain()),
     );
-    let parts: Value = serde_json::from_str(&grain_to_json(&parted)).expect("JSON");
+    let parts: Value = serde_json::from_str(&to_json(&parted)).expect("JSON");
     for names in [
         &["segments"][..],
         &["parts_per_angle"],
@@ -230,11 +239,11 @@ fn other_versions_and_unknown_fields_are_refused() {
 #[test]
 fn margins_are_kept_checked_and_left_out_where_they_are_the_usual() {
     let wide = blended_within(ragged(1, 9, 2), 0.6, turned());
-    let margin = |grain: &Grain| grain.surface().blended().map(|s| s.cover().margin());
-    let loaded = grain_from_json(&grain_to_json(&wide)).expect("a model");
+    let margin = |grain: &StarGrain| grain.family().blended().map(|s| s.cover().margin());
+    let loaded = from_json(&to_json(&wide)).expect("a model");
     assert_eq!(margin(&loaded), Some(0.6));
     let usual = blended(ragged(1, 9, 2), turned());
-    assert!(!grain_to_json(&usual).contains("margin"));
+    assert!(!to_json(&usual).contains("margin"));
     assert_eq!(margin(&usual), Some(grainform::sphere::MARGIN));
     for number in [json!(0.0), json!(-0.4), json!(1.5), json!(1e300)] {
         let found = spoilt(&wide, |value| value["margin"] = number.clone());

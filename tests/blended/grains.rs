@@ -1,7 +1,7 @@
 //! Blended grains whose expansions differ from cell to cell, so that only the weights can join them.
 
-use grainform::Grain;
-use grainform::model::{Blended, Frame, Segmented, Surface, Whole};
+use grainform::StarGrain;
+use grainform::model::{Blended, Family, Frame, Segmented, Whole};
 use grainform::sphere::{AngularPartition, Cover, CubeCell, coefficient_count};
 use nalgebra::{Matrix3, Point3, Rotation3, Vector3};
 
@@ -63,29 +63,29 @@ pub(crate) fn plain() -> Frame {
 }
 
 /// A grain of blended cells.
-pub(crate) fn blended(cells: Vec<CubeCell>, frame: Frame) -> Grain {
+pub(crate) fn blended(cells: Vec<CubeCell>, frame: Frame) -> StarGrain {
     blended_within(cells, grainform::sphere::MARGIN, frame)
 }
 
 /// A grain of cells that blend within so many widths.
-pub(crate) fn blended_within(cells: Vec<CubeCell>, margin: f64, frame: Frame) -> Grain {
+pub(crate) fn blended_within(cells: Vec<CubeCell>, margin: f64, frame: Frame) -> StarGrain {
     let cover = Cover::with_margin(cells, margin).expect("a cover");
     let coefficients = coefficients(cover.cells().len(), 5);
     let surface = Blended::new(cover, coefficients).expect("sound");
-    Grain::new(frame, Surface::Blended(surface)).expect("a frame")
+    StarGrain::new(frame, Family::Blended(surface)).expect("a frame")
 }
 
 /// A grain of independent segments.
-pub(crate) fn segmented(per_angle: usize, frame: Frame) -> Grain {
+pub(crate) fn segmented(per_angle: usize, frame: Frame) -> StarGrain {
     let partition = AngularPartition::new(per_angle);
     let coefficients = coefficients(partition.segments(), 8);
     let surface = Segmented::new(partition, coefficients).expect("sound");
-    Grain::new(frame, Surface::Segmented(surface)).expect("a frame")
+    StarGrain::new(frame, Family::Segmented(surface)).expect("a frame")
 }
 
 /// A grain of one expansion of the whole sphere: a sphere, with changes of some per cent that fall off
 /// with the degree.
-pub(crate) fn whole(degree: usize, frame: Frame) -> Grain {
+pub(crate) fn whole(degree: usize, frame: Frame) -> StarGrain {
     let mut next = numbers(11);
     let size = |l: usize| 0.3 * RADIUS / (1 + l).pow(2) as f64;
     let mut own: Vec<f64> = (0..coefficient_count(degree))
@@ -93,15 +93,15 @@ pub(crate) fn whole(degree: usize, frame: Frame) -> Grain {
         .collect();
     own[0] = RADIUS * (4.0 * std::f64::consts::PI).sqrt();
     let surface = Whole::new(own).expect("sound");
-    Grain::new(frame, Surface::Whole(surface)).expect("a frame")
+    StarGrain::new(frame, Family::Whole(surface)).expect("a frame")
 }
 
 /// Uniform and adaptive covers, in the frame given.
-pub(crate) fn all(frame: Frame) -> Vec<Grain> {
+pub(crate) fn all(frame: Frame) -> Vec<StarGrain> {
     let mut lists: Vec<Vec<CubeCell>> = [1, 2, 3].map(CubeCell::uniform).into();
     lists.extend((0..3).map(|seed| ragged(1, 14, seed)));
     lists.push(ragged(3, 10, 7));
-    let mut grains: Vec<Grain> = lists
+    let mut grains: Vec<StarGrain> = lists
         .into_iter()
         .map(|cells| blended(cells, frame))
         .collect();
@@ -114,7 +114,7 @@ pub(crate) fn all(frame: Frame) -> Vec<Grain> {
 
 /// Where a blend may go wrong, in the grain's own frame: the axes, edges and corners of the cube,
 /// and corners, borders and ends of margins of all cells.
-pub(crate) fn critical(grain: &Grain) -> Vec<Vector3<f64>> {
+pub(crate) fn critical(grain: &StarGrain) -> Vec<Vector3<f64>> {
     let sign = |i: usize| i as f64 - 1.0;
     let mut directions: Vec<Vector3<f64>> = (0..27)
         .map(|i| Vector3::new(sign(i / 9), sign(i / 3 % 3), sign(i % 3)))
@@ -127,7 +127,7 @@ pub(crate) fn critical(grain: &Grain) -> Vec<Vector3<f64>> {
         directions.push(Vector3::new(-1.0, along, 1.0).normalize());
         directions.push(Vector3::new(along, -1.0, -1.0).normalize());
     }
-    let Some(surface) = grain.surface().blended() else {
+    let Some(surface) = grain.family().blended() else {
         return directions;
     };
     for cell in surface.cover().cells() {

@@ -1,11 +1,11 @@
 //! Continuity across all borders: of cells, of margins, of faces, at corners and poles.
 
 use crate::grains::{RADIUS, all, critical, plain, tangents, towards};
-use grainform::{Grain, StarSurface};
+use grainform::{StarGrain, StarSurface};
 use nalgebra::Vector3;
 
 /// Calls `check` with a grain, a direction and a tangent of every critical place.
-fn at_critical_places(mut check: impl FnMut(&Grain, Vector3<f64>, Vector3<f64>)) {
+fn at_critical_places(mut check: impl FnMut(&StarGrain, Vector3<f64>, Vector3<f64>)) {
     for grain in all(plain()) {
         for n in critical(&grain) {
             for tangent in tangents(&n) {

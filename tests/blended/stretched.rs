@@ -6,10 +6,10 @@ use crate::grains::{
 };
 use crate::integrals;
 use grainform::measure::{Curvature, MassProperties, grain_properties, integrate};
-use grainform::model::{Frame, InvalidGrain, Mirrored, Stretch, Surface, Whole};
+use grainform::model::{Family, Frame, InvalidGrain, Mirrored, Radial, Stretch, Whole};
 use grainform::shapes::{Ellipsoid, Solid};
 use grainform::sphere::{CubeCell, Symmetry};
-use grainform::{Grain, StarSurface};
+use grainform::{StarGrain, StarSurface, Surface};
 use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::PI;
 
@@ -21,15 +21,15 @@ fn stretch() -> Stretch {
 }
 
 /// The same surface, of the grain stretched.
-fn stretched(grain: &Grain, stretch: Stretch) -> Grain {
-    Grain::stretched(*grain.frame(), stretch, grain.surface().clone()).expect("a frame")
+fn stretched(grain: &StarGrain, stretch: Stretch) -> StarGrain {
+    StarGrain::stretched(grain.frame(), stretch, grain.family().clone()).expect("a frame")
 }
 
 /// An ellipsoid: a sphere of radius one, once stretched.
-fn ellipsoid(frame: Frame) -> Grain {
+fn ellipsoid(frame: Frame) -> StarGrain {
     let sphere = Whole::new(vec![(4.0 * PI).sqrt()]).expect("a coefficient");
     let stretch = Stretch::new(Vector3::from(SEMI_AXES).map(|axis| 1.0 / axis)).expect("factors");
-    Grain::stretched(frame, stretch, Surface::Whole(sphere)).expect("a frame")
+    StarGrain::stretched(frame, stretch, Family::Whole(sphere)).expect("a frame")
 }
 
 fn places() -> Vec<Vector3<f64>> {
@@ -62,7 +62,10 @@ fn a_stretched_sphere_is_an_ellipsoid() {
             }
             let hessian = axes * want.hessian * axes.transpose();
             assert!((found.hessian - hessian).norm() < 1e-12, "{n}");
-            let (found, want) = (Curvature::new(n, &found), exact_curvature(&exact, &axes, n));
+            let (found, want) = (
+                Curvature::new(n, &grain.jet(n)),
+                exact_curvature(&exact, &axes, n),
+            );
             for (found, want) in found.principal.into_iter().zip(want.principal) {
                 assert!((found / want - 1.0).abs() < 1e-12, "{n}: {found} {want}");
             }
@@ -72,7 +75,7 @@ fn a_stretched_sphere_is_an_ellipsoid() {
 
 fn exact_curvature(exact: &Ellipsoid, axes: &Matrix3<f64>, n: &Vector3<f64>) -> Curvature {
     let local = axes.tr_mul(n);
-    Curvature::new(&local, &exact.derivatives(&local))
+    Curvature::new(&local, &Radial(exact).jet(&local))
 }
 
 #[test]
@@ -136,7 +139,7 @@ fn integrals_of_stretched_grains_are_those_of_rules_that_know_of_no_stretch() {
         (segmented(1, turned()), 1e-8),
         (whole(12, turned()), 1e-8),
         (
-            Grain::new(plain(), Surface::Mirrored(mirrored)).expect("a frame"),
+            StarGrain::new(plain(), Family::Mirrored(mirrored)).expect("a frame"),
             1e-8,
         ),
     ] {

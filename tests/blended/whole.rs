@@ -6,10 +6,10 @@ use crate::grains::{
 };
 use crate::integrals;
 use grainform::measure::{Scheme, Survey, grain_properties, integrate, mesh_properties};
-use grainform::model::{InvalidGrain, Region, Stretch, Surface, Whole};
+use grainform::model::{Family, InvalidGrain, Region, Stretch, Whole};
 use grainform::report::{Measure, MeasureReport, Measured};
 use grainform::sphere::harmonics;
-use grainform::{Grain, StarSurface};
+use grainform::{StarGrain, StarSurface, Surface};
 use nalgebra::Vector3;
 use std::f64::consts::PI;
 
@@ -88,7 +88,7 @@ fn one_segment_and_its_harmonics_are_the_same_grain() {
         panic!("one expansion");
     };
     let surface = Whole::new(published.coefficients.clone()).expect("sound");
-    let grain = Grain::new(turned(), Surface::Whole(surface)).expect("a frame");
+    let grain = StarGrain::new(turned(), Family::Whole(surface)).expect("a frame");
     for n in anywhere(300) {
         let (found, want) = (grain.derivatives(&n), segment.derivatives(&n));
         assert!((found.radius - want.radius).abs() < 1e-12 * RADIUS);
@@ -126,10 +126,11 @@ fn every_measure_can_be_had_and_agrees_with_that_of_the_segment() {
     let segment = segmented(1, turned());
     let surface = Whole::new(segment.published()[0].coefficients.clone()).expect("sound");
     let factors = Stretch::new(Vector3::new(0.8, 1.0, 1.4)).expect("factors");
-    let surfaces = [Surface::Whole(surface), segment.surface().clone()];
+    let surfaces = [Family::Whole(surface), segment.family().clone()];
     let [found, want] = surfaces.map(|surface| {
-        let grain = Grain::stretched(turned(), factors, surface).expect("a frame");
-        let survey = Survey::of_grain(&grain, Scheme::Exact);
+        let grain = StarGrain::stretched(turned(), factors, surface).expect("a frame");
+        let general = grain.clone().into();
+        let survey = Survey::of_grain(&general, Scheme::Exact);
         let only = Measure::ALL;
         let report = MeasureReport::new(String::new(), Measured::Model, &survey, &only, Vec::new());
         assert_eq!(report.not_measured, []);

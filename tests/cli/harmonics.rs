@@ -2,9 +2,9 @@
 //! radius. Nothing of the library's weights or bases is used here.
 
 use super::{folder, grain, json, number, succeed};
-use grainform::model::{Stretch, Surface, Whole};
+use grainform::model::{Family, Stretch, Whole};
 use grainform::report::write_harmonics;
-use grainform::{Grain, StarSurface, model};
+use grainform::{StarGrain, StarSurface, Surface, model};
 use nalgebra::{Matrix3, Vector3};
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
@@ -156,7 +156,7 @@ impl Published {
 }
 
 /// Fits a grain of the repository; gives what was published and the model itself.
-fn publish(name: &str, options: &[&str]) -> (Published, Grain, f64) {
+fn publish(name: &str, options: &[&str]) -> (Published, StarGrain, f64) {
     let folder = folder();
     let scan = grain(name);
     let words = ["fit", &scan, "--harmonics", "a.csv", "-o", "m.json"];
@@ -166,6 +166,7 @@ fn publish(name: &str, options: &[&str]) -> (Published, Grain, f64) {
     // The header has fewer digits than the report.
     assert!((published.loss / number(&report, "harmonics_loss") - 1.0).abs() < 0.1);
     let grain = model::grain_from_json(&text("m.json")).unwrap();
+    let grain = grain.star().cloned().unwrap();
     (published, grain, number(&report, "mean_radius"))
 }
 
@@ -194,10 +195,10 @@ fn the_formula_in_the_header_gives_back_the_radius_of_a_blended_grain() {
 fn the_formula_in_the_header_gives_back_the_radius_of_a_stretched_grain() {
     let (_, fitted, radius) = publish("bean.ply", &["--segments", "6", "--degree", "3"]);
     let own = (0..81).map(|i| radius * f64::from(i == 0) + 1e-3 * f64::from(i * 7 % 11));
-    let whole = Surface::Whole(Whole::new(own.collect()).unwrap());
+    let whole = Family::Whole(Whole::new(own.collect()).unwrap());
     let stretch = Stretch::new(Vector3::new(0.7, 1.0 / 3.0, 1.9)).unwrap();
-    for surface in [fitted.surface().clone(), whole] {
-        let grain = Grain::stretched(*fitted.frame(), stretch, surface).unwrap();
+    for surface in [fitted.family().clone(), whole] {
+        let grain = StarGrain::stretched(fitted.frame(), stretch, surface).unwrap();
         let mut text = Vec::new();
         write_harmonics(&grain, &grain.published(), &mut text).unwrap();
         let published = read(std::str::from_utf8(&text).unwrap());

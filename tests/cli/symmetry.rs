@@ -75,6 +75,7 @@ fn the_published_octant_and_its_header_rebuild_the_radius() {
         .collect();
     let json = std::fs::read_to_string(folder.path().join("a.json")).unwrap();
     let fitted = model::grain_from_json(&json).unwrap();
+    let fitted = fitted.star().unwrap();
     for n in [[0.48, -0.6, 0.64], [-0.6, 0.0, -0.8], [0.0, 0.0, -1.0]] {
         let n = Vector3::from(n);
         let y = harmonics(3, &n.abs());

@@ -2,7 +2,7 @@
 
 use super::{deviation, folder, grain, json, number, succeed};
 use grainform::shapes::Body;
-use grainform::{StarSurface, model};
+use grainform::{StarSurface, Surface, model};
 use nalgebra::Vector3;
 
 #[test]
@@ -34,6 +34,7 @@ fn the_estimate_is_fitted_saved_meshed_and_measured() {
         // The radius, everywhere: measured 3e-6 to 7e-6 of the mean radius.
         let text = std::fs::read_to_string(folder.path().join("m.json")).unwrap();
         let model = model::grain_from_json(&text).unwrap();
+        let model = model.star().unwrap();
         let centre = model.frame().centre.coords - offset;
         let surface = body.surface();
         let (directions, _) = grainform::sphere::cube_grid(20);

@@ -3,7 +3,7 @@
 use crate::extended::{Sample, fitted_radii, largest_radius};
 use grainform::model::Segmented;
 use grainform::sphere::{Cap, CapBasis, coefficient_count};
-use grainform::{FitOptions, Fitted, Grain, Seams};
+use grainform::{FitOptions, Fitted, Seams, StarGrain, Surface};
 use nalgebra::Point3;
 use rayon::prelude::*;
 
@@ -37,7 +37,7 @@ pub(crate) struct Verdict {
 /// # Panics
 /// If the fit left points out as strays: a judge must see what the fit has seen.
 pub(crate) fn samples_by_segment(fitted: &Fitted, points: &[Point3<f64>]) -> Vec<Vec<Sample>> {
-    let grain = &fitted.grain;
+    let grain = fitted.grain.star().expect("a radius");
     let mut points: Vec<[f64; 3]> = points.iter().map(|&p| p.into()).collect();
     points.sort_unstable_by(|a, b| a.partial_cmp(b).expect("finite points"));
     points.dedup();
@@ -45,22 +45,22 @@ pub(crate) fn samples_by_segment(fitted: &Fitted, points: &[Point3<f64>]) -> Vec
     let partition = segmented(grain).partition();
     let mut segments = vec![Vec::new(); partition.segments()];
     for point in points {
-        let sample = Sample::new(&point.into(), grain.frame());
+        let sample = Sample::new(&point.into(), &grain.frame());
         segments[partition.segment_of(&sample.direction)].push(sample);
     }
     segments
 }
 
 /// The surface of a grain, made of independent segments.
-pub(crate) fn segmented(grain: &Grain) -> &Segmented {
-    grain.surface().segmented().expect("independent segments")
+pub(crate) fn segmented(grain: &StarGrain) -> &Segmented {
+    grain.family().segmented().expect("independent segments")
 }
 
 /// Fits every segment again, at the degree and to the samples that the library took.
 ///
 /// Which samples those were, the grain does not say: its segment's own, or those of the cap round
 /// it where the former leave the answer open. The fit that comes nearer tells.
-pub(crate) fn judge(grain: &Grain, degree: usize, segments: &[Vec<Sample>]) -> Verdict {
+pub(crate) fn judge(grain: &StarGrain, degree: usize, segments: &[Vec<Sample>]) -> Verdict {
     let all: Vec<&Sample> = segments.iter().flatten().collect();
     let verdict = |(segment, own): (usize, &Vec<Sample>)| {
         let cap = segmented(grain).partition().cap(segment);

@@ -19,7 +19,7 @@ fn assert_promise(points: Vec<Point3<f64>>, k: usize, degree: usize) {
     let scan = Scan::from_points(points);
     let fitted = fit(&scan, &options(k, degree)).expect("a grain");
     let segments = samples_by_segment(&fitted, scan.points());
-    let verdict = judge(&fitted.grain, degree, &segments);
+    let verdict = judge(fitted.grain.star().expect("a radius"), degree, &segments);
     assert!(
         verdict.error <= PROMISE && verdict.lowered == 0,
         "k = {k}, L = {degree}: {verdict:?}"
@@ -69,7 +69,9 @@ fn error_of(basis: Basis, solver: Solver, k: usize, degree: usize) -> f64 {
     let fitted = fit(&scan, &options(k, degree)).expect("a grain");
     let segments = samples_by_segment(&fitted, scan.points());
     let errors = segments.iter().enumerate().map(|(segment, samples)| {
-        let cap = segmented(&fitted.grain).partition().cap(segment);
+        let cap = segmented(fitted.grain.star().expect("a radius"))
+            .partition()
+            .cap(segment);
         let exact = extended::fitted_radii(degree, &cap, samples);
         let design = design(basis, degree, &cap, samples);
         solvers::fitted_radii(solver, &design, samples).map_or(f64::INFINITY, |fitted| {

@@ -22,7 +22,7 @@
 use super::outcome::{Estimate, bending_variance, spare};
 use crate::fit::neighbours::Neighbours;
 use crate::measure::Curvature;
-use crate::model::{CurvatureErrors, Grain, StarSurface, Surface};
+use crate::model::{CurvatureErrors, Family, StarGrain, StarSurface, Surface};
 use crate::sphere::CubeCell;
 use nalgebra::{Matrix2, Matrix3, Vector3};
 
@@ -37,16 +37,16 @@ const VICINITY: usize = 40;
 
 impl Estimate {
     /// Standard errors of the curvature of a grain that stands for the estimate.
-    pub(crate) fn curvature_errors(&self, grain: &Grain) -> Option<CurvatureErrors> {
-        let frame = *grain.frame();
-        let expansion = Surface::Whole(self.expansion(self.degree));
-        let best = Grain::stretched(frame, self.stretch(), expansion).ok()?;
+    pub(crate) fn curvature_errors(&self, grain: &StarGrain) -> Option<CurvatureErrors> {
+        let frame = grain.frame();
+        let expansion = Family::Whole(self.expansion(self.degree));
+        let best = StarGrain::stretched(frame, self.stretch(), expansion).ok()?;
         let neighbours = Neighbours::new(&self.cloud.directions);
         let misfits = self.misfits();
         let bending = bending_variance(&self.spectrum, &self.unlearnt);
         let square = |n: &Vector3<f64>| {
             let towards = frame.axes * n;
-            let at = |grain: &Grain| Curvature::new(&towards, &grain.derivatives(&towards));
+            let at = |grain: &StarGrain| Curvature::new(&towards, &grain.jet(&towards));
             let curvature = at(&best);
             let exact = tensor(&curvature);
             let difference = (tensor(&at(grain)) - exact).norm_squared();

@@ -18,7 +18,7 @@
 use super::figures::form;
 use super::outcome::Estimate;
 use crate::measure::{PrincipalInertia, support_near};
-use crate::model::{StarSurface, Whole};
+use crate::model::{Radial, StarSurface, Whole};
 use nalgebra::{Matrix3, SVector, Vector3};
 
 /// Axes whose turn has a larger standard deviation, in radians, have no direction of their own: their moments differ
@@ -94,7 +94,7 @@ impl Reach {
             .iter()
             .max_by(|(n, r), (q, s)| (r * n.dot(towards)).total_cmp(&(s * q.dot(towards))));
         let start = highest.map_or(*towards, |(n, _)| *n);
-        let found = support_near(&self.surface, towards, &start);
+        let found = support_near(&Radial(&self.surface), towards, &start);
         let n = found.direction;
         let along = n.dot(towards);
         // Height f = r c, c = n.u: Hess f = c Hess r + grad r (grad c)' + grad c (grad r)' - c r P.

@@ -17,7 +17,7 @@ use crate::fit::prepare::{CellGrid, PreparedScan, Sample};
 use crate::fit::segments::{
     FittedLevel, HeldOut, LARGEST_MISS, Levels, SAMPLES_PER_COEFFICIENT, leave_one_out,
 };
-use crate::measure::mirrored_properties;
+use crate::measure::grain_properties;
 use crate::model::{Mirrored, StarSurface};
 use crate::sphere::{CapBasis, Places, Symmetry, coefficient_count};
 use nalgebra::Vector3;
@@ -171,7 +171,7 @@ impl Expansions {
     fn candidate(&self, degree: usize, prepared: &PreparedScan<'_>) -> Candidate {
         let fitted = self.at_most(degree);
         let held_out = self.held_out[fitted];
-        let found = mirrored_properties(&self.surface(fitted)).properties;
+        let found = grain_properties(&self.surface(fitted)).properties;
         Candidate {
             area_error: Some(found.area / prepared.reference.area - 1.0),
             volume_error: Some(found.volume / prepared.reference.volume - 1.0),

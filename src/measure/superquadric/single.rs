@@ -55,11 +55,7 @@ mod tests {
         let mut sum = Moments::default();
         for patch in Patch::all(body) {
             for node in patch.nodes(body, &rule) {
-                let height = node.point.dot(&node.area);
-                sum.area += node.area.norm();
-                sum.volume += height / 3.0;
-                sum.first += node.point * (height / 4.0);
-                sum.second += node.point * node.point.transpose() * (height / 5.0);
+                sum.add_element(&node.point, &node.area);
             }
         }
         sum

@@ -1,8 +1,7 @@
 //! Mass properties of a union, from what is bare of the surface of each part.
 //!
-//! With w = x . dA, the volume is ∫ w/3, its first moments ∫ x w/4 and its second moments ∫ x xᵀ w/5 over the surface
-//! of the union (the divergence theorem). Patches of the parts' surfaces are cut in four, that of the largest error
-//! first, until the errors add up to no more than what is asked for.
+//! Patches of the parts' surfaces are cut in four, those of the largest errors first, until the errors add up to no
+//! more than what is asked for.
 
 use super::patch::Patch;
 use super::single::SolidProperties;
@@ -140,11 +139,7 @@ fn bare(union: &MultiSuperquadric, index: usize, patch: &Patch, rule: &GaussLege
         if union.parts().iter().enumerate().any(is_covered) {
             continue;
         }
-        let height = x.dot(&(part.frame.axes * node.area));
-        sum.area += node.area.norm();
-        sum.volume += height / 3.0;
-        sum.first += x * (height / 4.0);
-        sum.second += x * x.transpose() * (height / 5.0);
+        sum.add_element(&x, &(part.frame.axes * node.area));
     }
     sum
 }

@@ -6,9 +6,8 @@ use crate::measure::unit::Unit;
 use crate::measure::{
     MassProperties, ScannedBody, four_triangles, grain_properties, mesh_properties,
 };
-use crate::model::{Grain, StarSurface};
+use crate::model::{Grain, Radial, StarSurface, Surface};
 use crate::sphere::cube_grid;
-use nalgebra::Point3;
 
 /// Parts per angle of the source's grid.
 const PUBLISHED_GRID: usize = 128;
@@ -19,7 +18,8 @@ const LEAST_VOLUME: f64 = 1e-11;
 
 pub(super) enum Body<'a> {
     Grain(Box<Grain>, Scheme),
-    Surface(&'a (dyn StarSurface + Sync), MassProperties),
+    /// A surface whose area, volume and moments are known.
+    Known(Radial<'a, dyn StarSurface + Sync + 'a>, MassProperties),
     Mesh(Mesh, Inside),
 }
 
@@ -34,10 +34,8 @@ pub(super) enum Inside {
 impl<'a> Body<'a> {
     pub(super) fn grain(grain: &Grain, scheme: Scheme) -> (Self, Unit) {
         let (directions, _) = cube_grid(2);
-        let size = directions
-            .iter()
-            .map(|n| grain.radius(n).abs())
-            .fold(0.0, f64::max);
+        let places = grain.places(&directions).into_iter();
+        let size = places.map(|place| place.norm()).fold(0.0, f64::max);
         let unit = Unit::new(size, grain.frame().centre);
         let resized = Box::new(grain.about_origin(1.0 / unit.length));
         (Self::Grain(resized, scheme), unit)
@@ -59,11 +57,12 @@ impl<'a> Body<'a> {
     /// Area, volume, centroid and inertia.
     pub(super) fn properties(&self) -> Result<MassProperties, SurveyError> {
         let found = match self {
-            Self::Grain(grain, Scheme::Exact) => grain_properties(grain).properties,
+            Self::Grain(grain, Scheme::Exact) => grain_properties(grain.as_ref()).properties,
             Self::Grain(grain, Scheme::FourTriangles) => {
-                four_triangles(grain.as_ref(), PUBLISHED_GRID, PUBLISHED_GRID)
+                let star = grain.star().ok_or(SurveyError::NoRadius)?;
+                four_triangles(star, PUBLISHED_GRID, PUBLISHED_GRID)
             }
-            Self::Surface(_, properties) => return Ok(*properties),
+            Self::Known(_, properties) => return Ok(*properties),
             Self::Mesh(_, Inside::Unknown(error)) => return Err(error.clone()),
             Self::Mesh(mesh, _) => mesh_properties(mesh)?,
         };
@@ -79,17 +78,17 @@ impl<'a> Body<'a> {
     /// How many bodies there are; `None` where that cannot be told.
     pub(super) fn count(&self) -> Result<usize, SurveyError> {
         match self {
-            Self::Grain(..) | Self::Surface(..) => Ok(1),
+            Self::Grain(..) | Self::Known(..) => Ok(1),
             Self::Mesh(_, Inside::Bodies(bodies)) => Ok(*bodies),
             Self::Mesh(_, Inside::Unknown(error)) => Err(error.clone()),
         }
     }
 
-    /// The surface, if it has a formula, and its origin.
-    pub(super) fn surface(&self) -> Option<(&(dyn StarSurface + Sync), Point3<f64>)> {
+    /// The surface, if it has a formula.
+    pub(super) fn surface(&self) -> Option<&(dyn Surface + Sync)> {
         match self {
-            Self::Grain(grain, _) => Some((grain.as_ref(), grain.frame().centre)),
-            Self::Surface(surface, _) => Some((*surface, Point3::origin())),
+            Self::Grain(grain, _) => Some(grain.as_ref()),
+            Self::Known(surface, _) => Some(surface),
             Self::Mesh(..) => None,
         }
     }

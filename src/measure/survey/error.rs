@@ -55,6 +55,9 @@ pub enum SurveyError {
         /// Share of the full solid angle.
         share: f64,
     },
+    /// It is made of radii, which the model does not have.
+    #[error("it is made from radii, and this model is not one of a star-shaped body")]
+    NoRadius,
     /// The figure is too large or too small for a number of 64 bits.
     #[error("in this unit it is beyond the range of numbers: change the unit")]
     OutOfRange,

@@ -6,8 +6,8 @@ mod error;
 use super::angularity::angularity;
 use super::bounds::ratio;
 use super::elements::{Element, mesh_elements, surface_elements};
-use super::extents::{dimensions_of_surface, hold, sorted};
-use super::nodes::{Integrand, grain_nodes, octant_nodes};
+use super::extents::{RESOLUTION, Reach, sorted};
+use super::nodes::{Integrand, nodes};
 use super::unit::Unit;
 use super::{
     Ball, Convexity, CurvatureStatistics, EquivalentEllipsoid, Form, MassProperties, OrientedBox,
@@ -15,17 +15,12 @@ use super::{
     enclosing_ball, extents, inscribed_ball, minimum_box, project,
 };
 use crate::Mesh;
-use crate::model::{Grain, StarSurface};
+use crate::model::{Grain, Radial, StarSurface, Surface};
 use body::{Body, Inside};
 pub use error::SurveyError;
 use nalgebra::{Matrix3, Vector3};
 use std::cell::OnceCell;
 use std::f64::consts::PI;
-
-/// Cells per edge of the cube of directions on which a grain's hull, spheres and outlines are found:
-/// 24 578 vertices. They lie on the surface, and what is between them is cut off by at most 1e-4 of
-/// the radius of curvature.
-const RESOLUTION: usize = 64;
 
 /// Share of the directions from the centroid that may meet the surface more than once where the radius
 /// from there is expanded or compared.
@@ -87,7 +82,7 @@ impl<'a> Survey<'a> {
 
     /// Of a surface whose area, volume and moments are known, in its own frame.
     pub fn of_surface(surface: &'a (dyn StarSurface + Sync), properties: MassProperties) -> Self {
-        Self::new((Body::Surface(surface, properties), Unit::OWN))
+        Self::new((Body::Known(Radial(surface), properties), Unit::OWN))
     }
 
     /// Of a closed mesh of one body, wound counter-clockwise from outside.
@@ -247,9 +242,9 @@ impl<'a> Survey<'a> {
     ///
     /// [`SurveyError::Flat`] of a mesh.
     pub fn curvature(&self) -> Result<&CurvatureStatistics, SurveyError> {
-        let (surface, _) = self.body.surface().ok_or(SurveyError::Flat)?;
+        let surface = self.body.surface().ok_or(SurveyError::Flat)?;
         Ok(self.curvature.get_or_init(|| {
-            let nodes = self.nodes(Integrand::Curvature);
+            let nodes = nodes(surface, Integrand::Curvature);
             CurvatureStatistics::new(surface, &nodes).in_unit(self.unit.length)
         }))
     }
@@ -354,10 +349,8 @@ impl<'a> Survey<'a> {
         let dimensions = || {
             self.one_body()?;
             let axes = self.unit_principal()?.axes;
-            Ok(match self.body.surface() {
-                Some((surface, origin)) => {
-                    dimensions_of_surface(surface, &origin, self.mesh(), &axes)
-                }
+            Ok(match self.reach() {
+                Some(reach) => reach.dimensions(&axes),
                 None => sorted(extents(self.mesh(), &axes)),
             })
         };
@@ -367,8 +360,8 @@ impl<'a> Survey<'a> {
     fn unit_minimum_box(&self) -> Result<OrientedBox, SurveyError> {
         let least = || {
             let found = minimum_box(self.hull()?)?;
-            Ok(match self.body.surface() {
-                Some((surface, origin)) => hold(surface, &origin, self.mesh(), &found.axes),
+            Ok(match self.reach() {
+                Some(reach) => reach.hold(&found.axes),
                 None => found,
             })
         };
@@ -398,12 +391,17 @@ impl<'a> Survey<'a> {
     /// The mesh, or that of the grain.
     fn mesh(&self) -> &Mesh {
         match &self.body {
-            Body::Grain(grain, _) => self.mesh.get_or_init(|| grain.mesh(RESOLUTION)),
-            Body::Surface(surface, _) => self
-                .mesh
-                .get_or_init(|| Mesh::radial(RESOLUTION, |n| surface.radius(n))),
             Body::Mesh(mesh, _) => mesh,
+            Body::Grain(grain, _) => self.mesh.get_or_init(|| grain.mesh(RESOLUTION)),
+            Body::Known(surface, _) => self.mesh.get_or_init(|| surface.mesh(RESOLUTION)),
         }
+    }
+
+    /// The surface, if it has a formula, and where it reaches to.
+    fn reach(&self) -> Option<Reach<'_>> {
+        let surface = self.body.surface()?;
+        let mesh = self.mesh();
+        Some(Reach { surface, mesh })
     }
 
     fn hull(&self) -> Result<&Mesh, SurveyError> {
@@ -415,15 +413,12 @@ impl<'a> Survey<'a> {
     fn star_shaped(&self) -> Result<&[Element], SurveyError> {
         self.one_body()?;
         let centroid = self.unit_properties()?.centroid;
-        let elements = self.elements.get_or_init(|| match &self.body {
-            Body::Grain(grain, _) => {
-                let shift = grain.frame().centre - centroid;
-                surface_elements(grain.as_ref(), &self.nodes(Integrand::Radius), &shift)
+        let elements = self.elements.get_or_init(|| match self.body.surface() {
+            Some(surface) => {
+                let shift = surface.frame().centre - centroid;
+                surface_elements(surface, &nodes(surface, Integrand::Slopes), &shift)
             }
-            Body::Surface(surface, _) => {
-                surface_elements(*surface, &self.nodes(Integrand::Radius), &-centroid.coords)
-            }
-            Body::Mesh(mesh, _) => mesh_elements(mesh, &centroid),
+            None => mesh_elements(self.mesh(), &centroid),
         });
         let (mut front, mut back) = (0.0, 0.0);
         for element in elements {
@@ -439,15 +434,6 @@ impl<'a> Survey<'a> {
         match share <= LARGEST_OVERHANG {
             true => Ok(elements),
             false => Err(SurveyError::NotStarShaped { share }),
-        }
-    }
-
-    /// Gauss nodes of a surface with a formula; none of a mesh.
-    fn nodes(&self, integrand: Integrand) -> Vec<(Vector3<f64>, f64)> {
-        match &self.body {
-            Body::Grain(grain, _) => grain_nodes(grain, integrand),
-            Body::Surface(..) => octant_nodes(integrand),
-            Body::Mesh(..) => Vec::new(),
         }
     }
 }

@@ -12,7 +12,7 @@ mod gridded;
 mod part;
 mod recentred;
 
-use super::{Grain, InvalidGrain, StarSurface, Surface};
+use super::{Family, InvalidGrain, StarGrain, StarSurface, Surface};
 use crate::sphere::{AngleRectangle, Symmetry, cube_grid};
 use blend::BlendPart;
 use bound::{Bound, CapBound};
@@ -68,7 +68,7 @@ struct Judged {
     work: usize,
 }
 
-impl Grain {
+impl StarGrain {
     /// A bound on the radius in all directions, proved and not sampled: above zero, or an error.
     ///
     /// Takes some ten microseconds where the mean of each expansion is larger than its other terms together;
@@ -79,16 +79,16 @@ impl Grain {
     /// [`InvalidGrain::Unproved`] if bounds do not tell after a second or so, and
     /// [`InvalidGrain::OutOfRange`] if radii are beyond 1e100, or below its inverse.
     pub fn least_radius(&self) -> Result<LeastRadius, InvalidGrain> {
-        let largest = match self.surface() {
-            Surface::Blended(surface) => blend::bounds(surface)
+        let largest = match self.family() {
+            Family::Blended(surface) => blend::bounds(surface)
                 .iter()
                 .map(CapBound::largest)
                 .fold(0.0, f64::max),
-            Surface::Segmented(surface) => (0..surface.partition().segments())
+            Family::Segmented(surface) => (0..surface.partition().segments())
                 .map(|segment| surface.bound(segment).largest())
                 .fold(0.0, f64::max),
-            Surface::Mirrored(surface) => surface.bound().largest(),
-            Surface::Whole(surface) => surface.bound().largest(),
+            Family::Mirrored(surface) => surface.bound().largest(),
+            Family::Whole(surface) => surface.bound().largest(),
         };
         let factors = self.stretch().factors();
         let size = largest / factors.min();
@@ -107,15 +107,15 @@ impl Grain {
             }
             found = found.min(radius);
         }
-        let least = match self.surface() {
-            Surface::Blended(surface) => {
+        let least = match self.family() {
+            Family::Blended(surface) => {
                 let bounds = blend::bounds(surface);
                 prove(
                     BlendPart::faces(surface, &bounds, &Recentring::default()),
                     found,
                 )
             }
-            Surface::Segmented(surface) => {
+            Family::Segmented(surface) => {
                 let partition = surface.partition();
                 let patches = (0..partition.segments()).map(|segment| Patch {
                     rectangle: partition.rectangle(segment),
@@ -124,7 +124,7 @@ impl Grain {
                 });
                 prove(patches.collect(), found)
             }
-            Surface::Mirrored(surface) => {
+            Family::Mirrored(surface) => {
                 let patch = Patch {
                     rectangle: surface.symmetry().rectangle(),
                     bound: surface.bound(),
@@ -132,7 +132,7 @@ impl Grain {
                 };
                 prove(vec![patch], found)
             }
-            Surface::Whole(surface) => {
+            Family::Whole(surface) => {
                 let patch = Patch {
                     rectangle: Symmetry::NONE.rectangle(),
                     bound: surface.bound(),

@@ -36,12 +36,12 @@ fn coefficients(degree: usize, first: f64, relief: f64, seed: u64) -> Vec<f64> {
         .collect()
 }
 
-fn grain(surface: Surface) -> Grain {
-    Grain::new(frame(), surface).expect("a grain")
+fn grain(family: Family) -> StarGrain {
+    StarGrain::new(frame(), family).expect("a grain")
 }
 
 /// Grains of each kind whose relief decides whether the radius is above zero.
-fn grains(relief: f64, seed: u64) -> Vec<Grain> {
+fn grains(relief: f64, seed: u64) -> Vec<StarGrain> {
     let cover = Cover::with_margin(CubeCell::uniform(2), MARGIN).expect("a cover");
     let per_cell = (0..24).map(|cell| coefficients(4, 3.0, relief, seed + cell));
     let blended = Blended::new(cover, per_cell.collect()).expect("cells");
@@ -61,15 +61,15 @@ fn grains(relief: f64, seed: u64) -> Vec<Grain> {
     let stretched = Whole::new(coefficients(5, 3.0 * (4.0 * PI).sqrt(), relief, seed + 1));
     let stretch = Stretch::new(Vector3::new(0.5, 1.0, 2.0)).expect("a stretch");
     vec![
-        grain(Surface::Blended(blended)),
-        grain(Surface::Segmented(segmented.expect("segments"))),
-        grain(Surface::Mirrored(mirrored.expect("an expansion"))),
-        grain(Surface::Mirrored(alone.expect("an expansion"))),
-        grain(Surface::Whole(whole.expect("an expansion"))),
-        Grain::stretched(
+        grain(Family::Blended(blended)),
+        grain(Family::Segmented(segmented.expect("segments"))),
+        grain(Family::Mirrored(mirrored.expect("an expansion"))),
+        grain(Family::Mirrored(alone.expect("an expansion"))),
+        grain(Family::Whole(whole.expect("an expansion"))),
+        StarGrain::stretched(
             frame(),
             stretch,
-            Surface::Whole(stretched.expect("an expansion")),
+            Family::Whole(stretched.expect("an expansion")),
         )
         .expect("a grain"),
     ]
@@ -132,12 +132,12 @@ fn a_narrow_dent_between_samples_is_met() {
             .map(|y| -depth * y / peak)
             .collect();
         a[0] += (4.0 * PI).sqrt();
-        let grain = Grain::new(
+        let grain = StarGrain::new(
             Frame {
                 centre: Point3::origin(),
                 axes: Matrix3::identity(),
             },
-            Surface::Whole(Whole::new(a).expect("an expansion")),
+            Family::Whole(Whole::new(a).expect("an expansion")),
         )
         .expect("a grain");
         let found = grain.least_radius();
@@ -177,7 +177,7 @@ fn bounds_hold_on_the_cap() {
 
 #[test]
 fn models_that_are_not_sound_do_not_load() {
-    let text = grain_to_json(&grains(0.3, 1)[4]);
+    let text = grain_to_json(&grains(0.3, 1)[4].clone().into());
     let spoilt = |coefficients: serde_json::Value| {
         let mut file: serde_json::Value = serde_json::from_str(&text).expect("JSON");
         file["harmonics"] = coefficients;
@@ -209,7 +209,7 @@ fn a_cell_that_is_wild_where_no_point_held_it_is_no_reason_to_refuse() {
         .collect();
     per_cell[20][23] = 6.0;
     per_cell[20][24] = -6.0;
-    let wild = grain(Surface::Blended(
+    let wild = grain(Family::Blended(
         Blended::new(cover, per_cell).expect("cells"),
     ));
     let directions = Sampling::Fibonacci.directions(50_000, 0).expect("enough");
@@ -228,7 +228,7 @@ fn a_thousand_coefficients_take_milliseconds() {
         println!("{:?} for {}", start.elapsed(), grain.coefficient_count());
     }
     let rough = Whole::new(coefficients(31, 3.0 * (4.0 * PI).sqrt(), 2.0, 3)).expect("a whole");
-    let grain = grain(Surface::Whole(rough));
+    let grain = grain(Family::Whole(rough));
     let start = Instant::now();
     let found = grain.least_radius();
     println!("{:?} for degree 31: {found:?}", start.elapsed());

@@ -1,6 +1,6 @@
 use super::*;
 use crate::measure::grain_properties;
-use crate::model::{Frame, Grain, Region, Surface, grain_from_json, grain_to_json};
+use crate::model::{Family, Frame, Region, StarGrain, grain_from_json, grain_to_json};
 use crate::sphere::{cube_grid, harmonics};
 use nalgebra::{Point3, Rotation3};
 
@@ -81,33 +81,37 @@ fn what_is_no_expansion_is_refused() {
 }
 
 /// The body as a grain whose axes are none of the scan's.
-fn grain(symmetry: &str) -> Grain {
+fn grain(symmetry: &str) -> StarGrain {
     let frame = Frame {
         centre: Point3::new(7.0, -1.0, 0.5),
         axes: Rotation3::from_euler_angles(0.3, -0.8, 2.0).into_inner(),
     };
-    Grain::new(frame, Surface::Mirrored(body(symmetry))).expect("a grain")
+    StarGrain::new(frame, Family::Mirrored(body(symmetry))).expect("a grain")
 }
 
 #[test]
 fn a_saved_grain_is_the_same_to_the_last_bit() {
     for name in SYMMETRIES {
         let grain = grain(name);
-        let text = grain_to_json(&grain);
+        let text = grain_to_json(&grain.clone().into());
         assert!(text.contains(&format!("\"symmetry\": \"{name}\"")));
-        let loaded = grain_from_json(&text).expect("a model");
+        let loaded = grain_from_json(&text)
+            .expect("a model")
+            .star()
+            .cloned()
+            .expect("a radius");
         assert_eq!(loaded.frame(), grain.frame());
         assert_eq!(loaded.coefficients(), grain.coefficients());
-        let symmetry = |grain: &Grain| grain.surface().mirrored().map(Mirrored::symmetry);
+        let symmetry = |grain: &StarGrain| grain.family().mirrored().map(Mirrored::symmetry);
         assert_eq!(symmetry(&loaded), symmetry(&grain));
-        assert_eq!(grain_to_json(&loaded), text);
+        assert_eq!(grain_to_json(&loaded.into()), text);
     }
 }
 
 #[test]
 fn a_broken_file_is_refused() {
     let spoilt = |name: &str, value: serde_json::Value| {
-        let text = grain_to_json(&grain("xz"));
+        let text = grain_to_json(&grain("xz").into());
         let mut file: serde_json::Value = serde_json::from_str(&text).expect("JSON");
         file[name] = value;
         let error = grain_from_json(&file.to_string()).expect_err("refused");
@@ -145,7 +149,7 @@ fn a_grain_counts_its_one_expansion() {
     assert_eq!(grain.coefficient_count(), 16);
     assert_eq!(grain.coefficients_touched(), 16.0);
     assert_eq!(grain.seam_jump(), 0.0);
-    assert!(grain.surface().blended().is_none() && grain.surface().segmented().is_none());
+    assert!(grain.family().blended().is_none() && grain.family().segmented().is_none());
 }
 
 #[test]

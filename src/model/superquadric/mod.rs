@@ -5,11 +5,13 @@
 //! prove.
 
 mod gauge;
+mod grain;
 mod multi;
 mod norm;
 mod shape;
 mod support;
 
+pub use grain::SuperquadricGrain;
 pub use multi::{MultiSuperquadric, Part};
 pub(crate) use shape::Octant;
 pub use shape::{EXPONENTS, InvalidSuperquadric, Superquadric};

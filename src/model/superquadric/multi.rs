@@ -5,9 +5,6 @@ use crate::model::{Derivatives, Frame, StarSurface};
 use crate::sphere::Jet;
 use nalgebra::{Matrix3, Vector3};
 
-/// How far axes may be from orthonormal: the rounding of a file with fewer digits than f64 has.
-const AXES_TOLERANCE: f64 = 1e-9;
-
 /// Steps allowed to a ray on its way out of a part; Newton's iteration on a convex function takes fewer than ten.
 const MAX_STEPS: usize = 100;
 
@@ -68,15 +65,9 @@ impl MultiSuperquadric {
         if parts.is_empty() {
             return Err(InvalidSuperquadric::NoParts);
         }
-        let is_frame = |frame: &Frame| {
-            let deviation = frame.axes.tr_mul(&frame.axes) - Matrix3::identity();
-            // Written so that NaN fails.
-            deviation.amax() < AXES_TOLERANCE
-                && frame.axes.determinant() > 0.0
-                && frame.centre.iter().all(|x| x.is_finite())
-        };
-        if let Some(part) = parts.iter().position(|part| !is_frame(&part.frame)) {
-            return Err(InvalidSuperquadric::Frame { part });
+        for (index, part) in parts.iter().enumerate() {
+            let frame = part.frame.check();
+            frame.map_err(|_| InvalidSuperquadric::Frame { part: index })?;
         }
         let union = Self { parts };
         match union.gauge(&Vector3::zeros()) < 1.0 {

@@ -144,6 +144,15 @@ impl Superquadric {
         }
     }
 
+    /// How many numbers make it: 5, 8 or 12.
+    pub fn number_count(&self) -> usize {
+        match (self.is_single(), self.has_common_exponents()) {
+            (true, _) => 5,
+            (false, true) => 8,
+            (false, false) => 12,
+        }
+    }
+
     /// Whether all octants are alike.
     pub fn is_single(&self) -> bool {
         let alike = |sides: &[f64; 2]| sides[0] == sides[1];

@@ -9,7 +9,7 @@ use super::rule::rule;
 use super::unit::Unit;
 use super::warning::sentences;
 use crate::fit::{FitOptions, Fitted, Reference, StandardErrors, Tolerance};
-use crate::model::Mirrored;
+use crate::model::StarGrain;
 use crate::sphere::Symmetry;
 use figures::Figures;
 use serde::Serialize;
@@ -169,7 +169,7 @@ impl FitReport {
         scan_warnings: &[String],
     ) -> Self {
         let search = &fitted.search;
-        let mirrored = fitted.grain.surface().mirrored();
+        let symmetry = Some(fitted.grain.symmetry()).filter(|mirrors| *mirrors != Symmetry::NONE);
         let choice = search.choice();
         let figures = Figures::new(fitted, options);
         let reference = fitted.unseen.is_none().then_some(fitted.reference);
@@ -180,9 +180,9 @@ impl FitReport {
             input,
             unit,
             points: fitted.points,
-            degree: mirrored.map_or(choice.degree, Mirrored::degree),
+            degree: symmetry.map_or(choice.degree, |_| fitted.grain.degree()),
             segments: choice.segments,
-            symmetry: mirrored.map(Mirrored::symmetry),
+            symmetry,
             asymmetry: fitted.asymmetry,
             coefficients: fitted.grain.coefficient_count(),
             area: figures.area,
@@ -203,13 +203,16 @@ impl FitReport {
             estimate: fitted.estimate.map(Into::into),
             estimate_rms: choice.estimate_rms,
             evaluation: EvaluationRecord::new(&fitted.grain),
-            whole: fitted.whole.as_ref().map(EvaluationRecord::new),
+            whole: fitted
+                .whole
+                .clone()
+                .map(|whole| EvaluationRecord::new(&whole.into())),
             noise: search.noise,
             limit: search.limit,
             tolerance: (options.tolerance != Tolerance::Auto)
                 .then(|| options.tolerance.length(fitted.mean_radius)),
             rule: rule(fitted, options, unit),
-            seam_jump: fitted.grain.seam_jump(),
+            seam_jump: fitted.grain.star().map_or(0.0, StarGrain::seam_jump),
             reduced_segments: choice.reduced_segments,
             harmonics_loss: None,
             seconds: Seconds::default(),

@@ -7,6 +7,18 @@ use nalgebra::{Matrix3, Vector3};
 impl CapBasis {
     /// An expansion with its derivatives with respect to the components of `n`.
     pub(crate) fn jet(&self, cap: &Cap, coefficients: &[f64], n: &Vector3<f64>) -> Jet {
+        let (coefficients, _) = coefficients.as_chunks();
+        let [jet] = self.jets::<1>(cap, coefficients, n);
+        jet
+    }
+
+    /// K expansions, whose coefficients stand side by side.
+    pub(crate) fn jets<const K: usize>(
+        &self,
+        cap: &Cap,
+        coefficients: &[[f64; K]],
+        n: &Vector3<f64>,
+    ) -> [Jet; K] {
         let [u, v, x] = cap.coordinates((*n).into());
         let place = |value: f64, gradient: Vector3<f64>| Jet {
             value,
@@ -18,7 +30,12 @@ impl CapBasis {
         let v = place(v, cap.tangents[1] * per_tangent);
         let x = place(x, cap.centre * (-2.0 / cap.height));
         let degree = (coefficients.len().isqrt().saturating_sub(1)).min(self.degree);
-        let mut sum = Jet::default();
+        let mut sums = [Jet::default(); K];
+        let mut add = |function: Jet, coefficients: &[f64; K]| {
+            for (sum, coefficient) in sums.iter_mut().zip(coefficients) {
+                *sum = sum.plus(&function.scaled(*coefficient));
+            }
+        };
         let (mut re, mut im) = (Jet::constant(1.0), Jet::default());
         for (m, (first, steps)) in self.orders.iter().enumerate().take(degree + 1) {
             if m > 0 {
@@ -30,9 +47,9 @@ impl CapBasis {
             let (mut below, mut current) = (Jet::default(), Jet::constant(*first));
             for j in 0..=degree - m {
                 let at = column(m + j, m);
-                sum = sum.plus(&current.times(&re).scaled(coefficients[at]));
+                add(current.times(&re), &coefficients[at]);
                 if m > 0 {
-                    sum = sum.plus(&current.times(&im).scaled(coefficients[at + 1]));
+                    add(current.times(&im), &coefficients[at + 1]);
                 }
                 if let Some(s) = steps.get(j) {
                     let factor = Jet {
@@ -44,6 +61,6 @@ impl CapBasis {
                 }
             }
         }
-        sum
+        sums
     }
 }

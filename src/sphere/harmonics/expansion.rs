@@ -44,7 +44,8 @@ impl HarmonicBasis {
     /// The value of an expansion in the direction of the unit vector `n`.
     pub fn value(&self, coefficients: &[f64], n: &Vector3<f64>) -> f64 {
         let mut sum = 0.0;
-        self.for_each_order::<1>(coefficients, n, |order| sum += order.along_x(0, 0));
+        let (coefficients, _) = coefficients.as_chunks();
+        self.for_each_order::<1, 1>(coefficients, n, |[order]| sum += order.along_x(0, 0));
         sum
     }
 
@@ -54,37 +55,63 @@ impl HarmonicBasis {
         coefficients: &[f64],
         n: &Vector3<f64>,
     ) -> (f64, Vector3<f64>) {
-        let (mut value, mut gradient) = (0.0, Vector3::zeros());
-        self.for_each_order::<2>(coefficients, n, |order| {
-            value += order.along_x(0, 0);
-            gradient += in_space(&order);
+        let (coefficients, _) = coefficients.as_chunks();
+        let [found] = self.values_and_gradients(coefficients, n);
+        found
+    }
+
+    /// Values and surface gradients of K expansions, whose coefficients stand side by side.
+    pub(crate) fn values_and_gradients<const K: usize>(
+        &self,
+        coefficients: &[[f64; K]],
+        n: &Vector3<f64>,
+    ) -> [(f64, Vector3<f64>); K] {
+        let mut found = [(0.0, Vector3::zeros()); K];
+        self.for_each_order::<2, K>(coefficients, n, |orders| {
+            for ((value, gradient), order) in found.iter_mut().zip(&orders) {
+                *value += order.along_x(0, 0);
+                *gradient += in_space(order);
+            }
         });
-        (value, gradient - n * gradient.dot(n))
+        found.map(|(value, gradient)| (value, gradient - n * gradient.dot(n)))
     }
 
     /// An expansion with its derivatives with respect to the components of `n`.
     pub(crate) fn jet(&self, coefficients: &[f64], n: &Vector3<f64>) -> Jet {
-        let mut jet = Jet::default();
-        self.for_each_order::<3>(coefficients, n, |order| {
-            jet.value += order.along_x(0, 0);
-            jet.gradient += in_space(&order);
-            let (once, twice) = (order.order, order.order * (order.order - 1.0));
-            let xx = twice * order.along_x(0, 2);
-            let xy = twice * order.along_y(0, 2);
-            let xz = once * order.along_x(1, 1);
-            let yz = once * order.along_y(1, 1);
-            let zz = order.along_x(2, 0);
-            jet.hessian += Matrix3::new(xx, xy, xz, xy, -xx, yz, xz, yz, zz);
-        });
+        let (coefficients, _) = coefficients.as_chunks();
+        let [jet] = self.jets(coefficients, n);
         jet
     }
 
-    /// Calls `with` with the sums of every order.
-    fn for_each_order<const D: usize>(
+    /// K expansions, whose coefficients stand side by side.
+    pub(crate) fn jets<const K: usize>(
         &self,
-        coefficients: &[f64],
+        coefficients: &[[f64; K]],
         n: &Vector3<f64>,
-        mut with: impl FnMut(Order<D>),
+    ) -> [Jet; K] {
+        let mut jets = [Jet::default(); K];
+        self.for_each_order::<3, K>(coefficients, n, |orders| {
+            for (jet, order) in jets.iter_mut().zip(&orders) {
+                jet.value += order.along_x(0, 0);
+                jet.gradient += in_space(order);
+                let (once, twice) = (order.order, order.order * (order.order - 1.0));
+                let xx = twice * order.along_x(0, 2);
+                let xy = twice * order.along_y(0, 2);
+                let xz = once * order.along_x(1, 1);
+                let yz = once * order.along_y(1, 1);
+                let zz = order.along_x(2, 0);
+                jet.hessian += Matrix3::new(xx, xy, xz, xy, -xx, yz, xz, yz, zz);
+            }
+        });
+        jets
+    }
+
+    /// Calls `with` with the sums of every order, of K expansions.
+    fn for_each_order<const D: usize, const K: usize>(
+        &self,
+        coefficients: &[[f64; K]],
+        n: &Vector3<f64>,
+        mut with: impl FnMut([Order<D>; K]),
     ) {
         let Some(degree) = coefficients.len().isqrt().checked_sub(1) else {
             return;
@@ -106,14 +133,18 @@ impl HarmonicBasis {
             steps = others;
             let (mut below, mut current) = ([0.0; D], [0.0; D]);
             current[0] = first;
-            let (mut cosine, mut sine) = ([0.0; D], [0.0; D]);
+            let (mut cosines, mut sines) = ([[0.0; D]; K], [[0.0; D]; K]);
             for (l, [up, back]) in (m..=degree).zip(of_order) {
                 let middle = l * (l + 1);
-                let (a, b) = (coefficients[middle + m], coefficients[middle - m]);
+                let (a, b) = (&coefficients[middle + m], &coefficients[middle - m]);
+                for k in 0..K {
+                    for d in 0..D {
+                        cosines[k][d] += a[k] * current[d];
+                        sines[k][d] += b[k] * current[d];
+                    }
+                }
                 let mut next = [0.0; D];
                 for d in 0..D {
-                    cosine[d] += a * current[d];
-                    sine[d] += b * current[d];
                     let lower = if d > 0 {
                         d as f64 * current[d - 1]
                     } else {
@@ -123,12 +154,12 @@ impl HarmonicBasis {
                 }
                 (below, current) = (current, next);
             }
-            with(Order {
+            with(std::array::from_fn(|k| Order {
                 order: m as f64,
-                cosine,
-                sine,
+                cosine: cosines[k],
+                sine: sines[k],
                 powers,
-            });
+            }));
         }
     }
 }

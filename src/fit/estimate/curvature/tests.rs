@@ -1,6 +1,7 @@
 use super::*;
 use crate::fit::context::Context;
 use crate::fit::{FitOptions, Fitted, PreparedScan};
+use crate::model::Radial;
 use crate::scan::Scan;
 use crate::shapes::{Body, Sampling, SynthOptions, synthesize};
 use crate::sphere::Symmetry;
@@ -32,10 +33,10 @@ fn coverage(body: Body, fitted: &Fitted) -> (f64, f64) {
     let deviations: Vec<f64> = directions
         .iter()
         .map(|n| {
-            let fit = Curvature::new(n, &grain.derivatives(n));
+            let fit = Curvature::new(n, &grain.jet(n));
             // The origin of the closed form is not the grain's: the place, then its direction there.
             let place = grain.point(n).coords.normalize();
-            let exact = Curvature::new(&place, &truth.derivatives(&place));
+            let exact = Curvature::new(&place, &Radial(truth.as_ref()).jet(&place));
             let off = |i: usize| (fit.principal[i] - exact.principal[i]).abs();
             off(0).max(off(1)) / grain.curvature_error(n).unwrap()
         })

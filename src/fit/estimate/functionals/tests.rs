@@ -3,7 +3,7 @@ use crate::fit::estimate::cloud::Cloud;
 use crate::fit::estimate::figures::{derivatives, mass};
 use crate::fit::estimate::spectrum::Spectrum;
 use crate::measure::grain_properties;
-use crate::model::{Frame, Grain, Stretch, Surface, Whole};
+use crate::model::{Family, Frame, StarGrain, Stretch, Whole};
 use crate::sphere::coefficient_count;
 use nalgebra::{Matrix3, Point3};
 use rand_chacha::ChaCha8Rng;
@@ -58,9 +58,9 @@ fn they_are_those_that_are_measured_of_the_grain() {
             centre: Point3::origin(),
             axes: Matrix3::identity(),
         };
-        let surface = Surface::Whole(Whole::new(radii).unwrap());
+        let surface = Family::Whole(Whole::new(radii).unwrap());
         let stretch = Stretch::new(Vector3::from(stretch)).unwrap();
-        let grain = Grain::stretched(frame, stretch, surface).unwrap();
+        let grain = StarGrain::stretched(frame, stretch, surface).unwrap();
         let want = grain_properties(&grain).properties;
         let have = mass(&RingSurface::new(&estimate).moments()).0;
         assert!((have.area / want.area - 1.0).abs() < 1e-6);

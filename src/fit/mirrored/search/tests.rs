@@ -1,6 +1,6 @@
 use crate::fit::{FitError, FitOptions, FitWarning, Fitted, Rejection, Seams, Tolerance, fit};
 use crate::measure::grain_properties;
-use crate::model::{Mirrored, StarSurface};
+use crate::model::{Mirrored, StarSurface, Surface};
 use crate::scan::Scan;
 use crate::shapes::{Body, Sampling};
 use nalgebra::{Point3, Vector3};
@@ -28,7 +28,11 @@ fn fibonacci(points: usize) -> Vec<Vector3<f64>> {
 }
 
 fn surface(fitted: &Fitted) -> &Mirrored {
-    fitted.grain.surface().mirrored().expect("a mirrored grain")
+    fitted
+        .grain
+        .star()
+        .and_then(|star| star.family().mirrored())
+        .expect("a mirrored grain")
 }
 
 fn ellipsoid(n: &Vector3<f64>) -> f64 {
@@ -67,7 +71,7 @@ fn the_lowest_degree_within_the_limit_is_taken() {
     assert_eq!(all.search.work.candidates_skipped, 0);
     // With the factors of a higher degree, so the same but for rounding.
     for n in fibonacci(50) {
-        let radii = [&all, &fitted].map(|fitted| fitted.grain.radius(&n));
+        let radii = [&all, &fitted].map(|fitted| fitted.grain.star().unwrap().radius(&n));
         assert!((radii[0] - radii[1]).abs() < 1e-12, "{radii:?}");
     }
 }
@@ -196,7 +200,7 @@ fn the_fewest_points_are_fitted() {
         })
         .collect();
     let fitted = fit(&scan(&corners, |_| 2.0), &mirrored("xyz")).expect("a fit");
-    assert!((fitted.grain.radius(&Vector3::x()) - 2.0).abs() < 1e-12);
+    assert!((fitted.grain.star().unwrap().radius(&Vector3::x()) - 2.0).abs() < 1e-12);
 }
 
 #[test]

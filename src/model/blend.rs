@@ -1,0 +1,198 @@
+//! K functions on a cover of the sphere, blended so that no seam is left.
+
+use crate::sphere::{CapBasis, Cover, Jet};
+use crate::vectorize::vectorize;
+use nalgebra::Vector3;
+use rayon::prelude::*;
+
+/// Values and surface gradients (per radian, orthogonal to the direction) of K functions.
+pub(super) type Blends<const K: usize> = [(f64, Vector3<f64>); K];
+
+/// K functions f_k(n) = sum of w_i(n) f_ki(n) / sum of w_i(n), with the weights w_i of a [`Cover`] and
+/// expansions f_ki in the cap bases of its cells: continuous with two derivatives everywhere. One
+/// evaluation of the bases serves all K.
+#[derive(Debug, Clone)]
+pub(super) struct Blend<const K: usize> {
+    pub(super) cover: Cover,
+    /// Of each cell, the K coefficients of its first function, of its second, ...
+    pub(super) coefficients: Vec<Vec<f64>>,
+    pub(super) basis: CapBasis,
+}
+
+impl<const K: usize> Blend<K> {
+    /// The K coefficients of each function of a cell.
+    pub(super) fn of_cell(&self, cell: usize) -> &[[f64; K]] {
+        self.coefficients[cell].as_chunks().0
+    }
+
+    /// All coefficients so many times as large.
+    pub(super) fn times(&self, factor: f64) -> Self {
+        let mut found = self.clone();
+        for coefficient in found.coefficients.iter_mut().flatten() {
+            *coefficient *= factor;
+        }
+        found
+    }
+
+    /// Values and surface gradients in a direction.
+    pub(super) fn values_and_gradients(&self, n: &Vector3<f64>) -> Blends<K> {
+        let near = self.cover.near(self.cover.bucket(n));
+        let (values, gradients) = self.blend(near, &[[n.x], [n.y], [n.z]]);
+        std::array::from_fn(|k| {
+            let gradient = Vector3::from(gradients[k].map(|[component]| component));
+            (values[k][0], gradient)
+        })
+    }
+
+    /// Values and surface gradients in many directions, in their order.
+    pub(super) fn many_values_and_gradients(&self, directions: &[Vector3<f64>]) -> Vec<Blends<K>> {
+        // Sorted by bucket, so that each bucket looks up once what is near.
+        let buckets: Vec<u32> = directions
+            .iter()
+            .map(|n| self.cover.bucket(n) as u32)
+            .collect();
+        let mut starts = vec![0_usize; self.cover.buckets() + 1];
+        for &bucket in &buckets {
+            starts[bucket as usize + 1] += 1;
+        }
+        for bucket in 1..starts.len() {
+            starts[bucket] += starts[bucket - 1];
+        }
+        let mut sorted = vec![0_u32; directions.len()];
+        let mut next = starts.clone();
+        for (index, &bucket) in buckets.iter().enumerate() {
+            sorted[next[bucket as usize]] = index as u32;
+            next[bucket as usize] += 1;
+        }
+        let parts: Vec<Vec<Blends<K>>> = (0..self.cover.buckets())
+            .into_par_iter()
+            .with_min_len(16)
+            .map(|bucket| {
+                let members = &sorted[starts[bucket]..starts[bucket + 1]];
+                self.blend_near(self.cover.near(bucket), members, directions)
+            })
+            .collect();
+        let mut out = vec![[(0.0, Vector3::zeros()); K]; directions.len()];
+        for (&index, value) in sorted.iter().zip(parts.into_iter().flatten()) {
+            out[index as usize] = value;
+        }
+        out
+    }
+
+    /// Values and surface gradients in some of many directions, all near the same cells.
+    fn blend_near(
+        &self,
+        near: &[u16],
+        members: &[u32],
+        directions: &[Vector3<f64>],
+    ) -> Vec<Blends<K>> {
+        let mut out = Vec::with_capacity(members.len());
+        vectorize(
+            #[inline(always)]
+            || {
+                for block in members.chunks(LANES) {
+                    let mut n = [[0.0; LANES]; 3];
+                    for lane in 0..LANES {
+                        let direction = directions[block[lane.min(block.len() - 1)] as usize];
+                        for axis in 0..3 {
+                            n[axis][lane] = direction[axis];
+                        }
+                    }
+                    let (values, gradients) = self.blend(near, &n);
+                    for lane in 0..block.len() {
+                        out.push(std::array::from_fn(|k| {
+                            let [x, y, z] = &gradients[k];
+                            let gradient = Vector3::new(x[lane], y[lane], z[lane]);
+                            (values[k][lane], gradient)
+                        }));
+                    }
+                }
+            },
+        );
+        out
+    }
+
+    /// Values and surface gradients in N directions, given component by component, that are near the
+    /// given cells.
+    #[inline(always)]
+    fn blend<const N: usize>(
+        &self,
+        near: &[u16],
+        n: &[[f64; N]; 3],
+    ) -> ([[f64; N]; K], [[[f64; N]; 3]; K]) {
+        let (mut sums, mut weights) = ([[0.0; N]; K], [0.0; N]);
+        let (mut slopes, mut weight_slopes) = ([[[0.0; N]; 3]; K], [[0.0; N]; 3]);
+        for &cell in near {
+            let cell = usize::from(cell);
+            let (w, dw) = self.cover.weight(cell).values_and_gradients(n);
+            let mut touched = 0.0;
+            for w in w {
+                touched += w;
+            }
+            if touched == 0.0 {
+                continue;
+            }
+            let (cap, own) = (self.cover.cap(cell), self.of_cell(cell));
+            let (f, df) = self.basis.values_and_gradients(cap, own, n);
+            for i in 0..N {
+                weights[i] += w[i];
+            }
+            for axis in 0..3 {
+                for i in 0..N {
+                    weight_slopes[axis][i] += dw[axis][i];
+                }
+            }
+            for k in 0..K {
+                for i in 0..N {
+                    sums[k][i] += w[i] * f[k][i];
+                }
+                for axis in 0..3 {
+                    let slope = &mut slopes[k][axis];
+                    let (df, dw) = (&df[k][axis], &dw[axis]);
+                    for i in 0..N {
+                        slope[i] += w[i] * df[i] + dw[i] * f[k][i];
+                    }
+                }
+            }
+        }
+        let mut values = [[0.0; N]; K];
+        let mut gradients = [[[0.0; N]; 3]; K];
+        for k in 0..K {
+            for i in 0..N {
+                let per_weight = 1.0 / weights[i];
+                let value = sums[k][i] * per_weight;
+                let mut along = 0.0;
+                for axis in 0..3 {
+                    let slope = (slopes[k][axis][i] - weight_slopes[axis][i] * value) * per_weight;
+                    gradients[k][axis][i] = slope;
+                    along += slope * n[axis][i];
+                }
+                for axis in 0..3 {
+                    gradients[k][axis][i] -= along * n[axis][i];
+                }
+                values[k][i] = value;
+            }
+        }
+        (values, gradients)
+    }
+
+    /// The functions and their derivatives with respect to the components of `n`.
+    pub(super) fn jets(&self, n: &Vector3<f64>) -> [Jet; K] {
+        let (mut sums, mut weights) = ([Jet::default(); K], Jet::default());
+        for &cell in self.cover.near(self.cover.bucket(n)) {
+            let cell = usize::from(cell);
+            let weight = self.cover.weight(cell).jet(n);
+            if weight.value > 0.0 {
+                let expansions = self.basis.jets(self.cover.cap(cell), self.of_cell(cell), n);
+                for (sum, expansion) in sums.iter_mut().zip(&expansions) {
+                    *sum = sum.plus(&weight.times(expansion));
+                }
+                weights = weights.plus(&weight);
+            }
+        }
+        sums.map(|sum| sum.over(&weights))
+    }
+}
+
+/// Directions evaluated together.
+const LANES: usize = 8;
