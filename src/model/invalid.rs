@@ -62,6 +62,9 @@ pub enum InvalidGrain {
     /// Radii beyond 1e100, or below its inverse.
     #[error("radii are beyond 1e100 or below 1e-100: change the unit")]
     OutOfRange,
+    /// Numbers that make no superquadrics.
+    #[error(transparent)]
+    Superquadric(#[from] InvalidSuperquadric),
     /// The axes are not orthonormal and right-handed.
     #[error("the axes are not orthonormal and right-handed")]
     Axes,
@@ -85,7 +88,4 @@ pub(super) fn check_expansion(segment: usize, coefficients: &[f64]) -> Result<us
         return Err(InvalidGrain::Degree { found: root - 1 });
     }
     Ok(root - 1)
-    /// Numbers that make no superquadrics.
-    #[error(transparent)]
-    Superquadric(#[from] InvalidSuperquadric),
 }
