@@ -1,7 +1,7 @@
 //! Where a body touches what comes from a direction, and how it is curved there.
 
 use super::{EdgeError, TangentCap};
-use crate::measure::{Curvature, Support, support};
+use crate::measure::{Curvature, Support, self_crossing, support};
 use crate::model::{Surface, tangents};
 use nalgebra::Vector3;
 use std::f64::consts::TAU;
@@ -16,6 +16,9 @@ const AROUND: usize = 16;
 /// Largest angle between the normals of one side, in radians: on a side that is curved a thousand
 /// times as much as a sphere they are as far apart.
 const ONE_SIDE: f64 = 2e-3;
+
+/// Cells per edge of the cube of directions of the mesh in which crossings are looked for.
+const CROSSING: usize = 64;
 
 /// A point of a body by which it touches a plane.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -45,13 +48,22 @@ pub enum TouchError {
     /// More than two sides meet: no cap is tangent to all of them.
     #[error("the surface has a corner there, which has no curvature")]
     Corner,
+    /// The surface is not that of a body.
+    #[error(
+        "the surface goes through itself near ({:.4}, {:.4}, {:.4})",
+        at[0], at[1], at[2]
+    )]
+    Crossing {
+        /// Where, in the scan's frame.
+        at: [f64; 3],
+    },
     /// The edge cannot be rounded by a cap of the radius asked for.
     #[error(transparent)]
     Cap(#[from] EdgeError),
 }
 
 /// Where a surface touches a plane whose normal, pointing away from the surface, is the unit vector
-/// `towards`. An edge there, as expansions of an octant have where they meet their images, is rounded by
+/// `towards`. Of a surface that may cross itself a mesh is looked at first. An edge there, as expansions of an octant have where they meet their images, is rounded by
 /// a cap of the given radius.
 ///
 /// # Errors
@@ -62,6 +74,13 @@ pub fn touch(
     towards: &Vector3<f64>,
     edge_radius: Option<f64>,
 ) -> Result<Touch, TouchError> {
+    if surface.may_cross()
+        && let Some(at) = self_crossing(&surface.mesh(CROSSING))
+    {
+        return Err(TouchError::Crossing {
+            at: at.coords.into(),
+        });
+    }
     let found = support(surface, towards);
     if found.is_smooth {
         return Ok(Touch {

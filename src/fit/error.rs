@@ -1,6 +1,7 @@
 //! Why a fit cannot be made.
 
 use super::context::Cancelled;
+use super::position::map::MapError;
 use nalgebra::Vector3;
 
 /// Why a fit cannot be made.
@@ -191,6 +192,14 @@ pub enum FitError {
         "the points do not determine a radius in every direction; look at the scan, or fit independent segments"
     )]
     NoEstimate,
+    /// A surface that no centre sees is fitted to faces, and there are none.
+    #[error(
+        "the scan has no closed faces, which a fit of positions over the sphere needs: mesh the points, or fit a radius"
+    )]
+    NoFaces,
+    /// The faces have no map to the sphere.
+    #[error("no position over the sphere can be fitted: {0}")]
+    NotMapped(MapError),
     /// The fit was asked to stop.
     #[error("the fit was cancelled")]
     Cancelled,
@@ -206,6 +215,15 @@ impl FitError {
                 | Self::FarFromPoints { .. }
                 | Self::FarBeyondPoints { .. }
         )
+    }
+}
+
+impl From<MapError> for FitError {
+    fn from(error: MapError) -> Self {
+        match error {
+            MapError::Cancelled => Self::Cancelled,
+            error => Self::NotMapped(error),
+        }
     }
 }
 

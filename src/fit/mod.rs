@@ -21,6 +21,7 @@ mod mirrored;
 mod neighbours;
 mod options;
 mod outcome;
+mod position;
 mod prepare;
 mod robust;
 mod segments;
@@ -39,6 +40,7 @@ pub use options::{
     Tolerance,
 };
 pub use outcome::{EstimateSummary, Fitted, Residuals};
+pub use position::{Distance, PositionFit, fit_position, map::MapError};
 pub use prepare::{
     PreparedScan, Reference, ReferenceKind, ScannedSurface, largest_body, scanned_surface,
 };

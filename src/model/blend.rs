@@ -1,6 +1,6 @@
 //! K functions on a cover of the sphere, blended so that no seam is left.
 
-use crate::sphere::{CapBasis, Cover, Jet};
+use crate::sphere::{CapBasis, Cover, Jet, cube_grid};
 use crate::vectorize::vectorize;
 use nalgebra::Vector3;
 use rayon::prelude::*;
@@ -32,6 +32,21 @@ impl<const K: usize> Blend<K> {
             *coefficient *= factor;
         }
         found
+    }
+
+    /// The number of coefficients that an evaluation touches, as a mean over all directions.
+    pub(super) fn coefficients_touched(&self) -> f64 {
+        let mut shares = Vec::new();
+        let (directions, _) = cube_grid(PLACES_PER_EDGE);
+        let touched: usize = directions
+            .iter()
+            .map(|n| {
+                self.cover.shares(n, &mut shares);
+                let count = |&(cell, _): &(u16, f64)| self.coefficients[usize::from(cell)].len();
+                shares.iter().map(count).sum::<usize>()
+            })
+            .sum();
+        touched as f64 / directions.len() as f64
     }
 
     /// Values and surface gradients in a direction.
@@ -196,3 +211,6 @@ impl<const K: usize> Blend<K> {
 
 /// Directions evaluated together.
 const LANES: usize = 8;
+
+/// Directions along a cube's edge at which touched coefficients are counted.
+const PLACES_PER_EDGE: usize = 32;

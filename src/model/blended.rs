@@ -66,17 +66,7 @@ impl Blended {
 
     /// The number of coefficients that an evaluation touches, as a mean over all directions.
     pub fn coefficients_touched(&self) -> f64 {
-        let mut shares = Vec::new();
-        let (directions, _) = crate::sphere::cube_grid(PLACES_PER_EDGE);
-        let touched: usize = directions
-            .iter()
-            .map(|n| {
-                self.cover().shares(n, &mut shares);
-                let count = |&(cell, _): &(u16, f64)| self.coefficients()[usize::from(cell)].len();
-                shares.iter().map(count).sum::<usize>()
-            })
-            .sum();
-        touched as f64 / directions.len() as f64
+        self.radius.coefficients_touched()
     }
 
     /// The basis, the cap and the coefficients of a cell.
@@ -121,6 +111,3 @@ impl Blended {
         jet
     }
 }
-
-/// Directions along a cube's edge at which touched coefficients are counted.
-const PLACES_PER_EDGE: usize = 32;

@@ -1,21 +1,23 @@
 //! A grain as JSON: versioned, exact to the last bit, and refused where it is not sound.
 //!
-//! Version 3 holds one of `cells` (blended), `segments` (independent), `symmetry` (mirrored) and
+//! Version 4 holds either `position`, the `cells` or the `harmonics` of the position of points over the sphere, or of
+//! a radius one of `cells` (blended), `segments` (independent), `symmetry` (mirrored) and
 //! `harmonics` (the whole sphere), of the grain stretched along its axes by `stretch`, if that is there.
-//! `margin` goes with `cells`; `curvature_errors` with any, if they are known. Version 2, which knew none of `harmonics`, `stretch`, `margin` and `curvature_errors`, and version 1,
+//! `margin` goes with `cells`; `curvature_errors` with any radius, if they are known. Version 3, which knew no
+//! `position`, version 2, which knew none of `harmonics`, `stretch`, `margin` and `curvature_errors` either, and version 1,
 //! which knew segments only, are still read.
 
 use super::grain::Kind;
 use super::{
-    Blended, CurvatureErrors, Family, Frame, Grain, InvalidGrain, Mirrored, Segmented, StarGrain,
-    Stretch, Surface, Whole,
+    Blended, CurvatureErrors, Family, Frame, Grain, InvalidGrain, Mirrored, Position,
+    PositionGrain, Segmented, StarGrain, Stretch, Surface, Whole,
 };
 use crate::sphere::{AngularPartition, Cover, CoverError, CubeCell, MARGIN, Symmetry};
 use nalgebra::{Matrix3, Point3, Vector3};
 use serde::{Deserialize, Serialize};
 
 /// The version of the file format that this library writes.
-const VERSION: u32 = 3;
+const VERSION: u32 = 4;
 
 /// The text that tells a model file from any other JSON.
 const FORMAT: &str = "grainform model";
@@ -24,7 +26,7 @@ const FORMAT: &str = "grainform model";
 const LARGEST_PARTITION: usize = 1024;
 
 /// The file: every number in the scan's unit and frame.
-#[derive(Serialize, Deserialize)]
+#[derive(Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct GrainFile {
     format: String,
@@ -61,6 +63,21 @@ struct GrainFile {
     /// Standard errors of the curvature in 864 cells of directions, where they are known.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     curvature_errors: Option<Vec<f64>>,
+    /// The position of points over the sphere, in place of all else.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    position: Option<PositionRecord>,
+}
+
+/// Cells, or the whole sphere: coefficients are x, y, z of the first function, of the second, and so on.
+#[derive(Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct PositionRecord {
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    cells: Option<Vec<CellRecord>>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    margin: Option<f64>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    harmonics: Option<Vec<f64>>,
 }
 
 /// A cell, numbered as in [`CubeCell`], and the coefficients of its cap basis by degree.
@@ -104,7 +121,7 @@ pub enum ModelError {
     /// No surface, or several.
     #[error(
         "the model is not sound: it must hold either `cells`, or `parts_per_angle` and `segments`, \
-         or `symmetry` and `coefficients`, or `harmonics`"
+         or `symmetry` and `coefficients`, or `harmonics`, or `position` with `cells` or `harmonics`"
     )]
     Surface,
     /// The errors of the curvature are none.
@@ -120,56 +137,109 @@ pub enum ModelError {
 
 /// The JSON text of a grain.
 pub fn grain_to_json(grain: &Grain) -> String {
-    let Kind::Star(grain) = grain.kind();
     let Frame { centre, axes } = grain.frame();
-    let stretch = grain.stretch();
     let mut file = GrainFile {
         format: FORMAT.into(),
         version: VERSION,
         centre: centre.coords.into(),
         axes: [0, 1, 2].map(|i| axes.column(i).into_owned().into()),
-        stretch: (!stretch.is_none()).then(|| (*stretch.factors()).into()),
-        cells: None,
-        margin: None,
-        parts_per_angle: None,
-        segments: None,
-        symmetry: None,
-        coefficients: None,
-        harmonics: None,
-        curvature_errors: grain.curvature_errors().map(|e| e.of_cells().to_vec()),
+        ..GrainFile::default()
     };
-    match grain.family() {
-        Family::Blended(surface) => {
-            let cells = surface.cover().cells().iter().zip(surface.coefficients());
-            let record = |(cell, coefficients): (&CubeCell, &Vec<f64>)| CellRecord {
-                face: cell.face,
-                parts: cell.parts,
-                row: cell.row,
-                column: cell.column,
-                coefficients: coefficients.clone(),
-            };
-            file.cells = Some(cells.map(record).collect());
-            let margin = surface.cover().margin();
-            file.margin = (margin != MARGIN).then_some(margin);
-        }
-        Family::Segmented(surface) => {
-            file.parts_per_angle = Some(surface.partition().per_angle());
-            file.segments = Some(surface.coefficients().to_vec());
-        }
-        Family::Mirrored(surface) => {
-            file.symmetry = Some(surface.symmetry());
-            file.coefficients = Some(surface.coefficients().to_vec());
-        }
-        Family::Whole(surface) => file.harmonics = Some(surface.coefficients().to_vec()),
+    match grain.kind() {
+        Kind::Star(grain) => file.put_star(grain),
+        Kind::Position(grain) => file.position = Some(PositionRecord::of(grain.position())),
     }
     serde_json::to_string_pretty(&file).expect("a record of numbers and strings is valid JSON")
+}
+
+impl GrainFile {
+    fn put_star(&mut self, grain: &StarGrain) {
+        let stretch = grain.stretch();
+        self.stretch = (!stretch.is_none()).then(|| (*stretch.factors()).into());
+        self.curvature_errors = grain.curvature_errors().map(|e| e.of_cells().to_vec());
+        match grain.family() {
+            Family::Blended(surface) => {
+                (self.cells, self.margin) = of_cover(surface.cover(), surface.coefficients());
+            }
+            Family::Segmented(surface) => {
+                self.parts_per_angle = Some(surface.partition().per_angle());
+                self.segments = Some(surface.coefficients().to_vec());
+            }
+            Family::Mirrored(surface) => {
+                self.symmetry = Some(surface.symmetry());
+                self.coefficients = Some(surface.coefficients().to_vec());
+            }
+            Family::Whole(surface) => self.harmonics = Some(surface.coefficients().to_vec()),
+        }
+    }
+}
+
+impl PositionRecord {
+    fn of(position: &Position) -> Self {
+        let mut record = Self::default();
+        match position.cover() {
+            Some(cover) => {
+                (record.cells, record.margin) = of_cover(cover, position.coefficients());
+            }
+            None => record.harmonics = Some(position.coefficients().concat()),
+        }
+        record
+    }
+
+    fn read(self) -> Result<Position, ModelError> {
+        match (self.cells, self.margin, self.harmonics) {
+            (Some(cells), margin, None) => {
+                let (cover, coefficients) = to_cover(cells, margin)?;
+                Ok(Position::blended(cover, coefficients)?)
+            }
+            (None, None, Some(harmonics)) => Ok(Position::whole(harmonics)?),
+            _ => Err(ModelError::Surface),
+        }
+    }
+}
+
+/// The records of cells, and their margin where it is not the usual one.
+fn of_cover(cover: &Cover, coefficients: &[Vec<f64>]) -> (Option<Vec<CellRecord>>, Option<f64>) {
+    let cells = cover.cells().iter().zip(coefficients);
+    let record = |(cell, coefficients): (&CubeCell, &Vec<f64>)| CellRecord {
+        face: cell.face,
+        parts: cell.parts,
+        row: cell.row,
+        column: cell.column,
+        coefficients: coefficients.clone(),
+    };
+    let margin = cover.margin();
+    (
+        Some(cells.map(record).collect()),
+        (margin != MARGIN).then_some(margin),
+    )
+}
+
+/// The cover of records of cells, and the coefficients of each.
+fn to_cover(
+    cells: Vec<CellRecord>,
+    margin: Option<f64>,
+) -> Result<(Cover, Vec<Vec<f64>>), CoverError> {
+    let place = |record: CellRecord| {
+        let cell = CubeCell {
+            face: record.face,
+            parts: record.parts,
+            row: record.row,
+            column: record.column,
+        };
+        (cell, record.coefficients)
+    };
+    let (cells, coefficients) = cells.into_iter().map(place).unzip();
+    let cover = Cover::with_margin(cells, margin.unwrap_or(MARGIN))?;
+    Ok((cover, coefficients))
 }
 
 /// The grain that a JSON text describes.
 ///
 /// # Errors
 /// [`ModelError`] if the text is not a model of a known version, or is not sound: among others, if its radius
-/// is not above zero everywhere, which is proved ([`StarGrain::least_radius`]).
+/// is not above zero everywhere, which is proved ([`StarGrain::least_radius`]), or its surface is folded
+/// ([`PositionGrain::check`]).
 pub fn grain_from_json(text: &str) -> Result<Grain, ModelError> {
     let file: GrainFile = serde_json::from_str(text)?;
     if file.format != FORMAT {
@@ -180,49 +250,48 @@ pub fn grain_from_json(text: &str) -> Result<Grain, ModelError> {
             found: file.version,
         });
     }
+    let frame = Frame {
+        centre: Point3::from(file.centre),
+        axes: Matrix3::from_columns(&file.axes.map(Vector3::from)),
+    };
+    let errors = file.curvature_errors;
+    let stretch = file.stretch;
+    let radius = (file.cells, file.margin);
     let independent = (file.parts_per_angle, file.segments);
     let mirrored = (file.symmetry, file.coefficients);
-    let cells = (file.cells, file.margin);
-    let surface = match (cells, independent, mirrored, file.harmonics) {
-        ((Some(cells), margin), (None, None), (None, None), None) => {
-            let place = |record: CellRecord| {
-                let cell = CubeCell {
-                    face: record.face,
-                    parts: record.parts,
-                    row: record.row,
-                    column: record.column,
-                };
-                (cell, record.coefficients)
-            };
-            let (cells, coefficients) = cells.into_iter().map(place).unzip();
-            let cover = Cover::with_margin(cells, margin.unwrap_or(MARGIN))?;
+    let family = match (radius, independent, mirrored, file.harmonics, file.position) {
+        ((None, None), (None, None), (None, None), None, Some(position))
+            if stretch.is_none() && errors.is_none() =>
+        {
+            let grain = PositionGrain::new(frame, position.read()?)?;
+            grain.check()?;
+            return Ok(grain.into());
+        }
+        ((Some(cells), margin), (None, None), (None, None), None, None) => {
+            let (cover, coefficients) = to_cover(cells, margin)?;
             Family::Blended(Blended::new(cover, coefficients)?)
         }
-        ((None, None), (Some(found), Some(segments)), (None, None), None) => {
+        ((None, None), (Some(found), Some(segments)), (None, None), None, None) => {
             if found > LARGEST_PARTITION {
                 return Err(ModelError::Partition { found });
             }
             Family::Segmented(Segmented::new(AngularPartition::new(found), segments)?)
         }
-        ((None, None), (None, None), (Some(symmetry), Some(coefficients)), None) => {
+        ((None, None), (None, None), (Some(symmetry), Some(coefficients)), None, None) => {
             Family::Mirrored(Mirrored::new(symmetry, coefficients)?)
         }
-        ((None, None), (None, None), (None, None), Some(harmonics)) => {
+        ((None, None), (None, None), (None, None), Some(harmonics), None) => {
             Family::Whole(Whole::new(harmonics)?)
         }
         _ => return Err(ModelError::Surface),
     };
-    let frame = Frame {
-        centre: Point3::from(file.centre),
-        axes: Matrix3::from_columns(&file.axes.map(Vector3::from)),
-    };
-    let stretch = match file.stretch {
+    let stretch = match stretch {
         Some(factors) => Stretch::new(factors.into())?,
         None => Stretch::NONE,
     };
-    let grain = StarGrain::stretched(frame, stretch, surface)?;
+    let grain = StarGrain::stretched(frame, stretch, family)?;
     grain.least_radius()?;
-    match file.curvature_errors {
+    match errors {
         Some(errors) => {
             let errors = CurvatureErrors::new(errors).ok_or(ModelError::CurvatureErrors)?;
             Ok(grain.with_curvature_errors(errors).into())

@@ -1,6 +1,6 @@
 //! The fitted grain, of whichever kind.
 
-use super::{Frame, Node, StarGrain, Surface, SurfaceElement, SurfaceJet, Tiling};
+use super::{Frame, Node, PositionGrain, StarGrain, Surface, SurfaceElement, SurfaceJet, Tiling};
 use crate::mesh::Mesh;
 use crate::sphere::Symmetry;
 use nalgebra::{Matrix3, Vector3};
@@ -15,6 +15,7 @@ pub struct Grain(Kind);
 #[derive(Debug, Clone)]
 pub(super) enum Kind {
     Star(StarGrain),
+    Position(PositionGrain),
 }
 
 impl Grain {
@@ -22,6 +23,15 @@ impl Grain {
     pub fn star(&self) -> Option<&StarGrain> {
         match &self.0 {
             Kind::Star(grain) => Some(grain),
+            Kind::Position(_) => None,
+        }
+    }
+
+    /// The grain as one whose points are given over the sphere, if it is fitted as one.
+    pub fn position(&self) -> Option<&PositionGrain> {
+        match &self.0 {
+            Kind::Position(grain) => Some(grain),
+            Kind::Star(_) => None,
         }
     }
 
@@ -32,6 +42,7 @@ impl Grain {
     fn surface(&self) -> &(dyn Surface + Sync) {
         match &self.0 {
             Kind::Star(grain) => grain,
+            Kind::Position(grain) => grain,
         }
     }
 
@@ -39,6 +50,7 @@ impl Grain {
     pub(crate) fn about_origin(&self, factor: f64) -> Self {
         Self(match &self.0 {
             Kind::Star(grain) => Kind::Star(grain.about_origin(factor)),
+            Kind::Position(grain) => Kind::Position(grain.about_origin(factor)),
         })
     }
 
@@ -46,6 +58,7 @@ impl Grain {
     pub fn degree(&self) -> usize {
         match &self.0 {
             Kind::Star(grain) => grain.degree(),
+            Kind::Position(grain) => grain.position().degree(),
         }
     }
 
@@ -58,6 +71,7 @@ impl Grain {
     pub fn coefficient_count(&self) -> usize {
         match &self.0 {
             Kind::Star(grain) => grain.coefficient_count(),
+            Kind::Position(grain) => grain.position().coefficient_count(),
         }
     }
 
@@ -65,6 +79,7 @@ impl Grain {
     pub fn coefficients_touched(&self) -> f64 {
         match &self.0 {
             Kind::Star(grain) => grain.coefficients_touched(),
+            Kind::Position(grain) => grain.position().coefficients_touched(),
         }
     }
 
@@ -77,6 +92,12 @@ impl Grain {
 impl From<StarGrain> for Grain {
     fn from(grain: StarGrain) -> Self {
         Self(Kind::Star(grain))
+    }
+}
+
+impl From<PositionGrain> for Grain {
+    fn from(grain: PositionGrain) -> Self {
+        Self(Kind::Position(grain))
     }
 }
 

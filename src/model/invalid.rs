@@ -59,6 +59,15 @@ pub enum InvalidGrain {
         /// The least radius met.
         found: f64,
     },
+    /// A surface turns over: its normal there does not point outside.
+    #[error("the surface is folded in the direction {direction:.3?}")]
+    Folded {
+        /// The direction n, in the scan's frame.
+        direction: [f64; 3],
+    },
+    /// A surface runs round the sphere of directions the wrong way.
+    #[error("the surface is inside out: it encloses no volume")]
+    InsideOut,
     /// Radii beyond 1e100, or below its inverse.
     #[error("radii are beyond 1e100 or below 1e-100: change the unit")]
     OutOfRange,

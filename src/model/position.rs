@@ -100,6 +100,14 @@ impl Position {
         self.coefficients().iter().map(Vec::len).sum()
     }
 
+    /// The number of coefficients that one evaluation touches, as a mean over all directions.
+    pub fn coefficients_touched(&self) -> f64 {
+        match &self.chart {
+            Chart::Whole(_, coefficients) => coefficients.len() as f64,
+            Chart::Cells(blend) => blend.coefficients_touched(),
+        }
+    }
+
     /// The largest degree of any cell.
     pub fn degree(&self) -> usize {
         let most = self.coefficients().iter().map(Vec::len).max().unwrap_or(0);

@@ -16,6 +16,7 @@ mod partition;
 mod quadrature;
 mod ring_grid;
 mod symmetry;
+mod tangents;
 mod transform;
 mod triangulation;
 
@@ -35,5 +36,6 @@ pub(crate) use partition::{azimuth_fraction, polar_fraction};
 pub use quadrature::GaussLegendre;
 pub(crate) use ring_grid::RingGrid;
 pub use symmetry::{Symmetry, SymmetryError};
+pub(crate) use tangents::tangents;
 pub(crate) use transform::ScatteredHarmonics;
 pub use triangulation::{TriangulationError, triangulate_directions};

@@ -5,6 +5,7 @@ mod derivatives;
 mod files;
 mod grains;
 mod integrals;
+mod positions;
 mod seams;
 mod stretched;
 mod whole;

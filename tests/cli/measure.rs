@@ -93,6 +93,54 @@ fn a_model_of_the_whole_sphere_is_measured_meshed_and_touched() {
     }
 }
 
+/// The same ellipsoid by the position of its points: x, y and z of the harmonics of degree 0 and of y, z and x.
+#[test]
+fn a_model_without_a_radius_is_measured_meshed_and_touched() {
+    let folder = folder();
+    let unit = (4.0 * PI / 3.0).sqrt();
+    let (x, y, z) = (unit, 2.0 * unit, 4.0 * unit);
+    let model = serde_json::json!({
+        "format": "grainform model",
+        "version": 4,
+        "centre": [10.0, 0.0, -5.0],
+        "axes": [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+        "position": {"harmonics": [0.0, 0.0, 0.0, 0.0, y, 0.0, 0.0, 0.0, z, x, 0.0, 0.0]},
+    });
+    std::fs::write(folder.path().join("m.json"), model.to_string()).unwrap();
+    let report = json(&folder, &["measure", "m.json"]);
+    assert_eq!(report["not_measured"], serde_json::json!([]));
+    let volume = 4.0 / 3.0 * PI * 8.0;
+    assert!((number(&report, "volume") / volume - 1.0).abs() < 1e-12);
+    assert!((number(&report["dimensions"], "length") - 8.0).abs() < 1e-9);
+    let scheme = [
+        "measure",
+        "m.json",
+        "--scheme",
+        "four-triangles",
+        "--only",
+        "volume",
+    ];
+    let report = json(&folder, &scheme);
+    assert!(report["volume"].is_null());
+    let reason = report["not_measured"][0]["reason"].as_str().unwrap();
+    assert!(reason.contains("made from radii"), "{reason}");
+
+    succeed(&folder, &["mesh", "m.json", "-o", "m.stl"]);
+    let report = json(&folder, &["measure", "m.stl"]);
+    assert!((number(&report, "volume") / volume - 1.0).abs() < 2e-3);
+
+    let words =
+        "contact m.json --towards 0,0,1 --unit mm --youngs-modulus-mpa 91 --indentation-um 10";
+    let contact: Vec<&str> = words.split(' ').collect();
+    let report = json(&folder, &contact);
+    let point = &report["first"]["point"];
+    assert!((point[2].as_f64().unwrap() + 1.0).abs() < 1e-9, "{point}");
+    for (i, curvature) in [4.0, 1.0].into_iter().enumerate() {
+        let found = report["first"]["principal_curvatures"][i].as_f64().unwrap();
+        assert!((found / curvature - 1.0).abs() < 1e-6, "{found}");
+    }
+}
+
 /// A brick of 10 x 4 x 1, standing askew.
 #[test]
 fn ratios_of_the_source_and_of_others_are_told_under_their_names() {

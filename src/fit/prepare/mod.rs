@@ -12,6 +12,7 @@ mod strays;
 mod surface;
 mod thin;
 
+pub(crate) use axes::principal_axes;
 pub use largest::largest_body;
 pub use reference::{Reference, ReferenceKind};
 pub(crate) use samples::{CellGrid, Sample, Samples};
@@ -25,7 +26,6 @@ use crate::mesh::Mesh;
 use crate::model::Frame;
 use crate::scan::Scan;
 use crate::sphere::Symmetry;
-use axes::principal_axes;
 use centre::{deepest_centre, facing_away_share};
 use facets::on_large_faces;
 use nalgebra::{Matrix3, Point3, Vector3};

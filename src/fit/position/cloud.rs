@@ -1,0 +1,324 @@
+//! What a surface is fitted to: places of a mesh, each with its direction on the sphere.
+
+use super::map::is_upright;
+use crate::mesh::Mesh;
+use crate::model::{Position, area_normal};
+use crate::sphere::tangents;
+use nalgebra::{Matrix3, Vector3};
+use std::f64::consts::PI;
+
+/// Share of the weight that goes with solid angle on the sphere, the rest with area: where the map has left much of
+/// the sphere to little surface, functions still need points.
+const SPHERE_SHARE: f64 = 0.2;
+
+/// Longest step of a direction to its foot point, in radians.
+const LONGEST_STEP: f64 = 0.05;
+
+/// Relative damping of the step.
+const DAMPING: f64 = 1e-3;
+
+/// Halvings of the steps of directions whose triangles would turn over, before they stay.
+const HALVINGS: usize = 12;
+
+/// One vertex in so many is held out.
+const HELD_OUT: usize = 8;
+
+/// Samples of a mesh: its vertices first, then places inside large triangles.
+pub(super) struct Cloud<'a> {
+    mesh: &'a Mesh,
+    /// Places of the vertices on the sphere from which fits start.
+    map: Vec<Vector3<f64>>,
+    pub(super) points: Vec<Vector3<f64>>,
+    /// Unit normals of the scan, outward.
+    pub(super) normals: Vec<Vector3<f64>>,
+    pub(super) directions: Vec<Vector3<f64>>,
+    /// They add up to 1.
+    pub(super) weights: Vec<f64>,
+    /// Places inside triangles: the triangle.
+    inside: Vec<Inside>,
+    /// Every so many of the vertices, in order of height on the sphere.
+    pub(super) is_held_out: Vec<bool>,
+}
+
+/// A place inside a triangle.
+struct Inside {
+    triangle: usize,
+    barycentric: [f64; 3],
+}
+
+/// How far a surface is from the samples.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Distances {
+    /// Weighted by area and solid angle as the fit is.
+    pub(super) rms: f64,
+    pub(super) max: f64,
+}
+
+impl<'a> Cloud<'a> {
+    /// The vertices of a closed mesh, with their places on the sphere.
+    pub(super) fn new(mesh: &'a Mesh, map: Vec<Vector3<f64>>) -> Self {
+        let mut normals = vec![Vector3::zeros(); mesh.vertices.len()];
+        for corners in &mesh.triangles {
+            let [a, b, c] = corners.map(|corner| mesh.vertices[corner as usize]);
+            let normal = (b - a).cross(&(c - a));
+            for &corner in corners {
+                normals[corner as usize] += normal;
+            }
+        }
+        let mut order: Vec<usize> = (0..map.len()).collect();
+        order.sort_by(|&one, &other| map[one].z.total_cmp(&map[other].z));
+        let mut is_held_out = vec![false; map.len()];
+        for &vertex in order.iter().skip(HELD_OUT / 2).step_by(HELD_OUT) {
+            is_held_out[vertex] = true;
+        }
+        let unit = |normal: Vector3<f64>| normal.try_normalize(0.0).unwrap_or_default();
+        let mut cloud = Self {
+            points: mesh.vertices.iter().map(|vertex| vertex.coords).collect(),
+            normals: normals.into_iter().map(unit).collect(),
+            weights: Vec::new(),
+            inside: Vec::new(),
+            mesh,
+            directions: map.clone(),
+            map,
+            is_held_out,
+        };
+        cloud.weigh();
+        cloud
+    }
+
+    fn vertices(&self) -> usize {
+        self.mesh.vertices.len()
+    }
+
+    fn images(&self, triangle: usize) -> [Vector3<f64>; 3] {
+        self.mesh.triangles[triangle].map(|corner| self.directions[corner as usize])
+    }
+
+    /// Starts anew from the map: the vertices, and places inside triangles that are large on the sphere, until there is
+    /// one per `solid_angle`.
+    pub(super) fn restart(&mut self, solid_angle: impl Fn(&Vector3<f64>) -> f64) {
+        let vertices = self.vertices();
+        self.inside.clear();
+        self.points.truncate(vertices);
+        self.normals.truncate(vertices);
+        self.directions.clone_from(&self.map);
+        for triangle in 0..self.mesh.triangles.len() {
+            let [a, b, c] = self.images(triangle);
+            let middle = (a + b + c).normalize();
+            let parts = (spherical_area([a, b, c]) / solid_angle(&middle))
+                .sqrt()
+                .ceil();
+            let parts = (parts as usize).min(MOST_PARTS);
+            if parts < 2 {
+                continue;
+            }
+            let corners = self.mesh.triangles[triangle];
+            let [p, q, r] = corners.map(|corner| self.mesh.vertices[corner as usize].coords);
+            let Some(normal) = (q - p).cross(&(r - p)).try_normalize(0.0) else {
+                continue;
+            };
+            for barycentric in middles(parts) {
+                let [s, t, u] = barycentric;
+                self.points.push(p * s + q * t + r * u);
+                self.normals.push(normal);
+                self.directions.push((a * s + b * t + c * u).normalize());
+                self.inside.push(Inside {
+                    triangle,
+                    barycentric,
+                });
+            }
+        }
+        self.is_held_out.truncate(vertices);
+        self.is_held_out.resize(self.points.len(), false);
+        self.weigh();
+    }
+
+    /// Weights by area and by solid angle: of a triangle with places inside half a place goes to its corners.
+    fn weigh(&mut self) {
+        let mut inside = vec![0_usize; self.mesh.triangles.len()];
+        for place in &self.inside {
+            inside[place.triangle] += 1;
+        }
+        let areas: Vec<f64> = self
+            .mesh
+            .triangles
+            .iter()
+            .map(|corners| {
+                let [a, b, c] = corners.map(|corner| self.mesh.vertices[corner as usize]);
+                (b - a).cross(&(c - a)).norm()
+            })
+            .collect();
+        let area: f64 = areas.iter().sum();
+        let share = |triangle: usize| {
+            let solid_angle = spherical_area(self.images(triangle)) / (4.0 * PI);
+            (1.0 - SPHERE_SHARE) * areas[triangle] / area + SPHERE_SHARE * solid_angle
+        };
+        let mut weights = vec![0.0; self.points.len()];
+        for (triangle, corners) in self.mesh.triangles.iter().enumerate() {
+            let at_corners = match inside[triangle] {
+                0 => 1.0,
+                count => 0.5 / (count as f64 + 0.5),
+            };
+            for &corner in corners {
+                weights[corner as usize] += share(triangle) * at_corners / 3.0;
+            }
+        }
+        for (place, weight) in self.inside.iter().zip(&mut weights[self.vertices()..]) {
+            *weight = share(place.triangle) / (inside[place.triangle] as f64 + 0.5);
+        }
+        self.weights = weights;
+    }
+
+    /// Moves every direction towards the foot point of its sample on a surface, by a step of Gauss and Newton; steps
+    /// by which a triangle would turn over are halved.
+    pub(super) fn project(&mut self, surface: &Position) {
+        let found = surface.points_and_tangents(&self.directions);
+        let steps: Vec<Vector3<f64>> = found
+            .iter()
+            .enumerate()
+            .map(|(at, (point, slopes))| {
+                foot_step(&self.directions[at], &(self.points[at] - point), slopes)
+            })
+            .collect();
+        let vertices = self.vertices();
+        let before = self.directions.clone();
+        let moved = |at: usize, factor: f64| (before[at] + steps[at] * factor).normalize();
+        for at in 0..vertices {
+            self.directions[at] = moved(at, 1.0);
+        }
+        let mut factors = vec![1.0; vertices];
+        for halving in 0.. {
+            let mut is_held = vec![false; vertices];
+            for triangle in 0..self.mesh.triangles.len() {
+                if !is_upright(self.images(triangle)) {
+                    for corner in self.mesh.triangles[triangle] {
+                        is_held[corner as usize] = true;
+                    }
+                }
+            }
+            let mut is_done = true;
+            for at in 0..vertices {
+                if !is_held[at] || factors[at] == 0.0 {
+                    continue;
+                }
+                factors[at] = match halving < HALVINGS {
+                    true => 0.5 * factors[at],
+                    false => 0.0,
+                };
+                self.directions[at] = match factors[at] {
+                    0.0 => before[at],
+                    factor => moved(at, factor),
+                };
+                is_done = false;
+            }
+            if is_done {
+                break;
+            }
+        }
+        for at in vertices..self.points.len() {
+            let place = &self.inside[at - vertices];
+            let [a, b, c] = self.images(place.triangle);
+            let [s, t, u] = place.barycentric;
+            let between = (a * s + b * t + c * u).normalize();
+            let (point, slopes) = surface.point_and_tangents(&between);
+            let step = foot_step(&between, &(self.points[at] - point), &slopes);
+            self.directions[at] = (between + step).normalize();
+        }
+        self.weigh();
+    }
+
+    /// Goes back to directions that the samples have had.
+    pub(super) fn turn_back(&mut self, directions: &[Vector3<f64>]) {
+        self.directions.copy_from_slice(directions);
+        self.weigh();
+    }
+
+    /// Distances of the samples from the surface, those asked for, taken after one more step to each foot point.
+    pub(super) fn distances(
+        &self,
+        surface: &Position,
+        is_asked: impl Fn(usize) -> bool,
+    ) -> (Distances, Vec<f64>) {
+        let found = surface.points_and_tangents(&self.directions);
+        let nearer: Vec<Vector3<f64>> = found
+            .iter()
+            .enumerate()
+            .map(|(at, (point, slopes))| {
+                let n = &self.directions[at];
+                (n + foot_step(n, &(self.points[at] - point), slopes)).normalize()
+            })
+            .collect();
+        let feet = surface.points_and_tangents(&nearer);
+        let squares: Vec<f64> = (0..self.points.len())
+            .map(|at| {
+                let squared = |point: &Vector3<f64>| (self.points[at] - point).norm_squared();
+                squared(&found[at].0).min(squared(&feet[at].0))
+            })
+            .collect();
+        let (mut sum, mut weight, mut max) = (0.0, 0.0, 0.0_f64);
+        for at in (0..squares.len()).filter(|&at| is_asked(at)) {
+            sum += self.weights[at] * squares[at];
+            weight += self.weights[at];
+            max = max.max(squares[at]);
+        }
+        let distances = Distances {
+            rms: (sum / weight).sqrt(),
+            max: max.sqrt(),
+        };
+        (distances, squares)
+    }
+
+    /// Samples at which the surface is turned inside out.
+    pub(super) fn turned_over(&self, surface: &Position) -> usize {
+        let found = surface.points_and_tangents(&self.directions);
+        let samples = found.iter().zip(&self.directions).zip(&self.normals);
+        samples
+            .filter(|(((_, slopes), n), normal)| area_normal(n, slopes).dot(normal) < 0.0)
+            .count()
+    }
+}
+
+/// Most parts per edge in which a triangle is cut.
+const MOST_PARTS: usize = 32;
+
+/// Barycentric coordinates of the middles of the parts when every edge is cut in so many.
+fn middles(parts: usize) -> Vec<[f64; 3]> {
+    let mut found = Vec::with_capacity(parts * parts);
+    for i in 0..parts {
+        for j in 0..parts - i {
+            let thirds: [&[usize]; 2] = [&[1], &[1, 2]];
+            for &third in thirds[usize::from(i + j + 1 < parts)] {
+                let place = |at: usize| (at as f64 + third as f64 / 3.0) / parts as f64;
+                let (s, t) = (place(i), place(j));
+                found.push([s, t, 1.0 - s - t]);
+            }
+        }
+    }
+    found
+}
+
+/// The step of a direction that brings the surface's point nearest, to first order.
+fn foot_step(n: &Vector3<f64>, lacking: &Vector3<f64>, slopes: &Matrix3<f64>) -> Vector3<f64> {
+    let [a, b] = tangents(n);
+    let (along_a, along_b) = (slopes * a, slopes * b);
+    let (aa, ab, bb) = (
+        along_a.norm_squared(),
+        along_a.dot(&along_b),
+        along_b.norm_squared(),
+    );
+    let damping = DAMPING * (aa + bb);
+    let (aa, bb) = (aa + damping, bb + damping);
+    let (ga, gb) = (along_a.dot(lacking), along_b.dot(lacking));
+    let step = (a * (bb * ga - ab * gb) + b * (aa * gb - ab * ga)) / (aa * bb - ab * ab);
+    match step.norm() {
+        length if length > LONGEST_STEP => step * (LONGEST_STEP / length),
+        length if length.is_finite() => step,
+        _ => Vector3::zeros(),
+    }
+}
+
+/// Solid angle of a triangle on the sphere.
+fn spherical_area([a, b, c]: [Vector3<f64>; 3]) -> f64 {
+    let volume = a.dot(&(b - a).cross(&(c - a)));
+    2.0 * volume.atan2(1.0 + a.dot(&b) + b.dot(&c) + c.dot(&a))
+}

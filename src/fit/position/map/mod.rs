@@ -1,0 +1,199 @@
+//! A place on the unit sphere for every vertex of a closed mesh, so that no triangle turns over.
+//!
+//! The mesh is simplified to a tetrahedron by collapses of edges, and built up again on the sphere: each vertex that
+//! comes back is put into the kernel of its ring, which is never empty, for the vertex it went to sees all of the
+//! ring (Praun and Hoppe 2003; Hu, Fu and Liu 2017). So the map is one to one by construction; nothing is solved for
+//! all vertices at once. On the way and at the end vertices move to lessen a [distortion](rest) that leans to equal
+//! areas. What comes out is checked, with exact signs.
+
+mod grow;
+mod half_edges;
+mod rest;
+mod simplify;
+mod star;
+
+use crate::fit::context::{Cancelled, Context};
+use crate::mesh::{Mesh, MeshDefect};
+use grow::{Sweeps, grow};
+use half_edges::HalfEdges;
+use nalgebra::{Matrix3, Point3, Vector3};
+use robust::Coord3D;
+use simplify::simplify;
+use std::f64::consts::PI;
+
+/// Why a mesh has no map to the sphere.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum MapError {
+    /// The triangles are not a closed, consistently wound manifold.
+    #[error("the faces do not close: {0}")]
+    NotClosed(#[from] MeshDefect),
+    /// A vertex belongs to no triangle.
+    #[error("vertex {vertex} belongs to no face")]
+    UnusedVertex {
+        /// Index of the vertex.
+        vertex: u32,
+    },
+    /// Sheets of the surface touch in a vertex.
+    #[error("the surface touches itself in vertex {vertex}, which belongs to several sheets of it")]
+    PinchedVertex {
+        /// Index of the vertex.
+        vertex: u32,
+    },
+    /// There are several surfaces.
+    #[error("the faces are {bodies} separate surfaces, and one grain has one")]
+    SeveralBodies {
+        /// Number of surfaces.
+        bodies: usize,
+    },
+    /// The surface has handles.
+    #[error(
+        "the surface is not that of a ball but has {genus} handles (its genus), as a ring has one: fill them, for no \
+         surface over the sphere has any"
+    )]
+    Handles {
+        /// Their number.
+        genus: usize,
+    },
+    /// There are fewer than four vertices, or two coordinates of a vertex are not finite.
+    #[error(
+        "the faces enclose no body: at least four vertices with finite coordinates, not all in one place, do"
+    )]
+    NoBody,
+    /// Faces are so thin or small that rounding leaves no place for a vertex.
+    #[error(
+        "numbers leave vertex {vertex} no place on the sphere: the faces round it are too thin; weld vertices that are \
+         too close, or mesh the surface anew"
+    )]
+    NoKernel {
+        /// Index of the vertex.
+        vertex: u32,
+    },
+    /// The map found does not pass its check.
+    #[error(
+        "{flips} faces turn over on the sphere, which is covered {degree} times: weld vertices that are too close, or \
+         mesh the surface anew"
+    )]
+    NotOneToOne {
+        /// Triangles whose images have the other orientation.
+        flips: usize,
+        /// Sum of the solid angles over 4 pi.
+        degree: f64,
+    },
+    /// The work was asked to stop.
+    #[error("the fit was cancelled")]
+    Cancelled,
+}
+
+impl From<Cancelled> for MapError {
+    fn from(_: Cancelled) -> Self {
+        Self::Cancelled
+    }
+}
+
+/// Sweeps of meshes up to [`LARGE`].
+const THOROUGH: Sweeps = Sweeps {
+    on_the_way: 5,
+    at_the_end: 20,
+};
+
+/// Most the degree of a map may be off 1.
+const DEGREE_ERROR: f64 = 1e-9;
+
+/// A unit vector for every vertex of a mesh: a map of its triangles onto the sphere that is one to one and keeps their
+/// orientation. It is turned so that the vector at a point is the point's own direction as nearly as can be.
+///
+/// # Errors
+/// [`MapError`] if the mesh is not one closed surface of the topology of a sphere, if numbers do not resolve its faces,
+/// or if the work is cancelled.
+pub(crate) fn spherical_map(
+    mesh: &Mesh,
+    context: &Context<'_>,
+) -> Result<Vec<Vector3<f64>>, MapError> {
+    let mut half_edges = HalfEdges::new(mesh)?;
+    let points = scaled(&mesh.vertices).ok_or(MapError::NoBody)?;
+    let removed = simplify(&mut half_edges, &points, context)?;
+    let mut places = grow(&mut half_edges, &points, &removed, &THOROUGH, context)?;
+    turn(&mut places, mesh, &points);
+    certify(mesh, &places)?;
+    Ok(places)
+}
+
+/// The vertices of a mesh, moved and scaled to a box whose diagonal is 1.
+fn scaled(vertices: &[Point3<f64>]) -> Option<Vec<Vector3<f64>>> {
+    let (mut low, mut high) = (
+        Vector3::repeat(f64::INFINITY),
+        Vector3::repeat(f64::NEG_INFINITY),
+    );
+    for vertex in vertices {
+        (low, high) = (low.inf(&vertex.coords), high.sup(&vertex.coords));
+    }
+    let diagonal = (high - low).norm();
+    let middle = (low + high) * 0.5;
+    let points: Vec<_> = vertices
+        .iter()
+        .map(|v| (v.coords - middle) / diagonal)
+        .collect();
+    let are_finite = points.iter().flatten().all(|x| x.is_finite());
+    (are_finite && diagonal > 0.0).then_some(points)
+}
+
+/// Turns places to the points they belong to: the mean over the surface of their scalar products, with points taken
+/// from their centroid, becomes largest (Procrustes).
+fn turn(places: &mut [Vector3<f64>], mesh: &Mesh, points: &[Vector3<f64>]) {
+    let mut shares = vec![0.0; points.len()];
+    for corners in &mesh.triangles {
+        let [a, b, c] = corners.map(|corner| points[corner as usize]);
+        let area = (b - a).cross(&(c - a)).norm();
+        for &corner in corners {
+            shares[corner as usize] += area;
+        }
+    }
+    let weighted = points.iter().zip(&shares);
+    let centroid =
+        weighted.map(|(x, share)| x * *share).sum::<Vector3<f64>>() / shares.iter().sum::<f64>();
+    let mut together = Matrix3::<f64>::zeros();
+    for ((place, x), share) in places.iter().zip(points).zip(&shares) {
+        together += (x - centroid) * place.transpose() * *share;
+    }
+    let svd = together.svd(true, true);
+    if let (Some(u), Some(v)) = (svd.u, svd.v_t) {
+        let side: f64 = (u * v).determinant();
+        let turn = u * Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, side.signum())) * v;
+        for place in places {
+            *place = (turn * *place).normalize();
+        }
+    }
+}
+
+/// Checks that no triangle turns over, and that together they cover the sphere once.
+fn certify(mesh: &Mesh, places: &[Vector3<f64>]) -> Result<(), MapError> {
+    let (mut flips, mut solid_angle) = (0, 0.0);
+    for corners in &mesh.triangles {
+        let [a, b, c] = corners.map(|corner| places[corner as usize]);
+        if !is_upright([a, b, c]) {
+            flips += 1;
+        }
+        let volume = a.dot(&(b - a).cross(&(c - a)));
+        solid_angle += 2.0 * volume.atan2(1.0 + a.dot(&b) + b.dot(&c) + c.dot(&a));
+    }
+    let degree = solid_angle / (4.0 * PI);
+    match flips == 0 && (degree - 1.0).abs() < DEGREE_ERROR {
+        true => Ok(()),
+        false => Err(MapError::NotOneToOne { flips, degree }),
+    }
+}
+
+/// Whether a triangle on the sphere is seen counter-clockwise from outside; exact.
+pub(super) fn is_upright([a, b, c]: [Vector3<f64>; 3]) -> bool {
+    let coordinates = |v: Vector3<f64>| Coord3D {
+        x: v.x,
+        y: v.y,
+        z: v.z,
+    };
+    let [a, b, c, centre] = [a, b, c, Vector3::zeros()].map(coordinates);
+    robust::orient3d(a, b, c, centre) > 0.0
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,158 @@
+//! The position of a surface's points over the sphere, fitted to the faces of a scan: for surfaces that no centre
+//! sees, and for those with steep sides.
+//!
+//! The faces are [mapped](map) to the sphere, one to one. Then coordinates are fitted as functions on the sphere, in
+//! [rounds](rounds) that also move the directions; cells are [split](search) where the distance asks for it.
+
+mod cloud;
+mod crossing;
+mod functions;
+mod least_squares;
+pub(crate) mod map;
+mod rounds;
+mod search;
+
+use super::context::Context;
+use super::error::FitError;
+use super::options::{FitOptions, Tolerance};
+use super::prepare::{Reference, ReferenceKind, principal_axes, scanned_surface};
+use super::warning::FitWarning;
+use crate::measure::{Unit, mesh_properties};
+use crate::mesh::Mesh;
+use crate::model::{Frame, Position};
+use crate::scan::Scan;
+use cloud::Cloud;
+use map::spherical_map;
+use nalgebra::Point3;
+use search::search;
+use std::f64::consts::PI;
+
+/// A fitted surface, and what is known of it.
+#[derive(Debug, Clone)]
+pub struct PositionFit {
+    /// The centroid of the scan and its principal axes.
+    pub frame: Frame,
+    /// In that frame.
+    pub surface: Position,
+    /// Area and volume of the scan's faces.
+    pub reference: Reference,
+    /// Radius of the ball of equal volume.
+    pub radius: f64,
+    /// Points fitted, those inside large faces too.
+    pub samples: usize,
+    /// Distances of the samples from the surface, weighted 80 % by area and 20 % by solid angle on the sphere.
+    pub distance: Distance,
+    /// The same at vertices that a fit of the same functions has not used.
+    pub held_out: Distance,
+    /// Weight of the roughness beside the mean squared distance, both in units of the radius.
+    pub roughness: f64,
+    /// Samples at which the surface is turned over.
+    pub turned_over: usize,
+    /// Pairs of triangles of the surface's mesh that cross.
+    pub crossings: usize,
+    /// What a user should know of the scan.
+    pub warnings: Vec<FitWarning>,
+}
+
+/// Distances in the scan's unit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Distance {
+    /// Root of the weighted mean square.
+    pub rms: f64,
+    pub max: f64,
+}
+
+/// Fits positions over the sphere to the faces of a scan. Of the options, `segments`, `degree`, `max_segments` and
+/// `tolerance` count; the tolerance is one of held-out distance, relative to the radius of the ball of equal volume.
+///
+/// # Errors
+/// [`FitError`] if the scan has no closed faces, if they have no map to the sphere, if they do not determine a surface,
+/// or if the fit is cancelled.
+pub fn fit_position(
+    scan: &Scan,
+    options: &FitOptions,
+    context: &Context<'_>,
+) -> Result<PositionFit, FitError> {
+    let surface = scanned_surface(scan)?;
+    if surface.kind != ReferenceKind::Faces {
+        return Err(FitError::NoFaces);
+    }
+    let mesh = compact(&surface.mesh);
+    let points = mesh.vertices.len();
+    let unit = Unit::of(&mesh);
+    let at_unit = unit.mesh(&mesh);
+    let properties = mesh_properties(&at_unit).map_err(|_| FitError::NoVolume { points })?;
+    if properties.volume.is_nan() || properties.volume <= 0.0 {
+        return Err(FitError::NoVolume { points });
+    }
+    let size = (3.0 * properties.volume / (4.0 * PI)).cbrt();
+    let at_unit_frame = Frame {
+        centre: properties.centroid,
+        axes: principal_axes(&at_unit, &properties),
+    };
+    let place = |point: &Point3<f64>| Point3::from(at_unit_frame.to_local(point) / size);
+    let local = Mesh {
+        vertices: at_unit.vertices.iter().map(place).collect(),
+        triangles: at_unit.triangles,
+    };
+    let radius = size * unit.length;
+    let limit = match options.tolerance {
+        Tolerance::Length(length) => length / radius,
+        tolerance => tolerance.length(1.0),
+    };
+    let directions = spherical_map(&local, context)?;
+    let mut cloud = Cloud::new(&local, directions);
+    let found = context.run(|| search(&mut cloud, options, limit, context))?;
+    let fitted = found.ok_or(FitError::NoEstimate)?;
+    let distance = |found: cloud::Distances| Distance {
+        rms: found.rms * radius,
+        max: found.max * radius,
+    };
+    let [turned_over, crossings] = fitted.faults;
+    Ok(PositionFit {
+        frame: Frame {
+            centre: unit.point(&at_unit_frame.centre),
+            ..at_unit_frame
+        },
+        surface: fitted.surface.times(radius),
+        reference: Reference {
+            kind: surface.kind,
+            area: unit.area(properties.area),
+            volume: unit.volume(properties.volume),
+        },
+        radius,
+        samples: cloud.points.len(),
+        distance: distance(fitted.distances),
+        held_out: distance(fitted.held_out),
+        roughness: fitted.roughness,
+        turned_over,
+        crossings,
+        warnings: surface.warnings,
+    })
+}
+
+/// The mesh without the vertices that no triangle names.
+fn compact(mesh: &Mesh) -> Mesh {
+    let mut is_used = vec![false; mesh.vertices.len()];
+    for &corner in mesh.triangles.as_flattened() {
+        is_used[corner as usize] = true;
+    }
+    let mut vertices = Vec::with_capacity(mesh.vertices.len());
+    let mut numbers = vec![0; mesh.vertices.len()];
+    for (at, vertex) in mesh
+        .vertices
+        .iter()
+        .enumerate()
+        .filter(|(at, _)| is_used[*at])
+    {
+        numbers[at] = vertices.len() as u32;
+        vertices.push(*vertex);
+    }
+    let triangles = mesh.triangles.iter();
+    Mesh {
+        triangles: triangles
+            .map(|t| t.map(|corner| numbers[corner as usize]))
+            .collect(),
+        vertices,
+    }
+}

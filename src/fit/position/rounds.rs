@@ -1,0 +1,196 @@
+//! Foot points and normal distances, in turns, on given functions.
+//!
+//! A map of the mesh says which point belongs to which direction, but not so that few functions tell the surface.
+//! Each round moves the directions to the foot points of their samples, and then fits what is left along the
+//! normals, for across them a point may slide (Wang, Pottmann and Liu 2006). A penalty on roughness keeps thin parts
+//! from folding; its weight is the one with which samples that are held out are met best.
+
+use super::cloud::{Cloud, Distances};
+use super::crossing::crossings;
+use super::functions::{Functions, Rows};
+use super::least_squares::{Equations, Term, solve};
+use crate::fit::context::{Cancelled, Context};
+use crate::model::Position;
+use nalgebra::{Matrix3, Vector3};
+
+/// Weights of errors across the normal, beside 1 along it, round by round.
+const ACROSS: [f64; 3] = [0.3, 0.1, 0.1];
+
+/// The same in the last fit.
+const LAST_ACROSS: f64 = 0.1;
+
+/// Weights of the roughness, for points about a body of equal radius 1: of clean meshes, of noise of .5 and 1.5 % of
+/// the radius.
+const ROUGHNESS: [f64; 3] = [1e-7, 1e-6, 1e-5];
+
+/// Where the surface turns over or crosses itself its roughness weighs so many times more, ...
+const MORE: f64 = 10.0;
+
+/// ... up to so many times.
+const MOST_TRIES: usize = 3;
+
+/// Functions and what their roughness is made of.
+pub(super) struct Problem<'a> {
+    pub(super) functions: &'a Functions,
+    roughness: Vec<Rows>,
+}
+
+/// Which samples a fit is made to.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Used {
+    All,
+    NotHeldOut,
+}
+
+/// A surface and how good it is.
+pub(super) struct Fitted {
+    pub(super) surface: Position,
+    pub(super) distances: Distances,
+    /// Of samples that a fit like this one has not used.
+    pub(super) held_out: Distances,
+    /// Weight of the roughness.
+    pub(super) roughness: f64,
+    /// Samples at which the surface is turned over, and pairs of triangles of its mesh that cross.
+    pub(super) faults: [usize; 2],
+}
+
+impl<'a> Problem<'a> {
+    pub(super) fn new(functions: &'a Functions) -> Self {
+        Self {
+            roughness: functions.roughness(),
+            functions,
+        }
+    }
+
+    /// The surface nearest to the samples over their directions. Errors along the normal weigh `normal`, those of
+    /// any direction `any` more. `None` if the samples do not determine it.
+    pub(super) fn fit(
+        &self,
+        cloud: &Cloud<'_>,
+        rows: &[Rows],
+        [normal, any]: [f64; 2],
+        roughness: f64,
+        used: Used,
+    ) -> Option<Position> {
+        let term = |at: usize| {
+            let is_used = used == Used::All || !cloud.is_held_out[at];
+            let weight = if is_used { cloud.weights[at] } else { 0.0 };
+            let n = &cloud.normals[at];
+            Term {
+                target: cloud.points[at],
+                weight: (n * n.transpose() * normal + Matrix3::identity() * any) * weight,
+            }
+        };
+        let terms: Vec<Term> = (0..cloud.points.len()).map(term).collect();
+        let smooth = Term {
+            target: Vector3::zeros(),
+            weight: Matrix3::identity() * roughness,
+        };
+        let members = self.roughness.iter().flat_map(|rows| &rows.members);
+        let smooth = vec![smooth; members.max().map_or(0, |most| *most as usize + 1)];
+        let equations = [
+            Equations {
+                rows,
+                terms: &terms,
+            },
+            Equations {
+                rows: &self.roughness,
+                terms: &smooth,
+            },
+        ];
+        self.functions
+            .surface(solve(self.functions, &equations)?)
+            .ok()
+    }
+
+    /// The functions at the samples.
+    pub(super) fn rows(&self, cloud: &Cloud<'_>) -> Vec<Rows> {
+        self.functions.rows(&cloud.directions)
+    }
+
+    /// All rounds, with the roughness that held-out samples ask for, or as much more as it takes to leave a sound
+    /// surface. `None` if the samples do not determine one.
+    pub(super) fn run(
+        &self,
+        cloud: &mut Cloud<'_>,
+        context: &Context<'_>,
+    ) -> Result<Option<Fitted>, Cancelled> {
+        let rows = self.rows(cloud);
+        let Some(first) = self.fit(cloud, &rows, [0.0, 1.0], ROUGHNESS[0], Used::All) else {
+            return Ok(None);
+        };
+        cloud.project(&first);
+        let start = cloud.directions.clone();
+        let mut roughness = self.best_roughness(cloud);
+        let mut best: Option<Fitted> = None;
+        for _ in 0..MOST_TRIES {
+            let Some(found) = self.all_rounds(cloud, roughness, context)? else {
+                break;
+            };
+            let is_sound = found.faults == [0, 0];
+            let faults = |fitted: &Fitted| fitted.faults.iter().sum::<usize>();
+            if best
+                .as_ref()
+                .is_none_or(|best| faults(&found) < faults(best))
+            {
+                best = Some(found);
+            }
+            if is_sound {
+                break;
+            }
+            roughness *= MORE;
+            cloud.turn_back(&start);
+        }
+        Ok(best)
+    }
+
+    /// The weight with which held-out samples are met best; a greater one is tried where it has served so far.
+    fn best_roughness(&self, cloud: &Cloud<'_>) -> f64 {
+        let rows = self.rows(cloud);
+        let mut best = (f64::INFINITY, ROUGHNESS[0]);
+        for roughness in ROUGHNESS {
+            let weights = [1.0, ACROSS[0]];
+            let Some(surface) = self.fit(cloud, &rows, weights, roughness, Used::NotHeldOut) else {
+                continue;
+            };
+            let (held_out, _) = cloud.distances(&surface, |at| cloud.is_held_out[at]);
+            if held_out.rms >= best.0 {
+                break;
+            }
+            best = (held_out.rms, roughness);
+        }
+        best.1
+    }
+
+    fn all_rounds(
+        &self,
+        cloud: &mut Cloud<'_>,
+        roughness: f64,
+        context: &Context<'_>,
+    ) -> Result<Option<Fitted>, Cancelled> {
+        for across in ACROSS {
+            context.check()?;
+            let rows = self.rows(cloud);
+            let weights = [1.0, across];
+            let Some(surface) = self.fit(cloud, &rows, weights, roughness, Used::All) else {
+                return Ok(None);
+            };
+            cloud.project(&surface);
+        }
+        let rows = self.rows(cloud);
+        let weights = [1.0, LAST_ACROSS];
+        let fit = |used: Used| self.fit(cloud, &rows, weights, roughness, used);
+        let (Some(surface), Some(other)) = (fit(Used::All), fit(Used::NotHeldOut)) else {
+            return Ok(None);
+        };
+        let (distances, _) = cloud.distances(&surface, |_| true);
+        let (held_out, _) = cloud.distances(&other, |at| cloud.is_held_out[at]);
+        Ok(Some(Fitted {
+            faults: [cloud.turned_over(&surface), crossings(&surface)],
+            surface,
+            distances,
+            held_out,
+            roughness,
+        }))
+    }
+}

@@ -1,0 +1,209 @@
+//! The fewest functions that are near enough: a few harmonics of the whole sphere, or cells, split where the surface
+//! is far from its samples.
+
+use super::cloud::Cloud;
+use super::functions::Functions;
+use super::rounds::{Fitted, Problem, Used};
+use crate::fit::context::{Cancelled, Context, Stage};
+use crate::fit::options::FitOptions;
+use crate::sphere::CubeCell;
+use nalgebra::Vector3;
+use std::f64::consts::PI;
+
+/// Degrees of expansions of the whole sphere that are tried first: an ellipsoid, and up to as many functions as an
+/// evaluation of cells touches.
+const WHOLE_DEGREES: [usize; 3] = [1, 3, 7];
+
+/// Degree of cells where none is asked for.
+const DEGREE: usize = 3;
+
+/// Samples per function.
+const SAMPLES_PER_FUNCTION: f64 = 3.0;
+
+/// Most functions where nothing else is asked for: some seconds of work.
+const MOST_FUNCTIONS: usize = 1000;
+
+/// Cells are split as long as held-out distances fall at least with this power of the number of functions.
+const LEAST_GAIN: f64 = 0.25;
+
+/// Distances of a fit without rounds over those after them: 1.2 to 3.5.
+const GAIN_OF_ROUNDS: f64 = 1.3;
+
+/// Share of the squared distances that the cells split at once hold.
+const SPLIT_SHARE: f64 = 0.8;
+
+/// Weight of the roughness, and of errors across the normal, while cells are split.
+const ROUGHNESS: f64 = 1e-7;
+const ACROSS: f64 = 0.3;
+
+/// Fits what the options ask for to samples of a body of about radius 1, within a `limit` of held-out distance.
+/// `None` if the samples do not determine a surface.
+pub(super) fn search(
+    cloud: &mut Cloud<'_>,
+    options: &FitOptions,
+    limit: f64,
+    context: &Context<'_>,
+) -> Result<Option<Fitted>, Cancelled> {
+    match options.segments {
+        Some(1) => {
+            let degree = options.degree.unwrap_or(WHOLE_DEGREES[2]);
+            return fit(&Functions::whole(degree), cloud, context);
+        }
+        Some(segments) => {
+            let parts = (segments / 6).isqrt() as u16;
+            return fit(&on_cells(CubeCell::uniform(parts), options), cloud, context);
+        }
+        None => {}
+    }
+    for degree in WHOLE_DEGREES {
+        let functions = Functions::whole(degree);
+        let is_near =
+            try_once(&functions, cloud).is_some_and(|once| once.held_out <= GAIN_OF_ROUNDS * limit);
+        if is_near
+            && let Some(fitted) = fit(&functions, cloud, context)?
+            && is_enough(&fitted, limit)
+        {
+            return Ok(Some(fitted));
+        }
+    }
+    let functions = split(cloud, options, limit, context)?;
+    fit(&functions, cloud, context)
+}
+
+fn is_enough(fitted: &Fitted, limit: f64) -> bool {
+    fitted.held_out.rms <= limit && fitted.faults == [0, 0]
+}
+
+fn on_cells(cells: Vec<CubeCell>, options: &FitOptions) -> Functions {
+    Functions::on_cells(cells, options.degree.unwrap_or(DEGREE))
+        .expect("cells that tile the sphere")
+}
+
+fn fit(
+    functions: &Functions,
+    cloud: &mut Cloud<'_>,
+    context: &Context<'_>,
+) -> Result<Option<Fitted>, Cancelled> {
+    restart(cloud, functions);
+    Problem::new(functions).run(cloud, context)
+}
+
+/// What one fit without rounds tells of functions.
+struct Once {
+    /// Root of the mean squared distance of samples not used.
+    held_out: f64,
+    /// Sums of weighted squared distances of all samples, by cell.
+    errors: Vec<f64>,
+}
+
+fn try_once(functions: &Functions, cloud: &mut Cloud<'_>) -> Option<Once> {
+    restart(cloud, functions);
+    let problem = Problem::new(functions);
+    let rows = problem.rows(cloud);
+    let surface = problem.fit(cloud, &rows, [1.0, ACROSS], ROUGHNESS, Used::NotHeldOut)?;
+    let (held_out, squares) = cloud.distances(&surface, |at| cloud.is_held_out[at]);
+    let mut errors = vec![0.0; functions.cell_count()];
+    for (at, squared) in squares.iter().enumerate() {
+        errors[home(functions, &cloud.directions[at])] += cloud.weights[at] * squared;
+    }
+    Some(Once {
+        held_out: held_out.rms,
+        errors,
+    })
+}
+
+/// Starts from the map, with enough samples in every cell.
+fn restart(cloud: &mut Cloud<'_>, functions: &Functions) {
+    let per_function =
+        |solid_angle: f64| solid_angle / (SAMPLES_PER_FUNCTION * functions.per_cell() as f64);
+    match functions.cover() {
+        None => cloud.restart(|_| per_function(4.0 * PI)),
+        Some(cover) => {
+            let areas: Vec<f64> = cover.cells().iter().map(CubeCell::solid_angle).collect();
+            cloud.restart(|n| per_function(areas[home(functions, n)]));
+        }
+    }
+}
+
+/// The cell that counts most in a direction.
+fn home(functions: &Functions, n: &Vector3<f64>) -> usize {
+    let Some(cover) = functions.cover() else {
+        return 0;
+    };
+    let mut shares = Vec::new();
+    cover.shares(n, &mut shares);
+    let most = shares.iter().max_by(|one, other| one.1.total_cmp(&other.1));
+    most.map_or(0, |&(cell, _)| cell.into())
+}
+
+/// Splits cells until held-out samples are met well enough, or hardly any better, or there are too many. Cells of one
+/// size compete with what comes out.
+fn split(
+    cloud: &mut Cloud<'_>,
+    options: &FitOptions,
+    limit: f64,
+    context: &Context<'_>,
+) -> Result<Functions, Cancelled> {
+    let mut functions = on_cells(CubeCell::uniform(1), options);
+    let most = match options.max_segments {
+        Some(segments) => segments,
+        None => MOST_FUNCTIONS / functions.per_cell(),
+    };
+    let mut once = try_once(&functions, cloud);
+    for done in 1.. {
+        context.enter(Stage::Searching { done, all: None })?;
+        let Some(found) = once
+            .as_ref()
+            .filter(|found| found.held_out > GAIN_OF_ROUNDS * limit)
+        else {
+            break;
+        };
+        let room = most.saturating_sub(functions.cell_count()) / 3;
+        let Some(finer) = quartered(&functions, &found.errors, room) else {
+            break;
+        };
+        let finer = on_cells(finer, options);
+        let growth = finer.count() as f64 / functions.count() as f64;
+        let Some(next) = try_once(&finer, cloud) else {
+            break;
+        };
+        if next.held_out > found.held_out * growth.powf(-LEAST_GAIN) {
+            break;
+        }
+        (functions, once) = (finer, Some(next));
+    }
+    let parts = (functions.cell_count() / 6).isqrt() as u16;
+    let even = on_cells(CubeCell::uniform(parts), options);
+    let is_better = |even: Once| {
+        once.as_ref()
+            .is_none_or(|once| even.held_out < once.held_out)
+    };
+    if even.count() < functions.count() && try_once(&even, cloud).is_some_and(is_better) {
+        return Ok(even);
+    }
+    Ok(functions)
+}
+
+/// The cells with the largest errors in four, at most so many and a third of all. `None` if that is none.
+fn quartered(functions: &Functions, errors: &[f64], room: usize) -> Option<Vec<CubeCell>> {
+    let cells = functions.cover()?.cells();
+    let mut order: Vec<usize> = (0..errors.len()).collect();
+    order.sort_by(|&one, &other| errors[other].total_cmp(&errors[one]).then(one.cmp(&other)));
+    let goal = SPLIT_SHARE * errors.iter().sum::<f64>();
+    let (mut held, mut is_split) = (0.0, vec![false; errors.len()]);
+    for &cell in order.iter().take(room.min(cells.len().div_ceil(3))) {
+        if held >= goal {
+            break;
+        }
+        held += errors[cell];
+        is_split[cell] = true;
+    }
+    let finer = cells
+        .iter()
+        .zip(&is_split)
+        .flat_map(|(cell, is_split)| match is_split {
+            true => cell.quarters().to_vec(),
+            false => vec![*cell],
+        });
+    is_split.contains(&true).then(|| finer.collect())
+}

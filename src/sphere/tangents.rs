@@ -1,0 +1,13 @@
+//! A frame in the tangent plane.
+
+use nalgebra::Vector3;
+
+/// Two unit tangents of the sphere at the unit vector `n`, a and b with a x b = n. They jump where |n.x| is 0.6.
+pub(crate) fn tangents(n: &Vector3<f64>) -> [Vector3<f64>; 2] {
+    let axis = match n.x.abs() < 0.6 {
+        true => Vector3::x(),
+        false => Vector3::y(),
+    };
+    let a = n.cross(&axis).normalize();
+    [a, n.cross(&a)]
+}
