@@ -3,7 +3,8 @@
 use super::args::FitArgs;
 use super::console::{Console, put_json};
 use super::fitting::{ScanFit, fit_scan, say_stats};
-use super::outputs;
+use super::values::SurfaceArg;
+use super::{outputs, superquadric};
 use crate::export::MeshFormat;
 use crate::fit::Fitted;
 use crate::model::{Surface, grain_to_json};
@@ -26,6 +27,9 @@ pub(super) fn run(args: FitArgs, console: Console) -> Result<()> {
         fitting.json,
     )?;
     let console = console.beside(is_taken);
+    if let SurfaceArg::Superquadric(form) = args.surface {
+        return superquadric::run(&args, form, &options, console);
+    }
 
     let progress = console.progress();
     let ScanFit {

@@ -16,6 +16,7 @@ mod search;
 mod shell;
 #[cfg(unix)]
 mod signals;
+mod superquadric;
 mod synth;
 mod threads;
 mod usage;

@@ -1,6 +1,6 @@
 //! Values of arguments that have a notation of their own.
 
-use crate::fit::{Seams, Tolerance};
+use crate::fit::{Form, MAX_UNION_PARTS, Seams, Tolerance};
 use crate::measure::Scheme;
 use nalgebra::Vector3;
 use std::str::FromStr;
@@ -18,6 +18,48 @@ impl FromStr for SchemeArg {
             "four-triangles" => Ok(Self(Scheme::FourTriangles)),
             _ => Err("expected exact or four-triangles"),
         }
+    }
+}
+
+/// What is fitted to a scan.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum SurfaceArg {
+    Star,
+    Superquadric(SuperquadricArg),
+}
+
+/// One superquadric, or a union of some at most.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum SuperquadricArg {
+    Single(Form),
+    Multi(usize),
+}
+
+/// Parts of a union where no number is given.
+const USUAL_PARTS: usize = 4;
+
+impl FromStr for SurfaceArg {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let parts = |text: &str| {
+            let parts = text.parse().ok();
+            let parts = parts.filter(|parts| (1..=MAX_UNION_PARTS).contains(parts));
+            parts.ok_or(format!("expected from 1 to {MAX_UNION_PARTS} parts"))
+        };
+        Ok(Self::Superquadric(match text.split_once(':') {
+            Some(("multi", count)) => SuperquadricArg::Multi(parts(count)?),
+            None if text == "multi" => SuperquadricArg::Multi(USUAL_PARTS),
+            None if text == "superquadric" => SuperquadricArg::Single(Form::Single),
+            None if text == "poly" => SuperquadricArg::Single(Form::Poly8),
+            None if text == "poly12" => SuperquadricArg::Single(Form::Poly12),
+            None if text == "star" => return Ok(Self::Star),
+            _ => {
+                return Err(
+                    "expected star, superquadric, poly, poly12, multi or multi:PARTS".into(),
+                );
+            }
+        }))
     }
 }
 

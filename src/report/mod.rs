@@ -14,6 +14,7 @@ mod measure;
 mod number;
 mod rule;
 mod search;
+mod superquadric;
 mod synth;
 mod unit;
 mod warning;
@@ -31,6 +32,7 @@ pub use measure::{
 };
 pub use number::{percent, short};
 pub use search::{CandidateRecord, SearchReport};
+pub use superquadric::{SuperquadricRecord, SuperquadricReport};
 pub use synth::SynthReport;
 pub use unit::Unit;
 #[cfg(feature = "cli")]

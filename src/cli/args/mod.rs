@@ -4,7 +4,7 @@ mod shared;
 
 pub(super) use shared::{FittingArgs, InputArgs, LimitArgs, MeshingArgs};
 
-use super::values::{CloudFormat, SchemeArg, share, vector};
+use super::values::{CloudFormat, SchemeArg, SurfaceArg, share, vector};
 use crate::export::MeshFormat;
 use crate::report::{Measure, Unit};
 use crate::shapes::{Body, Sampling};
@@ -70,6 +70,16 @@ pub(super) struct ManArgs {
 pub(super) struct FitArgs {
     #[command(flatten)]
     pub(super) fitting: FittingArgs,
+
+    /// What is fitted: star, harmonics of the radius; superquadric, of 5 numbers; poly or poly12, a superquadric whose
+    /// octants differ, of 8 or 12; multi, a union of superquadrics, of as many as held-out points ask for, 4 or PARTS
+    /// at most
+    #[arg(
+        long,
+        value_name = "star|superquadric|poly|poly12|multi[:PARTS]",
+        default_value = "star"
+    )]
+    pub(super) surface: SurfaceArg,
 
     /// Write the model here, as JSON (- for standard output)
     #[arg(short, long, value_name = "MODEL.json", help_heading = OUTPUT)]

@@ -10,7 +10,9 @@ use super::normal_equations::{Weighing, distances};
 use super::single::best;
 use super::standard_errors::{ParameterErrors, standard_errors};
 use crate::fit::context::Context;
-use crate::model::{Frame, MultiSuperquadric, Part, StarSurface};
+use crate::model::{
+    Frame, Grain, InvalidGrain, MultiSuperquadric, Part, StarSurface, SuperquadricGrain,
+};
 use nalgebra::{Point3, Vector3};
 use rayon::prelude::*;
 
@@ -22,6 +24,7 @@ const SHARPNESS: [f64; 3] = [8.0, 30.0, 120.0];
 
 /// Steps of each stage, and of the last with all points.
 const STEPS: usize = 25;
+const LAST_STEPS: usize = 60;
 
 /// Cells of directions along an edge of the cube, of which every fifth is held out.
 const HELD_OUT_CELLS: usize = 24;
@@ -50,6 +53,16 @@ pub struct MultiFit {
     pub held_out: Vec<f64>,
 }
 
+impl MultiFit {
+    /// The union as a grain.
+    ///
+    /// # Errors
+    /// [`InvalidGrain`] if the frame was changed and is none.
+    pub fn grain(&self) -> Result<Grain, InvalidGrain> {
+        Ok(SuperquadricGrain::multi(self.frame, self.union.clone())?.into())
+    }
+}
+
 /// Fits a union of as many superquadrics as held-out points ask for, `most` at most.
 ///
 /// # Errors
@@ -69,7 +82,7 @@ pub fn fit_multi_superquadric(
     context.run(|| {
         let (chosen, held_out) = chosen(&cloud, most, context)?;
         let weighing = weighed(&chosen.bodies, &cloud.points, &chosen.weighing);
-        let found = descended(chosen.bodies, &cloud.points, weighing, STEPS, context)?;
+        let found = descended(chosen.bodies, &cloud.points, weighing, LAST_STEPS, context)?;
         told(&cloud, &found, held_out)
     })
 }

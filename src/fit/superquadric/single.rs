@@ -8,7 +8,7 @@ use super::least_squares::{Minimum, least, median, minimised};
 use super::normal_equations::{Reach, Weighing, distances};
 use super::standard_errors::{ParameterErrors, standard_errors};
 use crate::fit::context::Context;
-use crate::model::{Frame, Superquadric};
+use crate::model::{Frame, Grain, InvalidGrain, Superquadric, SuperquadricGrain};
 use nalgebra::{Matrix3, Point3, Vector3};
 
 /// Steps with few points, and with all of them.
@@ -41,6 +41,16 @@ pub struct SuperquadricFit {
     pub errors: ParameterErrors,
     /// Steps of all starts.
     pub iterations: usize,
+}
+
+impl SuperquadricFit {
+    /// The body as a grain.
+    ///
+    /// # Errors
+    /// [`InvalidGrain`] if the frame was changed and is none.
+    pub fn grain(&self) -> Result<Grain, InvalidGrain> {
+        Ok(SuperquadricGrain::single(self.frame, self.shape)?.into())
+    }
 }
 
 /// Fits a superquadric to points of its surface, some of which may be astray.

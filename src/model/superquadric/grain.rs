@@ -1,7 +1,7 @@
 //! The grain that is a union of superquadrics, of one or several.
 
 use super::{MultiSuperquadric, Part, Superquadric};
-use crate::model::{Frame, InvalidGrain, Radial, StarSurface, Surface, SurfaceJet};
+use crate::model::{Frame, InvalidGrain, Radial, StarSurface, Surface, SurfaceJet, Tiling};
 use nalgebra::{Matrix3, Point3, Vector3};
 
 /// A union of superquadrics and where it lies in the scan, seen as the surface that rays from its centre leave last.
@@ -76,6 +76,14 @@ impl Surface for SuperquadricGrain {
         let axes = self.frame.axes;
         let local = self.body.derivatives(&axes.tr_mul(n));
         local.turned(&axes).radial(n)
+    }
+
+    fn tiling(&self) -> Tiling {
+        match self.body.parts() {
+            // Octants of its own frame, if that is the grain's.
+            [part] if part.frame == Frame::SCAN => Tiling::octants(),
+            _ => Tiling::creased(),
+        }
     }
 
     fn may_cross(&self) -> bool {

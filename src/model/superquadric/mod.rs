@@ -8,10 +8,12 @@ mod gauge;
 mod grain;
 mod multi;
 mod norm;
+mod record;
 mod shape;
 mod support;
 
 pub use grain::SuperquadricGrain;
 pub use multi::{MultiSuperquadric, Part};
+pub(in crate::model) use record::PartRecord;
 pub(crate) use shape::Octant;
 pub use shape::{EXPONENTS, InvalidSuperquadric, Superquadric};

@@ -49,6 +49,14 @@ pub enum InvalidSuperquadric {
         /// The value given.
         value: f64,
     },
+    /// More parts than any fit makes.
+    #[error("{found} superquadrics; at most {most} are read")]
+    TooManyParts {
+        /// Parts given.
+        found: usize,
+        /// The most allowed.
+        most: usize,
+    },
     /// A union of no parts.
     #[error("a union needs at least one part")]
     NoParts,
