@@ -25,11 +25,12 @@ const FLOORS: [&str; 15] = [
 ];
 
 /// What a fit can be, a folder each.
-const FAMILIES: [&str; 5] = [
+const FAMILIES: [&str; 6] = [
     "segments",
     "blended",
     "mirrored",
     "estimate",
+    "position",
     "superquadric",
 ];
 

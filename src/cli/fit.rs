@@ -9,7 +9,7 @@ use crate::export::MeshFormat;
 use crate::fit::Fitted;
 use crate::model::{Surface, grain_to_json};
 use crate::report::{FitReport, largest_loss, write_harmonics};
-use anyhow::Result;
+use anyhow::{Result, bail};
 use std::time::Instant;
 
 pub(super) fn run(args: FitArgs, console: Console) -> Result<()> {
@@ -27,9 +27,13 @@ pub(super) fn run(args: FitArgs, console: Console) -> Result<()> {
         fitting.json,
     )?;
     let console = console.beside(is_taken);
-    if let SurfaceArg::Superquadric(form) = args.surface {
-        return superquadric::run(&args, form, &options, console);
-    }
+    let options = match args.surface {
+        SurfaceArg::Kind(kind) => options.with_kind(kind),
+        SurfaceArg::Superquadric(form) => {
+            return superquadric::run(&args, form, &options, console);
+        }
+    };
+    options.check()?;
 
     let progress = console.progress();
     let ScanFit {
@@ -89,8 +93,13 @@ fn write_files(args: &FitArgs, fitted: &Fitted) -> Result<Option<f64>> {
         let text = grain_to_json(&fitted.grain_with_errors());
         outputs::write(path, |file| Ok(writeln!(file, "{text}")?))?;
     }
-    let (Some(path), Some(star)) = (&args.harmonics, grain.star()) else {
+    let Some(path) = &args.harmonics else {
         return Ok(None);
+    };
+    let Some(star) = grain.star() else {
+        bail!(
+            "the published coefficients are those of a radius: leave --harmonics out, or fit one (--surface star)"
+        );
     };
     let published = star.published();
     outputs::write(path, |mut file| {

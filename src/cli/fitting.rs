@@ -4,7 +4,7 @@ use super::args::FittingArgs;
 use super::console::{Console, say};
 use super::progress::Progress;
 use super::{inputs, threads};
-use crate::fit::{self, FitOptions, Fitted, PreparedScan, Stage, Work, largest_body};
+use crate::fit::{self, FitOptions, Fitted, Kind, Stage, Work, largest_body};
 use crate::report::{Seconds, escaped};
 use anyhow::{Context, Result};
 use std::borrow::Cow;
@@ -21,6 +21,7 @@ impl FittingArgs {
     /// The options asked for, if they are in range; also sets the number of threads.
     pub(super) fn settle(&self, console: Console) -> Result<FitOptions> {
         let options = FitOptions {
+            kind: Kind::Auto,
             seams: self.seams.0,
             symmetry: self.symmetry,
             degree: self.degree.0,
@@ -59,7 +60,6 @@ pub(super) fn fit_scan(
 
     progress.stage("Finding the surface, the centre and the axes");
     let failed = || format!("cannot fit {name}");
-    let prepared = PreparedScan::new(&scan, options.symmetry).with_context(failed)?;
     let tell = |stage: Stage| match stage {
         Stage::Searching {
             done,
@@ -72,7 +72,7 @@ pub(super) fn fit_scan(
         progress: Some(&tell),
         ..fit::Context::default()
     };
-    let mut fitted = prepared.fit(options, &context).with_context(failed)?;
+    let mut fitted = fit::fit_scan(&scan, options, &context).with_context(failed)?;
     fitted.warnings.extend(others_left_out);
     Ok(ScanFit {
         fitted,

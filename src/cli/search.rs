@@ -4,7 +4,7 @@ use super::args::SearchArgs;
 use super::console::{Console, put_json};
 use super::fitting::{ScanFit, fit_scan, say_stats};
 use super::{candidates, outputs};
-use crate::fit::FitOptions;
+use crate::fit::{FitOptions, Kind};
 use crate::report::SearchReport;
 use anyhow::Result;
 use std::time::Instant;
@@ -14,6 +14,7 @@ pub(super) fn run(args: SearchArgs, console: Console) -> Result<()> {
     let fitting = &args.fitting;
     let options = FitOptions {
         exhaustive: true,
+        kind: Kind::Star,
         ..fitting.settle(console)?
     };
     let csv = (args.csv.as_deref(), &["csv"][..]);

@@ -1,6 +1,6 @@
 //! Values of arguments that have a notation of their own.
 
-use crate::fit::{Form, MAX_UNION_PARTS, Seams, Tolerance};
+use crate::fit::{Form, Kind, MAX_UNION_PARTS, Seams, Tolerance};
 use crate::measure::Scheme;
 use nalgebra::Vector3;
 use std::str::FromStr;
@@ -24,7 +24,7 @@ impl FromStr for SchemeArg {
 /// What is fitted to a scan.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum SurfaceArg {
-    Star,
+    Kind(Kind),
     Superquadric(SuperquadricArg),
 }
 
@@ -53,11 +53,13 @@ impl FromStr for SurfaceArg {
             None if text == "superquadric" => SuperquadricArg::Single(Form::Single),
             None if text == "poly" => SuperquadricArg::Single(Form::Poly8),
             None if text == "poly12" => SuperquadricArg::Single(Form::Poly12),
-            None if text == "star" => return Ok(Self::Star),
+            None if text == "auto" => return Ok(Self::Kind(Kind::Auto)),
+            None if text == "star" => return Ok(Self::Kind(Kind::Star)),
+            None if text == "position" => return Ok(Self::Kind(Kind::Position)),
             _ => {
-                return Err(
-                    "expected star, superquadric, poly, poly12, multi or multi:PARTS".into(),
-                );
+                let known =
+                    "auto, star, position, superquadric, poly, poly12, multi or multi:PARTS";
+                return Err(format!("expected {known}"));
             }
         }))
     }

@@ -2,7 +2,8 @@
 
 use super::{EdgeError, TangentCap};
 use crate::measure::{Curvature, Support, self_crossing, support};
-use crate::model::{Surface, tangents};
+use crate::model::Surface;
+use crate::sphere::tangents;
 use nalgebra::Vector3;
 use std::f64::consts::TAU;
 use thiserror::Error;

@@ -8,7 +8,7 @@ use super::error::FitError;
 use super::estimate::{Estimate, estimate};
 use super::mirrored;
 use super::options::{FitOptions, Seams, Tolerance};
-use super::outcome::{EstimateSummary, Fitted, Residuals};
+use super::outcome::{EstimateSummary, Fitted, KindChoice, Residuals};
 use super::prepare::{CellGrid, PreparedScan, Sample};
 use super::segments;
 use super::sound;
@@ -57,6 +57,7 @@ impl PreparedScan<'_> {
     ) -> Fitted {
         Fitted {
             grain: grain.into(),
+            kind: KindChoice::Star,
             search,
             reference: self.reference,
             points,

@@ -2,6 +2,7 @@
 
 use super::context::Cancelled;
 use super::position::map::MapError;
+use crate::model::InvalidGrain;
 use nalgebra::Vector3;
 
 /// Why a fit cannot be made.
@@ -192,6 +193,14 @@ pub enum FitError {
         "the points do not determine a radius in every direction; look at the scan, or fit independent segments"
     )]
     NoEstimate,
+    /// Mirrors and independent segments are those of a radius.
+    #[error(
+        "positions over the sphere have no mirrors and no independent segments: leave --symmetry and --seams out"
+    )]
+    OnlyOfRadii,
+    /// What was fitted is no surface of a body.
+    #[error("no position over the sphere can be fitted: {0}")]
+    NoSurface(InvalidGrain),
     /// A surface that no centre sees is fitted to faces, and there are none.
     #[error(
         "the scan has no closed faces, which a fit of positions over the sphere needs: mesh the points, or fit a radius"

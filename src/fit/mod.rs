@@ -16,6 +16,7 @@ mod dispatch;
 mod error;
 mod estimate;
 mod gaps;
+mod kind;
 mod linear;
 mod mirrored;
 mod neighbours;
@@ -34,12 +35,13 @@ pub use candidate::{Candidate, Rejection, Search, Work};
 pub use context::{Context, Stage};
 pub use error::FitError;
 pub use estimate::{NoInterval, RadiusError, StandardErrors};
+pub use kind::fit_scan;
 pub use mirrored::{DirectedSample, MirroredFitError, fit_mirrored};
 pub use options::{
-    FitOptions, MAX_CELLS, MAX_COEFFICIENTS, MAX_DEGREE, MAX_PARTS, MAX_WHOLE_DEGREE, Seams,
+    FitOptions, Kind, MAX_CELLS, MAX_COEFFICIENTS, MAX_DEGREE, MAX_PARTS, MAX_WHOLE_DEGREE, Seams,
     Tolerance,
 };
-pub use outcome::{EstimateSummary, Fitted, Residuals};
+pub use outcome::{EstimateSummary, Fitted, KindChoice, Residuals, Rival};
 pub use position::{Distance, PositionFit, fit_position, map::MapError};
 pub use prepare::{
     PreparedScan, Reference, ReferenceKind, ScannedSurface, largest_body, scanned_surface,
@@ -53,12 +55,10 @@ pub use warning::FitWarning;
 
 use crate::scan::Scan;
 
-/// Fits a grain to a scan: [`PreparedScan::new`] and [`PreparedScan::fit`] in one.
+/// Fits a grain to a scan, as [`fit_scan`] does, on the caller's threads.
 ///
 /// # Errors
-/// [`FitError`] if the options are out of range or the scan is not one closed surface round a
-/// centre.
+/// [`FitError`] if the options are out of range or the scan is not one closed surface.
 pub fn fit(scan: &Scan, options: &FitOptions) -> Result<Fitted, FitError> {
-    options.check()?;
-    PreparedScan::new(scan, options.symmetry)?.fit(options, &Context::default())
+    fit_scan(scan, options, &Context::default())
 }

@@ -17,6 +17,8 @@ use crate::sphere::{MAX_FACE_PARTS, Symmetry, coefficient_count};
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct FitOptions {
+    /// What surface is fitted.
+    pub kind: Kind,
     /// How expansions are joined.
     pub seams: Seams,
     /// Mirror planes through the centre, normal to the scan's own axes. With any, one expansion is
@@ -42,6 +44,7 @@ pub struct FitOptions {
 impl Default for FitOptions {
     fn default() -> Self {
         Self {
+            kind: Kind::Auto,
             seams: Seams::Blended,
             symmetry: Symmetry::NONE,
             degree: None,
@@ -53,6 +56,18 @@ impl Default for FitOptions {
             exhaustive: false,
         }
     }
+}
+
+/// The kinds of surfaces.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Kind {
+    /// A radius; where it hides area, ends above its limit or is steep, the better of it and of positions.
+    Auto,
+    /// A radius in every direction from a centre.
+    Star,
+    /// The position of points over the sphere: any one closed surface without handles, of a scan with faces.
+    Position,
 }
 
 /// How the expansions of neighbouring segments are joined.
@@ -125,6 +140,11 @@ pub const MAX_COEFFICIENTS: usize = 20_000;
 
 /// Each sets one field; a number can be given as it is.
 impl FitOptions {
+    /// The same with another [`kind`](Self::kind) of surface.
+    pub fn with_kind(self, kind: Kind) -> Self {
+        Self { kind, ..self }
+    }
+
     /// The same with other [`seams`](Self::seams).
     pub fn with_seams(self, seams: Seams) -> Self {
         Self { seams, ..self }
@@ -197,6 +217,11 @@ impl FitOptions {
         let segments = self.segments.or(self.max_segments);
         if self.symmetry != Symmetry::NONE && (self.seams != Seams::Blended || segments.is_some()) {
             return Err(FitError::SymmetryOfSegments);
+        }
+        if self.kind == Kind::Position
+            && (self.symmetry != Symmetry::NONE || self.seams != Seams::Blended)
+        {
+            return Err(FitError::OnlyOfRadii);
         }
         match self.seams {
             Seams::Blended => self.check_cells(),

@@ -15,15 +15,18 @@ use nalgebra::Vector3;
 pub struct Fitted {
     /// The grain, in the scan's frame and unit.
     pub grain: Grain,
+    /// Why it is of its kind.
+    pub kind: KindChoice,
     /// The candidates, the choice and the work done.
     pub search: Search,
     /// What the candidates were compared with.
     pub reference: Reference,
     /// Distinct points that the fit rests on.
     pub points: usize,
-    /// Mean of the radius over all directions, in the scan's unit.
+    /// Mean of the radius over all directions, in the scan's unit; of a surface without one, the radius of the ball of
+    /// equal volume.
     pub mean_radius: f64,
-    /// Radial residuals of all points the fit rests on.
+    /// Radial residuals of all points the fit rests on; of a surface without a radius, distances along its normals.
     pub residuals: Residuals,
     /// Root mean square difference of the radius between mirror images, as far as expansions of degree
     /// 3 follow it, in the scan's unit. `None` of a fit without mirrors.
@@ -38,6 +41,37 @@ pub struct Fitted {
     /// What a user should know of the scan and the fit.
     pub warnings: Vec<FitWarning>,
     pub(crate) posterior: Option<Box<Estimate>>,
+}
+
+/// Why a grain is of its kind.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub enum KindChoice {
+    /// A radius follows the scan.
+    Star,
+    /// It was asked for.
+    Asked,
+    /// A radius would hide too large a share of the area.
+    Hidden {
+        /// The share.
+        share: f64,
+    },
+    /// It is better than the other kind, which was fitted too.
+    Compared {
+        /// The one that was kept.
+        kept: Rival,
+        /// The other one.
+        rival: Rival,
+    },
+}
+
+/// A surface that was compared with another one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Rival {
+    /// Coefficients.
+    pub coefficients: usize,
+    /// Root mean square of the distances of the scan's points along its normals, in the scan's unit.
+    pub rms: f64,
 }
 
 /// What an estimate says of itself. Lengths are in the scan's unit.

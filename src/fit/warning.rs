@@ -47,6 +47,16 @@ pub enum FitWarning {
         /// Its share of the area.
         share: f64,
     },
+    /// The surface goes through itself.
+    Crossings {
+        /// Pairs of triangles of its mesh that cross.
+        pairs: usize,
+    },
+    /// The surface is turned over in places.
+    TurnedOver {
+        /// Samples at which it is.
+        samples: usize,
+    },
     /// That the radius is above zero everywhere could not be proved.
     Unproved {
         /// The least one that was met, in the scan's unit.

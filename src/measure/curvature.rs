@@ -17,7 +17,8 @@
 //!
 //! Error: that of the derivatives, times a few roundings.
 
-use crate::model::{SurfaceJet, tangents};
+use crate::model::SurfaceJet;
+use crate::sphere::tangents;
 use nalgebra::{Matrix2, Vector3};
 
 /// The shape of a surface round one of its points, in the frame of its [`SurfaceJet`].

@@ -47,7 +47,6 @@ pub(crate) use superquadric::Octant;
 pub use superquadric::{
     EXPONENTS, InvalidSuperquadric, MultiSuperquadric, Part, Superquadric, SuperquadricGrain,
 };
-pub(crate) use surface::tangents;
 pub use surface::{Node, Surface, SurfaceElement, SurfaceJet};
 pub use tiling::Tiling;
 pub(crate) use tiling::{Parts, Piece};

@@ -2,7 +2,7 @@
 
 use super::{Frame, Tiling};
 use crate::mesh::Mesh;
-use crate::sphere::cube_grid;
+use crate::sphere::{cube_grid, tangents};
 use nalgebra::{Matrix3, Point3, Vector3};
 
 /// A node of a quadrature over directions: a unit vector, and its weight in solid angle.
@@ -113,10 +113,4 @@ pub struct SurfaceElement {
     pub area: Vector3<f64>,
     /// The solid angle of its directions n.
     pub solid_angle: f64,
-}
-
-/// Two unit tangents s, t of the sphere at `n`, with s x t = n.
-pub(crate) fn tangents(n: &Vector3<f64>) -> [Vector3<f64>; 2] {
-    let first = n.cross(&Vector3::ith(n.iamin(), 1.0)).normalize();
-    [first, n.cross(&first)]
 }

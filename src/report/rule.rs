@@ -2,7 +2,8 @@
 
 use super::number::{round, short};
 use super::unit::{Labels, Unit};
-use crate::fit::{FitOptions, Fitted, Tolerance};
+use crate::fit::{FitOptions, Fitted, KindChoice, Rival, Tolerance};
+use crate::scan::plural;
 use crate::sphere::Symmetry;
 
 /// The rule of [`crate::fit`] as it decided here.
@@ -11,6 +12,17 @@ pub(super) fn rule(fitted: &Fitted, options: &FitOptions, unit: Option<Unit>) ->
     let length = |length: f64| format!("{}{}", short(length), labels.length());
     let search = &fitted.search;
     let choice = search.choice();
+    if fitted.grain.position().is_some() {
+        let limit = length(search.limit);
+        let is_met = choice.heldout_rms.is_some_and(|rms| rms <= search.limit);
+        return match is_met {
+            _ if options.segments.is_some() => "the only candidate asked for".into(),
+            true => format!("the first cover tried whose held-out distance is within {limit}"),
+            false => format!(
+                "no cover tried is within {limit}: cells were split as long as that brought held-out points nearer"
+            ),
+        };
+    }
     let is_only = match fitted.estimate {
         Some(_) => options.degree.is_some() && options.segments.is_some(),
         None => search.candidates.len() == 1,
@@ -73,5 +85,37 @@ pub(super) fn rule(fitted: &Fitted, options: &FitOptions, unit: Option<Unit>) ->
                 _ => "",
             }
         ),
+    }
+}
+
+/// Why the surface is of its kind; nothing where a radius follows the scan.
+pub(super) fn kind_rule(fitted: &Fitted, unit: Option<Unit>) -> Option<String> {
+    let labels = Labels(unit);
+    let told = |rival: &Rival| {
+        let coefficients = plural(rival.coefficients, "coefficient");
+        format!(
+            "{coefficients} at a distance of {}{}",
+            short(rival.rms),
+            labels.length()
+        )
+    };
+    match &fitted.kind {
+        KindChoice::Asked => Some("as asked for".into()),
+        KindChoice::Hidden { share } => Some(format!(
+            "for {:.1} % of the area faces away from the best centre",
+            100.0 * share
+        )),
+        KindChoice::Compared { kept, rival } => {
+            let other = match fitted.grain.star() {
+                Some(_) => "the position of points takes",
+                None => "a radius takes",
+            };
+            Some(format!(
+                "for it takes {}, where {other} {}",
+                told(kept),
+                told(rival)
+            ))
+        }
+        _ => None,
     }
 }

@@ -3,6 +3,7 @@
 use super::number::short;
 use crate::fit::{FitWarning, NoInterval, Rejection, Unseen};
 use crate::measure::{FacesDefect, Fill};
+use crate::scan::plural;
 use std::fmt;
 
 impl fmt::Display for Rejection {
@@ -102,6 +103,16 @@ impl fmt::Display for FitWarning {
                 "The surface is not quite star-shaped: {:.2} % of its area faces away from the best \
                  centre and is smoothed over.",
                 100.0 * share
+            ),
+            Self::Crossings { pairs } => write!(
+                f,
+                "The surface goes through itself: {} of its mesh cross. Contacts of it are refused.",
+                plural(pairs, "pair")
+            ),
+            Self::TurnedOver { samples } => write!(
+                f,
+                "The surface is turned over at {}: its area and curvature are off there.",
+                plural(samples, "sample")
             ),
             Self::Unproved { found } => write!(
                 f,

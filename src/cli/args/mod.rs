@@ -14,6 +14,7 @@ use nalgebra::Vector3;
 use std::path::PathBuf;
 
 const OUTPUT: &str = "Output";
+const SEARCH: &str = "Search";
 const RUN: &str = "Run";
 
 /// Fits a small analytic surface, segmented spherical harmonics, to the 3D scan of a grain, and tells
@@ -71,14 +72,12 @@ pub(super) struct FitArgs {
     #[command(flatten)]
     pub(super) fitting: FittingArgs,
 
-    /// What is fitted: star, harmonics of the radius; superquadric, of 5 numbers; poly or poly12, a superquadric whose
-    /// octants differ, of 8 or 12; multi, a union of superquadrics, of as many as held-out points ask for, 4 or PARTS
-    /// at most
-    #[arg(
-        long,
-        value_name = "star|superquadric|poly|poly12|multi[:PARTS]",
-        default_value = "star"
-    )]
+    /// What is fitted: star (a radius in every direction from a centre), position (of points over the sphere, of any
+    /// closed faces without handles), or auto: a radius, and where that hides area, ends above its limit or is
+    /// steep, the better of both. Or the few numbers of a superquadric (5), of one whose octants differ (poly, 8;
+    /// poly12), or of a union of superquadrics (multi: as many as held-out points ask for, 4 or PARTS at most)
+    #[arg(long, value_name = "auto|star|position|superquadric|poly|poly12|multi[:PARTS]", default_value = "auto",
+          help_heading = SEARCH)]
     pub(super) surface: SurfaceArg,
 
     /// Write the model here, as JSON (- for standard output)

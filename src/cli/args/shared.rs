@@ -1,14 +1,12 @@
 //! The arguments that several commands share.
 
-use super::{OUTPUT, RUN};
+use super::{OUTPUT, RUN, SEARCH};
 use crate::cli::values::{Auto, ScanFormat, SeamsArg, bytes, tolerance};
 use crate::fit::Tolerance;
 use crate::report::Unit;
 use crate::sphere::Symmetry;
 use clap::{Args, value_parser};
 use std::path::PathBuf;
-
-const SEARCH: &str = "Search";
 
 /// Cells per edge of the cube of directions.
 const DEFAULT_RESOLUTION: u16 = 64;

@@ -5,7 +5,7 @@ mod text;
 
 use super::estimate::{EstimateRecord, EvaluationRecord};
 use super::measure::{Dimensions, NotMeasured, Principal, rows};
-use super::rule::rule;
+use super::rule::{kind_rule, rule};
 use super::unit::Unit;
 use super::warning::sentences;
 use crate::fit::{FitOptions, Fitted, Reference, StandardErrors, Tolerance};
@@ -25,6 +25,11 @@ pub struct FitReport {
     pub unit: Option<Unit>,
     /// Distinct points that the fit rests on.
     pub points: usize,
+    /// "star" (a radius in every direction from a centre) or "position" (the position of points over the sphere).
+    pub surface: &'static str,
+    /// Why it is of this kind: half a sentence; left out of a radius that follows the scan.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub surface_rule: Option<String>,
     /// Degree of the segments' expansions.
     pub degree: usize,
     /// Number of segments.
@@ -60,13 +65,13 @@ pub struct FitReport {
     pub area_error: Option<f64>,
     /// `volume` against the reference, which is itself off.
     pub volume_error: Option<f64>,
-    /// Root mean square of the radial residuals of all points.
+    /// Root mean square of the residuals of all points: along rays, of positions along normals.
     pub rms: f64,
-    /// Largest absolute radial residual.
+    /// Largest absolute residual, likewise.
     pub max: f64,
     /// Root mean square of the radial errors of points that were left out of the fit one by one.
     pub heldout_rms: Option<f64>,
-    /// Mean radius over all directions.
+    /// Mean radius over all directions; of positions the radius of the ball of equal volume.
     pub mean_radius: f64,
     /// What the points say of the radius, before it is cut in segments; `null` of independent segments and mirrored
     /// fits, which are fitted to the points themselves.
@@ -180,6 +185,8 @@ impl FitReport {
             input,
             unit,
             points: fitted.points,
+            surface: fitted.grain.star().map_or("position", |_| "star"),
+            surface_rule: kind_rule(fitted, unit),
             degree: symmetry.map_or(choice.degree, |_| fitted.grain.degree()),
             segments: choice.segments,
             symmetry,

@@ -31,9 +31,13 @@ impl fmt::Display for FitReport {
                 _ => format!("{share:.1e}"),
             }
         };
+        let radius = match self.surface {
+            "star" => "mean radius",
+            _ => "ball's radius",
+        };
         let of_radius = |length: f64| {
             format!(
-                "{}{mm} ({} % of the mean radius)",
+                "{}{mm} ({} % of the {radius})",
                 short(length),
                 share(length)
             )
@@ -42,6 +46,9 @@ impl fmt::Display for FitReport {
         let heldout = self.heldout_rms.map_or("unknown".into(), of_radius);
         let points = plural(self.points, "point");
         writeln!(f, "scan          {}, {points}", escaped(&self.input))?;
+        if let Some(rule) = &self.surface_rule {
+            writeln!(f, "surface       {}, {rule}", self.surface)?;
+        }
         write!(f, "model         degree {}, ", self.degree)?;
         match self.symmetry {
             Some(symmetry) => writeln!(
@@ -65,7 +72,7 @@ impl fmt::Display for FitReport {
         if let Some(tolerance) = self.tolerance {
             writeln!(
                 f,
-                "tolerance     {}{}, {} % of the mean radius",
+                "tolerance     {}{}, {} % of the {radius}",
                 short(tolerance),
                 self.unit
                     .map_or(" in the scan's unit".into(), |_| labels.length()),
@@ -123,7 +130,14 @@ impl fmt::Display for FitReport {
         if let Some(noise) = self.noise {
             writeln!(f, "noise         {}", of_radius(noise))?;
         }
-        writeln!(f, "mean radius   {}{mm}", short(self.mean_radius))?;
+        match self.surface {
+            "star" => writeln!(f, "mean radius   {}{mm}", short(self.mean_radius))?,
+            _ => writeln!(
+                f,
+                "ball          of equal volume: radius {}{mm}",
+                short(self.mean_radius)
+            )?,
+        }
         if self.reduced_segments > 0 {
             let (count, s) = match self.reduced_segments {
                 1 => (plural(1, "segment"), "s"),

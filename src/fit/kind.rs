@@ -1,0 +1,196 @@
+//! Which kind of surface a scan is given: a radius, or the position of points over the sphere.
+//!
+//! A radius first: it takes fewer coefficients where both do. Where it hides area, ends above its limit, or is steep,
+//! the position is fitted too, and the one with fewer coefficients at the limit is kept.
+
+use super::candidate::{Candidate, Search, Work};
+use super::context::Context;
+use super::error::FitError;
+use super::options::{FitOptions, Kind, Seams};
+use super::outcome::{Fitted, KindChoice, Residuals, Rival};
+use super::position::{PositionFit, fit_position};
+use super::prepare::PreparedScan;
+use super::warning::FitWarning;
+use crate::measure::{Deviation, feet};
+use crate::model::{Grain, PositionGrain, StarSurface};
+use crate::scan::Scan;
+use crate::sphere::{Symmetry, cube_grid};
+use nalgebra::Vector3;
+
+/// Cosine of the angle between a direction and the normal there below which a radius is steep, and ...
+const STEEP: f64 = 0.2;
+
+/// ... the share of directions in which it may be.
+const STEEP_SHARE: f64 = 0.005;
+
+/// Cells along a cube's edge of the directions looked at.
+const LOOKED_AT: usize = 24;
+
+/// Most vertices of a scan whose distances from a radius are compared with those from a position.
+const MOST_COMPARED: usize = 4000;
+
+/// Fits a grain to a scan, of the kind that the options ask for or that suits it.
+///
+/// # Errors
+/// [`FitError`] if the options are out of range, the scan is not one closed surface, or the fit was cancelled.
+pub fn fit_scan(
+    scan: &Scan,
+    options: &FitOptions,
+    context: &Context<'_>,
+) -> Result<Fitted, FitError> {
+    options.check()?;
+    let star = || PreparedScan::new(scan, options.symmetry)?.fit(options, context);
+    match options.kind {
+        Kind::Star => star(),
+        Kind::Position => positioned(scan, options, context, KindChoice::Asked),
+        Kind::Auto => match star() {
+            Err(FitError::NotStarShaped { share }) => {
+                let choice = KindChoice::Hidden { share };
+                match positioned(scan, options, context, choice) {
+                    Err(FitError::NoFaces) => Err(FitError::NotStarShaped { share }),
+                    found => found,
+                }
+            }
+            Ok(fitted) if is_free(options) && is_doubtful(&fitted) => {
+                compared(scan, fitted, options, context)
+            }
+            found => found,
+        },
+    }
+}
+
+/// Whether nothing was asked for that only a radius has.
+fn is_free(options: &FitOptions) -> bool {
+    options.seams == Seams::Blended
+        && options.symmetry == Symmetry::NONE
+        && options.degree.is_none()
+        && options.segments.is_none()
+}
+
+/// Whether a radius hides area, ends above its limit, or is steep.
+fn is_doubtful(fitted: &Fitted) -> bool {
+    let warns = fitted.warnings.iter().any(|warning| {
+        let hides = matches!(warning, FitWarning::NotStarShaped { .. });
+        hides || matches!(warning, FitWarning::LimitNotMet { .. })
+    });
+    let Some(star) = fitted.grain.star() else {
+        return false;
+    };
+    let (directions, _) = cube_grid(LOOKED_AT);
+    let is_steep = |n: &&Vector3<f64>| {
+        let (radius, gradient) = star.radius_and_gradient(n);
+        radius < STEEP * radius.hypot(gradient.norm())
+    };
+    let steep = directions.iter().filter(is_steep).count();
+    warns || steep as f64 > STEEP_SHARE * directions.len() as f64
+}
+
+/// The better of a radius and of positions; the radius where no positions can be fitted.
+fn compared(
+    scan: &Scan,
+    star: Fitted,
+    options: &FitOptions,
+    context: &Context<'_>,
+) -> Result<Fitted, FitError> {
+    let limit = options.tolerance.length(star.mean_radius);
+    let own = Rival {
+        coefficients: star.grain.coefficient_count(),
+        rms: normal_distance(&star.grain, scan),
+    };
+    let mut fitted = match positioned(scan, options, context, KindChoice::Asked) {
+        Err(FitError::Cancelled) => return Err(FitError::Cancelled),
+        Err(_) => return Ok(star),
+        Ok(fitted) => fitted,
+    };
+    let other = Rival {
+        coefficients: fitted.grain.coefficient_count(),
+        rms: fitted.search.choice().heldout_rms.unwrap_or(f64::INFINITY),
+    };
+    let is_star = own.is_better(&other, limit);
+    if is_star {
+        fitted = star;
+    }
+    let [kept, rival] = if is_star { [own, other] } else { [other, own] };
+    fitted.kind = KindChoice::Compared { kept, rival };
+    Ok(fitted)
+}
+
+impl Rival {
+    /// Of two within the limit the one with fewer coefficients is better, else the nearer one.
+    fn is_better(&self, other: &Self, limit: f64) -> bool {
+        match (self.rms <= limit, other.rms <= limit) {
+            (true, true) => self.coefficients <= other.coefficients,
+            _ => self.rms <= other.rms,
+        }
+    }
+}
+
+/// Root mean square of the distances of a scan's points from a surface, along its normals.
+fn normal_distance(grain: &Grain, scan: &Scan) -> f64 {
+    let points = scan.points();
+    let every = points.len().div_ceil(MOST_COMPARED).max(1);
+    let some: Vec<_> = points.iter().step_by(every).copied().collect();
+    let feet = feet(grain, &some);
+    Deviation::of(feet.iter().map(|foot| (foot.distance, 1.0))).rms()
+}
+
+/// Fits positions over the sphere.
+fn positioned(
+    scan: &Scan,
+    options: &FitOptions,
+    context: &Context<'_>,
+    kind: KindChoice,
+) -> Result<Fitted, FitError> {
+    let fit = fit_position(scan, options, context)?;
+    let PositionFit {
+        frame,
+        surface,
+        radius,
+        ..
+    } = fit;
+    let degree = surface.degree();
+    let cells = surface.coefficients().len();
+    let grain = PositionGrain::new(frame, surface).map_err(FitError::NoSurface)?;
+    grain.check().map_err(FitError::NoSurface)?;
+    let grain = Grain::from(grain);
+    let candidate = Candidate {
+        heldout_rms: Some(fit.held_out.rms),
+        ..Candidate::unfitted(degree, cells, grain.coefficient_count())
+    };
+    let mut warnings = fit.warnings;
+    if fit.crossings > 0 {
+        warnings.push(FitWarning::Crossings {
+            pairs: fit.crossings,
+        });
+    }
+    if fit.turned_over > 0 {
+        warnings.push(FitWarning::TurnedOver {
+            samples: fit.turned_over,
+        });
+    }
+    Ok(Fitted {
+        grain,
+        kind,
+        search: Search {
+            seams: Seams::Blended,
+            chosen: 0,
+            candidates: vec![candidate],
+            limit: options.tolerance.length(radius),
+            noise: None,
+            work: Work::default(),
+        },
+        reference: fit.reference,
+        points: fit.samples,
+        mean_radius: radius,
+        residuals: Residuals {
+            rms: fit.distance.rms,
+            max: fit.distance.max,
+        },
+        asymmetry: None,
+        estimate: None,
+        whole: None,
+        unseen: None,
+        warnings,
+        posterior: None,
+    })
+}
