@@ -11,6 +11,7 @@ mod inputs;
 mod measure;
 mod mesh;
 mod outputs;
+mod placed;
 mod progress;
 mod search;
 mod shell;

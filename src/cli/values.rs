@@ -2,7 +2,7 @@
 
 use crate::fit::{Form, Kind, MAX_UNION_PARTS, Seams, Tolerance};
 use crate::measure::Scheme;
-use nalgebra::Vector3;
+use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use std::str::FromStr;
 
 /// `exact` or `four-triangles`.
@@ -62,6 +62,34 @@ impl FromStr for SurfaceArg {
                 return Err(format!("expected {known}"));
             }
         }))
+    }
+}
+
+/// Where a body is: turned about the origin, then moved.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct PoseArg {
+    pub(super) aside: Vector3<f64>,
+    pub(super) turn: UnitQuaternion<f64>,
+}
+
+impl FromStr for PoseArg {
+    type Err = &'static str;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let wrong = "expected seven finite numbers X,Y,Z,QW,QX,QY,QZ";
+        let numbers = text.split(',').map(|number| number.trim().parse::<f64>());
+        let numbers: Vec<f64> = numbers.collect::<Result<_, _>>().map_err(|_| wrong)?;
+        let [x, y, z, w, i, j, k] = numbers[..] else {
+            return Err(wrong);
+        };
+        if numbers.iter().any(|number| !number.is_finite()) {
+            return Err(wrong);
+        }
+        let turn = UnitQuaternion::try_new(Quaternion::new(w, i, j, k), 1e-100);
+        Ok(Self {
+            aside: Vector3::new(x, y, z),
+            turn: turn.ok_or("the quaternion must not be zero")?,
+        })
     }
 }
 

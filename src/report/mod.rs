@@ -12,6 +12,7 @@ mod fit;
 mod harmonics;
 mod measure;
 mod number;
+mod placed;
 mod rule;
 mod search;
 mod superquadric;
@@ -31,6 +32,7 @@ pub use measure::{
     Spheres, UnknownMeasure,
 };
 pub use number::{percent, short};
+pub use placed::{PlacedReport, PlacedTouch};
 pub use search::{CandidateRecord, SearchReport};
 pub use superquadric::{SuperquadricRecord, SuperquadricReport};
 pub use synth::SynthReport;

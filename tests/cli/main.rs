@@ -12,6 +12,7 @@ mod search;
 mod signals;
 mod sound;
 mod streams;
+mod superquadric;
 mod symmetry;
 mod synth;
 mod told;
