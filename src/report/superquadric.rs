@@ -189,7 +189,7 @@ impl SuperquadricReport {
 }
 
 /// Relative tolerance of the area and the volume of unions.
-const UNION_TOLERANCE: f64 = 1e-4;
+const UNION_TOLERANCE: f64 = 1e-3;
 
 impl fmt::Display for SuperquadricReport {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

@@ -184,10 +184,15 @@ impl<'a> ConvexPair<'a> {
         self.told(&self.solve(method, None, &goal))
     }
 
-    /// How far the bodies overlap along the normal through the point of the contact: the distance between where that
-    /// line leaves the first body and where it enters the second, below zero if they are apart.
+    /// How far bodies that touch overlap along the normal through the point of the contact: the distance between where
+    /// that line leaves the first body and where it enters the second. Of bodies that are apart, the distance between
+    /// the planes normal to it that touch them, with a minus.
     pub fn overlap(&self, contact: &ConvexContact) -> f64 {
         let normal = self.frame.axes.tr_mul(&contact.normal);
+        if contact.status == ConvexStatus::Apart {
+            let [(first, _), (second, _)] = self.supports(&normal);
+            return first + second - normal.dot(&self.offset);
+        }
         overlap::overlap(self, &self.frame.to_local(&contact.point), &normal)
     }
 
