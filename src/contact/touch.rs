@@ -1,7 +1,8 @@
 //! Where a body touches what comes from a direction, and how it is curved there.
 
 use super::{EdgeError, TangentCap};
-use crate::measure::{Curvature, Support, self_crossing, support};
+use crate::Mesh;
+use crate::measure::{Curvature, Support, crossings, support};
 use crate::model::Surface;
 use crate::sphere::tangents;
 use nalgebra::Vector3;
@@ -75,12 +76,8 @@ pub fn touch(
     towards: &Vector3<f64>,
     edge_radius: Option<f64>,
 ) -> Result<Touch, TouchError> {
-    if surface.may_cross()
-        && let Some(at) = self_crossing(&surface.mesh(CROSSING))
-    {
-        return Err(TouchError::Crossing {
-            at: at.coords.into(),
-        });
+    if surface.may_cross() {
+        refuse_crossings(&surface.mesh(CROSSING))?;
     }
     let found = support(surface, towards);
     if found.is_smooth {
@@ -98,6 +95,19 @@ pub fn touch(
         towards,
         edge_radius,
     )
+}
+
+/// Refuses a mesh that goes through itself.
+fn refuse_crossings(mesh: &Mesh) -> Result<(), TouchError> {
+    match crossings(mesh).first() {
+        None => Ok(()),
+        Some([one, _]) => {
+            let [corner, ..] = mesh.triangles[*one];
+            Err(TouchError::Crossing {
+                at: mesh.vertices[corner as usize].into(),
+            })
+        }
+    }
 }
 
 /// The two sides of an edge: those that are farthest apart of all round `n`.

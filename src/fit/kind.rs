@@ -92,7 +92,7 @@ fn compared(
     options: &FitOptions,
     context: &Context<'_>,
 ) -> Result<Fitted, FitError> {
-    let limit = options.tolerance.length(star.mean_radius);
+    let limit = star.search.limit;
     let own = Rival {
         coefficients: star.grain.coefficient_count(),
         rms: normal_distance(&star.grain, scan),

@@ -35,7 +35,7 @@ impl PositionGrain {
 
     /// Refuses a surface that runs round the sphere the wrong way, or turns over within a degree or two: then its
     /// normals do not point outside. Looked for on a grid of 13 826 directions. That parts which lie
-    /// apart on the sphere do not cross tells [`self_crossing`](crate::measure::self_crossing).
+    /// apart on the sphere do not cross tells [`crossings`](crate::measure::crossings).
     ///
     /// # Errors
     /// [`InvalidGrain::Folded`] with a direction, [`InvalidGrain::InsideOut`], and [`InvalidGrain::OutOfRange`] if
@@ -59,8 +59,8 @@ impl PositionGrain {
             let [a, b, c] = [i, j, k].map(place);
             let area = (b - a).cross(&(c - a));
             volume += a.dot(&b.cross(&c)) / 6.0;
-            // Written so that NaN fails.
-            if !(area.dot(&(normal(i) + normal(j) + normal(k))) > 0.0) {
+            let outwards = area.dot(&(normal(i) + normal(j) + normal(k)));
+            if outwards.is_nan() || outwards <= 0.0 {
                 let direction = self.frame.axes * directions[i as usize];
                 return Err(InvalidGrain::Folded {
                     direction: direction.into(),

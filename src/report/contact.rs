@@ -142,7 +142,7 @@ impl ContactReport {
         match share {
             None => warnings.push(
                 "how certain the curvature is there is not known, so the force has no standard error: fit the scan \
-                 without --seams none, --symmetry and --edge-radius for one"
+                 without --seams none, --symmetry, --surface position and --edge-radius for one"
                     .into(),
             ),
             Some(Err(_)) => warnings.push(

@@ -4,7 +4,7 @@
 use crate::grains::{plain, turned};
 use grainform::contact::{TouchError, touch};
 use grainform::measure::{
-    Curvature, Deviation, Scheme, Survey, feet, grain_properties, mesh_properties, self_crossing,
+    Curvature, Deviation, Scheme, Survey, crossings, feet, grain_properties, mesh_properties,
 };
 use grainform::model::{
     Frame, InvalidGrain, ModelError, Position, PositionGrain, Radial, SurfaceJet, grain_from_json,
@@ -184,7 +184,7 @@ fn every_measure_of_the_ellipsoid_is_that_of_its_radius() {
         let [one, other] = [&have, &want].map(|survey| survey.curvature().unwrap());
         assert!(one.gauss_bonnet_error().abs() < 1e-4);
         near(one.mean().mean, other.mean().mean, 1e-4);
-        near(have.roundness().unwrap(), want.roundness().unwrap(), 1e-2);
+        near(have.roundness().unwrap(), want.roundness().unwrap(), 3e-2);
         let [one, other] = [&have, &want].map(|survey| survey.spectrum().unwrap());
         near(one.power[2], other.power[2], 1e-6);
         let [one, other] = [&have, &want].map(|survey| survey.projections().unwrap());
@@ -259,7 +259,7 @@ fn a_banana_is_touched_where_it_reaches_farthest() {
         matches!(refused, Err(TouchError::Crossing { at }) if at[1] < 0.0),
         "{refused:?}"
     );
-    assert!(self_crossing(&banana.mesh(64)).is_none());
+    assert!(crossings(&banana.mesh(64)).is_empty());
 }
 
 #[test]

@@ -62,11 +62,12 @@ fn unusable_inputs_are_named() {
 }
 
 #[test]
-fn a_torus_is_refused_with_the_share_that_faces_away() {
+fn a_torus_is_refused_with_its_genus_or_the_share_that_faces_away() {
     let outputs = ["-o", "m.json", "--mesh", "m.stl", "--harmonics", "m.csv"];
     let words = [&["fit", "torus.obj"], &outputs[..]].concat();
+    refuse(&words, &["torus.obj", "1 handles (its genus)"]);
     refuse(
-        &words,
+        &[&words[..], &["--surface", "star"]].concat(),
         &["torus.obj", "not star-shaped", "% of its area faces away"],
     );
 }

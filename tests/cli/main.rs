@@ -7,6 +7,7 @@ mod fit;
 mod harmonics;
 mod measure;
 mod mesh;
+mod positions;
 mod search;
 #[cfg(unix)]
 mod signals;

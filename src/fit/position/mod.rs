@@ -5,7 +5,6 @@
 //! [rounds](rounds) that also move the directions; cells are [split](search) where the distance asks for it.
 
 mod cloud;
-mod crossing;
 mod functions;
 mod least_squares;
 pub(crate) mod map;
@@ -59,6 +58,7 @@ pub struct PositionFit {
 pub struct Distance {
     /// Root of the weighted mean square.
     pub rms: f64,
+    /// The largest.
     pub max: f64,
 }
 

@@ -6,18 +6,20 @@
 //! from folding; its weight is the one with which samples that are held out are met best.
 
 use super::cloud::{Cloud, Distances};
-use super::crossing::crossings;
 use super::functions::{Functions, Rows};
 use super::least_squares::{Equations, Term, solve};
 use crate::fit::context::{Cancelled, Context};
+use crate::measure::crossings;
+use crate::mesh::Mesh;
 use crate::model::Position;
-use nalgebra::{Matrix3, Vector3};
+use crate::sphere::cube_grid;
+use nalgebra::{Matrix3, Point3, Vector3};
 
 /// Weights of errors across the normal, beside 1 along it, round by round.
-const ACROSS: [f64; 3] = [0.3, 0.1, 0.1];
+const ACROSS: [f64; 5] = [0.3, 0.1, 0.03, 0.03, 0.03];
 
 /// The same in the last fit.
-const LAST_ACROSS: f64 = 0.1;
+const LAST_ACROSS: f64 = 0.03;
 
 /// Weights of the roughness, for points about a body of equal radius 1: of clean meshes, of noise of .5 and 1.5 % of
 /// the radius.
@@ -28,6 +30,9 @@ const MORE: f64 = 10.0;
 
 /// ... up to so many times.
 const MOST_TRIES: usize = 3;
+
+/// Cells per edge of the cube of directions of the mesh in which crossings are looked for: 13 826 vertices.
+const RESOLUTION: usize = 48;
 
 /// Functions and what their roughness is made of.
 pub(super) struct Problem<'a> {
@@ -186,11 +191,23 @@ impl<'a> Problem<'a> {
         let (distances, _) = cloud.distances(&surface, |_| true);
         let (held_out, _) = cloud.distances(&other, |at| cloud.is_held_out[at]);
         Ok(Some(Fitted {
-            faults: [cloud.turned_over(&surface), crossings(&surface)],
+            faults: [
+                cloud.turned_over(&surface),
+                crossings(&mesh(&surface)).len(),
+            ],
             surface,
             distances,
             held_out,
             roughness,
         }))
+    }
+}
+
+fn mesh(surface: &Position) -> Mesh {
+    let (directions, triangles) = cube_grid(RESOLUTION);
+    let points = surface.points_and_tangents(&directions).into_iter();
+    Mesh {
+        vertices: points.map(|(point, _)| Point3::from(point)).collect(),
+        triangles,
     }
 }

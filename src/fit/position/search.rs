@@ -24,7 +24,7 @@ const SAMPLES_PER_FUNCTION: f64 = 3.0;
 const MOST_FUNCTIONS: usize = 1000;
 
 /// Cells are split as long as held-out distances fall at least with this power of the number of functions.
-const LEAST_GAIN: f64 = 0.25;
+const LEAST_GAIN: f64 = 0.12;
 
 /// Distances of a fit without rounds over those after them: 1.2 to 3.5.
 const GAIN_OF_ROUNDS: f64 = 1.3;

@@ -6,90 +6,23 @@
 //! all vertices at once. On the way and at the end vertices move to lessen a [distortion](rest) that leans to equal
 //! areas. What comes out is checked, with exact signs.
 
+mod error;
 mod grow;
 mod half_edges;
 mod rest;
 mod simplify;
 mod star;
 
-use crate::fit::context::{Cancelled, Context};
-use crate::mesh::{Mesh, MeshDefect};
+pub use error::MapError;
+
+use crate::fit::context::Context;
+use crate::mesh::Mesh;
 use grow::{Sweeps, grow};
 use half_edges::HalfEdges;
 use nalgebra::{Matrix3, Point3, Vector3};
 use robust::Coord3D;
 use simplify::simplify;
 use std::f64::consts::PI;
-
-/// Why a mesh has no map to the sphere.
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum MapError {
-    /// The triangles are not a closed, consistently wound manifold.
-    #[error("the faces do not close: {0}")]
-    NotClosed(#[from] MeshDefect),
-    /// A vertex belongs to no triangle.
-    #[error("vertex {vertex} belongs to no face")]
-    UnusedVertex {
-        /// Index of the vertex.
-        vertex: u32,
-    },
-    /// Sheets of the surface touch in a vertex.
-    #[error("the surface touches itself in vertex {vertex}, which belongs to several sheets of it")]
-    PinchedVertex {
-        /// Index of the vertex.
-        vertex: u32,
-    },
-    /// There are several surfaces.
-    #[error("the faces are {bodies} separate surfaces, and one grain has one")]
-    SeveralBodies {
-        /// Number of surfaces.
-        bodies: usize,
-    },
-    /// The surface has handles.
-    #[error(
-        "the surface is not that of a ball but has {genus} handles (its genus), as a ring has one: fill them, for no \
-         surface over the sphere has any"
-    )]
-    Handles {
-        /// Their number.
-        genus: usize,
-    },
-    /// There are fewer than four vertices, or two coordinates of a vertex are not finite.
-    #[error(
-        "the faces enclose no body: at least four vertices with finite coordinates, not all in one place, do"
-    )]
-    NoBody,
-    /// Faces are so thin or small that rounding leaves no place for a vertex.
-    #[error(
-        "numbers leave vertex {vertex} no place on the sphere: the faces round it are too thin; weld vertices that are \
-         too close, or mesh the surface anew"
-    )]
-    NoKernel {
-        /// Index of the vertex.
-        vertex: u32,
-    },
-    /// The map found does not pass its check.
-    #[error(
-        "{flips} faces turn over on the sphere, which is covered {degree} times: weld vertices that are too close, or \
-         mesh the surface anew"
-    )]
-    NotOneToOne {
-        /// Triangles whose images have the other orientation.
-        flips: usize,
-        /// Sum of the solid angles over 4 pi.
-        degree: f64,
-    },
-    /// The work was asked to stop.
-    #[error("the fit was cancelled")]
-    Cancelled,
-}
-
-impl From<Cancelled> for MapError {
-    fn from(_: Cancelled) -> Self {
-        Self::Cancelled
-    }
-}
 
 /// Sweeps of meshes up to [`LARGE`].
 const THOROUGH: Sweeps = Sweeps {

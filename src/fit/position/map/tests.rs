@@ -1,4 +1,5 @@
 use super::*;
+use crate::mesh::MeshDefect;
 use crate::sphere::cube_grid;
 use std::f64::consts::TAU;
 

@@ -1,0 +1,71 @@
+//! Bodies that no centre sees whole.
+
+use super::{errors, folder, grainform, json, number};
+use grainform::Mesh;
+use grainform::export::save_mesh;
+use nalgebra::Point3;
+use std::path::Path;
+
+/// A banana, 230 degrees round, as a mesh of 2402 vertices.
+fn banana(folder: &Path) {
+    let mut mesh = Mesh::radial(20, |_| 1.0);
+    for vertex in &mut mesh.vertices {
+        let (out, angle) = (1.5 + 0.5 * vertex.y, 2.0 * vertex.x);
+        *vertex = Point3::new(out * angle.sin(), out * angle.cos(), 0.4 * vertex.z);
+    }
+    save_mesh(&folder.join("banana.ply"), &mesh).unwrap();
+}
+
+#[test]
+fn a_banana_is_fitted_measured_and_touched() {
+    let folder = folder();
+    banana(folder.path());
+    let star = ["fit", "banana.ply", "--surface", "star"];
+    let refused = errors(&grainform(&folder, &star));
+    assert!(refused.contains("faces away"), "{refused}");
+
+    let report = json(
+        &folder,
+        &["fit", "banana.ply", "--tolerance", "0.5%", "-o", "b.json"],
+    );
+    assert_eq!(report["surface"], "position");
+    let why = report["surface_rule"].as_str().unwrap();
+    assert!(
+        why.ends_with("% of the area faces away from the best centre"),
+        "{why}"
+    );
+    let of_faces = json(&folder, &["measure", "banana.ply", "--only", "area,volume"]);
+    for figure in ["area", "volume"] {
+        let share = number(&report, figure) / number(&of_faces, figure);
+        // The facets lie within the surface.
+        assert!((share - 1.004).abs() < 0.006, "{figure}: {share}");
+    }
+    assert!(number(&report, "heldout_rms") < 5e-3 * number(&report, "mean_radius"));
+    assert!(report["no_standard_errors"].is_string());
+
+    let measured = json(&folder, &["measure", "b.json"]);
+    assert_eq!(number(&measured, "volume"), number(&report, "volume"));
+    let missing = measured["not_measured"].as_array().unwrap();
+    let missing: Vec<_> = missing
+        .iter()
+        .map(|one| one["measure"].as_str().unwrap())
+        .collect();
+    assert_eq!(missing, ["angularity", "spectrum"]);
+    let words =
+        "contact b.json --towards 0,1,0 --unit mm --youngs-modulus-mpa 91 --indentation-um 1";
+    let contact: Vec<&str> = words.split(' ').collect();
+    let report = json(&folder, &contact);
+    let back = report["first"]["point"][1].as_f64().unwrap();
+    assert!((back - 2.0).abs() < 0.02, "{back}");
+
+    let words = [
+        "fit",
+        "banana.ply",
+        "--tolerance",
+        "0.5%",
+        "--harmonics",
+        "a.csv",
+    ];
+    let refused = errors(&grainform(&folder, &words));
+    assert!(refused.contains("leave --harmonics out"), "{refused}");
+}
