@@ -63,8 +63,8 @@ pub(super) fn solve(pair: &ConvexPair<'_>, start: Option<Vector3<f64>>) -> Found
             break;
         };
         let moved = solved.xyz();
-        // Written so that NaN ends.
-        if !(moved.norm() < RUNAWAY * distance) {
+        let length = moved.norm();
+        if length.is_nan() || length >= RUNAWAY * distance {
             break;
         }
         x += moved;

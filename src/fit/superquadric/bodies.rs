@@ -129,7 +129,7 @@ impl Body {
         let inner = Norm::new(y.x.abs() / a, y.y.abs() / b, n2);
         let outer = Norm::new(inner.value, y.z.abs() / c, n1);
         let (g, length) = (outer.value, y.norm());
-        if !(g > 1e-12) {
+        if g.is_nan() || g <= 1e-12 {
             // At the very centre there is no ray.
             return Distance {
                 value: -numbers[0].min(numbers[2]).min(numbers[4]),

@@ -1,7 +1,6 @@
 //! The method of Levenberg and Marquardt, with bounds and a robust loss (Madsen, Nielsen and Tingleff 2004).
 
 use super::bodies::Body;
-use super::form::NUMBERS;
 use super::normal_equations::{NormalEquations, Reach, Weighing, distances};
 use crate::fit::context::{Cancelled, Context};
 use nalgebra::{Cholesky, DVector, Vector3};
@@ -78,16 +77,14 @@ pub(super) fn minimised(
     Ok(found)
 }
 
-/// The best of some fits, all weighed as the one that needs the least scale; there is one at least.
-pub(super) fn least(mut tried: Vec<Minimum>, points: &[Vector3<f64>]) -> Minimum {
+/// The best of some fits, all weighed as the one that needs the least scale; `None` of none.
+pub(super) fn least(tried: Vec<Minimum>, points: &[Vector3<f64>]) -> Option<Minimum> {
     let scales = tried.iter().map(|found| &found.weighing);
-    let Some(weighing) = scales.min_by(|p, q| p.scale.total_cmp(&q.scale)).copied() else {
-        unreachable!("a fit has starts");
-    };
+    let weighing = *scales.min_by(|p, q| p.scale.total_cmp(&q.scale))?;
     let loss = |found: &Minimum| NormalEquations::new(&found.bodies, points, &weighing).loss;
-    let losses: Vec<f64> = tried.iter().map(loss).collect();
-    let best = (0..losses.len()).fold(0, |best, i| if losses[i] < losses[best] { i } else { best });
-    tried.swap_remove(best)
+    let weighed = tried.into_iter().map(|found| (loss(&found), found));
+    let best = weighed.min_by(|(p, _), (q, _)| p.total_cmp(q))?;
+    Some(best.1)
 }
 
 /// Goes down with one weighing.
@@ -117,8 +114,7 @@ pub(super) fn descended(
             .collect();
         let there = NormalEquations::new(&moved, points, &weighing);
         let gain = here.loss - there.loss;
-        // Written so that NaN is no gain.
-        if !(gain > 0.0) {
+        if gain.is_nan() || gain <= 0.0 {
             if step.amax() < SMALL_STEP {
                 break;
             }
@@ -153,8 +149,8 @@ fn damped_step(
     let mut side = -&here.gradient;
     let ties = weighing.form.ties();
     for (index, body) in bodies.iter().enumerate() {
-        for number in 0..NUMBERS {
-            let place = index * weighing.form.parameters() + ties[number];
+        for (number, tie) in ties.into_iter().enumerate() {
+            let place = index * weighing.form.parameters() + tie;
             if body.is_held(number, side[place]) {
                 matrix.row_mut(place).fill(0.0);
                 matrix.column_mut(place).fill(0.0);

@@ -136,10 +136,7 @@ fn with_parts(
             tried.push(sharpened(start, &few, like, context)?);
         }
     }
-    if tried.is_empty() {
-        return Err(SuperquadricFitError::NoVolume);
-    }
-    let found = least(tried, &few);
+    let found = least(tried, &few).ok_or(SuperquadricFitError::NoVolume)?;
     let weighing = weighed(&found.bodies, &cloud.points, &found.weighing);
     Ok(descended(
         found.bodies,

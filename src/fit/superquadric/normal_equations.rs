@@ -161,8 +161,8 @@ impl NormalEquations {
     fn add_prior(&mut self, bodies: &[Body], weighing: &Weighing) {
         let ties = weighing.form.ties();
         for (index, body) in bodies.iter().enumerate() {
-            for number in EXPONENTS_FROM..NUMBERS {
-                let place = index * weighing.form.parameters() + ties[number];
+            for (number, tie) in ties.into_iter().enumerate().skip(EXPONENTS_FROM) {
+                let place = index * weighing.form.parameters() + tie;
                 let off = body.logs[number] - USUAL_EXPONENT;
                 self.loss += 0.5 * weighing.prior * off * off;
                 self.gradient[place] += weighing.prior * off;

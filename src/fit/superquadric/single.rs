@@ -136,7 +136,7 @@ fn best_within(
         .map(|start| minimised(vec![start], points, &like, STEPS[0], context))
         .collect::<Result<Vec<_>, _>>()?;
     let iterations = tried.iter().map(|found| found.iterations).sum();
-    let best = least(tried, points);
+    let best = least(tried, points).ok_or(SuperquadricFitError::NoVolume)?;
     Ok(Minimum { iterations, ..best })
 }
 
