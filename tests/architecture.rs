@@ -25,7 +25,14 @@ const FLOORS: [&str; 15] = [
 ];
 
 /// What a fit can be, a folder each.
-const FAMILIES: [&str; 5] = ["segments", "blended", "mirrored", "estimate", "position"];
+const FAMILIES: [&str; 6] = [
+    "segments",
+    "blended",
+    "mirrored",
+    "estimate",
+    "position",
+    "superquadric",
+];
 
 /// A module of the crate, such as fit::dispatch; empty is the crate itself.
 type Module = Vec<String>;

@@ -2,7 +2,7 @@
 
 use super::args::ContactArgs;
 use super::console::{Console, put_json};
-use super::{inputs, threads};
+use super::{inputs, placed, threads};
 use crate::contact::{Material, TouchError, effective_modulus_pa, touch};
 use crate::report::{ContactReport, Load, TouchRecord};
 use anyhow::{Context, Result, anyhow, bail};
@@ -11,6 +11,13 @@ use std::path::Path;
 
 pub(super) fn run(args: ContactArgs, console: Console) -> Result<()> {
     threads::start(0, console)?;
+    if let Some(pose) = &args.pose_b {
+        let report = placed::contacts(&args, pose)?;
+        return match args.json {
+            true => put_json(&report),
+            false => console.print(&report),
+        };
+    }
     let report = contact(&args)?;
     if args.json {
         return put_json(&report);
@@ -21,23 +28,23 @@ pub(super) fn run(args: ContactArgs, console: Console) -> Result<()> {
 }
 
 fn contact(args: &ContactArgs) -> Result<ContactReport> {
-    if !(args.indentation_um > 0.0 && args.indentation_um.is_finite()) {
-        bail!(
-            "the indentation must be above zero, not {} um",
-            args.indentation_um
-        );
+    let (Some(unit), Some(indentation_um), Some(modulus_mpa)) =
+        (args.unit, args.indentation_um, args.youngs_modulus_mpa)
+    else {
+        bail!("a force needs --unit, --indentation-um and --youngs-modulus-mpa");
+    };
+    if !(indentation_um > 0.0 && indentation_um.is_finite()) {
+        bail!("the indentation must be above zero, not {indentation_um} um");
     }
-    let own = Material::new(1e6 * args.youngs_modulus_mpa, args.poissons_ratio)?;
+    let own = Material::new(1e6 * modulus_mpa, args.poissons_ratio)?;
     let other = Material::new(
-        1e6 * args
-            .other_youngs_modulus_mpa
-            .unwrap_or(args.youngs_modulus_mpa),
+        1e6 * args.other_youngs_modulus_mpa.unwrap_or(modulus_mpa),
         args.other_poissons_ratio.unwrap_or(args.poissons_ratio),
     )?;
     let load = Load {
-        unit: args.unit,
+        unit,
         effective_modulus_pa: effective_modulus_pa(&own, &other),
-        indentation_um: args.indentation_um,
+        indentation_um,
     };
     if !load.effective_modulus_pa.is_finite() {
         bail!("both bodies are rigid: give one of them a finite Young's modulus");

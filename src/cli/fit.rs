@@ -3,7 +3,8 @@
 use super::args::FitArgs;
 use super::console::{Console, put_json};
 use super::fitting::{ScanFit, fit_scan, say_stats};
-use super::outputs;
+use super::values::SurfaceArg;
+use super::{outputs, superquadric};
 use crate::export::MeshFormat;
 use crate::fit::Fitted;
 use crate::model::{Surface, grain_to_json};
@@ -14,8 +15,7 @@ use std::time::Instant;
 pub(super) fn run(args: FitArgs, console: Console) -> Result<()> {
     let started = Instant::now();
     let fitting = &args.fitting;
-    let options = fitting.settle(console)?.with_kind(args.surface.0);
-    options.check()?;
+    let options = fitting.settle(console)?;
     args.meshing.check(args.mesh.is_some(), console)?;
     let is_taken = outputs::check(
         Some(&fitting.scan),
@@ -27,6 +27,13 @@ pub(super) fn run(args: FitArgs, console: Console) -> Result<()> {
         fitting.json,
     )?;
     let console = console.beside(is_taken);
+    let options = match args.surface {
+        SurfaceArg::Kind(kind) => options.with_kind(kind),
+        SurfaceArg::Superquadric(form) => {
+            return superquadric::run(&args, form, &options, console);
+        }
+    };
+    options.check()?;
 
     let progress = console.progress();
     let ScanFit {

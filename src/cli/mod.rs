@@ -11,11 +11,13 @@ mod inputs;
 mod measure;
 mod mesh;
 mod outputs;
+mod placed;
 mod progress;
 mod search;
 mod shell;
 #[cfg(unix)]
 mod signals;
+mod superquadric;
 mod synth;
 mod threads;
 mod usage;

@@ -1,8 +1,8 @@
 //! Values of arguments that have a notation of their own.
 
-use crate::fit::{Kind, Seams, Tolerance};
+use crate::fit::{Form, Kind, MAX_UNION_PARTS, Seams, Tolerance};
 use crate::measure::Scheme;
-use nalgebra::Vector3;
+use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use std::str::FromStr;
 
 /// `exact` or `four-triangles`.
@@ -18,6 +18,78 @@ impl FromStr for SchemeArg {
             "four-triangles" => Ok(Self(Scheme::FourTriangles)),
             _ => Err("expected exact or four-triangles"),
         }
+    }
+}
+
+/// What is fitted to a scan.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum SurfaceArg {
+    Kind(Kind),
+    Superquadric(SuperquadricArg),
+}
+
+/// One superquadric, or a union of some at most.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum SuperquadricArg {
+    Single(Form),
+    Multi(usize),
+}
+
+/// Parts of a union where no number is given.
+const USUAL_PARTS: usize = 4;
+
+impl FromStr for SurfaceArg {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let parts = |text: &str| {
+            let parts = text.parse().ok();
+            let parts = parts.filter(|parts| (1..=MAX_UNION_PARTS).contains(parts));
+            parts.ok_or(format!("expected from 1 to {MAX_UNION_PARTS} parts"))
+        };
+        Ok(Self::Superquadric(match text.split_once(':') {
+            Some(("multi", count)) => SuperquadricArg::Multi(parts(count)?),
+            None if text == "multi" => SuperquadricArg::Multi(USUAL_PARTS),
+            None if text == "superquadric" => SuperquadricArg::Single(Form::Single),
+            None if text == "poly" => SuperquadricArg::Single(Form::Poly8),
+            None if text == "poly12" => SuperquadricArg::Single(Form::Poly12),
+            None if text == "auto" => return Ok(Self::Kind(Kind::Auto)),
+            None if text == "star" => return Ok(Self::Kind(Kind::Star)),
+            None if text == "position" => return Ok(Self::Kind(Kind::Position)),
+            _ => {
+                let known =
+                    "auto, star, position, superquadric, poly, poly12, multi or multi:PARTS";
+                return Err(format!("expected {known}"));
+            }
+        }))
+    }
+}
+
+/// Where a body is: turned about the origin, then moved.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct PoseArg {
+    pub(super) aside: Vector3<f64>,
+    pub(super) turn: UnitQuaternion<f64>,
+}
+
+impl FromStr for PoseArg {
+    type Err = &'static str;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let wrong = "expected seven finite numbers X,Y,Z,QW,QX,QY,QZ";
+        let numbers = text.split(',').map(|number| number.trim().parse::<f64>());
+        let numbers: Vec<f64> = numbers.collect::<Result<_, _>>().map_err(|_| wrong)?;
+        let [x, y, z, w, i, j, k] = numbers[..] else {
+            return Err(wrong);
+        };
+        if numbers.iter().any(|number| !number.is_finite()) {
+            return Err(wrong);
+        }
+        let turn = UnitQuaternion::try_new(Quaternion::new(w, i, j, k), 1e-100);
+        Ok(Self {
+            aside: Vector3::new(x, y, z),
+            turn: turn.ok_or("the quaternion must not be zero")?,
+        })
     }
 }
 
@@ -69,23 +141,6 @@ impl FromStr for SeamsArg {
             "blended" => Ok(Self(Seams::Blended)),
             "none" => Ok(Self(Seams::None)),
             _ => Err("expected blended or none"),
-        }
-    }
-}
-
-/// `auto`, `star` or `position`.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct KindArg(pub(super) Kind);
-
-impl FromStr for KindArg {
-    type Err = &'static str;
-
-    fn from_str(text: &str) -> Result<Self, Self::Err> {
-        match text {
-            "auto" => Ok(Self(Kind::Auto)),
-            "star" => Ok(Self(Kind::Star)),
-            "position" => Ok(Self(Kind::Position)),
-            _ => Err("expected auto, star or position"),
         }
     }
 }

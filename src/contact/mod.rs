@@ -1,11 +1,16 @@
-//! Normal contact of two surfaces, or of a surface and a plane, by the theory of Hertz.
+//! Normal contact of two surfaces, or of a surface and a plane, by the theory of Hertz; and contacts of convex bodies
+//! and of unions of them, which are found however they lie.
 
+mod convex;
 mod edge;
 mod force_error;
 mod material;
 mod relative;
 mod touch;
 
+pub use convex::{
+    ConvexContact, ConvexPair, ConvexStatus, Method, UnionContact, Warm, union_contacts,
+};
 pub use edge::{EdgeError, TangentCap};
 pub use force_error::{Curved, force_error};
 pub use material::{Material, MaterialError, effective_modulus_pa};

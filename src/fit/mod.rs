@@ -27,6 +27,7 @@ mod prepare;
 mod robust;
 mod segments;
 mod sound;
+mod superquadric;
 mod unseen;
 mod warning;
 
@@ -44,6 +45,10 @@ pub use outcome::{EstimateSummary, Fitted, KindChoice, Residuals, Rival};
 pub use position::{Distance, PositionFit, fit_position, map::MapError};
 pub use prepare::{
     PreparedScan, Reference, ReferenceKind, ScannedSurface, largest_body, scanned_surface,
+};
+pub use superquadric::{
+    Form, MAX_UNION_PARTS, MultiFit, ParameterErrors, SuperquadricFit, SuperquadricFitError,
+    fit_multi_superquadric, fit_superquadric,
 };
 pub use unseen::Unseen;
 pub use warning::FitWarning;

@@ -1,16 +1,17 @@
 //! A grain as JSON: versioned, exact to the last bit, and refused where it is not sound.
 //!
-//! Version 4 holds either `position`, the `cells` or the `harmonics` of the position of points over the sphere, or of
+//! Version 4 holds either `superquadrics`, or `position`, the `cells` or the `harmonics` of the position of points over the sphere, or of
 //! a radius one of `cells` (blended), `segments` (independent), `symmetry` (mirrored) and
 //! `harmonics` (the whole sphere), of the grain stretched along its axes by `stretch`, if that is there.
-//! `margin` goes with `cells`; `curvature_errors` with any radius, if they are known. Version 3, which knew no
-//! `position`, version 2, which knew none of `harmonics`, `stretch`, `margin` and `curvature_errors` either, and version 1,
+//! `margin` goes with `cells`; `curvature_errors` with any radius, if they are known. Version 3, which knew neither
+//! `superquadrics` nor `position`, version 2, which knew none of `harmonics`, `stretch`, `margin` and `curvature_errors` either, and version 1,
 //! which knew segments only, are still read.
 
 use super::grain::Kind;
+use super::superquadric::PartRecord;
 use super::{
     Blended, CurvatureErrors, Family, Frame, Grain, InvalidGrain, Mirrored, Position,
-    PositionGrain, Segmented, StarGrain, Stretch, Surface, Whole,
+    PositionGrain, Segmented, StarGrain, Stretch, SuperquadricGrain, Surface, Whole,
 };
 use crate::sphere::{AngularPartition, Cover, CoverError, CubeCell, MARGIN, Symmetry};
 use nalgebra::{Matrix3, Point3, Vector3};
@@ -66,6 +67,9 @@ struct GrainFile {
     /// The position of points over the sphere, in place of all else.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     position: Option<PositionRecord>,
+    /// The superquadrics of a union, in place of all else.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    superquadrics: Option<Vec<PartRecord>>,
 }
 
 /// Cells, or the whole sphere: coefficients are x, y, z of the first function, of the second, and so on.
@@ -121,7 +125,7 @@ pub enum ModelError {
     /// No surface, or several.
     #[error(
         "the model is not sound: it must hold either `cells`, or `parts_per_angle` and `segments`, \
-         or `symmetry` and `coefficients`, or `harmonics`, or `position` with `cells` or `harmonics`"
+         or `symmetry` and `coefficients`, or `harmonics`, or `position` with `cells` or `harmonics`, or `superquadrics`"
     )]
     Surface,
     /// The errors of the curvature are none.
@@ -148,6 +152,7 @@ pub fn grain_to_json(grain: &Grain) -> String {
     match grain.kind() {
         Kind::Star(grain) => file.put_star(grain),
         Kind::Position(grain) => file.position = Some(PositionRecord::of(grain.position())),
+        Kind::Superquadric(grain) => file.superquadrics = Some(PartRecord::of(grain.body())),
     }
     serde_json::to_string_pretty(&file).expect("a record of numbers and strings is valid JSON")
 }
@@ -259,28 +264,35 @@ pub fn grain_from_json(text: &str) -> Result<Grain, ModelError> {
     let radius = (file.cells, file.margin);
     let independent = (file.parts_per_angle, file.segments);
     let mirrored = (file.symmetry, file.coefficients);
-    let family = match (radius, independent, mirrored, file.harmonics, file.position) {
-        ((None, None), (None, None), (None, None), None, Some(position))
+    let placed = (file.position, file.superquadrics);
+    let family = match (radius, independent, mirrored, file.harmonics, placed) {
+        ((None, None), (None, None), (None, None), None, (Some(position), None))
             if stretch.is_none() && errors.is_none() =>
         {
             let grain = PositionGrain::new(frame, position.read()?)?;
             grain.check()?;
             return Ok(grain.into());
         }
-        ((Some(cells), margin), (None, None), (None, None), None, None) => {
+        ((None, None), (None, None), (None, None), None, (None, Some(records)))
+            if stretch.is_none() && errors.is_none() =>
+        {
+            let body = PartRecord::read(&records).map_err(InvalidGrain::from)?;
+            return Ok(SuperquadricGrain::multi(frame, body)?.into());
+        }
+        ((Some(cells), margin), (None, None), (None, None), None, (None, None)) => {
             let (cover, coefficients) = to_cover(cells, margin)?;
             Family::Blended(Blended::new(cover, coefficients)?)
         }
-        ((None, None), (Some(found), Some(segments)), (None, None), None, None) => {
+        ((None, None), (Some(found), Some(segments)), (None, None), None, (None, None)) => {
             if found > LARGEST_PARTITION {
                 return Err(ModelError::Partition { found });
             }
             Family::Segmented(Segmented::new(AngularPartition::new(found), segments)?)
         }
-        ((None, None), (None, None), (Some(symmetry), Some(coefficients)), None, None) => {
+        ((None, None), (None, None), (Some(symmetry), Some(coefficients)), None, (None, None)) => {
             Family::Mirrored(Mirrored::new(symmetry, coefficients)?)
         }
-        ((None, None), (None, None), (None, None), Some(harmonics), None) => {
+        ((None, None), (None, None), (None, None), Some(harmonics), (None, None)) => {
             Family::Whole(Whole::new(harmonics)?)
         }
         _ => return Err(ModelError::Surface),

@@ -33,7 +33,7 @@ impl Frame {
     }
 
     /// Refuses a frame that is not finite, or whose axes are not orthonormal and right-handed.
-    pub(super) fn check(&self) -> Result<(), InvalidGrain> {
+    pub(in crate::model) fn check(&self) -> Result<(), InvalidGrain> {
         if !self.centre.iter().all(|x| x.is_finite()) {
             return Err(InvalidGrain::NotFinite {
                 what: "the centre".into(),

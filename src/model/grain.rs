@@ -1,6 +1,9 @@
 //! The fitted grain, of whichever kind.
 
-use super::{Frame, Node, PositionGrain, StarGrain, Surface, SurfaceElement, SurfaceJet, Tiling};
+use super::{
+    Frame, Node, PositionGrain, StarGrain, SuperquadricGrain, Surface, SurfaceElement, SurfaceJet,
+    Tiling,
+};
 use crate::mesh::Mesh;
 use crate::sphere::Symmetry;
 use nalgebra::{Matrix3, Vector3};
@@ -16,6 +19,7 @@ pub struct Grain(Kind);
 pub(super) enum Kind {
     Star(StarGrain),
     Position(PositionGrain),
+    Superquadric(SuperquadricGrain),
 }
 
 impl Grain {
@@ -23,7 +27,7 @@ impl Grain {
     pub fn star(&self) -> Option<&StarGrain> {
         match &self.0 {
             Kind::Star(grain) => Some(grain),
-            Kind::Position(_) => None,
+            Kind::Position(_) | Kind::Superquadric(_) => None,
         }
     }
 
@@ -31,7 +35,15 @@ impl Grain {
     pub fn position(&self) -> Option<&PositionGrain> {
         match &self.0 {
             Kind::Position(grain) => Some(grain),
-            Kind::Star(_) => None,
+            Kind::Star(_) | Kind::Superquadric(_) => None,
+        }
+    }
+
+    /// The grain as a union of superquadrics, if it is fitted as one.
+    pub fn superquadric(&self) -> Option<&SuperquadricGrain> {
+        match &self.0 {
+            Kind::Superquadric(grain) => Some(grain),
+            Kind::Star(_) | Kind::Position(_) => None,
         }
     }
 
@@ -43,6 +55,7 @@ impl Grain {
         match &self.0 {
             Kind::Star(grain) => grain,
             Kind::Position(grain) => grain,
+            Kind::Superquadric(grain) => grain,
         }
     }
 
@@ -51,14 +64,16 @@ impl Grain {
         Self(match &self.0 {
             Kind::Star(grain) => Kind::Star(grain.about_origin(factor)),
             Kind::Position(grain) => Kind::Position(grain.about_origin(factor)),
+            Kind::Superquadric(grain) => Kind::Superquadric(grain.about_origin(factor)),
         })
     }
 
-    /// The largest degree of its expansions.
+    /// The largest degree of its expansions; zero if it has none.
     pub fn degree(&self) -> usize {
         match &self.0 {
             Kind::Star(grain) => grain.degree(),
             Kind::Position(grain) => grain.position().degree(),
+            Kind::Superquadric(_) => 0,
         }
     }
 
@@ -72,6 +87,7 @@ impl Grain {
         match &self.0 {
             Kind::Star(grain) => grain.coefficient_count(),
             Kind::Position(grain) => grain.position().coefficient_count(),
+            Kind::Superquadric(grain) => grain.number_count(),
         }
     }
 
@@ -80,6 +96,7 @@ impl Grain {
         match &self.0 {
             Kind::Star(grain) => grain.coefficients_touched(),
             Kind::Position(grain) => grain.position().coefficients_touched(),
+            Kind::Superquadric(grain) => grain.number_count() as f64,
         }
     }
 
@@ -98,6 +115,12 @@ impl From<StarGrain> for Grain {
 impl From<PositionGrain> for Grain {
     fn from(grain: PositionGrain) -> Self {
         Self(Kind::Position(grain))
+    }
+}
+
+impl From<SuperquadricGrain> for Grain {
+    fn from(grain: SuperquadricGrain) -> Self {
+        Self(Kind::Superquadric(grain))
     }
 }
 

@@ -1,6 +1,6 @@
 //! Why parts do not make a grain.
 
-use super::Whole;
+use super::{InvalidSuperquadric, Whole};
 use crate::scan::plural;
 
 /// Why parts do not make a grain.
@@ -71,6 +71,9 @@ pub enum InvalidGrain {
     /// Radii beyond 1e100, or below its inverse.
     #[error("radii are beyond 1e100 or below 1e-100: change the unit")]
     OutOfRange,
+    /// Numbers that make no superquadrics.
+    #[error(transparent)]
+    Superquadric(#[from] InvalidSuperquadric),
     /// The axes are not orthonormal and right-handed.
     #[error("the axes are not orthonormal and right-handed")]
     Axes,

@@ -20,6 +20,7 @@ mod segmented;
 mod star_grain;
 mod star_surface;
 mod stretch;
+mod superquadric;
 mod surface;
 mod tiling;
 mod whole;
@@ -42,6 +43,10 @@ pub use segmented::Segmented;
 pub use star_grain::StarGrain;
 pub use star_surface::{Derivatives, Radial, StarSurface};
 pub use stretch::Stretch;
+pub(crate) use superquadric::Octant;
+pub use superquadric::{
+    EXPONENTS, InvalidSuperquadric, MultiSuperquadric, Part, Superquadric, SuperquadricGrain,
+};
 pub use surface::{Node, Surface, SurfaceElement, SurfaceJet};
 pub use tiling::Tiling;
 pub(crate) use tiling::{Parts, Piece};

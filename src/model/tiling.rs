@@ -20,6 +20,9 @@ const BLENDED_ORDERS: [usize; 2] = [6, 5];
 /// estimate of errors is pessimistic: at 1e-5 the error is 5e-8 on the maize kernel.
 const BLENDED_TOLERANCE: f64 = 3e-6;
 
+/// How often octants are cut in four where there are creases.
+const CREASED_CUTS: usize = 4;
+
 /// The parts of the sphere on which a surface is smooth, and how well it is integrated there.
 #[derive(Debug, Clone)]
 pub struct Tiling {
@@ -71,6 +74,27 @@ impl Tiling {
                 phi: [azimuth, azimuth + FRAC_PI_2],
             }
         }))
+    }
+
+    /// Of a surface with creases anywhere, as unions have: pieces so small that two rules differ little even across a
+    /// crease. Their differences are told, and nothing is cut further.
+    pub(crate) fn creased() -> Self {
+        let whole = Self::octants();
+        let Parts::Pieces { mut pieces, .. } = whole.parts else {
+            return whole;
+        };
+        for _ in 0..CREASED_CUTS {
+            pieces = pieces.iter().flat_map(Piece::quarters).collect();
+        }
+        Self {
+            parts: Parts::Pieces {
+                pieces,
+                orders: BLENDED_ORDERS,
+                cuts: 0,
+            },
+            tolerance: f64::INFINITY,
+            mirrors: Symmetry::NONE,
+        }
     }
 
     /// Of a surface that is mirrored in planes normal to its axes, and analytic between them.

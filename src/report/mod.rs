@@ -12,8 +12,10 @@ mod fit;
 mod harmonics;
 mod measure;
 mod number;
+mod placed;
 mod rule;
 mod search;
+mod superquadric;
 mod synth;
 mod unit;
 mod warning;
@@ -30,7 +32,9 @@ pub use measure::{
     Spheres, UnknownMeasure,
 };
 pub use number::{percent, short};
+pub use placed::{PlacedReport, PlacedTouch};
 pub use search::{CandidateRecord, SearchReport};
+pub use superquadric::{SuperquadricRecord, SuperquadricReport};
 pub use synth::SynthReport;
 pub use unit::Unit;
 #[cfg(feature = "cli")]

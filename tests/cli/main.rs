@@ -13,6 +13,7 @@ mod search;
 mod signals;
 mod sound;
 mod streams;
+mod superquadric;
 mod symmetry;
 mod synth;
 mod told;

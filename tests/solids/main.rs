@@ -1,6 +1,10 @@
-//! Bodies that are not star-shaped, open, hollow or several: each figure is right or is not told.
+//! Bodies that are not star-shaped, open, hollow or several: each figure is right or is not told; and contacts of
+//! superquadrics.
 
 mod bodies;
+mod contacts;
+#[path = "../../benches/pairs/mod.rs"]
+mod pairs;
 
 use bodies::{banana, cup, torus, u_shape};
 use grainform::Mesh;

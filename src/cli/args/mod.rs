@@ -4,7 +4,7 @@ mod shared;
 
 pub(super) use shared::{FittingArgs, InputArgs, LimitArgs, MeshingArgs};
 
-use super::values::{CloudFormat, KindArg, SchemeArg, share, vector};
+use super::values::{CloudFormat, PoseArg, SchemeArg, SurfaceArg, share, vector};
 use crate::export::MeshFormat;
 use crate::report::{Measure, Unit};
 use crate::shapes::{Body, Sampling};
@@ -74,9 +74,11 @@ pub(super) struct FitArgs {
 
     /// What is fitted: star (a radius in every direction from a centre), position (of points over the sphere, of any
     /// closed faces without handles), or auto: a radius, and where that hides area, ends above its limit or is
-    /// steep, the better of both
-    #[arg(long, value_name = "auto|star|position", default_value = "auto", help_heading = SEARCH)]
-    pub(super) surface: KindArg,
+    /// steep, the better of both. Or the few numbers of a superquadric (5), of one whose octants differ (poly, 8;
+    /// poly12), or of a union of superquadrics (multi: as many as held-out points ask for, 4 or PARTS at most)
+    #[arg(long, value_name = "auto|star|position|superquadric|poly|poly12|multi[:PARTS]", default_value = "auto",
+          help_heading = SEARCH)]
+    pub(super) surface: SurfaceArg,
 
     /// Write the model here, as JSON (- for standard output)
     #[arg(short, long, value_name = "MODEL.json", help_heading = OUTPUT)]
@@ -162,7 +164,8 @@ pub(super) struct MeasureArgs {
     pub(super) input: InputArgs,
 }
 
-/// Tell the normal force of a grain pressed against a plane or another grain, by the theory of Hertz
+/// Tell the normal force of a grain pressed against a plane or another grain, by the theory of Hertz; or, with
+/// --pose-b, where two bodies touch
 ///
 /// The force follows from the curvature where they touch, which asks more of a fit than size does: fit
 /// with --segments 1.
@@ -190,17 +193,28 @@ pub(super) struct ContactArgs {
     #[arg(long, value_name = "DEG", default_value_t = 0.0)]
     pub(super) angle_deg: f64,
 
+    /// Place the second body, a union of superquadrics as the first must be: what its scan is moved by and, as a
+    /// quaternion, turned by about the origin before; tells all places where they touch, and no force
+    #[arg(long, value_name = "X,Y,Z,QW,QX,QY,QZ", requires = "other", allow_hyphen_values = true,
+          conflicts_with_all = ["unit", "indentation_um", "youngs_modulus_mpa", "edge_radius"])]
+    pub(super) pose_b: Option<PoseArg>,
+
     /// Unit of the scans' lengths: um, mm, cm or m
-    #[arg(long, value_name = "UNIT")]
-    pub(super) unit: Unit,
+    #[arg(long, value_name = "UNIT", required_unless_present = "pose_b")]
+    pub(super) unit: Option<Unit>,
 
     /// How far the bodies approach after they touch
-    #[arg(long, value_name = "U", allow_hyphen_values = true)]
-    pub(super) indentation_um: f64,
+    #[arg(
+        long,
+        value_name = "U",
+        allow_hyphen_values = true,
+        required_unless_present = "pose_b"
+    )]
+    pub(super) indentation_um: Option<f64>,
 
     /// Young's modulus of the grain (inf: rigid)
-    #[arg(long, value_name = "E")]
-    pub(super) youngs_modulus_mpa: f64,
+    #[arg(long, value_name = "E", required_unless_present = "pose_b")]
+    pub(super) youngs_modulus_mpa: Option<f64>,
 
     /// Poisson's ratio of the grain
     #[arg(long, value_name = "NU", default_value_t = 0.3)]

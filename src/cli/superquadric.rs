@@ -1,0 +1,85 @@
+//! `grainform fit --surface superquadric` and the like.
+
+use super::args::FitArgs;
+use super::console::{Console, put_json};
+use super::values::SuperquadricArg;
+use super::{inputs, outputs};
+use crate::export::MeshFormat;
+use crate::fit::{
+    Context as FitContext, FitOptions, PreparedScan, fit_multi_superquadric, fit_superquadric,
+    largest_body,
+};
+use crate::model::{Grain, Surface, grain_to_json};
+use crate::report::SuperquadricReport;
+use anyhow::{Context, Result, bail};
+use std::borrow::Cow;
+
+/// Fits superquadrics and tells of them.
+pub(super) fn run(
+    args: &FitArgs,
+    form: SuperquadricArg,
+    options: &FitOptions,
+    console: Console,
+) -> Result<()> {
+    if args.harmonics.is_some() || *options != FitOptions::default() {
+        bail!(
+            "superquadrics have neither segments, degrees, mirrors nor harmonics: leave these options away, or \
+             --surface"
+        );
+    }
+    let progress = console.progress();
+    let (grain, report) = fitted(args, form)?;
+    progress.stage("Writing");
+    write_files(args, &grain)?;
+    drop(progress);
+    if args.fitting.json {
+        return put_json(&report);
+    }
+    console.print(&report)?;
+    for path in [&args.output, &args.mesh].into_iter().flatten() {
+        console.wrote(&outputs::name(path))?;
+    }
+    console.warn(&report.warnings);
+    Ok(())
+}
+
+/// Reads and fits the scan.
+fn fitted(args: &FitArgs, form: SuperquadricArg) -> Result<(Grain, SuperquadricReport)> {
+    let (name, unit) = (args.fitting.name(), args.fitting.unit);
+    let scan = inputs::scan(&args.fitting.scan, &args.fitting.input)?;
+    let (scan, _) = match args.fitting.largest {
+        true => largest_body(&scan),
+        false => (Cow::Borrowed(&scan), None),
+    };
+    let failed = || format!("cannot fit {name}");
+    let options = FitOptions::default();
+    let prepared = PreparedScan::new(&scan, options.symmetry).with_context(failed)?;
+    let points = prepared.points();
+    let (warnings, count) = (scan.warnings.clone(), points.len());
+    let context = FitContext::default();
+    match form {
+        SuperquadricArg::Single(form) => {
+            let found = fit_superquadric(points, form, &context).with_context(failed)?;
+            let report = SuperquadricReport::of_single(name.clone(), unit, count, &found, warnings);
+            Ok((found.grain()?, report))
+        }
+        SuperquadricArg::Multi(most) => {
+            let found = fit_multi_superquadric(points, most, &context).with_context(failed)?;
+            let report = SuperquadricReport::of_multi(name.clone(), unit, count, &found, warnings);
+            Ok((found.grain()?, report))
+        }
+    }
+}
+
+fn write_files(args: &FitArgs, grain: &Grain) -> Result<()> {
+    if let Some(path) = &args.mesh {
+        let format = MeshFormat::of(path).unwrap_or(MeshFormat::Ply);
+        let mesh = grain.mesh(args.meshing.resolution.into());
+        outputs::write(path, |file| format.write(&mesh, file))?;
+    }
+    if let Some(path) = &args.output {
+        let text = grain_to_json(grain);
+        outputs::write(path, |file| Ok(writeln!(file, "{text}")?))?;
+    }
+    Ok(())
+}

@@ -1,0 +1,32 @@
+//! The overlap of two bodies along a line.
+
+use super::pair::ConvexPair;
+use crate::model::Superquadric;
+use nalgebra::Vector3;
+
+/// Steps allowed to a way out; from a point near the surface it takes three.
+const MAX_STEPS: usize = 50;
+
+/// A step below this share of the way from the centre is the last.
+const LAST_STEP: f64 = 1e-10;
+
+/// How far the first body reaches beyond where the second begins, along the line through `point`: Newton's iteration
+/// on both gauges, which are convex along the line, outwards from the point.
+pub(super) fn overlap(pair: &ConvexPair<'_>, point: &Vector3<f64>, normal: &Vector3<f64>) -> f64 {
+    let bodies = [pair.first, pair.second];
+    let from = [*point, pair.seen_from_second(point)];
+    let along = [*normal, -pair.turn.tr_mul(normal)];
+    let mut ways = [0.0; 2];
+    for _ in 0..MAX_STEPS {
+        let places = [0, 1].map(|i| from[i] + along[i] * ways[i]);
+        let gauges = Superquadric::gauges_and_slopes(bodies, places.each_ref());
+        let steps = [0, 1].map(|i| (1.0 - gauges[i].0) / gauges[i].1.dot(&along[i]));
+        let is_long = |i: usize| steps[i].abs() > LAST_STEP * places[i].norm();
+        ways = [0, 1].map(|i| ways[i] + steps[i]);
+        // Written so that NaN ends.
+        if !(is_long(0) || is_long(1)) {
+            break;
+        }
+    }
+    ways[0] + ways[1]
+}

@@ -1,0 +1,138 @@
+//! Contacts of unions: of all their parts, each touch told once.
+
+use super::pair::{ConvexPair, ConvexStatus};
+use crate::model::{Frame, MultiSuperquadric, Part};
+use nalgebra::{Point3, Vector3};
+
+/// Cosine of the largest angle between normals of one touch: 20 degrees.
+const SAME_NORMAL: f64 = 0.939_692_620_785_908_4;
+
+/// One touch of two bodies.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct UnionContact {
+    /// Which part of the first body touches which of the second; of several that touch at the same place the deepest.
+    pub parts: [usize; 2],
+    /// The midway point.
+    pub point: Point3<f64>,
+    /// The unit normal from the first body to the second.
+    pub normal: Vector3<f64>,
+    /// The overlap along the normal.
+    pub overlap: f64,
+}
+
+/// All touches of two unions whose frames are of the same space, the deepest first.
+///
+/// Parts of a body overlap, and two of them may touch the other body at one place. Contacts count as one touch if
+/// their normals are within 20 degrees and their points within the radius of the patch that a sphere as large as the
+/// smallest part would have there, sqrt(R overlap); the deepest is kept.
+pub fn union_contacts(
+    first: (&MultiSuperquadric, &Frame),
+    second: (&MultiSuperquadric, &Frame),
+) -> Vec<UnionContact> {
+    let mut touches = Vec::new();
+    for (i, one) in placed(first).iter().enumerate() {
+        for (j, other) in placed(second).iter().enumerate() {
+            let [near, far] = [one, other].map(|part| part.shape.bounding_radius());
+            if (one.frame.centre - other.frame.centre).norm() > near + far {
+                continue;
+            }
+            let pair = ConvexPair::new((&one.shape, &one.frame), (&other.shape, &other.frame));
+            let contact = pair.contact(None);
+            if contact.status != ConvexStatus::Touching {
+                continue;
+            }
+            let touch = UnionContact {
+                parts: [i, j],
+                point: contact.point,
+                normal: contact.normal,
+                overlap: pair.overlap(&contact),
+            };
+            touches.push((touch, near.min(far)));
+        }
+    }
+    touches.sort_by(|(p, _), (q, _)| q.overlap.total_cmp(&p.overlap));
+    let mut kept: Vec<UnionContact> = Vec::new();
+    for (touch, radius) in touches {
+        let is_same = |deeper: &UnionContact| {
+            let apart = (deeper.point - touch.point).norm_squared();
+            deeper.normal.dot(&touch.normal) > SAME_NORMAL && apart < radius * deeper.overlap
+        };
+        if !kept.iter().any(is_same) {
+            kept.push(touch);
+        }
+    }
+    kept
+}
+
+/// The parts where the body is.
+fn placed((union, frame): (&MultiSuperquadric, &Frame)) -> Vec<Part> {
+    let parts = union.parts().iter();
+    parts
+        .map(|part| Part {
+            shape: part.shape,
+            frame: Frame {
+                centre: frame.to_scan(&part.frame.centre.coords),
+                axes: frame.axes * part.frame.axes,
+            },
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::Superquadric;
+    use approx::assert_relative_eq;
+    use nalgebra::Matrix3;
+
+    fn at(x: f64, y: f64, z: f64) -> Frame {
+        Frame {
+            centre: Point3::new(x, y, z),
+            axes: Matrix3::identity(),
+        }
+    }
+
+    fn union(parts: &[([f64; 3], Frame)]) -> MultiSuperquadric {
+        let parts = parts.iter().map(|(axes, frame)| Part {
+            shape: Superquadric::single(*axes, 2.0, 2.0).unwrap(),
+            frame: *frame,
+        });
+        MultiSuperquadric::new(parts.collect()).unwrap()
+    }
+
+    #[test]
+    fn an_ellipsoid_of_overlapping_parts_touches_as_one() {
+        let axes = [2.0, 1.5, 1.0];
+        let one = union(&[(axes, at(0.0, 0.0, 0.0))]);
+        // The same ellipsoid twice, and smaller ones inside that reach to just below its surface.
+        let many = union(&[
+            (axes, at(0.0, 0.0, 0.0)),
+            (axes, at(0.0, 0.0, 0.0)),
+            ([1.95, 1.46, 0.97], at(0.0, 0.0, 0.02)),
+            ([1.6, 1.2, 0.8], at(0.1, 0.0, 0.19)),
+        ]);
+        let sphere = union(&[([1.0; 3], at(0.0, 0.0, 0.0))]);
+        for place in [at(0.2, 0.1, 1.93), at(0.3, -0.2, 1.9), at(0.1, 0.2, 1.95)] {
+            let expected = union_contacts((&one, &at(0.0, 0.0, 0.0)), (&sphere, &place));
+            let found = union_contacts((&many, &at(0.0, 0.0, 0.0)), (&sphere, &place));
+            assert_eq!((expected.len(), found.len()), (1, 1));
+            assert_relative_eq!(found[0].overlap, expected[0].overlap, max_relative = 1e-5);
+            assert_relative_eq!(found[0].normal, expected[0].normal, epsilon = 1e-5);
+        }
+    }
+
+    #[test]
+    fn a_dimer_on_a_dimer_touches_twice() {
+        let ball = |x: f64| ([1.0; 3], at(x, 0.0, 0.0));
+        let dimer = union(&[ball(-0.7), ball(0.7)]);
+        let above = at(0.0, 0.0, 1.98);
+        let found = union_contacts((&dimer, &at(0.0, 0.0, 0.0)), (&dimer, &above));
+        assert_eq!(found.len(), 2);
+        for touch in found {
+            assert_relative_eq!(touch.overlap, 0.02, epsilon = 1e-6);
+            assert_relative_eq!(touch.normal, Vector3::z(), epsilon = 1e-6);
+        }
+        let far = at(0.0, 0.0, 9.0);
+        assert!(union_contacts((&dimer, &at(0.0, 0.0, 0.0)), (&dimer, &far)).is_empty());
+    }
+}

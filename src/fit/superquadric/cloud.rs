@@ -1,0 +1,128 @@
+//! The points about their mean, in units of their mean distance from it.
+
+use super::error::SuperquadricFitError;
+use nalgebra::{Matrix3, Point3, SymmetricEigen, Vector3};
+use std::collections::BTreeMap;
+
+/// Cells of directions along an edge of the cube from which points are taken to begin with.
+const CELLS: usize = 12;
+
+/// Flatter than this, as a ratio of standard deviations, points lie in a plane.
+const LEAST_THICKNESS: f64 = 1e-6;
+
+/// Iterations allowed for the eigenvalues of a 3 x 3 matrix, which takes fewer than ten.
+const MAX_EIGEN_ITERATIONS: usize = 100;
+
+/// Points in a frame of their own, so that neither place nor size of the scan matters.
+#[derive(Debug, Clone)]
+pub(super) struct Cloud {
+    /// The mean of the points.
+    pub(super) centre: Point3<f64>,
+    /// The mean distance from it.
+    pub(super) size: f64,
+    /// The points about the mean, over the mean distance.
+    pub(super) points: Vec<Vector3<f64>>,
+    /// Principal axes in the columns, the standard deviations along them ascending; the points reach farther along
+    /// the positive than along the negative first and second.
+    pub(super) axes: Matrix3<f64>,
+    /// Standard deviations along the axes.
+    pub(super) deviations: Vector3<f64>,
+}
+
+impl Cloud {
+    pub(super) fn new(
+        points: &[Point3<f64>],
+        parameters: usize,
+    ) -> Result<Self, SuperquadricFitError> {
+        let least = 3 * parameters;
+        if points.len() < least {
+            return Err(SuperquadricFitError::TooFewPoints {
+                points: points.len(),
+                parameters,
+                least,
+            });
+        }
+        let is_finite = |point: &Point3<f64>| point.iter().all(|x| x.is_finite());
+        if let Some(index) = points.iter().position(|point| !is_finite(point)) {
+            return Err(SuperquadricFitError::NotFinite { index });
+        }
+        let count = points.len() as f64;
+        let centre = points[0]
+            + points
+                .iter()
+                .map(|p| (p - points[0]) / count)
+                .sum::<Vector3<f64>>();
+        let size = points
+            .iter()
+            .map(|p| (p - centre).norm() / count)
+            .sum::<f64>();
+        if !(size.is_normal() && (1e-100..1e100).contains(&size)) {
+            return Err(SuperquadricFitError::NoVolume);
+        }
+        let points: Vec<_> = points.iter().map(|p| (p - centre) / size).collect();
+        let (axes, deviations) = principal_axes(&points).ok_or(SuperquadricFitError::NoVolume)?;
+        Ok(Self {
+            centre,
+            size,
+            points,
+            axes,
+            deviations,
+        })
+    }
+
+    /// The cell of directions that a point is seen in: face of the cube, row and column.
+    pub(super) fn cell(&self, point: &Vector3<f64>, cells: usize) -> [usize; 3] {
+        let seen = self.axes.tr_mul(point);
+        let axis = seen.iamax();
+        let share = |x: f64| {
+            let share = 0.5 * (1.0 + x / seen[axis].abs());
+            ((share * cells as f64) as usize).min(cells - 1)
+        };
+        [
+            2 * axis + usize::from(seen[axis] < 0.0),
+            share(seen[(axis + 1) % 3]),
+            share(seen[(axis + 2) % 3]),
+        ]
+    }
+
+    /// One point in each of many cells of directions, that of the median distance: whatever the order of the points.
+    pub(super) fn thinned(&self) -> Vec<Vector3<f64>> {
+        let mut cells: BTreeMap<[usize; 3], Vec<Vector3<f64>>> = BTreeMap::new();
+        for point in &self.points {
+            cells
+                .entry(self.cell(point, CELLS))
+                .or_default()
+                .push(*point);
+        }
+        let median = |mut points: Vec<Vector3<f64>>| {
+            points.sort_by(|p, q| p.norm_squared().total_cmp(&q.norm_squared()));
+            points[points.len() / 2]
+        };
+        cells.into_values().map(median).collect()
+    }
+}
+
+/// Axes and standard deviations along them; `None` if the points lie in a plane.
+pub(super) fn principal_axes(points: &[Vector3<f64>]) -> Option<(Matrix3<f64>, Vector3<f64>)> {
+    let count = points.len() as f64;
+    let mean = points.iter().sum::<Vector3<f64>>() / count;
+    let squares = points.iter().map(|p| (p - mean) * (p - mean).transpose());
+    let covariance = squares.sum::<Matrix3<f64>>() / count;
+    let eigen = SymmetricEigen::try_new(covariance, f64::EPSILON, MAX_EIGEN_ITERATIONS)?;
+    let mut order = [0, 1, 2];
+    order.sort_by(|&i, &j| eigen.eigenvalues[i].total_cmp(&eigen.eigenvalues[j]));
+    let deviations = Vector3::from_fn(|i, _| eigen.eigenvalues[order[i]].max(0.0).sqrt());
+    if deviations[0].partial_cmp(&(LEAST_THICKNESS * deviations[2]))
+        != Some(std::cmp::Ordering::Greater)
+    {
+        return None;
+    }
+    let longer_side = |axis: Vector3<f64>| {
+        let skew: f64 = points.iter().map(|p| (p - mean).dot(&axis).powi(3)).sum();
+        if skew < 0.0 { -axis } else { axis }
+    };
+    let axis = |i: usize| longer_side(eigen.eigenvectors.column(order[i]).into_owned());
+    let (first, second) = (axis(0), axis(1));
+    let axes = Matrix3::from_columns(&[first, second, first.cross(&second)]);
+    Some((axes, deviations))
+}

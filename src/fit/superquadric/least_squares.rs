@@ -1,0 +1,170 @@
+//! The method of Levenberg and Marquardt, with bounds and a robust loss (Madsen, Nielsen and Tingleff 2004).
+
+use super::bodies::Body;
+use super::normal_equations::{NormalEquations, Reach, Weighing, distances};
+use crate::fit::context::{Cancelled, Context};
+use nalgebra::{Cholesky, DVector, Vector3};
+
+/// Scale of the loss, in mean radii, where few points are astray and where many are.
+const WIDE: f64 = 0.5;
+const NARROW: f64 = 0.03;
+
+/// Standard deviation of normal errors over the median of their sizes.
+const PER_MEDIAN: f64 = 1.4826;
+
+/// Passes with standard deviations of their own, until they change by less than a share.
+const MAX_PASSES: usize = 4;
+const SAME: f64 = 0.1;
+
+/// The damping to begin with, and beyond which no step helps.
+const DAMPING: [f64; 2] = [1e-3, 1e12];
+
+/// A fit ends when a step changes no parameter by more, or the loss by no larger share.
+const SMALL_STEP: f64 = 1e-9;
+const SMALL_GAIN: f64 = 1e-5;
+
+/// What a fit came to.
+#[derive(Debug, Clone)]
+pub(super) struct Minimum {
+    pub(super) bodies: Vec<Body>,
+    pub(super) iterations: usize,
+    pub(super) weighing: Weighing,
+}
+
+/// The median distance of points from bodies.
+pub(super) fn median(bodies: &[Body], points: &[Vector3<f64>]) -> f64 {
+    let mut sizes: Vec<f64> = distances(bodies, points).iter().map(|d| d.abs()).collect();
+    let middle = sizes.len() / 2;
+    *sizes.select_nth_unstable_by(middle, f64::total_cmp).1
+}
+
+/// The weighing that goes with the distances of points from bodies.
+pub(super) fn weighed(bodies: &[Body], points: &[Vector3<f64>], like: &Weighing) -> Weighing {
+    let deviation = PER_MEDIAN * median(bodies, points);
+    Weighing {
+        scale: match like.reach {
+            Reach::Wide => WIDE,
+            Reach::Narrow => NARROW,
+        },
+        prior: deviation * deviation,
+        ..*like
+    }
+}
+
+/// Fits bodies, again and again with the weighing that their distances then ask for, until it does not change; each
+/// time with `limit` steps at most.
+pub(super) fn minimised(
+    mut bodies: Vec<Body>,
+    points: &[Vector3<f64>],
+    like: &Weighing,
+    limit: usize,
+    context: &Context<'_>,
+) -> Result<Minimum, Cancelled> {
+    let mut weighing = weighed(&bodies, points, like);
+    let mut iterations = 0;
+    for _ in 1..MAX_PASSES {
+        let found = descended(bodies, points, weighing, limit, context)?;
+        iterations += found.iterations;
+        bodies = found.bodies;
+        let before = weighing.prior;
+        weighing = weighed(&bodies, points, like);
+        if (weighing.prior / before - 1.0).abs() < SAME {
+            break;
+        }
+    }
+    let mut found = descended(bodies, points, weighing, limit, context)?;
+    found.iterations += iterations;
+    Ok(found)
+}
+
+/// The best of some fits, all weighed as the one that needs the least scale; `None` of none.
+pub(super) fn least(tried: Vec<Minimum>, points: &[Vector3<f64>]) -> Option<Minimum> {
+    let scales = tried.iter().map(|found| &found.weighing);
+    let weighing = *scales.min_by(|p, q| p.scale.total_cmp(&q.scale))?;
+    let loss = |found: &Minimum| NormalEquations::new(&found.bodies, points, &weighing).loss;
+    let weighed = tried.into_iter().map(|found| (loss(&found), found));
+    let best = weighed.min_by(|(p, _), (q, _)| p.total_cmp(q))?;
+    Some(best.1)
+}
+
+/// Goes down with one weighing.
+pub(super) fn descended(
+    mut bodies: Vec<Body>,
+    points: &[Vector3<f64>],
+    weighing: Weighing,
+    limit: usize,
+    context: &Context<'_>,
+) -> Result<Minimum, Cancelled> {
+    let mut here = NormalEquations::new(&bodies, points, &weighing);
+    let [mut damping, no_more] = DAMPING;
+    let mut growth = 2.0;
+    let mut iterations = 0;
+    while iterations < limit && damping < no_more {
+        context.check()?;
+        iterations += 1;
+        let Some((step, foretold)) = damped_step(&bodies, &here, &weighing, damping) else {
+            damping *= growth;
+            growth *= 2.0;
+            continue;
+        };
+        let per_body = step.as_slice().chunks(weighing.form.parameters());
+        let moved = bodies.iter().zip(per_body);
+        let moved: Vec<_> = moved
+            .map(|(body, step)| body.moved(weighing.form, step))
+            .collect();
+        let there = NormalEquations::new(&moved, points, &weighing);
+        let gain = here.loss - there.loss;
+        if gain.is_nan() || gain <= 0.0 {
+            if step.amax() < SMALL_STEP {
+                break;
+            }
+            damping *= growth;
+            growth *= 2.0;
+            continue;
+        }
+        let is_last = step.amax() < SMALL_STEP || gain < SMALL_GAIN * here.loss;
+        (bodies, here) = (moved, there);
+        if is_last {
+            break;
+        }
+        damping *= (1.0 - (2.0 * gain / foretold - 1.0).powi(3)).clamp(1.0 / 3.0, 2.0);
+        growth = 2.0;
+    }
+    Ok(Minimum {
+        bodies,
+        iterations,
+        weighing,
+    })
+}
+
+/// The damped step with numbers at a bound held there, and by how much it should lower the loss; `None` where the
+/// damping is too small.
+fn damped_step(
+    bodies: &[Body],
+    here: &NormalEquations,
+    weighing: &Weighing,
+    damping: f64,
+) -> Option<(DVector<f64>, f64)> {
+    let mut matrix = here.matrix.clone();
+    let mut side = -&here.gradient;
+    let ties = weighing.form.ties();
+    for (index, body) in bodies.iter().enumerate() {
+        for (number, tie) in ties.into_iter().enumerate() {
+            let place = index * weighing.form.parameters() + tie;
+            if body.is_held(number, side[place]) {
+                matrix.row_mut(place).fill(0.0);
+                matrix.column_mut(place).fill(0.0);
+                side[place] = 0.0;
+            }
+        }
+    }
+    // Parameters that nothing depends on are damped as the others are on average.
+    let floor = 1e-12 * matrix.trace().max(f64::MIN_POSITIVE);
+    let added = matrix.diagonal().map(|entry| damping * entry + floor);
+    for (i, more) in added.iter().enumerate() {
+        matrix[(i, i)] += more;
+    }
+    let step = Cholesky::new(matrix)?.solve(&side);
+    let foretold = 0.5 * step.dot(&(added.component_mul(&step) + side));
+    Some((step, foretold))
+}

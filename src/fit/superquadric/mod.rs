@@ -1,0 +1,23 @@
+//! Superquadrics and unions of them, fitted to points: few numbers, at the price of a rougher surface.
+//!
+//! The radial distances of the points are made small by the method of Levenberg and Marquardt, with derivatives in
+//! closed form, bounds, and a loss that large distances do not dominate (Cauchy's).
+
+mod bodies;
+mod cloud;
+mod clusters;
+mod error;
+mod form;
+mod least_squares;
+mod multi;
+mod normal_equations;
+mod single;
+mod standard_errors;
+#[cfg(test)]
+mod tests;
+
+pub use error::SuperquadricFitError;
+pub use form::Form;
+pub use multi::{MAX_UNION_PARTS, MultiFit, fit_multi_superquadric};
+pub use single::{SuperquadricFit, fit_superquadric};
+pub use standard_errors::ParameterErrors;

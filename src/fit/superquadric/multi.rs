@@ -1,0 +1,216 @@
+//! A union of superquadrics, with as many parts as held-out points ask for.
+
+use super::bodies::Body;
+use super::cloud::Cloud;
+use super::clusters::{SEEDINGS, ellipsoids};
+use super::error::SuperquadricFitError;
+use super::form::Form;
+use super::least_squares::{Minimum, descended, least, weighed};
+use super::normal_equations::{Weighing, distances};
+use super::single::best;
+use super::standard_errors::{ParameterErrors, standard_errors};
+use crate::fit::context::Context;
+use crate::model::{
+    Frame, Grain, InvalidGrain, MultiSuperquadric, Part, StarSurface, SuperquadricGrain,
+};
+use nalgebra::{Point3, Vector3};
+use rayon::prelude::*;
+
+/// The most parts that can be asked for.
+pub const MAX_UNION_PARTS: usize = 12;
+
+/// How sharply the least distance is taken, in one over mean radii, stage by stage.
+const SHARPNESS: [f64; 3] = [8.0, 30.0, 120.0];
+
+/// Steps of each stage, and of the last with all points.
+const STEPS: usize = 25;
+const LAST_STEPS: usize = 60;
+
+/// Cells of directions along an edge of the cube, of which every fifth is held out.
+const HELD_OUT_CELLS: usize = 24;
+
+/// What another part must take off the held-out error.
+const WORTH: f64 = 0.95;
+
+/// A union of superquadrics fitted to points.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct MultiFit {
+    /// The union, about its centre.
+    pub union: MultiSuperquadric,
+    /// Where its centre and axes are in the scan.
+    pub frame: Frame,
+    /// Root mean square of the distances of the points, along rays from the centre, from where these leave the union;
+    /// in the scan's unit.
+    pub rms: f64,
+    /// The largest of them.
+    pub largest: f64,
+    /// Mean distance of the points from their mean, in the scan's unit.
+    pub mean_radius: f64,
+    /// Standard errors, part by part.
+    pub errors: Vec<ParameterErrors>,
+    /// RMS distances of points held out of the fit, in the scan's unit, of one part, of two and so on.
+    pub held_out: Vec<f64>,
+}
+
+impl MultiFit {
+    /// The union as a grain.
+    ///
+    /// # Errors
+    /// [`InvalidGrain`] if the frame was changed and is none.
+    pub fn grain(&self) -> Result<Grain, InvalidGrain> {
+        Ok(SuperquadricGrain::multi(self.frame, self.union.clone())?.into())
+    }
+}
+
+/// Fits a union of as many superquadrics as held-out points ask for, `most` at most.
+///
+/// # Errors
+/// [`SuperquadricFitError`] if there are too few points for so many parts, or they enclose no volume.
+pub fn fit_multi_superquadric(
+    points: &[Point3<f64>],
+    most: usize,
+    context: &Context<'_>,
+) -> Result<MultiFit, SuperquadricFitError> {
+    if !(1..=MAX_UNION_PARTS).contains(&most) {
+        return Err(SuperquadricFitError::Parts {
+            parts: most,
+            most: MAX_UNION_PARTS,
+        });
+    }
+    let cloud = Cloud::new(points, most * Form::Single.parameters())?;
+    context.run(|| {
+        let (chosen, held_out) = chosen(&cloud, most, context)?;
+        let weighing = weighed(&chosen.bodies, &cloud.points, &chosen.weighing);
+        let found = descended(chosen.bodies, &cloud.points, weighing, LAST_STEPS, context)?;
+        told(&cloud, &found, held_out)
+    })
+}
+
+/// The best fit to the points that are not held out, and the held-out errors of all numbers of parts.
+fn chosen(
+    cloud: &Cloud,
+    most: usize,
+    context: &Context<'_>,
+) -> Result<(Minimum, Vec<f64>), SuperquadricFitError> {
+    let is_held_out = |point: &Vector3<f64>| {
+        let [_, row, column] = cloud.cell(point, HELD_OUT_CELLS);
+        (row + 2 * column) % 5 == 0
+    };
+    let (out, kept): (Vec<Vector3<f64>>, _) =
+        cloud.points.iter().partition(|point| is_held_out(point));
+    let cloud = Cloud {
+        points: kept,
+        ..cloud.clone()
+    };
+    let error = |found: &Minimum| {
+        let distances = distances(&found.bodies, &out);
+        let squares: f64 = distances.iter().map(|d| d * d).sum();
+        (squares / distances.len() as f64).sqrt() * cloud.size
+    };
+    let single = best(&cloud, Form::Single, context)?;
+    let mut errors = vec![error(&single)];
+    let (mut chosen, mut least) = (single.clone(), errors[0]);
+    for parts in 2..=most {
+        let found = with_parts(&cloud, parts, &single.weighing, context)?;
+        let error = error(&found);
+        errors.push(error);
+        if error < WORTH * least {
+            (chosen, least) = (found, error);
+        }
+    }
+    Ok((chosen, errors))
+}
+
+/// The best fit of so many parts, two at least.
+fn with_parts(
+    cloud: &Cloud,
+    parts: usize,
+    like: &Weighing,
+    context: &Context<'_>,
+) -> Result<Minimum, SuperquadricFitError> {
+    let few = cloud.thinned();
+    let mut tried = Vec::new();
+    for seeding in 0..SEEDINGS {
+        if let Some(start) = ellipsoids(cloud, &few, parts, seeding) {
+            tried.push(sharpened(start, &few, like, context)?);
+        }
+    }
+    let found = least(tried, &few).ok_or(SuperquadricFitError::NoVolume)?;
+    let weighing = weighed(&found.bodies, &cloud.points, &found.weighing);
+    Ok(descended(
+        found.bodies,
+        &cloud.points,
+        weighing,
+        STEPS,
+        context,
+    )?)
+}
+
+/// Fits all parts at once, to a minimum of distances that gets sharper.
+fn sharpened(
+    mut bodies: Vec<Body>,
+    points: &[Vector3<f64>],
+    like: &Weighing,
+    context: &Context<'_>,
+) -> Result<Minimum, SuperquadricFitError> {
+    let [first, second, last] = SHARPNESS.map(|sharpness| Weighing { sharpness, ..*like });
+    for stage in [first, second] {
+        let weighing = weighed(&bodies, points, &stage);
+        bodies = descended(bodies, points, weighing, STEPS, context)?.bodies;
+    }
+    let weighing = weighed(&bodies, points, &last);
+    Ok(descended(bodies, points, weighing, STEPS, context)?)
+}
+
+/// The union about the centre of the cloud, or where that is outside about that of the largest part.
+fn told(
+    cloud: &Cloud,
+    found: &Minimum,
+    held_out: Vec<f64>,
+) -> Result<MultiFit, SuperquadricFitError> {
+    let placed = found
+        .bodies
+        .iter()
+        .map(|body| body.told(cloud.size, &cloud.centre));
+    let placed = placed.collect::<Result<Vec<_>, _>>()?;
+    let about = |centre: Point3<f64>| {
+        let frame = Frame {
+            centre,
+            axes: cloud.axes,
+        };
+        let parts = placed.iter().map(|(shape, own)| Part {
+            shape: *shape,
+            frame: Frame {
+                centre: frame.to_local(&own.centre).into(),
+                axes: frame.axes.tr_mul(&own.axes),
+            },
+        });
+        Ok((MultiSuperquadric::new(parts.collect())?, frame))
+    };
+    let product = |(shape, _): &&(crate::model::Superquadric, Frame)| {
+        shape.semi_axes().as_flattened().iter().product::<f64>()
+    };
+    let largest_part = placed
+        .iter()
+        .max_by(|p, q| product(p).total_cmp(&product(q)));
+    let (union, frame) = about(cloud.centre).or_else(|outside: SuperquadricFitError| {
+        largest_part.map_or(Err(outside), |(_, own)| about(own.centre))
+    })?;
+    let away = |point: &Vector3<f64>| {
+        let seen = frame.to_local(&(cloud.centre + point * cloud.size));
+        seen.norm() - union.radius(&seen.normalize())
+    };
+    let distances: Vec<f64> = cloud.points.par_iter().map(away).collect();
+    let squares: f64 = distances.iter().map(|d| d * d).sum();
+    let errors = standard_errors(cloud, found);
+    Ok(MultiFit {
+        rms: (squares / distances.len() as f64).sqrt(),
+        largest: distances.iter().fold(0.0, |most: f64, d| most.max(d.abs())),
+        mean_radius: cloud.size,
+        union,
+        frame,
+        errors,
+        held_out,
+    })
+}

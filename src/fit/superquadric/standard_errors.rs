@@ -1,0 +1,133 @@
+//! Standard errors of the numbers of a fit.
+//!
+//! A superquadric misses a grain in whole regions, so distances of neighbouring points are alike, and errors from
+//! single points would be far too small. Gradients are therefore added up in regions first: with A the matrix of the
+//! normal equations and s_k the gradient of region k, the covariance is A⁻¹ (sum s_k s_kᵀ) A⁻¹ (Liang and Zeger
+//! 1986). Of errors that are independent it is the usual one.
+
+use super::bodies::Body;
+use super::cloud::Cloud;
+use super::form::{EXPONENTS_FROM, Form, NUMBERS};
+use super::least_squares::Minimum;
+use super::normal_equations::{NormalEquations, Row};
+use nalgebra::{Cholesky, DMatrix, DVector};
+use std::collections::BTreeMap;
+
+/// Regions along an edge of the cube of directions: 96 in all.
+const REGIONS: usize = 4;
+
+/// Standard errors of the numbers of a superquadric; `None` where a number is at a bound, or the points do not
+/// determine it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ParameterErrors {
+    /// Of the semi-axes, in the scan's unit, as [`Superquadric::semi_axes`](crate::model::Superquadric::semi_axes).
+    pub semi_axes: [[Option<f64>; 2]; 3],
+    /// Of n1 on either side of z.
+    pub n1: [Option<f64>; 2],
+    /// Of n2 by the side of x, then of y.
+    pub n2: [[Option<f64>; 2]; 2],
+    /// Of rotations about the body's axes, in radians.
+    pub rotation_rad: [Option<f64>; 3],
+    /// Of the centre along the body's axes, in the scan's unit.
+    pub centre: [Option<f64>; 3],
+}
+
+/// Rotations less certain than this, in radians, are not determined.
+const LARGEST_ROTATION: f64 = 1.0;
+
+/// Those of each body of a fit.
+pub(super) fn standard_errors(cloud: &Cloud, found: &Minimum) -> Vec<ParameterErrors> {
+    let form = found.weighing.form;
+    let covariance = covariance(cloud, found);
+    let bodies = found.bodies.iter().enumerate();
+    bodies
+        .map(|(index, body)| {
+            let deviation = |place: usize| -> Option<f64> {
+                let place = index * form.parameters() + place;
+                let variance = covariance.as_ref()?[(place, place)];
+                (variance.is_finite() && variance >= 0.0).then(|| variance.sqrt())
+            };
+            told(body, form, cloud.size, deviation)
+        })
+        .collect()
+}
+
+/// The errors of a body from the standard deviations of its parameters.
+fn told(
+    body: &Body,
+    form: Form,
+    size: f64,
+    deviation: impl Fn(usize) -> Option<f64>,
+) -> ParameterErrors {
+    let ties = form.ties();
+    let number = |number: usize| -> Option<f64> {
+        let unit = if number < EXPONENTS_FROM { size } else { 1.0 };
+        let is_free = !body.is_at_bound(number);
+        let relative = deviation(ties[number]).filter(|deviation| is_free && *deviation < 1.0)?;
+        Some(relative * body.logs[number].exp() * unit)
+    };
+    let pair = |from: usize| [number(from), number(from + 1)];
+    let pose = |i: usize| deviation(form.numbers() + i);
+    ParameterErrors {
+        semi_axes: [pair(0), pair(2), pair(4)],
+        n1: pair(6),
+        n2: [pair(8), pair(10)],
+        rotation_rad: [0, 1, 2].map(|i| pose(i).filter(|angle| *angle < LARGEST_ROTATION)),
+        centre: [3, 4, 5].map(|i| pose(i).map(|length| length * size)),
+    }
+}
+
+/// The covariance of all parameters; `None` if the points do not determine them.
+fn covariance(cloud: &Cloud, found: &Minimum) -> Option<DMatrix<f64>> {
+    let weighing = &found.weighing;
+    let whole = NormalEquations::new(&found.bodies, &cloud.points, weighing);
+    let parameters = whole.gradient.len();
+    let prepared: Vec<_> = found
+        .bodies
+        .iter()
+        .map(|body| (*body, body.numbers()))
+        .collect();
+    let mut regions: BTreeMap<[usize; 3], DVector<f64>> = BTreeMap::new();
+    let (mut row, mut distances) = (Row::new(), Vec::new());
+    for point in &cloud.points {
+        let region = cloud.cell(point, REGIONS);
+        let sum = regions
+            .entry(region)
+            .or_insert_with(|| DVector::zeros(parameters));
+        row.set(&prepared, &mut distances, weighing, point);
+        let weight = 1.0 / (1.0 + (row.value / weighing.scale).powi(2));
+        for &(place, slope) in &row.entries {
+            sum[place] += weight * row.value * slope;
+        }
+    }
+    let count = regions.len();
+    if count <= parameters {
+        return None;
+    }
+    let mut matrix = whole.matrix;
+    let ties = weighing.form.ties();
+    for (index, body) in found.bodies.iter().enumerate() {
+        // Numbers at a bound are known, as far as the others are concerned.
+        for number in (0..NUMBERS).filter(|&number| body.is_at_bound(number)) {
+            let place = index * weighing.form.parameters() + ties[number];
+            matrix.row_mut(place).fill(0.0);
+            matrix.column_mut(place).fill(0.0);
+            matrix[(place, place)] = f64::INFINITY;
+        }
+    }
+    for i in 0..parameters {
+        if matrix[(i, i)].is_infinite() {
+            matrix[(i, i)] = 1.0;
+            regions.values_mut().for_each(|sum| sum[i] = 0.0);
+        }
+    }
+    let factor = Cholesky::new(matrix)?;
+    let few = count as f64 / (count - 1) as f64;
+    let spread = regions
+        .values()
+        .fold(DMatrix::zeros(parameters, parameters), |sum, region| {
+            let step = factor.solve(region);
+            sum + &step * step.transpose()
+        });
+    Some(spread * few)
+}

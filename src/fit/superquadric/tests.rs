@@ -1,0 +1,174 @@
+//! Fits against known shapes, and against the figures of grains.
+
+use super::*;
+use crate::fit::Context;
+use crate::measure::superquadric_properties;
+use crate::model::{StarSurface, Superquadric};
+use crate::shapes::{Body, SynthOptions, synthesize};
+use approx::assert_relative_eq;
+use nalgebra::{Point3, Rotation3, Vector3};
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng;
+use rand_distr::{Distribution, StandardNormal, Uniform, UnitSphere};
+
+fn between(random: &mut ChaCha8Rng, least: f64, most: f64) -> f64 {
+    Uniform::new(least, most).unwrap().sample(random)
+}
+
+fn normal(random: &mut ChaCha8Rng) -> Vector3<f64> {
+    Vector3::from_fn(|_, _| StandardNormal.sample(random))
+}
+
+/// A random superquadric, and a thousand points of it, turned and moved.
+fn random_cloud(random: &mut ChaCha8Rng) -> (Superquadric, Vec<Point3<f64>>, f64) {
+    let axes = [0; 3].map(|_| between(random, 0.5_f64.ln(), 0.0).exp());
+    let [n1, n2] = [0; 2].map(|_| 2.0 / between(random, 0.4, 1.4));
+    let shape = Superquadric::single(axes, n1, n2).unwrap();
+    let (turn, aside) = (Rotation3::new(normal(random)), normal(random));
+    let points: Vec<_> = (0..1000)
+        .map(|_| {
+            let n = Vector3::from(UnitSphere.sample(random));
+            n * shape.radius(&n)
+        })
+        .collect();
+    let mean = points.iter().map(|p| p.norm()).sum::<f64>() / 1000.0;
+    let placed = points.iter().map(|p| Point3::from(turn * p + aside));
+    (shape, placed.collect(), mean)
+}
+
+fn volume(shape: &Superquadric) -> f64 {
+    superquadric_properties(shape).properties.volume
+}
+
+fn fitted(points: &[Point3<f64>], form: Form) -> SuperquadricFit {
+    fit_superquadric(points, form, &Context::default()).unwrap()
+}
+
+/// A grain's points.
+fn grain(body: Body) -> Vec<Point3<f64>> {
+    let options = SynthOptions::clean(body).with_points(6146);
+    synthesize(&options).unwrap().points
+}
+
+#[test]
+fn random_superquadrics_are_found_in_noise_and_among_strays() {
+    let mut errors = [const { Vec::new() }; 3];
+    let mut within = Vec::new();
+    for seed in 0..40 {
+        let random = &mut ChaCha8Rng::seed_from_u64(seed);
+        let (shape, clean, mean) = random_cloud(random);
+        let noisy: Vec<_> = clean
+            .iter()
+            .map(|p| p + normal(random) * 0.01 * mean)
+            .collect();
+        let middle = clean.iter().map(|p| p.coords).sum::<Vector3<f64>>() / 1000.0;
+        let mut astray = noisy.clone();
+        astray.extend((0..428).map(|_| {
+            let aside = Vector3::from_fn(|_, _| between(random, -1.5, 1.5));
+            Point3::from(middle + aside)
+        }));
+        for (errors, points) in errors.iter_mut().zip([&clean, &noisy, &astray]) {
+            let found = fitted(points, Form::Single);
+            errors.push((volume(&found.shape) / volume(&shape) - 1.0).abs());
+        }
+        let found = fitted(&noisy, Form::Single);
+        if let Some(error) = found.errors.n1[0] {
+            // Where z is another axis the exponents are other ones.
+            let off = (found.shape.n1()[0] - shape.n1()[0]).abs();
+            within.push(off < 1.96 * error || off > 10.0 * error);
+        }
+    }
+    let medians = errors.map(|mut errors| {
+        errors.sort_by(f64::total_cmp);
+        errors[errors.len() / 2]
+    });
+    assert!(
+        medians[0] < 5e-5 && medians[1] < 1e-3 && medians[2] < 3e-3,
+        "{medians:?}"
+    );
+    let share = within.iter().filter(|&&is_within| is_within).count() as f64 / within.len() as f64;
+    assert!(share > 0.8, "{share}");
+}
+
+#[test]
+fn a_fit_moves_turns_and_grows_with_the_scan_and_forgets_the_order_of_points() {
+    let random = &mut ChaCha8Rng::seed_from_u64(7);
+    let (_, points, _) = random_cloud(random);
+    let points: Vec<_> = points.iter().map(|p| p + normal(random) * 0.01).collect();
+    let turn = Rotation3::new(normal(random));
+    let moved = points.iter().rev();
+    let moved = moved.map(|p| turn * p * 100.0 + Vector3::new(1e3, -2e3, 500.0));
+    let moved: Vec<_> = moved.collect();
+    for form in [Form::Single, Form::Poly8, Form::Poly12] {
+        let (here, there) = (fitted(&points, form), fitted(&moved, form));
+        let grown = volume(&there.shape) / 1e6;
+        assert_relative_eq!(volume(&here.shape), grown, max_relative = 1e-8);
+        assert_relative_eq!(100.0 * here.rms, there.rms, max_relative = 1e-8);
+    }
+}
+
+#[test]
+fn grains_are_fitted_as_well_as_so_few_numbers_can() {
+    for (body, most) in [
+        (Body::Bean, [2.995, 2.415, 1.335]),
+        (Body::Chickpea, [1.015, 1.005, 0.835]),
+        (Body::Maize, [9.75, 4.5, 3.75]),
+    ] {
+        let points = grain(body);
+        for (form, most) in [Form::Single, Form::Poly8, Form::Poly12]
+            .into_iter()
+            .zip(most)
+        {
+            let found = fitted(&points, form);
+            let percent = 100.0 * found.rms / found.mean_radius;
+            assert!(percent < most, "{body} {form:?}: {percent}");
+        }
+    }
+}
+
+#[test]
+fn a_dent_asks_for_four_parts() {
+    let points = synthesize(&SynthOptions::clean(Body::Bean)).unwrap().points;
+    let cloud = cloud::Cloud::new(&points, 1).unwrap();
+    let dent = -cloud.axes.column(1);
+    let dented = cloud.points.iter().map(|p| {
+        let angle = p.normalize().dot(&dent).clamp(-1.0, 1.0).acos();
+        Point3::from(p * (1.0 - 0.3 * (-(angle / 0.45).powi(2)).exp()))
+    });
+    let dented: Vec<_> = dented.collect();
+    let found = fit_multi_superquadric(&dented, 4, &Context::default()).unwrap();
+    assert_eq!(found.union.parts().len(), 4);
+    assert!(found.rms / found.mean_radius < 0.013, "{}", found.rms);
+    assert!(
+        found
+            .held_out
+            .windows(2)
+            .all(|errors| errors[1] < errors[0])
+    );
+}
+
+#[test]
+fn what_is_no_body_is_refused() {
+    let context = Context::default();
+    let refused = |points: &[Point3<f64>]| fit_superquadric(points, Form::Single, &context);
+    let flat: Vec<_> = (0..100)
+        .map(|i| Point3::new(f64::from(i), f64::from(i * i % 17), 0.0))
+        .collect();
+    assert_eq!(refused(&flat), Err(SuperquadricFitError::NoVolume));
+    assert_eq!(
+        refused(&[Point3::origin(); 100]),
+        Err(SuperquadricFitError::NoVolume)
+    );
+    assert!(matches!(
+        refused(&flat[..30]),
+        Err(SuperquadricFitError::TooFewPoints { least: 33, .. })
+    ));
+    let mut odd = flat;
+    odd[5].x = f64::NAN;
+    assert_eq!(
+        refused(&odd),
+        Err(SuperquadricFitError::NotFinite { index: 5 })
+    );
+    let none = fit_multi_superquadric(&odd, 0, &context);
+    assert!(matches!(none, Err(SuperquadricFitError::Parts { .. })));
+}

@@ -1,0 +1,10 @@
+//! Mass properties of superquadrics: volume, centroid and inertia in closed form, area by quadrature; those of unions
+//! by quadrature over what is bare of each part.
+
+mod moments;
+mod patch;
+mod single;
+mod union;
+
+pub use single::{SolidProperties, superquadric_properties};
+pub use union::union_properties;

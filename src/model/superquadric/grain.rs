@@ -1,0 +1,92 @@
+//! The grain that is a union of superquadrics, of one or several.
+
+use super::{MultiSuperquadric, Part, Superquadric};
+use crate::model::{Frame, InvalidGrain, Radial, StarSurface, Surface, SurfaceJet, Tiling};
+use nalgebra::{Matrix3, Point3, Vector3};
+
+/// A union of superquadrics and where it lies in the scan, seen as the surface that rays from its centre leave last.
+#[derive(Debug, Clone)]
+pub struct SuperquadricGrain {
+    frame: Frame,
+    body: MultiSuperquadric,
+}
+
+impl SuperquadricGrain {
+    /// A grain of one superquadric about the centre of the frame, along its axes.
+    ///
+    /// # Errors
+    /// [`InvalidGrain`] if the frame is not orthonormal or not finite.
+    pub fn single(frame: Frame, shape: Superquadric) -> Result<Self, InvalidGrain> {
+        let part = Part {
+            shape,
+            frame: Frame::SCAN,
+        };
+        Self::multi(frame, MultiSuperquadric::new(vec![part])?)
+    }
+
+    /// A grain of several, in the frame.
+    ///
+    /// # Errors
+    /// As [`Self::single`].
+    pub fn multi(frame: Frame, body: MultiSuperquadric) -> Result<Self, InvalidGrain> {
+        frame.check()?;
+        Ok(Self { frame, body })
+    }
+
+    /// The superquadrics, in the grain's own frame.
+    pub fn body(&self) -> &MultiSuperquadric {
+        &self.body
+    }
+
+    /// The grain about the origin, so many times as large.
+    pub(in crate::model) fn about_origin(&self, factor: f64) -> Self {
+        Self {
+            frame: Frame {
+                centre: Point3::origin(),
+                ..self.frame
+            },
+            body: self.body.times(factor),
+        }
+    }
+
+    /// Numbers of its shape: those of each part, and six for its pose beside the first.
+    pub(in crate::model) fn number_count(&self) -> usize {
+        let parts = self.body.parts();
+        let numbers = parts.iter().map(|part| part.shape.number_count());
+        numbers.sum::<usize>() + 6 * (parts.len() - 1)
+    }
+}
+
+impl Surface for SuperquadricGrain {
+    fn frame(&self) -> Frame {
+        self.frame
+    }
+
+    fn place(&self, n: &Vector3<f64>) -> Vector3<f64> {
+        n * self.body.radius(&self.frame.axes.tr_mul(n))
+    }
+
+    fn place_and_slopes(&self, n: &Vector3<f64>) -> (Vector3<f64>, Matrix3<f64>) {
+        let axes = self.frame.axes;
+        let (place, slopes) = Radial(&self.body).place_and_slopes(&axes.tr_mul(n));
+        (axes * place, axes * slopes * axes.transpose())
+    }
+
+    fn jet(&self, n: &Vector3<f64>) -> SurfaceJet {
+        let axes = self.frame.axes;
+        let local = self.body.derivatives(&axes.tr_mul(n));
+        local.turned(&axes).radial(n)
+    }
+
+    fn tiling(&self) -> Tiling {
+        match self.body.parts() {
+            // Octants of its own frame, if that is the grain's.
+            [part] if part.frame == Frame::SCAN => Tiling::octants(),
+            _ => Tiling::creased(),
+        }
+    }
+
+    fn may_cross(&self) -> bool {
+        false
+    }
+}

@@ -1,0 +1,69 @@
+//! Where two bodies touch that are placed beside each other.
+
+use super::escape::escaped;
+use super::number::{short, triple};
+use crate::contact::UnionContact;
+use crate::scan::plural;
+use serde::Serialize;
+use std::fmt;
+
+/// All touches of two bodies, the deepest first; lengths are in the unit of their scans.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct PlacedReport {
+    /// The first body.
+    pub first: String,
+    /// The second body.
+    pub second: String,
+    /// Where they touch; nothing if they are apart.
+    pub touches: Vec<PlacedTouch>,
+}
+
+/// One touch, in the frame of the first body's scan.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct PlacedTouch {
+    /// Which part of the first body touches which of the second, from 0.
+    pub parts: [usize; 2],
+    /// The midway point.
+    pub point: [f64; 3],
+    /// The unit normal from the first body to the second.
+    pub normal: [f64; 3],
+    /// The overlap along the normal.
+    pub overlap: f64,
+}
+
+impl PlacedReport {
+    /// The report of these touches.
+    pub fn new(first: String, second: String, touches: &[UnionContact]) -> Self {
+        let touches = touches.iter().map(|touch| PlacedTouch {
+            parts: touch.parts,
+            point: touch.point.into(),
+            normal: touch.normal.into(),
+            overlap: touch.overlap,
+        });
+        Self {
+            first,
+            second,
+            touches: touches.collect(),
+        }
+    }
+}
+
+impl fmt::Display for PlacedReport {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "first         {}", escaped(&self.first))?;
+        writeln!(f, "second        {}", escaped(&self.second))?;
+        write!(f, "contact       ")?;
+        match self.touches.len() {
+            0 => write!(f, "none: they are apart")?,
+            count => write!(f, "at {}", plural(count, "place"))?,
+        }
+        for touch in &self.touches {
+            write!(f, "\ntouched at    {}", triple(touch.point))?;
+            write!(f, "\n  normal      {}", triple(touch.normal))?;
+            write!(f, "\n  overlap     {}", short(touch.overlap))?;
+        }
+        Ok(())
+    }
+}

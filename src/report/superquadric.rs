@@ -1,0 +1,241 @@
+//! What a fit of superquadrics tells.
+
+use super::escape::escaped;
+use super::number::{short, triple, with_error};
+use super::unit::{Labels, Unit};
+use crate::fit::{MultiFit, ParameterErrors, SuperquadricFit};
+use crate::measure::{SolidProperties, superquadric_properties, union_properties};
+use crate::model::{Frame, Superquadric};
+use crate::scan::plural;
+use serde::Serialize;
+use std::fmt;
+
+/// A superquadric, or a union of several, fitted to a scan.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct SuperquadricReport {
+    /// The scan.
+    pub input: String,
+    /// Unit of the scan's lengths, if it was told.
+    pub unit: Option<Unit>,
+    /// Points of the scan that were fitted.
+    pub points: usize,
+    /// The superquadrics.
+    pub parts: Vec<SuperquadricRecord>,
+    /// Root mean square of the radial distances of the points.
+    pub rms: f64,
+    /// The largest of them.
+    pub largest: f64,
+    /// Mean distance of the points from their mean.
+    pub mean_radius: f64,
+    /// Area, of the union if there are several.
+    pub area: f64,
+    /// Its error by quadrature, as a share of it.
+    pub area_error: f64,
+    /// Volume.
+    pub volume: f64,
+    /// Its error, as a share of it; zero of a single one, whose volume is a closed form.
+    pub volume_error: f64,
+    /// RMS distances of points that were held out, of one part, of two and so on; absent of a single one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub held_out: Option<Vec<f64>>,
+    /// Warnings of the scan.
+    pub warnings: Vec<String>,
+}
+
+/// A superquadric in the scan.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct SuperquadricRecord {
+    /// Its centre.
+    pub centre: [f64; 3],
+    /// Its x, y and z axes.
+    pub axes: [[f64; 3]; 3],
+    /// Semi-axes a, b and c, each on the positive and on the negative side.
+    pub semi_axes: [[f64; 2]; 3],
+    /// Their standard errors; `null` where a number is at a bound, or the points do not determine it.
+    pub semi_axes_errors: [[Option<f64>; 2]; 3],
+    /// n1 on either side of z.
+    pub n1: [f64; 2],
+    /// Their standard errors, likewise.
+    pub n1_errors: [Option<f64>; 2],
+    /// n2 by the side of x, then of y.
+    pub n2: [[f64; 2]; 2],
+    /// Their standard errors, likewise.
+    pub n2_errors: [[Option<f64>; 2]; 2],
+    /// Standard errors of rotations about its axes, in radians, likewise.
+    pub rotation_errors_rad: [Option<f64>; 3],
+    /// Standard errors of the centre along its axes, likewise.
+    pub centre_errors: [Option<f64>; 3],
+}
+
+impl SuperquadricRecord {
+    fn new(shape: &Superquadric, frame: &Frame, errors: &ParameterErrors) -> Self {
+        Self {
+            centre: frame.centre.into(),
+            axes: [0, 1, 2].map(|i| frame.axes.column(i).into_owned().into()),
+            semi_axes: shape.semi_axes(),
+            semi_axes_errors: errors.semi_axes,
+            n1: shape.n1(),
+            n1_errors: errors.n1,
+            n2: shape.n2(),
+            n2_errors: errors.n2,
+            rotation_errors_rad: errors.rotation_rad,
+            centre_errors: errors.centre,
+        }
+    }
+
+    /// The line of an axis or an exponent: one figure, or one for each side where they differ.
+    fn sides(values: &[f64], errors: &[Option<f64>]) -> String {
+        let each = values.iter().zip(errors);
+        let mut each: Vec<String> = each
+            .map(|(value, error)| with_error(*value, *error))
+            .collect();
+        each.dedup();
+        each.join(" | ")
+    }
+
+    fn write(&self, f: &mut fmt::Formatter<'_>, length: &str) -> fmt::Result {
+        writeln!(f, "centre        {}{length}", triple(self.centre))?;
+        let axes = self.semi_axes.iter().zip(&self.semi_axes_errors);
+        for ((values, errors), name) in axes.zip(["a", "b", "c"]) {
+            writeln!(
+                f,
+                "semi-axis {name}   {}{length}",
+                Self::sides(values, errors)
+            )?;
+        }
+        writeln!(
+            f,
+            "exponent n1   {}",
+            Self::sides(&self.n1, &self.n1_errors)
+        )?;
+        let (n2, errors) = (self.n2.as_flattened(), self.n2_errors.as_flattened());
+        writeln!(f, "exponent n2   {}", Self::sides(n2, errors))
+    }
+}
+
+impl SuperquadricReport {
+    /// The report of one superquadric.
+    pub fn of_single(
+        input: String,
+        unit: Option<Unit>,
+        points: usize,
+        fitted: &SuperquadricFit,
+        warnings: Vec<String>,
+    ) -> Self {
+        let record = SuperquadricRecord::new(&fitted.shape, &fitted.frame, &fitted.errors);
+        Self {
+            input,
+            unit,
+            points,
+            rms: fitted.rms,
+            largest: fitted.largest,
+            mean_radius: fitted.mean_radius,
+            held_out: None,
+            warnings,
+            ..Self::solid(vec![record], &superquadric_properties(&fitted.shape))
+        }
+    }
+
+    /// The report of a union, whose area and volume are integrated to a relative tolerance.
+    pub fn of_multi(
+        input: String,
+        unit: Option<Unit>,
+        points: usize,
+        fitted: &MultiFit,
+        warnings: Vec<String>,
+    ) -> Self {
+        let parts = fitted.union.parts().iter().zip(&fitted.errors);
+        let records = parts.map(|(part, errors)| {
+            let frame = Frame {
+                centre: fitted.frame.to_scan(&part.frame.centre.coords),
+                axes: fitted.frame.axes * part.frame.axes,
+            };
+            SuperquadricRecord::new(&part.shape, &frame, errors)
+        });
+        let solid = union_properties(&fitted.union, UNION_TOLERANCE);
+        Self {
+            input,
+            unit,
+            points,
+            rms: fitted.rms,
+            largest: fitted.largest,
+            mean_radius: fitted.mean_radius,
+            held_out: Some(fitted.held_out.clone()),
+            warnings,
+            ..Self::solid(records.collect(), &solid)
+        }
+    }
+
+    /// Parts, and what they come to.
+    fn solid(parts: Vec<SuperquadricRecord>, solid: &SolidProperties) -> Self {
+        Self {
+            input: String::new(),
+            unit: None,
+            points: 0,
+            parts,
+            rms: 0.0,
+            largest: 0.0,
+            mean_radius: 0.0,
+            area: solid.properties.area,
+            area_error: solid.area_error,
+            volume: solid.properties.volume,
+            volume_error: solid.volume_error,
+            held_out: None,
+            warnings: Vec::new(),
+        }
+    }
+}
+
+/// Relative tolerance of the area and the volume of unions.
+const UNION_TOLERANCE: f64 = 1e-3;
+
+impl fmt::Display for SuperquadricReport {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let labels = Labels(self.unit);
+        let length = labels.length();
+        let share = |value: f64| {
+            format!(
+                "{:.2} % of the mean radius",
+                100.0 * value / self.mean_radius
+            )
+        };
+        let points = plural(self.points, "point");
+        writeln!(f, "scan          {}, {points}", escaped(&self.input))?;
+        writeln!(
+            f,
+            "model         {}",
+            plural(self.parts.len(), "superquadric")
+        )?;
+        let rms = short(self.rms);
+        writeln!(f, "residuals     RMS {rms}{length} ({})", share(self.rms))?;
+        let largest = short(self.largest);
+        writeln!(
+            f,
+            "              largest {largest}{length} ({})",
+            share(self.largest)
+        )?;
+        if let Some(held_out) = &self.held_out {
+            let each: Vec<String> = held_out.iter().map(|rms| short(*rms)).collect();
+            writeln!(
+                f,
+                "held-out RMS  {}{length}, of 1 part and more",
+                each.join(", ")
+            )?;
+        }
+        let told = |value: f64, error: f64| with_error(value, Some(value * error));
+        let area = told(self.area, self.area_error);
+        writeln!(f, "area          {area}{}", labels.area())?;
+        let volume = told(self.volume, self.volume_error);
+        writeln!(f, "volume        {volume}{}", labels.volume())?;
+        for part in &self.parts {
+            part.write(f, &length)?;
+        }
+        write!(
+            f,
+            "Figures after ± are standard errors; of area and volume, errors of the quadrature. Lengths are in {}.",
+            labels.name()
+        )
+    }
+}
