@@ -22,7 +22,6 @@ mod neighbours;
 mod options;
 mod outcome;
 mod prepare;
-mod robust;
 mod segments;
 mod sound;
 mod unseen;

@@ -14,7 +14,9 @@ mod measure;
 mod number;
 mod rule;
 mod search;
+mod split;
 mod synth;
+mod tray;
 mod unit;
 mod warning;
 
@@ -31,7 +33,9 @@ pub use measure::{
 };
 pub use number::{percent, short};
 pub use search::{CandidateRecord, SearchReport};
+pub use split::{PlaneRecord, SplitGrainRecord, SplitReport};
 pub use synth::SynthReport;
+pub use tray::TrayReport;
 pub use unit::Unit;
 #[cfg(feature = "cli")]
 pub(crate) use warning::sentences;
