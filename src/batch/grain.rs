@@ -2,13 +2,14 @@
 
 use super::columns::{Figure, figures};
 use super::journal::Row;
-use crate::export::{save_grain, save_mesh};
+use crate::export::{SaveError, save_grain, save_mesh};
 use crate::fit::{FitOptions, Fitted, PreparedScan, largest_body};
 use crate::measure::{Scheme, Survey};
 use crate::report::{FitReport, Measure, MeasureReport, Measured, Unit, sentences};
 use crate::scan::{parse_file, read_stream};
 use serde_json::Value;
 use std::borrow::Cow;
+use std::error::Error;
 use std::path::{Path, PathBuf};
 
 /// What is asked of every grain of a batch.
@@ -74,7 +75,7 @@ pub(super) fn grain(
     bytes: &[u8],
     settings: &Settings,
     outputs: &Outputs,
-) -> Result<Row, crate::export::SaveError> {
+) -> Result<Row, SaveError> {
     let (fitted, warnings) = match fit(path, bytes, settings) {
         Ok(found) => found,
         Err(reason) => {
@@ -94,7 +95,6 @@ pub(super) fn grain(
 }
 
 fn fit(path: &Path, bytes: &[u8], settings: &Settings) -> Result<(Fitted, Vec<String>), String> {
-    let told = |error: &dyn std::error::Error| error.to_string();
     let bytes = read_stream(bytes, path, settings.max_bytes).map_err(|error| told(&error))?;
     let scan = parse_file(path, &bytes, None).map_err(|error| told(&error))?;
     let (scan, left_out) = match settings.largest {
@@ -108,6 +108,13 @@ fn fit(path: &Path, bytes: &[u8], settings: &Settings) -> Result<(Fitted, Vec<St
         .map_err(|error| told(&error))?;
     fitted.warnings.extend(left_out);
     Ok((fitted, scan.warnings().to_vec()))
+}
+
+/// An error and what caused it, in one sentence.
+fn told(error: &dyn Error) -> String {
+    let causes = std::iter::successors(Some(error), |error| error.source());
+    let causes: Vec<String> = causes.map(ToString::to_string).collect();
+    causes.join(": ")
 }
 
 fn row(fitted: &Fitted, warnings: &[String], settings: &Settings) -> Row {

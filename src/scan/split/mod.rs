@@ -195,21 +195,28 @@ fn cut(places: &[Point3<f64>], clump: Vec<u32>, distance: f64) -> Vec<Clump> {
         let own: Vec<Point3<f64>> = points.iter().map(|&i| places[i as usize]).collect();
         let neck = Neck::find(&own, distance).filter(Neck::is_waist);
         let may_touch = neck.is_some();
-        match neck.filter(|neck| neck.is_cut() && whole.len() + left.len() < MOST_CUTS) {
-            Some(neck) => {
-                let beyond = neck.beyond(&own, distance);
-                for side in [false, true] {
-                    let sided = points
-                        .iter()
-                        .zip(&beyond)
-                        .filter(|(_, other)| **other == side);
-                    left.push(sided.map(|(point, _)| *point).collect());
-                }
-            }
+        let is_last = whole.len() + left.len() >= MOST_CUTS;
+        let sides = neck
+            .filter(|neck| neck.is_cut() && !is_last)
+            .map(|neck| sides(&points, &neck.beyond(&own, distance)))
+            .filter(|sides| sides.iter().all(|side| side.len() >= LEAST_POINTS));
+        match sides {
+            Some(sides) => left.extend(sides),
             None => whole.push(Clump { points, may_touch }),
         }
     }
     whole
+}
+
+/// The points before and beyond a neck.
+fn sides(points: &[u32], beyond: &[bool]) -> [Vec<u32>; 2] {
+    [false, true].map(|side| {
+        let own = points
+            .iter()
+            .zip(beyond)
+            .filter(|(_, other)| **other == side);
+        own.map(|(point, _)| *point).collect()
+    })
 }
 
 /// What is large enough for a grain, and the rest.
@@ -257,3 +264,6 @@ fn by_place(one: &Scan, other: &Scan) -> Ordering {
     };
     by_coordinates(&middle(one), &middle(other))
 }
+
+#[cfg(test)]
+mod tests;
