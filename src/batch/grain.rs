@@ -112,9 +112,10 @@ fn fit(path: &Path, bytes: &[u8], settings: &Settings) -> Result<(Fitted, Vec<St
 
 /// An error and what caused it, in one sentence.
 fn told(error: &dyn Error) -> String {
-    let causes = std::iter::successors(Some(error), |error| error.source());
-    let causes: Vec<String> = causes.map(ToString::to_string).collect();
-    causes.join(": ")
+    match error.source() {
+        Some(cause) => format!("{error}: {}", told(cause)),
+        None => error.to_string(),
+    }
 }
 
 fn row(fitted: &Fitted, warnings: &[String], settings: &Settings) -> Row {

@@ -4,10 +4,14 @@ use crate::disjoint_sets::DisjointSets;
 use kiddo::{ImmutableKdTree, SquaredEuclidean};
 use nalgebra::Point3;
 use rayon::prelude::*;
+use std::collections::HashMap;
 use std::num::NonZero;
 
-/// Nearest points that each point is linked to.
-const LINKS: usize = 8;
+/// Side of the cells whose points are linked, as a share of the distance: its diagonal is below half of that.
+const CELL: f64 = 0.25;
+
+/// Nearest cells that each is linked to.
+const LINKS: usize = 12;
 
 /// The neighbour by whose distance the spacing of the points is told.
 const SIXTH: usize = 6;
@@ -23,7 +27,6 @@ const REACH: f64 = 1.8;
 
 /// Points that are linked to their neighbours. No two of them are at the same place.
 pub(super) struct Links {
-    tree: ImmutableKdTree<f64, 3>,
     places: Vec<[f64; 3]>,
     /// How far neighbours are apart at most.
     pub(super) distance: f64,
@@ -46,24 +49,37 @@ impl Links {
         let at = (SPARSE * (sixth.len() - 1) as f64) as usize;
         let (_, sparse, _) = sixth.select_nth_unstable_by(at, f64::total_cmp);
         let distance = REACH * *sparse;
-        Some(Self {
-            tree,
-            places,
-            distance,
-        })
+        Some(Self { places, distance })
     }
 
     /// The clumps that hang together by links of at most the distance, each in order.
+    ///
+    /// Points in one small cell are linked, and then the first points of the cells with their nearest ones: where points
+    /// are dense along a line, the nearest ones of each point would all be on that line.
     pub(super) fn clumps(&self) -> Vec<Vec<u32>> {
-        let near: Vec<Vec<u32>> = self
-            .places
-            .par_iter()
-            .map(|place| nearest(&self.tree, place, LINKS + 1, self.distance))
-            .collect();
         let mut sets = DisjointSets::new(self.places.len());
-        for (own, others) in near.iter().enumerate() {
-            for &other in others {
-                sets.join(own as u32, other);
+        let mut firsts = HashMap::new();
+        let origin = self.places[0];
+        for (own, place) in (0..).zip(&self.places) {
+            let cell = [0, 1, 2].map(|axis| {
+                let steps = (place[axis] - origin[axis]) / (CELL * self.distance);
+                steps.floor() as i64
+            });
+            sets.join(*firsts.entry(cell).or_insert(own), own);
+        }
+        let mut firsts: Vec<u32> = firsts.into_values().collect();
+        firsts.sort_unstable();
+        let places: Vec<[f64; 3]> = firsts.iter().map(|&i| self.places[i as usize]).collect();
+        let Ok(tree) = ImmutableKdTree::new_from_slice(&places) else {
+            return sets.members();
+        };
+        let near: Vec<Vec<u32>> = places
+            .par_iter()
+            .map(|place| nearest(&tree, place, LINKS + 1, self.distance))
+            .collect();
+        for (&own, others) in firsts.iter().zip(near) {
+            for other in others {
+                sets.join(own, firsts[other as usize]);
             }
         }
         sets.members()

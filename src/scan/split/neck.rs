@@ -77,8 +77,9 @@ impl Neck {
             .min_by(|one, other| one.1.total_cmp(&other.1))?;
         let [step, least] = STEPS;
         let (axis, _) = compass(first, step, least, |axis| -ratio(axis));
-        let neck = narrowest(&rays, &axis, distance)?;
+        // Of few points a section may be a line by chance; all of them decide.
         let rays: Vec<Vector3<f64>> = points.iter().map(|point| point - origin).collect();
+        let neck = narrowest(&rays, &axis, distance)?;
         Some(Self {
             at: neck.placed(&rays, distance) + axis.dot(&origin.coords),
             ..neck

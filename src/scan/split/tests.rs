@@ -71,15 +71,19 @@ fn a_tray_that_is_moved_turned_scaled_and_shuffled_has_the_same_grains() {
 }
 
 #[test]
-fn a_body_keeps_its_flat_faces_and_is_not_cut() {
+fn a_body_is_one_grain_however_its_points_are_laid_out() {
     for body in Body::ALL {
-        let points = synthesize(&SynthOptions::clean(body)).unwrap().points;
-        let found = split(&Scan::from_points(points.clone())).unwrap();
-        assert!(found.plane.is_none(), "{body}");
-        let [grain] = found.grains.as_slice() else {
-            panic!("{body}: {} grains", found.grains.len());
-        };
-        assert_eq!(grain.scan.points(), points, "{body}");
+        for sampling in Sampling::ALL {
+            let options = SynthOptions::clean(body).with_sampling(sampling);
+            let points = synthesize(&options).unwrap().points;
+            let found = split(&Scan::from_points(points.clone())).unwrap();
+            assert!(found.plane.is_none(), "{body}: a face is no tray");
+            let [grain] = found.grains.as_slice() else {
+                panic!("{body} {sampling}: {} grains", found.grains.len());
+            };
+            assert!(!grain.may_touch && found.dust_points * 200 < points.len());
+            assert_eq!(grain.indices.len() + found.dust_points, points.len());
+        }
     }
 }
 
