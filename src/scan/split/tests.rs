@@ -1,6 +1,7 @@
 use super::*;
-use crate::shapes::synthesize_tray;
-use crate::shapes::{Body, Origin, SynthOptions, SyntheticTray, TrayOptions, synthesize};
+use crate::shapes::{
+    Body, Origin, Sampling, SynthOptions, SyntheticTray, TrayOptions, synthesize, synthesize_tray,
+};
 use nalgebra::{Rotation3, Vector3};
 
 fn tray() -> SyntheticTray {
