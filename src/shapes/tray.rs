@@ -138,7 +138,11 @@ pub struct SyntheticTray {
 /// [`TrayError`] when an option is out of its range.
 pub fn synthesize_tray(options: &TrayOptions) -> Result<SyntheticTray, TrayError> {
     check(options)?;
-    let (grains, touching, sides) = lay_out(options)?;
+    let Layout {
+        grains,
+        touching,
+        sides,
+    } = lay_out(options)?;
     let plane = sides[0] * sides[1];
     let area: f64 = grains.iter().map(|grain| grain.area).sum::<f64>() + plane;
     let density = options.points as f64 / area;
@@ -229,8 +233,16 @@ fn check(options: &TrayOptions) -> Result<(), TrayError> {
     Ok(())
 }
 
-/// The grains where they lie, the pairs that touch, and the sides of the plane.
-fn lay_out(options: &TrayOptions) -> Result<(Vec<Lying>, Vec<[usize; 2]>, [f64; 2]), TrayError> {
+/// What lies where.
+struct Layout {
+    grains: Vec<Lying>,
+    touching: Vec<[usize; 2]>,
+    /// Of the plane.
+    sides: [f64; 2],
+}
+
+/// Lays the grains down, row by row.
+fn lay_out(options: &TrayOptions) -> Result<Layout, TrayError> {
     let pairs = options.grains / 10;
     let places = options.grains - pairs;
     let columns = (places as f64 * PITCH[1] / PITCH[0]).sqrt().ceil() as usize;
@@ -259,5 +271,9 @@ fn lay_out(options: &TrayOptions) -> Result<(Vec<Lying>, Vec<[usize; 2]>, [f64; 
     }
     let rows = places.div_ceil(columns);
     let sides = [columns as f64 * PITCH[0], rows as f64 * PITCH[1]];
-    Ok((grains, touching, sides))
+    Ok(Layout {
+        grains,
+        touching,
+        sides,
+    })
 }

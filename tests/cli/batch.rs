@@ -94,7 +94,7 @@ fn rows_are_the_same_bytes_with_any_number_of_threads_and_bad_files_are_told() {
             );
         }
     }
-    assert!(rows[4]["reason"].contains("PLY") && rows[4]["area"].is_empty());
+    assert!(rows[4]["reason"].contains("expected `ply`") && rows[4]["area"].is_empty());
     assert!(rows[5]["reason"].contains("cannot read the file gone.ply"));
     assert!(rows[5]["hash"].is_empty() && rows[4]["hash"].len() == 64);
 
@@ -111,12 +111,12 @@ fn rows_are_the_same_bytes_with_any_number_of_threads_and_bad_files_are_told() {
 
 #[test]
 fn a_batch_that_is_killed_goes_on_without_loss() {
-    let folder = lot(12);
+    let folder = lot(8);
     succeed(&folder, &batch(&["lot", "-o", "whole"]));
     let words = ["lot", "-o", "killed", "--models", "--jobs", "2"];
     let journal = folder.path().join("killed/journal.jsonl");
     let lines = || std::fs::read_to_string(&journal).map_or(0, |text| text.lines().count());
-    for moment in [1, 4, 7, 9] {
+    for moment in [1, 3, 6] {
         let mut child = Command::new(assert_cmd::cargo::cargo_bin!("grainform"))
             .args(batch(&words))
             .current_dir(folder.path())
@@ -135,8 +135,8 @@ fn a_batch_that_is_killed_goes_on_without_loss() {
     std::fs::write(&journal, text).unwrap();
     succeed(&folder, &batch(&words));
     assert_eq!(bytes(&folder, "killed"), bytes(&folder, "whole"));
-    assert_eq!(names(&folder.path().join("killed/models")).len(), 12);
-    assert_eq!(lines(), 12, "every grain once");
+    assert_eq!(names(&folder.path().join("killed/models")).len(), 8);
+    assert_eq!(lines(), 8, "every grain once");
 }
 
 #[test]

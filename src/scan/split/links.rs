@@ -113,7 +113,7 @@ pub(super) fn nearest<const K: usize>(
         .within(distance * distance)
         .execute()
         .into_iter()
-        .map(|hit| hit.item as u32)
+        .map(|hit| hit.item)
         .collect()
 }
 
