@@ -20,8 +20,8 @@ const WARM: f64 = 1e-3;
 const GAP: f64 = 1e-6;
 
 fn main() {
-    let count = std::env::args().filter_map(|argument| argument.parse().ok());
-    let count = count.last().unwrap_or(100_000);
+    let mut count = std::env::args().filter_map(|argument| argument.parse().ok());
+    let count = count.next_back().unwrap_or(100_000);
     println!(
         "| pairs | method | unresolved | iterations: mean, 99 %, most | largest error of the ratio | us |"
     );

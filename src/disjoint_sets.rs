@@ -25,6 +25,16 @@ impl DisjointSets {
         let (one, other) = (self.of(one), self.of(other));
         self.0[one.max(other) as usize] = one.min(other);
     }
+
+    /// The numbers of each set, in order, and the sets by their least.
+    pub(crate) fn members(mut self) -> Vec<Vec<u32>> {
+        let mut members = vec![Vec::new(); self.0.len()];
+        for number in 0..self.0.len() as u32 {
+            members[self.of(number) as usize].push(number);
+        }
+        members.retain(|set| !set.is_empty());
+        members
+    }
 }
 
 #[cfg(test)]
@@ -39,5 +49,6 @@ mod tests {
         }
         let found: Vec<u32> = (0..6).map(|number| sets.of(number)).collect();
         assert_eq!(found, [0, 1, 2, 2, 2, 2]);
+        assert_eq!(sets.members(), [vec![0], vec![1], vec![2, 3, 4, 5]]);
     }
 }

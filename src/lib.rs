@@ -7,6 +7,8 @@
 //!                  \-> contact
 //! ```
 //!
+//! A scan of many grains is first [split](scan::split), and many scans are gone through in a `batch`.
+//!
 //! # Conventions
 //!
 //! * **Angles**: polar angle theta in \[0, pi\] from +z, azimuth phi in \[0, 2 pi) from +x, so that
@@ -15,6 +17,8 @@
 //!   ever guessed.
 //! * **Density** is one: a moment of inertia is in the scan's unit to the fifth power.
 
+#[cfg(feature = "cli")]
+pub mod batch;
 #[cfg(feature = "cli")]
 pub mod bench;
 #[cfg(feature = "cli")]
@@ -28,10 +32,12 @@ pub mod fit;
 pub mod measure;
 pub mod mesh;
 pub mod model;
+mod polygon_hull;
 pub mod report;
 pub mod scan;
 pub mod shapes;
 pub mod sphere;
+mod spread;
 mod vectorize;
 
 pub use export::save_grain;

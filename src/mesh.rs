@@ -1,5 +1,9 @@
 //! A triangle mesh: what a scan may bring, what a fitted grain is exported as.
 
+mod parts;
+
+pub(crate) use parts::{part, parts};
+
 use crate::sphere::cube_grid;
 use nalgebra::{Point3, Vector3};
 use std::collections::HashMap;

@@ -6,10 +6,12 @@ use std::fs;
 use std::path::Path;
 
 /// The top modules from the ground up: each imports only from those before it.
-const FLOORS: [&str; 15] = [
+const FLOORS: [&str; 18] = [
     "vectorize",
     "disjoint_sets",
     "elliptic",
+    "polygon_hull",
+    "spread",
     "sphere",
     "mesh",
     "scan",
@@ -20,6 +22,7 @@ const FLOORS: [&str; 15] = [
     "fit",
     "export",
     "report",
+    "batch",
     "bench",
     "cli",
 ];

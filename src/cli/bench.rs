@@ -2,11 +2,11 @@
 
 use super::args::{BenchArgs, InputArgs};
 use super::console::{Console, put_json};
-use super::inputs;
+use super::{inputs, outputs};
 use crate::bench::{
     self, BenchReport, BenchRow, BenchScan, Cost, Subject, plot, synthetic, write_csv,
 };
-use crate::export::{sweep, write_atomically};
+use crate::export::write_atomically;
 use crate::fit::PreparedScan;
 use crate::report::{escaped, percent};
 use crate::sphere::Symmetry;
@@ -24,9 +24,7 @@ pub(super) fn run(args: BenchArgs, console: Console) -> Result<()> {
         paths => read(paths, &args.input)?,
     };
     let stems = stems(&subjects)?;
-    std::fs::create_dir_all(&args.output)
-        .with_context(|| format!("cannot make the folder {}", args.output.display()))?;
-    sweep(&args.output);
+    outputs::make_folder(&args.output)?;
 
     let progress = console.progress();
     let scans = subjects.iter().zip(&stems).map(|(subject, stem)| {

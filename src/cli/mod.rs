@@ -1,10 +1,13 @@
 //! The `grainform` command line: typed arguments are settled, outputs are checked, then work begins.
 
 mod args;
+mod batch;
 mod bench;
 mod candidates;
+mod compare;
 mod console;
 mod contact;
+mod count;
 mod fit;
 mod fitting;
 mod inputs;
@@ -17,6 +20,7 @@ mod search;
 mod shell;
 #[cfg(unix)]
 mod signals;
+mod split;
 mod superquadric;
 mod synth;
 mod threads;
@@ -29,8 +33,11 @@ use console::{Console, say_error};
 use std::io::{self, ErrorKind};
 use std::process::ExitCode;
 
-/// Bad usage or unusable input. (1 is kept for batches in which some inputs failed.)
+/// Bad usage or unusable input.
 const UNUSABLE: u8 = 2;
+
+/// A batch is done, but some of its inputs failed.
+const SOME_FAILED: u8 = 1;
 
 /// Runs the command line of this process.
 pub fn run() -> ExitCode {
@@ -48,6 +55,9 @@ pub fn run() -> ExitCode {
         Command::Measure(args) => measure::run(args, console),
         Command::Contact(args) => contact::run(args, console),
         Command::Synth(args) => synth::run(args, console),
+        Command::Split(args) => split::run(args, console),
+        Command::Batch(args) => batch::run(args, console),
+        Command::Compare(args) => compare::run(args, console),
         Command::Bench(args) => bench::run(args, console),
         Command::Completions(args) => shell::completions(&args),
         Command::Man(args) => shell::man(&args),
@@ -55,7 +65,10 @@ pub fn run() -> ExitCode {
     match result {
         Err(error) if !is_broken_pipe(&error) => {
             say_error(&format!("{error:#}"));
-            ExitCode::from(UNUSABLE)
+            ExitCode::from(match error.is::<batch::SomeFailed>() {
+                true => SOME_FAILED,
+                false => UNUSABLE,
+            })
         }
         _ => ExitCode::SUCCESS,
     }

@@ -2,7 +2,7 @@
 
 use super::inputs::is_stream;
 use crate::export::{WriteError, sweep, write_atomically};
-use anyhow::{Result, bail};
+use anyhow::{Context, Result, bail};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
@@ -40,6 +40,14 @@ pub(super) fn check(input: Option<&Path>, outputs: &[Output<'_>], json: bool) ->
     Ok(!streams.is_empty())
 }
 
+/// Makes a folder for outputs, if it is not there, and removes what a killed run left in it.
+pub(super) fn make_folder(folder: &Path) -> Result<()> {
+    std::fs::create_dir_all(folder)
+        .with_context(|| format!("cannot make the folder {}", folder.display()))?;
+    sweep(folder);
+    Ok(())
+}
+
 fn check_file(path: &Path, extensions: &[&str]) -> Result<()> {
     let shown = path.display();
     let extension = path.extension().map(|e| e.to_ascii_lowercase());
@@ -71,7 +79,7 @@ pub(super) fn write(
     write: impl FnOnce(&mut dyn Write) -> Result<(), WriteError>,
 ) -> Result<()> {
     if !is_stream(path) {
-        return Ok(write_atomically(path, write)?);
+        return Ok(write_atomically(path, |file| write(file))?);
     }
     let mut stream = BufWriter::new(io::stdout().lock());
     write(&mut stream)?;

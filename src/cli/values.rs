@@ -2,6 +2,7 @@
 
 use crate::fit::{Form, Kind, MAX_UNION_PARTS, Seams, Tolerance};
 use crate::measure::Scheme;
+use crate::shapes::{Body, UnknownBody};
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use std::str::FromStr;
 
@@ -125,6 +126,27 @@ impl FromStr for CloudFormat {
             "ply" => Ok(Self::Ply),
             "xyz" => Ok(Self::Xyz),
             _ => Err("expected ply or xyz"),
+        }
+    }
+}
+
+/// A body, or `tray`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Subject {
+    Body(Body),
+    Tray,
+}
+
+impl FromStr for Subject {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        match text {
+            "tray" => Ok(Self::Tray),
+            name => name
+                .parse()
+                .map(Self::Body)
+                .map_err(|error: UnknownBody| format!("{error}, tray")),
         }
     }
 }

@@ -23,7 +23,7 @@ const MOST_LINKS: usize = 40;
 /// system fails.
 pub fn write_atomically(
     path: &Path,
-    write: impl FnOnce(&mut dyn Write) -> Result<(), WriteError>,
+    write: impl FnOnce(&mut (dyn Write + Send)) -> Result<(), WriteError>,
 ) -> Result<(), SaveError> {
     let target = followed(path);
     let folder = match target.parent() {
@@ -65,7 +65,7 @@ fn followed(path: &Path) -> PathBuf {
 fn replace(
     target: &Path,
     folder: &Path,
-    write: impl FnOnce(&mut dyn Write) -> Result<(), WriteError>,
+    write: impl FnOnce(&mut (dyn Write + Send)) -> Result<(), WriteError>,
 ) -> Result<(), WriteError> {
     let temporary = Temporary::new(folder)?;
     fill(temporary.file()?, write)?;
@@ -77,7 +77,7 @@ fn replace(
 
 fn fill(
     file: &File,
-    write: impl FnOnce(&mut dyn Write) -> Result<(), WriteError>,
+    write: impl FnOnce(&mut (dyn Write + Send)) -> Result<(), WriteError>,
 ) -> Result<(), WriteError> {
     let mut writer = BufWriter::with_capacity(1 << 16, file);
     write(&mut writer)?;

@@ -93,8 +93,8 @@ pub enum FitError {
     },
     /// The scan holds several bodies.
     #[error(
-        "the scan holds {bodies} separate bodies, and one grain can be fitted: cut one out, or keep the largest \
-         (--largest)"
+        "the scan holds {bodies} separate bodies, and one grain can be fitted: split it (grainform split), or keep the \
+         largest (--largest)"
     )]
     SeveralBodies {
         /// Number of bodies.
@@ -133,7 +133,7 @@ pub enum FitError {
     /// The surface is far from the points.
     #[error(
         "the surface is off its points by {:.0} % of the mean radius (RMS): they are not of one surface; look for \
-         several bodies, a ring, or what the grain stands on, and cut out one grain",
+         several bodies, a ring, or what the grain stands on; grainform split cuts one grain out",
         100.0 * share
     )]
     FarFromPoints {
@@ -143,7 +143,7 @@ pub enum FitError {
     /// The surface goes far beyond the points.
     #[error(
         "the surface holds {times:.1} times the volume of the polyhedron of its points: they are not of one grain; look \
-         for several bodies, or what the grain stands on, and cut out one grain"
+         for several bodies, or what the grain stands on; grainform split cuts one grain out"
     )]
     FarBeyondPoints {
         /// Its volume over that of the polyhedron.
@@ -170,7 +170,7 @@ pub enum FitError {
     #[error(
         "{:.0} % of the points stand apart from their neighbours by more than a tenth of the \
          radius; a scan of one grain has below 1 % of such outliers: remove the background, or cut \
-         out one grain",
+         one grain out (grainform split)",
         100.0 * share
     )]
     Strays {
@@ -181,7 +181,7 @@ pub enum FitError {
     #[error(
         "the points are not one surface round a centre: in neighbouring directions their distance \
          from it differs by {:.0} % (median), where a scanned grain shows below 5 %; it may be \
-         a ring, several bodies, or a scene with its background: cut out one grain",
+         a ring, several bodies, or a scene with its background: cut one grain out (grainform split)",
         100.0 * scatter
     )]
     Scattered {

@@ -24,7 +24,6 @@ mod options;
 mod outcome;
 mod position;
 mod prepare;
-mod robust;
 mod segments;
 mod sound;
 mod superquadric;

@@ -1,7 +1,7 @@
 //! The convex hull of points in the plane, and what is measured on it with calipers.
 
+use crate::polygon_hull::polygon_hull;
 use nalgebra::Vector2;
-use robust::{Coord, orient2d};
 
 /// A convex polygon, its corners counter-clockwise and no three of them on one line. It may be a point
 /// or a segment, or empty.
@@ -28,32 +28,9 @@ struct Grip {
 }
 
 impl ConvexPolygon {
-    /// The convex hull of finite points: by the monotone chain (Andrew 1979) on an exact predicate, in
-    /// O(n log n).
-    pub(super) fn hull_of(mut points: Vec<Vector2<f64>>) -> Self {
-        points.sort_unstable_by(|p, q| p.x.total_cmp(&q.x).then(p.y.total_cmp(&q.y)));
-        points.dedup();
-        if points.len() < 3 {
-            return Self { corners: points };
-        }
-        let mut corners: Vec<Vector2<f64>> = Vec::with_capacity(points.len() + 1);
-        let mut append = |start: usize, point: &Vector2<f64>| {
-            while let [.., p, q] = corners[start..]
-                && orient2d(coord(&p), coord(&q), coord(point)) <= 0.0
-            {
-                corners.pop();
-            }
-            corners.push(*point);
-            corners.len()
-        };
-        let mut lower = 0;
-        for point in &points {
-            lower = append(0, point);
-        }
-        for point in points.iter().rev().skip(1) {
-            append(lower - 1, point);
-        }
-        corners.pop();
+    /// The convex hull of finite points.
+    pub(super) fn hull_of(points: Vec<Vector2<f64>>) -> Self {
+        let corners = polygon_hull(points);
         Self { corners }
     }
 
@@ -148,13 +125,6 @@ impl ConvexPolygon {
     fn edges(&self) -> impl Iterator<Item = Vector2<f64>> {
         let n = self.corners.len();
         (0..if n > 1 { n } else { 0 }).map(|corner| self.edge(corner))
-    }
-}
-
-fn coord(point: &Vector2<f64>) -> Coord<f64> {
-    Coord {
-        x: point.x,
-        y: point.y,
     }
 }
 

@@ -15,8 +15,10 @@ mod number;
 mod placed;
 mod rule;
 mod search;
+mod split;
 mod superquadric;
 mod synth;
+mod tray;
 mod unit;
 mod warning;
 
@@ -34,8 +36,10 @@ pub use measure::{
 pub use number::{percent, short};
 pub use placed::{PlacedReport, PlacedTouch};
 pub use search::{CandidateRecord, SearchReport};
+pub use split::{PlaneRecord, SplitGrainRecord, SplitReport};
 pub use superquadric::{SuperquadricRecord, SuperquadricReport};
 pub use synth::SynthReport;
+pub use tray::TrayReport;
 pub use unit::Unit;
 #[cfg(feature = "cli")]
 pub(crate) use warning::sentences;

@@ -11,6 +11,7 @@ mod obj;
 mod ply;
 mod polygon;
 mod source;
+mod split;
 mod stl;
 mod text;
 mod topology;
@@ -25,9 +26,9 @@ use nalgebra::Point3;
 pub use error::{ParseError, Place, ReadError};
 use format::Format;
 pub use source::{MAX_BYTES, read_bytes, read_stream};
+pub use split::{Plane, Split, SplitGrain, split};
 pub use topology::Topology;
 pub(crate) use topology::each_edge;
-pub(crate) use weld::first_at_same_place;
 
 /// The points of a scan, in f64, in the file's own frame and unit, and the triangles between them.
 ///

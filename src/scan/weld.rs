@@ -6,6 +6,7 @@ use nalgebra::Point3;
 
 use super::topology::each_edge;
 use super::{ParseError, Scan, plural};
+use crate::mesh::Mesh;
 
 /// Corners of an open rim this near, relative to the longest side of the scan, are one corner.
 ///
@@ -99,9 +100,41 @@ fn nearby(
 }
 
 /// For each point the number of its place; places are numbered in the order in which they come.
-pub(crate) fn first_at_same_place(points: &[Point3<f64>]) -> Vec<u32> {
+pub(super) fn first_at_same_place(points: &[Point3<f64>]) -> Vec<u32> {
     let mut welder = Welder::default();
     points.iter().map(|&point| welder.add(point)).collect()
+}
+
+impl Scan {
+    /// The faces over points that are distinct and all in use.
+    pub(crate) fn welded(&self) -> Mesh {
+        let same = first_at_same_place(&self.points);
+        let mut numbers = vec![None; self.points.len()];
+        let mut vertices: Vec<Point3<f64>> = Vec::new();
+        let mut triangles = Vec::with_capacity(self.triangles.len());
+        // The number given first to a place names the point that stands for it.
+        let mut firsts = vec![u32::MAX; self.points.len()];
+        for (index, &number) in same.iter().enumerate() {
+            let first = &mut firsts[number as usize];
+            *first = (*first).min(index as u32);
+        }
+        for corners in &self.triangles {
+            let [a, b, c] = corners.map(|corner| same[corner as usize]);
+            if a == b || b == c || c == a {
+                continue;
+            }
+            triangles.push([a, b, c].map(|corner| {
+                *numbers[corner as usize].get_or_insert_with(|| {
+                    vertices.push(self.points[firsts[corner as usize] as usize]);
+                    vertices.len() as u32 - 1
+                })
+            }));
+        }
+        Mesh {
+            vertices,
+            triangles,
+        }
+    }
 }
 
 #[cfg(test)]

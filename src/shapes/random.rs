@@ -10,6 +10,8 @@ pub(super) enum Stream {
     Directions,
     Noise,
     Outliers,
+    Places,
+    Order,
 }
 
 /// The generator of one stream of a seed.

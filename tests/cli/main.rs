@@ -1,5 +1,6 @@
 //! The command line from end to end, through the built binary.
 
+mod batch;
 mod bench;
 mod contact;
 mod errors;
@@ -12,6 +13,7 @@ mod search;
 #[cfg(unix)]
 mod signals;
 mod sound;
+mod split;
 mod streams;
 mod superquadric;
 mod symmetry;

@@ -1,13 +1,15 @@
 //! The arguments as they are typed.
 
+mod many;
 mod shared;
 
+pub(super) use many::{BatchArgs, CompareArgs, SplitArgs};
 pub(super) use shared::{FittingArgs, InputArgs, LimitArgs, MeshingArgs};
 
-use super::values::{CloudFormat, PoseArg, SchemeArg, SurfaceArg, share, vector};
+use super::values::{CloudFormat, PoseArg, SchemeArg, Subject, SurfaceArg, share, vector};
 use crate::export::MeshFormat;
 use crate::report::{Measure, Unit};
-use crate::shapes::{Body, Sampling};
+use crate::shapes::Sampling;
 use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;
 use nalgebra::Vector3;
@@ -22,7 +24,7 @@ const RUN: &str = "Run";
 ///
 /// Scans are read from PLY, STL, OBJ and XYZ files, packed with gzip or not. The name - is standard input, or
 /// standard output; what is said beside an output goes to standard error. Lengths are in the scan's unit. Exit
-/// codes: 0 all done; 1 done, but some inputs of a batch failed (no command uses it yet); 2 bad usage or
+/// codes: 0 all done; 1 done, but some inputs of a batch failed; 2 bad usage or
 /// unusable input.
 #[derive(Parser)]
 #[command(name = "grainform", version, max_term_width = 100)]
@@ -47,6 +49,9 @@ pub(super) enum Command {
     Measure(MeasureArgs),
     Contact(ContactArgs),
     Synth(SynthArgs),
+    Split(SplitArgs),
+    Batch(BatchArgs),
+    Compare(CompareArgs),
     Bench(BenchArgs),
     Completions(CompletionsArgs),
     Man(ManArgs),
@@ -240,12 +245,20 @@ pub(super) struct ContactArgs {
     pub(super) limit: LimitArgs,
 }
 
-/// Make a synthetic scan of a body whose area, volume and inertia are known
+/// Make a synthetic scan of a body whose area, volume and inertia are known, or of a tray of grains
 #[derive(Args)]
 pub(super) struct SynthArgs {
     /// bean, chickpea or maize, or a shape: sphere, ellipsoid, cylinder, bicone, octahedron, cuboid or
-    /// cube
-    pub(super) body: Body,
+    /// cube; or tray: grains on a plane, one in ten touching another, with dust
+    pub(super) body: Subject,
+
+    /// Number of grains on a tray
+    #[arg(long, value_name = "N", default_value_t = 100)]
+    pub(super) grains: usize,
+
+    /// Of a tray, write here what each point was taken from, a line each: plane, dust or the number of a grain
+    #[arg(long, value_name = "FILE.txt")]
+    pub(super) labels: Option<PathBuf>,
 
     /// Semi-axes of a shape, or half its extents, in x, y and z [default: the shape's own]
     #[arg(long, value_name = "A,B,C", value_parser = vector, allow_hyphen_values = true)]

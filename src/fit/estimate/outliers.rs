@@ -4,7 +4,7 @@ use super::outcome::spare;
 use super::posterior::Posterior;
 use super::spectrum_fit::SpectrumFit;
 use crate::fit::neighbours::Neighbours;
-use crate::fit::robust::{median, robust_deviation};
+use crate::spread::{median, robust_deviation};
 use nalgebra::Vector3;
 
 /// Rounds of leaving out outliers.

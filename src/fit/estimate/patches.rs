@@ -4,8 +4,8 @@
 //! means of all points' residuals against a first estimate are added to what it says at the patches.
 
 use crate::fit::prepare::Sample;
-use crate::fit::robust::{median, robust_deviation};
 use crate::sphere::CubeCell;
+use crate::spread::{median, robust_deviation};
 use nalgebra::Vector3;
 
 /// Clouds up to this size are used point by point.

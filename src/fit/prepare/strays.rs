@@ -1,7 +1,7 @@
 //! Points that stand apart from their neighbours: outliers of the scan.
 
-use crate::fit::robust::{median, robust_deviation};
 use crate::mesh::Mesh;
+use crate::spread::{median, robust_deviation};
 use nalgebra::{Point3, Vector3};
 
 /// A point is a stray when its radius differs from the median of its neighbours' by more than this

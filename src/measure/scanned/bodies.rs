@@ -1,50 +1,12 @@
 //! Closed surfaces as bodies and the hollows in them.
 
 use super::{FacesDefect, Fill, ScannedBody};
-use crate::Mesh;
-use crate::disjoint_sets::DisjointSets;
 use crate::measure::winding::winding_number;
+use crate::mesh::{Mesh, part, parts};
 use nalgebra::{Point3, Vector3};
-use std::collections::HashMap;
 
 /// Vertices of a part by which it is told whether it is inside of another.
 const PROBES: usize = 24;
-
-/// The triangles of each part of a mesh that shares no vertex with the rest, in order.
-pub(super) fn parts(mesh: &Mesh) -> Vec<Vec<usize>> {
-    let mut sets = DisjointSets::new(mesh.vertices.len());
-    for &[a, b, c] in &mesh.triangles {
-        sets.join(a, b);
-        sets.join(a, c);
-    }
-    let mut numbers = vec![usize::MAX; mesh.vertices.len()];
-    let mut parts: Vec<Vec<usize>> = Vec::new();
-    for (triangle, corners) in mesh.triangles.iter().enumerate() {
-        let number = &mut numbers[sets.of(corners[0]) as usize];
-        if *number == usize::MAX {
-            *number = parts.len();
-            parts.push(Vec::new());
-        }
-        parts[*number].push(triangle);
-    }
-    parts
-}
-
-/// Some triangles of a mesh and their vertices.
-pub(super) fn part(mesh: &Mesh, triangles: &[usize]) -> Mesh {
-    let mut numbers = HashMap::new();
-    let mut own = Mesh::default();
-    for &triangle in triangles {
-        let named = mesh.triangles[triangle].map(|corner| {
-            *numbers.entry(corner).or_insert_with(|| {
-                own.vertices.push(mesh.vertices[corner as usize]);
-                own.vertices.len() as u32 - 1
-            })
-        });
-        own.triangles.push(named);
-    }
-    own
-}
 
 /// One closed surface among several.
 struct Part {

@@ -1,7 +1,6 @@
 //! Closing holes by triangles over their rims.
 
-use super::bodies::parts;
-use crate::Mesh;
+use crate::mesh::{Mesh, parts};
 use nalgebra::{Point3, Vector3};
 
 /// What closes the small holes of a scan.

@@ -8,12 +8,11 @@ mod fill;
 mod parts;
 mod rims;
 
-use crate::Mesh;
-use crate::scan::{Scan, each_edge, first_at_same_place, plural};
+use crate::mesh::{Mesh, parts};
+use crate::scan::{Scan, each_edge, plural};
 use bodies::arrange;
 pub use fill::Fill;
 use fill::fill;
-use nalgebra::Point3;
 pub(crate) use parts::{largest_part, without_dust};
 use rims::rims;
 use thiserror::Error;
@@ -77,7 +76,7 @@ pub enum FacesDefect {
 /// The bodies that the faces of a scan enclose; `None` of points without faces.
 pub fn scanned_body(scan: &Scan) -> Option<ScannedBody> {
     scan.topology.as_ref()?;
-    let mesh = welded(scan);
+    let mesh = scan.welded();
     if mesh.triangles.is_empty() {
         return None;
     }
@@ -110,40 +109,10 @@ pub fn scanned_body(scan: &Scan) -> Option<ScannedBody> {
 
 fn refused(mesh: Mesh, defect: FacesDefect) -> ScannedBody {
     ScannedBody {
-        bodies: bodies::parts(&mesh).len(),
+        bodies: parts(&mesh).len(),
         cavities: 0,
         fill: None,
         defect: Some(defect),
         mesh,
-    }
-}
-
-/// The faces over points that are distinct and all in use.
-fn welded(scan: &Scan) -> Mesh {
-    let same = first_at_same_place(&scan.points);
-    let mut numbers = vec![None; scan.points.len()];
-    let mut vertices: Vec<Point3<f64>> = Vec::new();
-    let mut triangles = Vec::with_capacity(scan.triangles.len());
-    // The number given first to a place names the point that stands for it.
-    let mut firsts = vec![u32::MAX; scan.points.len()];
-    for (index, &number) in same.iter().enumerate() {
-        let first = &mut firsts[number as usize];
-        *first = (*first).min(index as u32);
-    }
-    for corners in &scan.triangles {
-        let [a, b, c] = corners.map(|corner| same[corner as usize]);
-        if a == b || b == c || c == a {
-            continue;
-        }
-        triangles.push([a, b, c].map(|corner| {
-            *numbers[corner as usize].get_or_insert_with(|| {
-                vertices.push(scan.points[firsts[corner as usize] as usize]);
-                vertices.len() as u32 - 1
-            })
-        }));
-    }
-    Mesh {
-        vertices,
-        triangles,
     }
 }

@@ -1,8 +1,6 @@
 //! The parts of a scan's faces that share no point, by their size.
 
-use super::bodies::{part, parts};
-use super::welded;
-use crate::Mesh;
+use crate::mesh::{Mesh, part, parts};
 use crate::scan::Scan;
 
 /// A part with less than this share of the vertices, and of the area, is dust.
@@ -39,7 +37,7 @@ fn sizes(mesh: &Mesh) -> Vec<Size> {
 
 /// The scan without parts that are too small for bodies, and how many these are; `None` if there are none.
 pub(crate) fn without_dust(scan: &Scan) -> Option<(Scan, usize)> {
-    let mesh = welded(scan);
+    let mesh = scan.welded();
     let mut sizes = sizes(&mesh);
     let (parts, vertices) = (sizes.len(), mesh.vertices.len() as f64);
     let area: f64 = sizes.iter().map(|size| size.area).sum();
@@ -54,7 +52,7 @@ pub(crate) fn without_dust(scan: &Scan) -> Option<(Scan, usize)> {
 
 /// The part that encloses most, and how many others there are; `None` if there are no others.
 pub(crate) fn largest_part(scan: &Scan) -> Option<(Scan, usize)> {
-    let mesh = welded(scan);
+    let mesh = scan.welded();
     let sizes = sizes(&mesh);
     let order = |a: &&Size, b: &&Size| {
         let of_equal_volume = a.area.total_cmp(&b.area);

@@ -1,7 +1,7 @@
 //! Middle and spread of values, which a few wild ones do not move.
 
 /// Standard deviation over median absolute deviation of a normal distribution.
-const PER_MEDIAN: f64 = 1.4826;
+pub(crate) const PER_MEDIAN: f64 = 1.4826;
 
 /// Standard deviation of values round zero, told by the median of their sizes.
 pub(crate) fn robust_deviation(values: impl Iterator<Item = f64>) -> f64 {

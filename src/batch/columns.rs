@@ -1,0 +1,222 @@
+//! The columns of results, in their order; `docs/results.md` describes them.
+
+use crate::report::Measure;
+
+/// What the cells of a column hold. An empty cell is one that is not known.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// Text.
+    Text,
+    /// A whole number.
+    Count,
+    /// A number.
+    Real,
+}
+
+/// A column of results.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Column {
+    /// Its name.
+    pub name: String,
+    /// What its cells hold.
+    pub kind: Kind,
+}
+
+/// A number of a record, by where it stands there.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Figure {
+    /// Name of its column.
+    pub(super) name: String,
+    /// JSON pointer into the record of measures.
+    pub(super) measured: String,
+    /// JSON pointer to its standard error, in the record of a fit.
+    pub(super) error: Option<String>,
+}
+
+/// Columns that every table begins with.
+pub(super) const FIRST: [(&str, Kind); 20] = [
+    ("path", Kind::Text),
+    ("status", Kind::Text),
+    ("reason", Kind::Text),
+    ("hash", Kind::Text),
+    ("version", Kind::Text),
+    ("settings", Kind::Text),
+    ("unit", Kind::Text),
+    ("points", Kind::Count),
+    ("degree", Kind::Count),
+    ("segments", Kind::Count),
+    ("coefficients", Kind::Count),
+    ("mean_radius", Kind::Real),
+    ("noise", Kind::Real),
+    ("rms", Kind::Real),
+    ("heldout_rms", Kind::Real),
+    ("area_error", Kind::Real),
+    ("volume_error", Kind::Real),
+    ("no_standard_errors", Kind::Text),
+    ("not_measured", Kind::Text),
+    ("warnings", Kind::Text),
+];
+
+/// Outlines, and what is measured of each.
+const ALONG: [&str; 3] = ["length", "width", "thickness"];
+const OUTLINE: [&str; 17] = [
+    "area",
+    "perimeter",
+    "equivalent_diameter",
+    "largest_feret",
+    "smallest_feret",
+    "enclosing_diameter",
+    "inscribed_diameter",
+    "area_sphericity",
+    "diameter_sphericity",
+    "circle_ratio",
+    "riley_sphericity",
+    "perimeter_sphericity",
+    "circularity",
+    "width_to_length",
+    "solidity",
+    "convexity",
+    "roundness",
+];
+
+/// Degrees of the spectrum that are told: degree 0 is 1, and 1 is nearly nothing.
+const SPECTRUM: std::ops::RangeInclusive<usize> = 2..=12;
+
+/// The columns of results of these measures.
+pub fn columns(measures: &[Measure]) -> Vec<Column> {
+    let first = FIRST.iter().map(|&(name, kind)| Column {
+        name: name.into(),
+        kind,
+    });
+    let figures = figures(measures).into_iter().flat_map(|figure| {
+        let error = figure.error.map(|_| format!("{}_se", figure.name));
+        [Some(figure.name), error]
+    });
+    let figures = figures.flatten().map(|name| Column {
+        name,
+        kind: Kind::Real,
+    });
+    first.chain(figures).collect()
+}
+
+/// The figures of some measures, in their order.
+pub(super) fn figures(measures: &[Measure]) -> Vec<Figure> {
+    measures
+        .iter()
+        .flat_map(|measure| of_measure(*measure))
+        .collect()
+}
+
+fn of_measure(measure: Measure) -> Vec<Figure> {
+    let name = measure.name();
+    let plain = |parts: &[&str]| -> Vec<Figure> {
+        parts.iter().map(|part| figure(name, part, part)).collect()
+    };
+    match measure {
+        Measure::Area | Measure::Volume => {
+            vec![with_error(figure(name, "", ""), format!("/{name}"))]
+        }
+        Measure::Centroid => numbered(name, ["x", "y", "z"], ""),
+        Measure::Inertia => [
+            ("xx", "0/0"),
+            ("yy", "1/1"),
+            ("zz", "2/2"),
+            ("xy", "0/1"),
+            ("xz", "0/2"),
+            ("yz", "1/2"),
+        ]
+        .map(|(axes, at)| figure(name, axes, at))
+        .into(),
+        Measure::Principal => (0..3)
+            .map(|i| {
+                let moment = figure(name, &format!("moment_{}", i + 1), &format!("moments/{i}"));
+                with_error(moment, format!("/moments/{i}"))
+            })
+            .collect(),
+        Measure::Dimensions => ALONG
+            .map(|side| with_error(figure(name, side, side), format!("/dimensions/{side}")))
+            .into(),
+        Measure::MinimumBox => plain(&["length", "width", "thickness", "volume"]),
+        Measure::Ratios => plain(&[
+            "short_to_long",
+            "intermediate_to_long",
+            "short_to_intermediate",
+        ]),
+        Measure::Form => plain(&["aspect_ratio", "elongation", "flatness"]),
+        Measure::Spheres => ["inscribed", "enclosing"]
+            .map(|ball| figure(name, &format!("{ball}_radius"), &format!("{ball}/radius")))
+            .into(),
+        Measure::Sphericity => plain(&[
+            "wadell",
+            "operational",
+            "inscribed_enclosing",
+            "inscribed_enclosing_root",
+            "krumbein",
+            "maximum_projection",
+        ]),
+        Measure::Convexity => plain(&["volume", "area"]),
+        Measure::Ellipsoid => numbered(name, ["a", "b", "c"], "semi_axes"),
+        Measure::Projections => (0..3)
+            .flat_map(|i| {
+                OUTLINE.map(|part| {
+                    figure(
+                        name,
+                        &format!("{}.{part}", ALONG[i]),
+                        &format!("{i}/{part}"),
+                    )
+                })
+            })
+            .collect(),
+        Measure::Curvature => {
+            let kinds = ["mean", "gaussian", "larger", "smaller"].into_iter();
+            let mut all: Vec<Figure> = kinds
+                .flat_map(|kind| {
+                    ["mean", "standard_deviation", "least", "largest"].map(|part| {
+                        figure(name, &format!("{kind}.{part}"), &format!("{kind}/{part}"))
+                    })
+                })
+                .collect();
+            all.extend(plain(&["convex_share", "gauss_bonnet_error"]));
+            all
+        }
+        Measure::Spectrum => SPECTRUM
+            .map(|l| {
+                let at = format!("relative_amplitude/{l}");
+                figure(name, &format!("relative_amplitude_{l}"), &at)
+            })
+            .collect(),
+        _ => vec![figure(name, "", "")],
+    }
+}
+
+fn numbered(name: &str, parts: [&str; 3], list: &str) -> Vec<Figure> {
+    let list = if list.is_empty() {
+        String::new()
+    } else {
+        format!("{list}/")
+    };
+    (0..3)
+        .map(|i| figure(name, parts[i], &format!("{list}{i}")))
+        .collect()
+}
+
+/// A part of a measure, where it stands in its record; empty is the measure itself.
+fn figure(measure: &str, part: &str, at: &str) -> Figure {
+    let join = |separator: &str, part: &str| match part {
+        "" => measure.to_owned(),
+        part => format!("{measure}{separator}{part}"),
+    };
+    Figure {
+        name: join(".", part),
+        measured: format!("/{}", join("/", at)),
+        error: None,
+    }
+}
+
+fn with_error(figure: Figure, error: String) -> Figure {
+    Figure {
+        error: Some(error),
+        ..figure
+    }
+}

@@ -1,0 +1,99 @@
+//! Why a batch, or a comparison of two, cannot go on.
+
+use crate::export::SaveError;
+use std::io;
+use std::path::PathBuf;
+use thiserror::Error;
+
+/// Why a batch cannot go on. What is wrong with one scan is told in its row.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum BatchError {
+    /// A pattern of paths is none.
+    #[error("{pattern} is no pattern of paths: {source}")]
+    Pattern {
+        /// The pattern.
+        pattern: String,
+        /// Why.
+        source: glob::PatternError,
+    },
+    /// Nothing matches a pattern, or a folder holds no scans.
+    #[error("{} names no scans: none of its files ends in .ply, .stl, .obj or .xyz", path.display())]
+    Empty {
+        /// The pattern or folder.
+        path: PathBuf,
+    },
+    /// A folder or list cannot be read.
+    #[error("cannot read {}: {source}", path.display())]
+    Read {
+        /// The folder or list.
+        path: PathBuf,
+        /// Why.
+        source: io::Error,
+    },
+    /// Another batch works on the folder.
+    #[error(
+        "another batch writes into {}: wait until it has ended, or give another folder",
+        folder.display()
+    )]
+    Locked {
+        /// The folder.
+        folder: PathBuf,
+    },
+    /// The folder for results cannot be written to.
+    #[error(
+        "cannot write into {}: {source}; what was done so far is kept, and the same command goes on from there",
+        folder.display()
+    )]
+    Write {
+        /// The folder.
+        folder: PathBuf,
+        /// Why.
+        source: io::Error,
+    },
+    /// A result cannot be saved.
+    #[error(transparent)]
+    Save(#[from] SaveError),
+    /// The threads cannot be started.
+    #[error("cannot start the threads: {source}; ask for fewer with --jobs")]
+    Threads {
+        /// Why.
+        source: rayon::ThreadPoolBuildError,
+    },
+}
+
+/// Why results cannot be read.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum TableError {
+    /// The folder holds no results.
+    #[error("{} holds neither results.parquet nor results.csv; make them with grainform batch", folder.display())]
+    NoResults {
+        /// The folder.
+        folder: PathBuf,
+    },
+    /// The file cannot be opened.
+    #[error("cannot read {}: {source}", path.display())]
+    Io {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        source: io::Error,
+    },
+    /// The file is no CSV.
+    #[error("cannot read {} as CSV: {source}", path.display())]
+    Csv {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        source: csv::Error,
+    },
+    /// The file is no Parquet.
+    #[error("cannot read {} as Parquet: {source}", path.display())]
+    Parquet {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        source: parquet::errors::ParquetError,
+    },
+}

@@ -1,0 +1,178 @@
+//! One grain of a batch: its scan is fitted, the fit is measured, and what is asked for is saved.
+
+use super::columns::{Figure, figures};
+use super::journal::Row;
+use crate::export::{SaveError, save_grain, save_mesh};
+use crate::fit::{Context, FitOptions, Fitted, fit_scan, largest_body};
+use crate::measure::{Scheme, Survey};
+use crate::model::Surface;
+use crate::report::{FitReport, Measure, MeasureReport, Measured, Unit, sentences};
+use crate::scan::{parse_file, read_stream};
+use serde_json::Value;
+use std::borrow::Cow;
+use std::error::Error;
+use std::path::{Path, PathBuf};
+
+/// What is asked of every grain of a batch.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Settings {
+    /// How scans are fitted.
+    pub fit: FitOptions,
+    /// Of several bodies in a scan, fit the largest.
+    pub largest: bool,
+    /// What is measured of the fits.
+    pub measures: Vec<Measure>,
+    /// Unit of the scans' lengths.
+    pub unit: Option<Unit>,
+    /// The most bytes of a scan, packed or unpacked.
+    pub max_bytes: u64,
+    /// Save the models.
+    pub models: bool,
+    /// Save a mesh of each model, with so many cells along an edge of a cube of directions.
+    pub meshes: Option<usize>,
+}
+
+impl Settings {
+    /// All that a row depends on, as text.
+    pub(super) fn text(&self) -> String {
+        let FitOptions {
+            tolerance,
+            segments,
+            ..
+        } = &self.fit;
+        let names: Vec<&str> = self.measures.iter().map(|measure| measure.name()).collect();
+        let unit = self.unit.map_or("none".into(), |unit| unit.to_string());
+        let segments = segments.map_or("adaptive".into(), |segments| segments.to_string());
+        format!(
+            "tolerance={tolerance:?} segments={segments} largest={} extrapolate={} unit={unit} max_bytes={} only={}",
+            self.largest,
+            self.fit.extrapolate,
+            self.max_bytes,
+            names.join(",")
+        )
+    }
+}
+
+/// Where models and meshes of one grain go; none where they are not asked for.
+pub(super) struct Outputs {
+    pub(super) model: Option<PathBuf>,
+    pub(super) mesh: Option<PathBuf>,
+}
+
+impl Outputs {
+    /// Whether all are there.
+    pub(super) fn exist(&self) -> bool {
+        let mut paths = self.model.iter().chain(&self.mesh);
+        paths.all(|path| path.is_file())
+    }
+}
+
+/// Fits and measures the scan in the bytes of a file; what is wrong with it is told in the row.
+///
+/// # Errors
+/// Where an output cannot be saved.
+pub(super) fn grain(
+    path: &Path,
+    bytes: &[u8],
+    settings: &Settings,
+    outputs: &Outputs,
+) -> Result<Row, SaveError> {
+    let (fitted, warnings) = match fit(path, bytes, settings) {
+        Ok(found) => found,
+        Err(reason) => {
+            return Ok(Row {
+                reason: Some(reason),
+                ..Row::default()
+            });
+        }
+    };
+    if let Some(path) = &outputs.model {
+        save_grain(path, &fitted.grain_with_errors())?;
+    }
+    if let (Some(path), Some(cells)) = (&outputs.mesh, settings.meshes) {
+        save_mesh(path, &fitted.grain.mesh(cells))?;
+    }
+    Ok(row(&fitted, &warnings, settings))
+}
+
+fn fit(path: &Path, bytes: &[u8], settings: &Settings) -> Result<(Fitted, Vec<String>), String> {
+    let bytes = read_stream(bytes, path, settings.max_bytes).map_err(|error| told(&error))?;
+    let scan = parse_file(path, &bytes, None).map_err(|error| told(&error))?;
+    let (scan, left_out) = match settings.largest {
+        true => largest_body(&scan),
+        false => (Cow::Borrowed(&scan), None),
+    };
+    let context = Context::default();
+    let mut fitted = fit_scan(&scan, &settings.fit, &context).map_err(|error| told(&error))?;
+    fitted.warnings.extend(left_out);
+    Ok((fitted, scan.warnings().to_vec()))
+}
+
+/// An error and what caused it, in one sentence.
+fn told(error: &dyn Error) -> String {
+    match error.source() {
+        Some(cause) => format!("{error}: {}", told(cause)),
+        None => error.to_string(),
+    }
+}
+
+fn row(fitted: &Fitted, warnings: &[String], settings: &Settings) -> Row {
+    let fit = FitReport::new(String::new(), None, fitted, &settings.fit, warnings);
+    // Where much was not seen, the whole surface is a guess that the fit withholds.
+    let is_withheld = fitted.unseen.is_some() && !settings.fit.extrapolate;
+    let measured = (!is_withheld).then(|| {
+        let survey = Survey::of_grain(&fitted.grain, Scheme::Exact);
+        MeasureReport::new(
+            String::new(),
+            Measured::Model,
+            &survey,
+            &settings.measures,
+            Vec::new(),
+        )
+    });
+    let missing = match &measured {
+        Some(measured) => &measured.not_measured,
+        None => &fit.not_measured,
+    };
+    let values = measured.as_ref().map(|measured| value(&measured.measures));
+    let errors = value(&fit.standard_errors);
+    let figures = figures(&settings.measures)
+        .into_iter()
+        .flat_map(|figure| cells(&figure, values.as_ref(), &errors))
+        .collect();
+    Row {
+        unit: settings.unit.map(|unit| unit.to_string()),
+        points: Some(fit.points as u64),
+        degree: Some(fit.degree as u64),
+        segments: Some(fit.segments as u64),
+        coefficients: Some(fit.coefficients as u64),
+        mean_radius: Some(fit.mean_radius),
+        noise: fit.noise,
+        rms: Some(fit.rms),
+        heldout_rms: fit.heldout_rms,
+        area_error: fit.area_error,
+        volume_error: fit.volume_error,
+        not_measured: missing
+            .iter()
+            .map(|missing| format!("{}: {}", missing.measure, missing.reason))
+            .collect(),
+        no_standard_errors: fit.no_standard_errors,
+        warnings: sentences(warnings, &fitted.warnings),
+        figures,
+        ..Row::default()
+    }
+}
+
+/// A record as JSON; a number that JSON has not is null.
+fn value(record: &impl serde::Serialize) -> Value {
+    serde_json::to_value(record).unwrap_or(Value::Null)
+}
+
+/// The figure, and its standard error where it can have one.
+fn cells(figure: &Figure, values: Option<&Value>, errors: &Value) -> Vec<Option<f64>> {
+    let own = values.and_then(|values| values.pointer(&figure.measured)?.as_f64());
+    let error = |at: &String| errors.pointer(at).and_then(Value::as_f64);
+    std::iter::once(own)
+        .chain(figure.error.as_ref().map(error))
+        .collect()
+}

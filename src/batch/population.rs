@@ -1,0 +1,289 @@
+//! What the grains of a batch are like together.
+
+use super::columns::{Column, FIRST};
+use super::journal::Row;
+use crate::spread::{PER_MEDIAN, median};
+use serde::Serialize;
+
+/// The measures by which grains are compared, as far as they are there.
+const MAIN: [&str; 11] = [
+    "area",
+    "volume",
+    "dimensions.length",
+    "dimensions.width",
+    "dimensions.thickness",
+    "form.elongation",
+    "form.flatness",
+    "sphericity.wadell",
+    "roundness",
+    "convexity.volume",
+    "heldout_rms",
+];
+
+/// Quantiles that are told.
+const QUANTILES: [f64; 7] = [0.0, 0.05, 0.25, 0.5, 0.75, 0.95, 1.0];
+
+/// Robust z-score beyond which a grain is worth a look (Iglewicz and Hoaglin 1993).
+const OUTLYING: f64 = 3.5;
+
+/// Grains of the smallest population that has outliers.
+const LEAST_GRAINS: usize = 8;
+
+/// What the grains of a batch are like together.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct Population {
+    /// Number of grains with a result.
+    pub grains: usize,
+    /// The main measures.
+    pub measures: Vec<Statistics>,
+    /// Correlation (Pearson) of each of the main measures with each, in their order, over the grains of which both are
+    /// known; `null` where there are fewer than three or one does not vary.
+    pub correlations: Vec<Vec<Option<f64>>>,
+    /// Grains that are worth a look.
+    pub outliers: Vec<Outlier>,
+    #[serde(skip)]
+    paths: Vec<String>,
+    /// Of every main measure, the values of all grains.
+    #[serde(skip)]
+    values: Vec<Vec<Option<f64>>>,
+    /// Positions of the main measures among the figures of a row; none of what stands before them.
+    #[serde(skip)]
+    positions: Vec<Option<usize>>,
+}
+
+/// One measure over all grains.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct Statistics {
+    /// Name of the column.
+    pub measure: String,
+    /// Grains of which it is known.
+    pub count: usize,
+    /// Mean.
+    pub mean: f64,
+    /// Standard deviation; `null` of one grain.
+    pub deviation: Option<f64>,
+    /// Smallest, 5 %, 25 %, 50 %, 75 %, 95 %, largest, between neighbours by linear interpolation.
+    pub quantiles: [f64; QUANTILES.len()],
+}
+
+/// A grain that is unlike most others.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct Outlier {
+    /// The scan.
+    pub path: String,
+    /// The measure by which it is.
+    pub measure: String,
+    /// Its value.
+    pub value: f64,
+    /// Difference from the median over 1.4826 times the median absolute deviation.
+    pub z: f64,
+    /// The same as a sentence.
+    pub reason: String,
+}
+
+impl Population {
+    /// No grains yet, with these columns.
+    pub(super) fn new(columns: &[Column]) -> Self {
+        let at = |name: &&str| columns.iter().position(|column| column.name == *name);
+        let main: Vec<(&str, usize)> = MAIN
+            .iter()
+            .filter_map(|name| Some((*name, at(name)?)))
+            .collect();
+        Self {
+            grains: 0,
+            measures: main
+                .iter()
+                .map(|(name, _)| Statistics {
+                    measure: (*name).into(),
+                    count: 0,
+                    mean: 0.0,
+                    deviation: None,
+                    quantiles: [0.0; QUANTILES.len()],
+                })
+                .collect(),
+            correlations: Vec::new(),
+            outliers: Vec::new(),
+            paths: Vec::new(),
+            values: vec![Vec::new(); main.len()],
+            positions: main
+                .iter()
+                .map(|(_, at)| at.checked_sub(FIRST.len()))
+                .collect(),
+        }
+    }
+
+    /// Adds a grain.
+    pub(super) fn add(&mut self, row: &Row) {
+        self.grains += 1;
+        self.paths.push(row.path.clone());
+        for (values, position) in self.values.iter_mut().zip(&self.positions) {
+            values.push(match position {
+                Some(at) => row.figures.get(*at).copied().flatten(),
+                None => row.heldout_rms,
+            });
+        }
+    }
+
+    /// Computes what is told, when all grains are there.
+    pub(super) fn finish(&mut self) {
+        for (statistics, values) in self.measures.iter_mut().zip(&self.values) {
+            let known: Vec<f64> = values.iter().flatten().copied().collect();
+            statistics.take(known);
+        }
+        self.measures_known();
+        let pair = |one: &Vec<Option<f64>>| -> Vec<Option<f64>> {
+            self.values
+                .iter()
+                .map(|other| correlation(one, other))
+                .collect()
+        };
+        self.correlations = self.values.iter().map(pair).collect();
+        self.outliers = (0..self.measures.len())
+            .flat_map(|at| self.outlying(at))
+            .collect();
+    }
+
+    /// Leaves out measures that are known of no grain.
+    fn measures_known(&mut self) {
+        let is_known: Vec<bool> = self
+            .measures
+            .iter()
+            .map(|measure| measure.count > 0)
+            .collect();
+        let mut known = is_known.iter();
+        self.measures.retain(|_| *known.next().unwrap_or(&false));
+        let mut known = is_known.iter();
+        self.values.retain(|_| *known.next().unwrap_or(&false));
+    }
+
+    fn outlying(&self, at: usize) -> Vec<Outlier> {
+        let values = &self.values[at];
+        let mut known: Vec<f64> = values.iter().flatten().copied().collect();
+        let middle = median(&mut known).unwrap_or(0.0);
+        let mut sizes: Vec<f64> = known.iter().map(|value| (value - middle).abs()).collect();
+        let deviation = PER_MEDIAN * median(&mut sizes).unwrap_or(0.0);
+        if known.len() < LEAST_GRAINS || deviation <= 0.0 {
+            return Vec::new();
+        }
+        let measure = &self.measures[at].measure;
+        let outlier = |(path, value): (&String, &Option<f64>)| {
+            let value = (*value)?;
+            let z = (value - middle) / deviation;
+            (z.abs() > OUTLYING).then(|| Outlier {
+                path: path.clone(),
+                measure: measure.clone(),
+                value,
+                z,
+                reason: format!(
+                    "its {measure} is {} deviations {} the median",
+                    (z.abs() * 10.0).round() / 10.0,
+                    if z > 0.0 { "above" } else { "below" }
+                ),
+            })
+        };
+        self.paths.iter().zip(values).filter_map(outlier).collect()
+    }
+}
+
+impl Statistics {
+    fn take(&mut self, mut known: Vec<f64>) {
+        known.sort_unstable_by(f64::total_cmp);
+        self.count = known.len();
+        let (mean, deviation) = moments(&known);
+        self.mean = mean;
+        self.deviation = deviation;
+        self.quantiles = QUANTILES.map(|share| quantile(&known, share));
+    }
+}
+
+/// Mean and standard deviation (with n - 1).
+pub(super) fn moments(values: &[f64]) -> (f64, Option<f64>) {
+    let count = values.len() as f64;
+    let mean = values.iter().sum::<f64>() / count.max(1.0);
+    let squares: f64 = values.iter().map(|value| (value - mean).powi(2)).sum();
+    (
+        mean,
+        (count > 1.0).then(|| (squares / (count - 1.0)).sqrt()),
+    )
+}
+
+fn quantile(sorted: &[f64], share: f64) -> f64 {
+    let at = share * sorted.len().saturating_sub(1) as f64;
+    let (low, high) = (at.floor() as usize, at.ceil() as usize);
+    match (sorted.get(low), sorted.get(high)) {
+        (Some(one), Some(other)) => one + (other - one) * at.fract(),
+        _ => 0.0,
+    }
+}
+
+fn correlation(one: &[Option<f64>], other: &[Option<f64>]) -> Option<f64> {
+    let pairs = one
+        .iter()
+        .zip(other)
+        .filter_map(|(one, other)| Some(((*one)?, (*other)?)));
+    let (one, other): (Vec<f64>, Vec<f64>) = pairs.unzip();
+    if one.len() < 3 {
+        return None;
+    }
+    let [(mean, deviation), (other_mean, other_deviation)] = [moments(&one), moments(&other)];
+    let products: f64 = one
+        .iter()
+        .zip(&other)
+        .map(|(one, other)| (one - mean) * (other - other_mean))
+        .sum();
+    let found = products / (one.len() - 1) as f64 / (deviation? * other_deviation?);
+    found.is_finite().then_some(found.clamp(-1.0, 1.0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::batch::columns;
+    use crate::report::Measure;
+
+    #[test]
+    fn a_population_has_the_statistics_worked_out_by_hand() {
+        let columns = columns(&[Measure::Area, Measure::Volume]);
+        let mut population = Population::new(&columns);
+        let areas = [2.0, 4.0, 4.0, 5.0, 5.0, 6.0, 7.0, 9.0, 100.0];
+        for (number, area) in areas.into_iter().enumerate() {
+            // Area, its error, volume, its error.
+            population.add(&Row {
+                path: number.to_string(),
+                figures: vec![Some(area), None, Some(-2.0 * area), None],
+                ..Row::default()
+            });
+        }
+        population.finish();
+        let area = &population.measures[0];
+        assert_eq!((area.measure.as_str(), area.count), ("area", 9));
+        // The sum is 142; the quartiles are the 3rd and 7th of nine.
+        assert!((area.mean - 142.0 / 9.0).abs() < 1e-12);
+        assert_eq!(
+            area.quantiles,
+            [2.0, 2.8, 4.0, 5.0, 7.0, 63.6, 100.0].map(|x: f64| {
+                area.quantiles
+                    .iter()
+                    .copied()
+                    .min_by(|a, b| (a - x).abs().total_cmp(&(b - x).abs()))
+                    .unwrap()
+            })
+        );
+        assert!((area.quantiles[5] - 63.6).abs() < 1e-9 && (area.quantiles[1] - 2.8).abs() < 1e-9);
+        assert!((population.correlations[0][1].unwrap() + 1.0).abs() < 1e-12);
+        // Deviations from 5: 3 1 1 0 0 1 2 4 95, their median 1.
+        let [outlier, volume] = population.outliers.as_slice() else {
+            panic!("{:?}", population.outliers);
+        };
+        assert_eq!(
+            (outlier.path.as_str(), volume.measure.as_str()),
+            ("8", "volume")
+        );
+        assert!((outlier.z - 95.0 / 1.4826).abs() < 1e-9);
+        // Held-out errors are known of no grain.
+        assert_eq!(population.measures.len(), 2);
+    }
+}

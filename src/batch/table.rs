@@ -1,0 +1,105 @@
+//! Reading results again.
+
+use super::columns::FIRST;
+use super::error::TableError;
+use parquet::file::reader::{FileReader, SerializedFileReader};
+use parquet::record::Field;
+use std::fs::File;
+use std::path::{Path, PathBuf};
+
+/// The figures of a lot of grains: names of columns of numbers, and what is known in each.
+#[derive(Debug, Clone, Default, PartialEq)]
+#[non_exhaustive]
+pub struct Lot {
+    /// Names of the columns, in their order.
+    pub names: Vec<String>,
+    /// What is known of the grains, a list for each column.
+    pub values: Vec<Vec<f64>>,
+}
+
+/// Reads the figures in a folder of results, or in one of its tables, as Parquet if it is so named, else as CSV.
+///
+/// # Errors
+/// [`TableError`] where there are none.
+pub fn read_lot(path: &Path) -> Result<Lot, TableError> {
+    let path = match path.is_dir() {
+        true => table_in(path)?,
+        false => path.to_path_buf(),
+    };
+    match path
+        .extension()
+        .is_some_and(|extension| extension.eq_ignore_ascii_case("parquet"))
+    {
+        true => of_parquet(&path),
+        false => of_csv(&path),
+    }
+}
+
+fn table_in(folder: &Path) -> Result<PathBuf, TableError> {
+    let paths = ["results.parquet", "results.csv"].map(|name| folder.join(name));
+    let found = paths.into_iter().find(|path| path.is_file());
+    found.ok_or_else(|| TableError::NoResults {
+        folder: folder.into(),
+    })
+}
+
+impl Lot {
+    fn of_columns<'a>(names: impl Iterator<Item = &'a str>) -> Self {
+        let names: Vec<String> = names.map(str::to_owned).collect();
+        let values = vec![Vec::new(); names.len()];
+        Self { names, values }
+    }
+
+    /// Leaves out what is no figure of a grain.
+    fn figures(self) -> Self {
+        let is_figure = |name: &str| {
+            let described = FIRST.iter().any(|(first, _)| *first == name);
+            !described && !name.ends_with("_se")
+        };
+        let columns = self.names.into_iter().zip(self.values);
+        let (names, values) = columns
+            .filter(|(name, values)| is_figure(name) && !values.is_empty())
+            .unzip();
+        Self { names, values }
+    }
+}
+
+fn of_csv(path: &Path) -> Result<Lot, TableError> {
+    let failed = |source| TableError::Csv {
+        path: path.into(),
+        source,
+    };
+    let mut reader = csv::Reader::from_path(path).map_err(failed)?;
+    let mut lot = Lot::of_columns(reader.headers().map_err(failed)?.iter());
+    for record in reader.records() {
+        let record = record.map_err(failed)?;
+        for (values, cell) in lot.values.iter_mut().zip(record.iter()) {
+            values.extend(cell.parse::<f64>().ok().filter(|value| value.is_finite()));
+        }
+    }
+    Ok(lot.figures())
+}
+
+fn of_parquet(path: &Path) -> Result<Lot, TableError> {
+    let failed = |source| TableError::Parquet {
+        path: path.into(),
+        source,
+    };
+    let file = File::open(path).map_err(|source| TableError::Io {
+        path: path.into(),
+        source,
+    })?;
+    let reader = SerializedFileReader::new(file).map_err(failed)?;
+    let fields = reader.metadata().file_metadata().schema().get_fields();
+    let mut lot = Lot::of_columns(fields.iter().map(|field| field.name()));
+    for row in reader.get_row_iter(None).map_err(failed)? {
+        let row = row.map_err(failed)?;
+        for (values, (_, cell)) in lot.values.iter_mut().zip(row.get_column_iter()) {
+            values.extend(match cell {
+                Field::Double(value) if value.is_finite() => Some(*value),
+                _ => None,
+            });
+        }
+    }
+    Ok(lot.figures())
+}

@@ -1,0 +1,106 @@
+//! The arguments of commands for many grains.
+
+use super::{InputArgs, LimitArgs, OUTPUT, RUN};
+use crate::cli::values::{Auto, tolerance};
+use crate::fit::Tolerance;
+use crate::report::{Measure, Unit};
+use clap::Args;
+use std::path::PathBuf;
+
+/// Split a scan of many grains into a file for each
+///
+/// Of a mesh, a grain is what shares no point with the rest. Of a cloud, the plane that grains lie on is left out, and
+/// a grain is what hangs together by the distances between its points; grains that touch are cut apart at their neck.
+/// What is too small for a grain is dust. Files are numbered by where the grains lie, and keep the frame of the scan.
+#[derive(Args)]
+pub(in crate::cli) struct SplitArgs {
+    /// The scan: PLY, STL, OBJ or XYZ, packed with gzip or not (- for standard input)
+    #[arg(value_name = "SCAN")]
+    pub(in crate::cli) scan: PathBuf,
+
+    /// Write the grains into this folder, as grain_0001.ply and so on
+    #[arg(short, long, value_name = "DIR", help_heading = OUTPUT)]
+    pub(in crate::cli) output: PathBuf,
+
+    /// Unit of the scan's lengths, told beside them: um, mm, cm or m
+    #[arg(long, value_name = "UNIT", help_heading = OUTPUT)]
+    pub(in crate::cli) unit: Option<Unit>,
+
+    /// Threads, 0 for all cores; the result does not depend on it
+    #[arg(long, value_name = "N", default_value_t = 0, help_heading = RUN)]
+    pub(in crate::cli) threads: usize,
+
+    /// Print one JSON object
+    #[arg(long, help_heading = OUTPUT)]
+    pub(in crate::cli) json: bool,
+
+    #[command(flatten)]
+    pub(in crate::cli) input: InputArgs,
+}
+
+/// Fit and measure many scans: a row for each, and what they are like together
+///
+/// Writes results.csv and results.parquet (the same rows), summary.json and seconds.csv. A run that was stopped goes on
+/// where it was when it is started again: what an earlier run found for the same scan and the same settings is kept, in
+/// journal.jsonl. A scan that cannot be fitted is told with its reason and stops nothing.
+#[derive(Args)]
+pub(in crate::cli) struct BatchArgs {
+    /// Scans; folders of scans; patterns in quotes, such as 'lot*/*.ply'; or @list.txt, a path per line
+    #[arg(value_name = "PATH", required = true)]
+    pub(in crate::cli) paths: Vec<PathBuf>,
+
+    /// Write the results into this folder
+    #[arg(short, long, value_name = "DIR", help_heading = OUTPUT)]
+    pub(in crate::cli) output: PathBuf,
+
+    /// Save the models too, in the folder models
+    #[arg(long, help_heading = OUTPUT)]
+    pub(in crate::cli) models: bool,
+
+    /// Save meshes of the models too, in the folder meshes
+    #[arg(long, help_heading = OUTPUT)]
+    pub(in crate::cli) meshes: bool,
+
+    /// Measure these only, separated by commas, see `grainform measure --help`
+    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    pub(in crate::cli) only: Vec<Measure>,
+
+    /// How near the segments of a fit are to its estimate, see `grainform fit --help`
+    #[arg(long, value_name = "T|auto", default_value = "auto", value_parser = tolerance)]
+    pub(in crate::cli) tolerance: Tolerance,
+
+    /// Number of segments, see `grainform fit --help`
+    #[arg(long, value_name = "N|adaptive", default_value = "adaptive")]
+    pub(in crate::cli) segments: Auto,
+
+    /// Of several bodies in a scan, fit the largest
+    #[arg(long)]
+    pub(in crate::cli) largest: bool,
+
+    /// Unit of the scans' lengths, told beside them: um, mm, cm or m
+    #[arg(long, value_name = "UNIT", help_heading = OUTPUT)]
+    pub(in crate::cli) unit: Option<Unit>,
+
+    /// Grains that are worked on at the same time, 0 for one per core; the results do not depend on it
+    #[arg(long, value_name = "N", default_value_t = 0, help_heading = RUN)]
+    pub(in crate::cli) jobs: usize,
+
+    #[command(flatten)]
+    pub(in crate::cli) limit: LimitArgs,
+}
+
+/// Compare two lots of grains: difference and effect size of every measure, with intervals
+#[derive(Args)]
+pub(in crate::cli) struct CompareArgs {
+    /// Results of `batch`: its folder, results.parquet or results.csv
+    #[arg(value_name = "RESULTS")]
+    pub(in crate::cli) first: PathBuf,
+
+    /// Results of the other lot
+    #[arg(value_name = "OTHER")]
+    pub(in crate::cli) second: PathBuf,
+
+    /// Print one JSON object
+    #[arg(long)]
+    pub(in crate::cli) json: bool,
+}

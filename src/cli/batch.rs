@@ -1,0 +1,139 @@
+//! `grainform batch`
+
+use super::args::BatchArgs;
+use super::console::Console;
+use super::count::Count;
+use crate::batch::{Batch, Population, Settings, inputs, run as run_batch};
+use crate::fit::FitOptions;
+use crate::report::{Measure, escaped, short};
+use anyhow::Result;
+use comfy_table::{CellAlignment, Table, presets::NOTHING};
+use std::thread::available_parallelism;
+
+/// Cells along an edge of the cube of directions of a mesh.
+const RESOLUTION: usize = 64;
+
+/// Failures and outliers that are told on the terminal; the files have all.
+const MOST_TOLD: usize = 20;
+
+/// Some scans have no result; all others are done.
+#[derive(Debug, thiserror::Error)]
+#[error("{failed} of {all} scans have no result; results.csv tells why")]
+pub(super) struct SomeFailed {
+    failed: usize,
+    all: usize,
+}
+
+pub(super) fn run(args: BatchArgs, console: Console) -> Result<()> {
+    let fit = FitOptions::default()
+        .with_tolerance(args.tolerance)
+        .with_segments(args.segments.0);
+    fit.check()?;
+    let batch = Batch {
+        inputs: inputs(&args.paths)?,
+        folder: args.output.clone(),
+        settings: Settings {
+            fit,
+            largest: args.largest,
+            measures: match args.only.as_slice() {
+                [] => Measure::ALL.to_vec(),
+                asked => asked.to_vec(),
+            },
+            unit: args.unit,
+            max_bytes: args.limit.max_bytes,
+            models: args.models,
+            meshes: args.meshes.then_some(RESOLUTION),
+        },
+        jobs: match args.jobs {
+            0 => available_parallelism().map_or(1, usize::from),
+            jobs => jobs,
+        },
+    };
+    let count = Count::new(batch.inputs.len(), console);
+    let done = run_batch(&batch, &|progress| count.step(progress.done, progress.kept))?;
+    drop(count);
+
+    if done.kept > 0 {
+        let kept = format!(
+            "{} of {} rows are those of an earlier run",
+            done.kept, done.all
+        );
+        console.note("note", &kept);
+    }
+    tell(&done.population, console)?;
+    for path in &done.files {
+        console.wrote(&path.display().to_string())?;
+    }
+    for (path, reason) in done.failed.iter().take(MOST_TOLD) {
+        console.note("failed", &format!("{path}: {reason}"));
+    }
+    match done.failed.len() {
+        0 => Ok(()),
+        failed => Err(SomeFailed {
+            failed,
+            all: done.all,
+        }
+        .into()),
+    }
+}
+
+/// What the grains are like together.
+fn tell(population: &Population, console: Console) -> Result<()> {
+    let mut table = Table::new();
+    table.load_style(NOTHING).set_header([
+        "measure",
+        "grains",
+        "mean",
+        "deviation",
+        "5 %",
+        "median",
+        "95 %",
+    ]);
+    for measure in &population.measures {
+        let [_, low, _, median, _, high, _] = measure.quantiles.map(short);
+        let deviation = measure.deviation.map_or("-".into(), short);
+        let count = measure.count.to_string();
+        table.add_row([
+            measure.measure.clone(),
+            count,
+            short(measure.mean),
+            deviation,
+            low,
+            median,
+            high,
+        ]);
+    }
+    print(table, console)?;
+
+    let mut table = Table::new();
+    let names = population.measures.iter().enumerate();
+    let header = names.clone().map(|(at, _)| (at + 1).to_string());
+    table
+        .load_style(NOTHING)
+        .set_header(std::iter::once("correlation".to_owned()).chain(header));
+    for ((at, measure), row) in names.zip(&population.correlations) {
+        let cells = row
+            .iter()
+            .map(|cell| cell.map_or("-".into(), |found| format!("{found:.2}")));
+        let name = format!("{} {}", at + 1, measure.measure);
+        table.add_row(std::iter::once(name).chain(cells));
+    }
+    print(table, console)?;
+
+    let outliers = &population.outliers;
+    for outlier in outliers.iter().take(MOST_TOLD) {
+        let (path, reason) = (escaped(&outlier.path), &outlier.reason);
+        console.print(format_args!("worth a look: {path}, {reason}"))?;
+    }
+    match outliers.len().saturating_sub(MOST_TOLD) {
+        0 => Ok(()),
+        more => console.print(format_args!("and {more} more in summary.json")),
+    }
+}
+
+fn print(mut table: Table, console: Console) -> Result<()> {
+    for column in table.column_iter_mut().skip(1) {
+        column.set_cell_alignment(CellAlignment::Right);
+    }
+    console.print(format_args!("{}\n", table.trim_fmt()))
+}

@@ -1,0 +1,59 @@
+//! `grainform compare`
+
+use super::args::CompareArgs;
+use super::console::{Console, put_json};
+use crate::batch::{compare, read_lot};
+use crate::report::short;
+use anyhow::{Result, bail};
+use comfy_table::{CellAlignment, Table, presets::NOTHING};
+
+pub(super) fn run(args: CompareArgs, console: Console) -> Result<()> {
+    let comparisons = compare(&read_lot(&args.first)?, &read_lot(&args.second)?);
+    if comparisons.is_empty() {
+        bail!(
+            "there is nothing to compare: {} and {} share no measure that two grains of each have",
+            args.first.display(),
+            args.second.display()
+        );
+    }
+    if args.json {
+        return put_json(&comparisons);
+    }
+    let mut table = Table::new();
+    table.load_style(NOTHING).set_header([
+        "measure",
+        "grains",
+        "mean",
+        "other mean",
+        "difference",
+        "95 % interval",
+        "effect g",
+        "95 % interval",
+    ]);
+    let interval = |interval: Option<[f64; 2]>, text: fn(f64) -> String| match interval {
+        Some([low, high]) => format!("{} to {}", text(low), text(high)),
+        None => "-".into(),
+    };
+    let hundredths = |value: f64| format!("{value:.2}");
+    for comparison in &comparisons {
+        let [count, other_count] = comparison.counts;
+        let [mean, other_mean] = comparison.means.map(short);
+        table.add_row([
+            comparison.measure.clone(),
+            format!("{count}, {other_count}"),
+            mean,
+            other_mean,
+            short(comparison.difference),
+            interval(comparison.difference_interval, short),
+            comparison.effect.map_or("-".into(), hundredths),
+            interval(comparison.effect_interval, hundredths),
+        ]);
+    }
+    for column in table.column_iter_mut().skip(1) {
+        column.set_cell_alignment(CellAlignment::Right);
+    }
+    console.print(format_args!(
+        "{}\n\nDifferences are of the other lot less the first; effect sizes are differences over the deviation of a lot.",
+        table.trim_fmt()
+    ))
+}

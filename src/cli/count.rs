@@ -1,0 +1,81 @@
+//! How many of many are done, how fast, and how long the rest will take.
+
+use super::console::{Console, say};
+use indicatif::{HumanDuration, ProgressBar, ProgressStyle};
+use std::io::{IsTerminal, stderr};
+use std::sync::{Mutex, PoisonError};
+use std::time::{Duration, Instant};
+
+/// On a terminal.
+const TEMPLATE: &str = "[{bar:20}] {pos} of {len}, {per_sec}, {elapsed} gone, {eta} left";
+
+/// How often a line is told elsewhere.
+const EVERY: Duration = Duration::from_secs(10);
+
+/// Told on standard error while it lives: a bar on a terminal, elsewhere a line now and then.
+pub(super) enum Count {
+    Bar(ProgressBar),
+    Lines {
+        all: usize,
+        started: Instant,
+        told: Mutex<Instant>,
+    },
+}
+
+impl Count {
+    pub(super) fn new(all: usize, console: Console) -> Self {
+        let started = Instant::now();
+        match (console.is_quiet(), stderr().is_terminal()) {
+            (true, _) => Self::Bar(ProgressBar::hidden()),
+            (_, true) => {
+                let style = ProgressStyle::with_template(TEMPLATE);
+                let style = style.unwrap_or_else(|_| ProgressStyle::default_bar());
+                Self::Bar(ProgressBar::new(all as u64).with_style(style))
+            }
+            _ => Self::Lines {
+                all,
+                started,
+                told: Mutex::new(started),
+            },
+        }
+    }
+
+    /// So many are done, some of which took no time.
+    pub(super) fn step(&self, done: usize, kept: usize) {
+        match self {
+            Self::Bar(bar) => bar.set_position(done as u64),
+            Self::Lines { all, started, told } => {
+                let mut told = told.lock().unwrap_or_else(PoisonError::into_inner);
+                if told.elapsed() < EVERY {
+                    return;
+                }
+                *told = Instant::now();
+                let rate = (done - kept) as f64 / started.elapsed().as_secs_f64();
+                let left =
+                    Duration::try_from_secs_f64((all - done) as f64 / rate).unwrap_or_default();
+                say(format_args!(
+                    "{done} of {all}, {rate:.1}/s, {} left",
+                    HumanDuration(left)
+                ));
+            }
+        }
+    }
+}
+
+impl Drop for Count {
+    fn drop(&mut self) {
+        if let Self::Bar(bar) = self {
+            bar.finish_and_clear();
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_template_is_sound() {
+        assert!(ProgressStyle::with_template(TEMPLATE).is_ok());
+    }
+}

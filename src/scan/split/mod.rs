@@ -1,0 +1,269 @@
+//! A scan that holds many grains, as one scan for each.
+//!
+//! Of a mesh, a grain is what shares no point with the rest. Of a cloud, the plane that grains lie on is taken away,
+//! and a grain is what hangs together by distances that the cloud itself tells; grains that touch are cut apart at
+//! their neck. What is too small for a grain is dust. Every grain keeps the frame of the scan.
+
+mod links;
+mod neck;
+mod plane;
+
+pub use plane::Plane;
+
+use super::{ParseError, Scan};
+use crate::mesh::{Mesh, part, parts};
+use links::Links;
+use nalgebra::Point3;
+use neck::Neck;
+use rayon::prelude::*;
+use std::cmp::Ordering;
+
+/// Points of the smallest grain ...
+const LEAST_POINTS: usize = 30;
+
+/// ... and its share of a grain in which the middle one of all points lies; less is dust.
+const LEAST_SHARE: f64 = 0.02;
+
+/// Cuts of one clump, at most so many one after the other.
+const MOST_CUTS: usize = 12;
+
+/// The grains of a scan, and what else there was.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct Split {
+    /// The grains, by the middles of their boxes: ascending in x, of equal x in y, then in z.
+    pub grains: Vec<SplitGrain>,
+    /// How far neighbours of one surface are apart at most, in the scan's unit; none of a mesh.
+    pub distance: Option<f64>,
+    /// The plane that the grains lay on.
+    pub plane: Option<Plane>,
+    /// Points on the plane, and beyond it.
+    pub plane_points: usize,
+    /// Clumps, or parts of a mesh, too small for a grain.
+    pub dust: usize,
+    /// Points of these.
+    pub dust_points: usize,
+    /// Places where grains that touched were cut apart.
+    pub cuts: usize,
+}
+
+/// One grain of several.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct SplitGrain {
+    /// The grain, in the frame of the scan it comes from.
+    pub scan: Scan,
+    /// Positions of its points among those of that scan, ascending; of a mesh, none.
+    pub indices: Vec<u32>,
+    /// Whether it may be several that touch: it has a waist, but no neck.
+    pub may_touch: bool,
+}
+
+/// Splits a scan into its grains.
+///
+/// # Errors
+/// [`ParseError`] where the points are none, not finite, all the same or all on one line.
+pub fn split(scan: &Scan) -> Result<Split, ParseError> {
+    super::check::check(&scan.points)?;
+    let mut split = match scan.topology {
+        Some(_) => split_faces(scan),
+        None => split_points(&scan.points),
+    };
+    split
+        .grains
+        .sort_by(|one, other| by_place(&one.scan, &other.scan));
+    Ok(split)
+}
+
+fn split_faces(scan: &Scan) -> Split {
+    let mesh = scan.welded();
+    let (grains, dust): (Vec<Mesh>, Vec<Mesh>) = without_dust(
+        parts(&mesh).iter().map(|triangles| part(&mesh, triangles)),
+        |part| part.vertices.len(),
+    );
+    Split {
+        distance: None,
+        plane: None,
+        plane_points: 0,
+        dust: dust.len(),
+        dust_points: dust.iter().map(|part| part.vertices.len()).sum(),
+        cuts: 0,
+        grains: grains
+            .into_iter()
+            .map(|mesh| SplitGrain {
+                scan: Scan::from_part(mesh),
+                indices: Vec::new(),
+                may_touch: false,
+            })
+            .collect(),
+    }
+}
+
+fn split_points(all: &[Point3<f64>]) -> Split {
+    let order = sorted(all);
+    let points: Vec<Point3<f64>> = order.iter().map(|&i| all[i as usize]).collect();
+    let distinct = |i: &usize| *i == 0 || points[*i] != points[*i - 1];
+    let plane = Plane::carrying(&points);
+    let is_above = |point: &Point3<f64>| {
+        plane.is_none_or(|plane| !plane.carries(point) && !plane.hides(point))
+    };
+    let above: Vec<u32> = (0..points.len())
+        .filter(distinct)
+        .filter(|&i| is_above(&points[i]))
+        .map(|i| i as u32)
+        .collect();
+    let places: Vec<Point3<f64>> = above.iter().map(|&i| points[i as usize]).collect();
+    let links = Links::new(&places);
+    let distance = links.as_ref().map(|links| links.distance);
+    let clumps = links.map_or_else(Vec::new, |links| links.clumps());
+    let (clumps, dust) = without_dust(clumps.into_iter(), Vec::len);
+    let cut: Vec<Vec<Clump>> = clumps
+        .into_par_iter()
+        .map(|clump| cut(&places, clump, distance.unwrap_or(0.0)))
+        .collect();
+    let cuts = cut.iter().map(|parts| parts.len() - 1).sum();
+    let grains: Vec<Clump> = cut.into_iter().flatten().collect();
+
+    // The grain of every point: of those above the plane, of those below a grain, and of their equals.
+    let mut owners = vec![None; points.len()];
+    for (grain, clump) in (0..).zip(&grains) {
+        for &place in &clump.points {
+            owners[above[place as usize] as usize] = Some(grain);
+        }
+    }
+    if let (Some(plane), Some(distance)) = (&plane, distance) {
+        let on: Vec<usize> = (0..points.len())
+            .filter(|&i| plane.carries(&points[i]))
+            .collect();
+        let places_on: Vec<Point3<f64>> = on.iter().map(|&i| points[i]).collect();
+        let grains: Vec<Vec<Point3<f64>>> = grains
+            .iter()
+            .map(|clump| clump.points.iter().map(|&i| places[i as usize]).collect())
+            .collect();
+        for (own, grain) in on
+            .into_iter()
+            .zip(plane.covering(&places_on, &grains, distance))
+        {
+            owners[own] = grain;
+        }
+    }
+    for i in (1..points.len()).filter(|i| !distinct(i)) {
+        owners[i] = owners[i - 1];
+    }
+    let mut members = vec![Vec::new(); grains.len()];
+    for (&index, owner) in order.iter().zip(&owners) {
+        if let Some(owner) = owner {
+            members[*owner as usize].push(index);
+        }
+    }
+    let dust_points = dust.iter().map(Vec::len).sum();
+    let kept: usize = members.iter().map(Vec::len).sum();
+    Split {
+        plane_points: plane.map_or(0, |_| all.len() - kept - dust_points),
+        plane,
+        distance,
+        dust: dust.len(),
+        dust_points,
+        cuts,
+        grains: members
+            .into_iter()
+            .zip(grains)
+            .map(|(mut indices, clump)| {
+                indices.sort_unstable();
+                let points = indices.iter().map(|&i| all[i as usize]).collect();
+                SplitGrain {
+                    scan: Scan::from_points(points),
+                    indices,
+                    may_touch: clump.may_touch,
+                }
+            })
+            .collect(),
+    }
+}
+
+/// Points that hang together.
+struct Clump {
+    points: Vec<u32>,
+    may_touch: bool,
+}
+
+/// Cuts a clump at its necks, one after the other.
+fn cut(places: &[Point3<f64>], clump: Vec<u32>, distance: f64) -> Vec<Clump> {
+    let mut whole = Vec::new();
+    let mut left = vec![clump];
+    while let Some(points) = left.pop() {
+        let own: Vec<Point3<f64>> = points.iter().map(|&i| places[i as usize]).collect();
+        let neck = Neck::find(&own, distance).filter(Neck::is_waist);
+        let may_touch = neck.is_some();
+        let is_last = whole.len() + left.len() >= MOST_CUTS;
+        let sides = neck
+            .filter(|neck| neck.is_cut() && !is_last)
+            .map(|neck| sides(&points, &neck.beyond(&own, distance)))
+            .filter(|sides| sides.iter().all(|side| side.len() >= LEAST_POINTS));
+        match sides {
+            Some(sides) => left.extend(sides),
+            None => whole.push(Clump { points, may_touch }),
+        }
+    }
+    whole
+}
+
+/// The points before and beyond a neck.
+fn sides(points: &[u32], beyond: &[bool]) -> [Vec<u32>; 2] {
+    [false, true].map(|side| {
+        let own = points
+            .iter()
+            .zip(beyond)
+            .filter(|(_, other)| **other == side);
+        own.map(|(point, _)| *point).collect()
+    })
+}
+
+/// What is large enough for a grain, and the rest.
+fn without_dust<T>(all: impl Iterator<Item = T>, size: impl Fn(&T) -> usize) -> (Vec<T>, Vec<T>) {
+    let (large, mut dust): (Vec<T>, Vec<T>) = all.partition(|one| size(one) >= LEAST_POINTS);
+    let mut sizes: Vec<usize> = large.iter().map(&size).collect();
+    sizes.sort_unstable();
+    let half = sizes.iter().sum::<usize>() / 2;
+    let typical = sizes.iter().scan(0, |sum, size| {
+        *sum += size;
+        Some((*sum, *size))
+    });
+    let typical = typical
+        .filter(|(sum, _)| *sum >= half)
+        .map(|(_, size)| size)
+        .next();
+    let least = LEAST_SHARE * typical.unwrap_or(0) as f64;
+    let (large, small): (Vec<T>, Vec<T>) =
+        large.into_iter().partition(|one| size(one) as f64 >= least);
+    dust.extend(small);
+    (large, dust)
+}
+
+/// Positions of the points, by their places.
+fn sorted(points: &[Point3<f64>]) -> Vec<u32> {
+    let mut order: Vec<u32> = (0..points.len() as u32).collect();
+    let place = |i: &u32| points[*i as usize];
+    order.par_sort_unstable_by(|a, b| by_coordinates(&place(a), &place(b)).then(a.cmp(b)));
+    order
+}
+
+fn by_coordinates(one: &Point3<f64>, other: &Point3<f64>) -> Ordering {
+    let compare = |axis: usize| (one[axis] + 0.0).total_cmp(&(other[axis] + 0.0));
+    compare(0).then_with(|| compare(1)).then_with(|| compare(2))
+}
+
+fn by_place(one: &Scan, other: &Scan) -> Ordering {
+    let middle = |scan: &Scan| {
+        let mut points = scan.points.iter();
+        let first = points.next().copied().unwrap_or_default();
+        let (low, high) = points.fold((first.coords, first.coords), |(low, high), point| {
+            (low.inf(&point.coords), high.sup(&point.coords))
+        });
+        Point3::from((low + high) / 2.0)
+    };
+    by_coordinates(&middle(one), &middle(other))
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,262 @@
+//! Where two grains touch, and which points belong to which.
+//!
+//! Seen along any axis, the sections of a convex body grow and then shrink (Brunn and Minkowski). Between two grains
+//! that touch there is a section much smaller than those on both sides: the neck.
+
+use super::plane::across;
+use crate::sphere::compass;
+use nalgebra::{DMatrix, DVector, Matrix2, Point3, Vector2, Vector3};
+use std::f64::consts::PI;
+
+/// Points by which a neck is looked for.
+const MOST_COMPARED: usize = 2000;
+
+/// Axes that are tried first: some 17 degrees apart.
+const AXES: usize = 80;
+
+/// Steps by which the best of them is turned, in radians: the first and the last.
+const STEPS: [f64; 2] = [0.15, 0.01];
+
+/// Slabs that the points are cut in along an axis; each is as wide as neighbours are apart, at least.
+const SLABS: usize = 24;
+
+/// Half the width of the slabs by which a neck is placed, as a share of the distance of neighbours, ...
+const THIN: f64 = 0.07;
+
+/// ... and places that are tried on each side.
+const PLACES: i32 = 60;
+
+/// Share of the points that each side has, at least.
+const LEAST_SIDE: f64 = 0.1;
+
+/// Section of a neck over the smaller of the largest on both sides: what is below is cut ...
+const NECK: f64 = 0.4;
+
+/// ... and what is below this may be several grains.
+const WAIST: f64 = 0.7;
+
+/// How far the surfaces beside a neck are followed, as a share of the radius of the smaller grain.
+const BESIDE: f64 = 0.45;
+
+/// Points on each side from which its surface can be followed: twice the coefficients of a paraboloid.
+const LEAST_POINTS: usize = 12;
+
+/// Rounds in which points are given to the surface they are nearer to.
+const ROUNDS: usize = 10;
+
+/// The smallest section between larger ones.
+pub(super) struct Neck {
+    axis: Vector3<f64>,
+    /// Along the axis.
+    at: f64,
+    /// Of the slabs.
+    width: f64,
+    /// Section over the smaller of the largest on both sides.
+    ratio: f64,
+    /// Radius of the smaller of these.
+    radius: f64,
+}
+
+impl Neck {
+    /// The neck of a clump of points that are some distance apart, if its sections have one.
+    pub(super) fn find(points: &[Point3<f64>], distance: f64) -> Option<Self> {
+        let step = points.len().div_ceil(MOST_COMPARED);
+        let origin = *points.first()?;
+        let rays: Vec<Vector3<f64>> = points.iter().step_by(step).map(|p| p - origin).collect();
+        let ratio = |axis: &Vector3<f64>| {
+            narrowest(&rays, axis, distance).map_or(f64::INFINITY, |neck| neck.ratio)
+        };
+        let axes = (0..AXES).map(|i| {
+            // Half of a Fibonacci lattice.
+            let z = (i as f64 + 0.5) / AXES as f64;
+            let (sin, cos) = (i as f64 * PI * (3.0 - 5_f64.sqrt())).sin_cos();
+            Vector3::new(cos, sin, 0.0) * (1.0 - z * z).sqrt() + Vector3::z() * z
+        });
+        let (first, _) = axes
+            .map(|axis| (axis, ratio(&axis)))
+            .min_by(|one, other| one.1.total_cmp(&other.1))?;
+        let [step, least] = STEPS;
+        let (axis, _) = compass(first, step, least, |axis| -ratio(axis));
+        // Of few points a section may be a line by chance; all of them decide.
+        let rays: Vec<Vector3<f64>> = points.iter().map(|point| point - origin).collect();
+        let neck = narrowest(&rays, &axis, distance)?;
+        Some(Self {
+            at: neck.placed(&rays, distance) + axis.dot(&origin.coords),
+            ..neck
+        })
+    }
+
+    /// Where the neck is smallest, by slabs much thinner than its own.
+    fn placed(&self, rays: &[Vector3<f64>], distance: f64) -> f64 {
+        let [u, v] = across(&self.axis);
+        let near: Vec<[f64; 3]> = rays
+            .iter()
+            .map(|ray| [self.axis.dot(ray) - self.at, u.dot(ray), v.dot(ray)])
+            .filter(|[height, ..]| height.abs() < self.width + distance)
+            .collect();
+        let section = |at: f64| {
+            let mut sum = Sums::default();
+            for &[height, x, y] in &near {
+                if (height - at).abs() < THIN * distance {
+                    sum.add(x, y);
+                }
+            }
+            sum.section()
+        };
+        let steps = (-PLACES..=PLACES).map(|step| self.width * step as f64 / PLACES as f64);
+        let least = steps
+            .map(|at| (at, section(at)))
+            .min_by(|one, other| one.1.total_cmp(&other.1));
+        self.at + least.map_or(0.0, |(at, _)| at)
+    }
+
+    /// Whether grains are cut apart here.
+    pub(super) fn is_cut(&self) -> bool {
+        self.ratio < NECK
+    }
+
+    /// Whether it may be that grains touch here.
+    pub(super) fn is_waist(&self) -> bool {
+        self.ratio < WAIST
+    }
+
+    /// Whether each point is beyond the neck. Where the surfaces on both sides part, a point is of the one that it is
+    /// nearer to.
+    pub(super) fn beyond(&self, points: &[Point3<f64>], distance: f64) -> Vec<bool> {
+        let heights: Vec<f64> = points
+            .iter()
+            .map(|p| self.axis.dot(&p.coords) - self.at)
+            .collect();
+        let mut sides: Vec<bool> = heights.iter().map(|height| *height > 0.0).collect();
+        let near: Vec<usize> = (0..points.len())
+            .filter(|&i| heights[i].abs() < 0.5 * distance)
+            .collect();
+        let sum: Vector3<f64> = near.iter().map(|&i| points[i].coords).sum();
+        let middle = sum / near.len().max(1) as f64;
+        let [u, v] = across(&self.axis);
+        let reach = BESIDE * self.radius;
+        let local: Vec<(usize, [f64; 2])> = (0..points.len())
+            .map(|i| {
+                let ray = points[i].coords - middle;
+                (i, [u.dot(&ray), v.dot(&ray)])
+            })
+            .filter(|&(i, [x, y])| x.hypot(y) < reach && heights[i].abs() < reach)
+            .collect();
+        for _ in 0..ROUNDS {
+            let surface = |side: bool| {
+                let own = local.iter().filter(|(i, _)| sides[*i] == side);
+                paraboloid(&own.map(|&(i, at)| (at, heights[i])).collect::<Vec<_>>())
+            };
+            let (Some(below), Some(above)) = (surface(false), surface(true)) else {
+                break;
+            };
+            let mut is_changed = false;
+            for &(i, at) in &local {
+                let [off_below, off_above] =
+                    [&below, &above].map(|surface| (heights[i] - surface.dot(&terms(at))).abs());
+                let side = off_above < off_below;
+                is_changed |= sides[i] != side;
+                sides[i] = side;
+            }
+            if !is_changed {
+                break;
+            }
+        }
+        sides
+    }
+}
+
+/// The smallest section along an axis between larger ones.
+fn narrowest(rays: &[Vector3<f64>], axis: &Vector3<f64>, distance: f64) -> Option<Neck> {
+    let heights: Vec<f64> = rays.iter().map(|ray| axis.dot(ray)).collect();
+    let (low, high) = heights
+        .iter()
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), h| {
+            (low.min(*h), high.max(*h))
+        });
+    let slabs = (((high - low) / distance) as usize).min(SLABS);
+    let width = (high - low) / slabs as f64;
+    let [u, v] = across(axis);
+    let mut sums = vec![Sums::default(); slabs];
+    for (ray, height) in rays.iter().zip(&heights) {
+        let slab = (((height - low) / width) as usize).min(slabs.saturating_sub(1));
+        sums.get_mut(slab)?.add(u.dot(ray), v.dot(ray));
+    }
+    let sections: Vec<f64> = sums.iter().map(Sums::section).collect();
+    let largest = |sections: &mut dyn Iterator<Item = f64>| -> Vec<f64> {
+        sections
+            .scan(0.0_f64, |largest, section| {
+                *largest = largest.max(section);
+                Some(*largest)
+            })
+            .collect()
+    };
+    let before = largest(&mut sections.iter().copied());
+    let mut after = largest(&mut sections.iter().rev().copied());
+    after.reverse();
+    let mut below = 0.0;
+    let mut best: Option<Neck> = None;
+    for slab in 0..slabs {
+        let share = (below + 0.5 * sums[slab].count) / rays.len() as f64;
+        below += sums[slab].count;
+        let beside = before[slab].min(after[slab]);
+        let ratio = sections[slab] / beside;
+        if (LEAST_SIDE..=1.0 - LEAST_SIDE).contains(&share)
+            && best.as_ref().is_none_or(|best| ratio < best.ratio)
+        {
+            best = Some(Neck {
+                axis: *axis,
+                at: low + (slab as f64 + 0.5) * width,
+                width,
+                ratio,
+                radius: (2.0 * beside).sqrt(),
+            });
+        }
+    }
+    best
+}
+
+/// Moments of places in a plane.
+#[derive(Clone, Default)]
+struct Sums {
+    count: f64,
+    first: Vector2<f64>,
+    second: Matrix2<f64>,
+}
+
+impl Sums {
+    fn add(&mut self, x: f64, y: f64) {
+        let place = Vector2::new(x, y);
+        self.count += 1.0;
+        self.first += place;
+        self.second += place * place.transpose();
+    }
+
+    /// What grows as the area of the section that the places lie round: half the squared radius of a circle.
+    fn section(&self) -> f64 {
+        let mean = self.first / self.count.max(1.0);
+        let spread = self.second / self.count.max(1.0) - mean * mean.transpose();
+        spread.determinant().max(0.0).sqrt()
+    }
+}
+
+/// The terms of a paraboloid over a place.
+fn terms([x, y]: [f64; 2]) -> DVector<f64> {
+    DVector::from_column_slice(&[1.0, x, y, x * x, x * y, y * y])
+}
+
+/// The heights over places that come nearest to some, by least squares; none of too few.
+fn paraboloid(points: &[([f64; 2], f64)]) -> Option<DVector<f64>> {
+    if points.len() < LEAST_POINTS {
+        return None;
+    }
+    let rows: Vec<_> = points
+        .iter()
+        .map(|(at, _)| terms(*at).transpose())
+        .collect();
+    let heights = DVector::from_iterator(points.len(), points.iter().map(|(_, height)| *height));
+    DMatrix::from_rows(&rows)
+        .svd(true, true)
+        .solve(&heights, 1e-12)
+        .ok()
+}

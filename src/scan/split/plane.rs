@@ -1,0 +1,259 @@
+//! The plane that grains lie on.
+//!
+//! It is looked for by planes through three points each (Fischler and Bolles 1981): that on which most points lie, of
+//! those that have nothing on one side. A flat face of a body is one too; but what lies opposite covers it, and a tray
+//! goes on beside its grains.
+
+use super::links::{nearest, nearest_distance};
+use crate::polygon_hull::polygon_hull;
+use crate::spread::robust_deviation;
+use kiddo::ImmutableKdTree;
+use nalgebra::{Matrix3, Point3, Unit, Vector2, Vector3};
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::{Rng, SeedableRng};
+use rayon::prelude::*;
+
+/// Points by which planes are compared.
+const MOST_COMPARED: usize = 1500;
+
+/// Planes that are tried: of points of which a tenth lies on a plane, three do in one of a thousand.
+const TRIALS: usize = 4000;
+
+/// Share of the points that lie on the plane at least.
+const LEAST_SHARE: f64 = 0.05;
+
+/// Share of the points that may lie below it: noise, dust.
+const MOST_BELOW: f64 = 0.02;
+
+/// Distance, as a share of the size of the scan, at which a point lies on a plane that is tried ...
+const FIRST_REACH: f64 = 2e-3;
+
+/// ... that of the plane that was found is so many standard deviations of its noise, ...
+const DEVIATIONS: f64 = 5.0;
+
+/// ... between these shares of the size: rounding to 32 bits far from the origin, and what is no plane.
+const LEAST_REACH: f64 = 1e-6;
+const LARGEST_REACH: f64 = 0.02;
+
+/// Rounds in which plane and noise are told from what lies on the plane.
+const ROUNDS: usize = 12;
+
+/// Share of a tray that is covered by nothing, at least ...
+const LEAST_BARE: f64 = 0.15;
+
+/// ... within so many times the distance between its points.
+const BARE: f64 = 4.0;
+
+/// Standard deviations of the noise by which the outermost of some thousand points are too far out.
+const OUTERMOST: f64 = 2.0;
+
+/// Nearest points, seen along the normal, whose grains may cover a point.
+const AROUND: usize = 8;
+
+/// A plane that the scan lies on.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Plane {
+    /// A point of it.
+    pub point: Point3<f64>,
+    /// The unit normal, towards the grains.
+    pub normal: Unit<Vector3<f64>>,
+    /// Points nearer than this lie on it.
+    pub reach: f64,
+}
+
+impl Plane {
+    /// The plane that carries the points, if there is one.
+    pub(super) fn carrying(points: &[Point3<f64>]) -> Option<Self> {
+        let step = points.len().div_ceil(MOST_COMPARED);
+        let drawn: Vec<Point3<f64>> = points.iter().step_by(step).copied().collect();
+        let size = size(points)?;
+        let tried = Self::most_met(&drawn, FIRST_REACH * size)?;
+        let plane = tried.refined(points, size)?;
+        let on = points.iter().filter(|point| plane.carries(point)).count();
+        let is_tray = on as f64 >= LEAST_SHARE * points.len() as f64
+            && plane.is_clear_below(points)
+            && plane.is_bare(points, on);
+        is_tray.then_some(plane)
+    }
+
+    /// Whether a point lies on the plane.
+    pub(super) fn carries(&self, point: &Point3<f64>) -> bool {
+        self.height(point).abs() < self.reach
+    }
+
+    /// Whether a point lies beyond the plane, on the side without grains.
+    pub(super) fn hides(&self, point: &Point3<f64>) -> bool {
+        self.height(point) <= -self.reach
+    }
+
+    fn height(&self, point: &Point3<f64>) -> f64 {
+        self.normal.dot(&(point - self.point))
+    }
+
+    /// The place of a point as seen along the normal.
+    fn seen(&self, point: &Point3<f64>) -> [f64; 2] {
+        let [u, v] = across(&self.normal);
+        let ray = point - self.point;
+        [u.dot(&ray), v.dot(&ray)]
+    }
+
+    fn most_met(points: &[Point3<f64>], reach: f64) -> Option<Self> {
+        let mut generator = ChaCha8Rng::seed_from_u64(0);
+        let mut draw = || points[(generator.next_u64() % points.len() as u64) as usize];
+        let mut best: Option<(usize, Self)> = None;
+        for _ in 0..TRIALS {
+            let [a, b, c] = [draw(), draw(), draw()];
+            let Some(normal) = Unit::try_new((b - a).cross(&(c - a)), 0.0) else {
+                continue;
+            };
+            let plane = Self {
+                point: a,
+                normal,
+                reach,
+            };
+            let on = points.iter().filter(|point| plane.carries(point)).count();
+            if best.as_ref().is_none_or(|(most, _)| on > *most)
+                && let Some(plane) = plane.facing_up(points)
+            {
+                best = Some((on, plane));
+            }
+        }
+        best.map(|(_, plane)| plane)
+    }
+
+    /// The plane with its normal towards what it carries, if all of that is on one side.
+    fn facing_up(mut self, points: &[Point3<f64>]) -> Option<Self> {
+        let above = points.iter().filter(|point| self.height(point) > 0.0);
+        if 2 * above.count() < points.len() {
+            self.normal = -self.normal;
+        }
+        self.is_clear_below(points).then_some(self)
+    }
+
+    fn is_clear_below(&self, points: &[Point3<f64>]) -> bool {
+        let below = points.iter().filter(|point| self.hides(point)).count();
+        below as f64 <= MOST_BELOW * points.len() as f64
+    }
+
+    /// The plane through the points that it carries, and how far these scatter about it.
+    fn refined(mut self, points: &[Point3<f64>], size: f64) -> Option<Self> {
+        for _ in 0..ROUNDS {
+            let on: Vec<&Point3<f64>> = points.iter().filter(|point| self.carries(point)).collect();
+            if on.len() < 3 {
+                return None;
+            }
+            let count = on.len() as f64;
+            let shift = on
+                .iter()
+                .map(|point| *point - self.point)
+                .sum::<Vector3<f64>>()
+                / count;
+            let middle = self.point + shift;
+            let moments: Matrix3<f64> = on
+                .iter()
+                .map(|point| (*point - middle) * (*point - middle).transpose())
+                .sum();
+            let axes = (moments / count).symmetric_eigen();
+            let least = axes.eigenvalues.imin();
+            let normal = Unit::try_new(axes.eigenvectors.column(least).into_owned(), 0.0)?;
+            let is_turned = normal.dot(&self.normal) < 0.0;
+            self.normal = if is_turned { -normal } else { normal };
+            self.point = middle;
+            let reach = DEVIATIONS * robust_deviation(on.iter().map(|point| self.height(point)));
+            self.reach = reach.clamp(LEAST_REACH * size, LARGEST_REACH * size);
+        }
+        Some(self)
+    }
+
+    /// Whether much of the plane has nothing above it: a face of a body has.
+    fn is_bare(&self, points: &[Point3<f64>], on: usize) -> bool {
+        let above: Vec<[f64; 2]> = points
+            .iter()
+            .filter(|point| !self.carries(point))
+            .map(|point| self.seen(point))
+            .collect();
+        let carried: Vec<[f64; 2]> = points
+            .iter()
+            .filter(|point| self.carries(point))
+            .step_by(on.div_ceil(MOST_COMPARED))
+            .map(|point| self.seen(point))
+            .collect();
+        let Some(tree) = tree(above) else { return true };
+        let sides = [0, 1].map(|axis| {
+            let places = carried.iter().map(|place| place[axis]);
+            let (low, high) = places.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
+                (low.min(x), high.max(x))
+            });
+            high - low
+        });
+        let spacing = (sides[0] * sides[1] / on as f64).sqrt();
+        let is_bare = |place: &&[f64; 2]| nearest_distance(&tree, place) > BARE * spacing;
+        let bare = carried.iter().filter(is_bare).count();
+        bare as f64 > LEAST_BARE * carried.len() as f64
+    }
+
+    /// The grains of points that lie on the plane, as a flat underside does. Below a grain the plane itself is hidden,
+    /// and so a point within the convex outline of a grain, no farther than a distance from what is seen of it, is its.
+    pub(super) fn covering(
+        &self,
+        on: &[Point3<f64>],
+        grains: &[Vec<Point3<f64>>],
+        distance: f64,
+    ) -> Vec<Option<u32>> {
+        let seen: Vec<Vec<[f64; 2]>> = grains
+            .iter()
+            .map(|grain| grain.iter().map(|point| self.seen(point)).collect())
+            .collect();
+        let outlines: Vec<Vec<Vector2<f64>>> = seen
+            .par_iter()
+            .map(|seen| polygon_hull(seen.iter().map(|&place| place.into()).collect()))
+            .collect();
+        let margin = OUTERMOST * self.reach / DEVIATIONS;
+        let owners: Vec<u32> = (0..)
+            .zip(&seen)
+            .flat_map(|(grain, seen)| seen.iter().map(move |_| grain))
+            .collect();
+        let Some(tree) = tree(seen.concat()) else {
+            return vec![None; on.len()];
+        };
+        on.par_iter()
+            .map(|point| {
+                let place = self.seen(point);
+                let near = nearest(&tree, &place, AROUND, distance);
+                let mut owners = near.into_iter().map(|at| owners[at as usize]);
+                owners.find(|grain| holds(&outlines[*grain as usize], &place.into(), margin))
+            })
+            .collect()
+    }
+}
+
+/// Whether a convex polygon, its corners counter-clockwise, holds a place that is no nearer to its edges than a margin.
+fn holds(corners: &[Vector2<f64>], place: &Vector2<f64>, margin: f64) -> bool {
+    let edges = corners.iter().zip(corners.iter().cycle().skip(1));
+    corners.len() > 2
+        && edges
+            .map(|(from, to)| (to - from).perp(&(place - from)) - margin * (to - from).norm())
+            .all(|inwards| inwards > 0.0)
+}
+
+/// Two unit vectors across a third.
+pub(super) fn across(normal: &Vector3<f64>) -> [Vector3<f64>; 2] {
+    let first = normal.cross(&Vector3::ith(normal.iamin(), 1.0)).normalize();
+    [first, normal.cross(&first)]
+}
+
+/// The diagonal of the box round the points.
+fn size(points: &[Point3<f64>]) -> Option<f64> {
+    let first = points.first()?.coords;
+    let (low, high) = points.iter().fold((first, first), |(low, high), point| {
+        (low.inf(&point.coords), high.sup(&point.coords))
+    });
+    Some((high - low).norm())
+}
+
+/// A tree of the places; none of none.
+fn tree(places: Vec<[f64; 2]>) -> Option<ImmutableKdTree<f64, 2>> {
+    ImmutableKdTree::new_from_slice(&places)
+        .ok()
+        .filter(|_| !places.is_empty())
+}

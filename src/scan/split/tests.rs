@@ -1,0 +1,127 @@
+use super::*;
+use crate::shapes::{
+    Body, Origin, Sampling, SynthOptions, SyntheticTray, TrayOptions, synthesize, synthesize_tray,
+};
+use nalgebra::{Rotation3, Vector3};
+
+fn tray() -> SyntheticTray {
+    let options = TrayOptions::clean(12).with_noise(0.002);
+    synthesize_tray(&options).unwrap()
+}
+
+/// The grain that most points of a part are of, the share of its points that the part has, and that of others.
+fn judged(grain: &SplitGrain, tray: &SyntheticTray) -> (usize, f64, f64) {
+    let origins: Vec<Origin> = grain
+        .indices
+        .iter()
+        .map(|&i| tray.origins[i as usize])
+        .collect();
+    let count = |all: &[Origin], of: Origin| all.iter().filter(|one| **one == of).count() as f64;
+    let numbers = 0..12;
+    let own = numbers
+        .max_by_key(|&number| count(&origins, Origin::Grain(number)) as usize)
+        .unwrap();
+    let kept = count(&origins, Origin::Grain(own));
+    let all = count(&tray.origins, Origin::Grain(own));
+    (own, kept / all, 1.0 - kept / origins.len() as f64)
+}
+
+#[test]
+fn a_tray_is_split_into_its_grains() {
+    let tray = tray();
+    assert_eq!(tray.touching, [[0, 1]]);
+    let found = split(&Scan::from_points(tray.points.clone())).unwrap();
+    assert_eq!((found.grains.len(), found.cuts), (12, 1));
+    assert_eq!((found.dust, found.dust_points), (24, 96));
+    let mut owners = Vec::new();
+    for grain in &found.grains {
+        let (own, kept, foreign) = judged(grain, &tray);
+        assert!(
+            kept >= 0.99 && foreign <= 0.01,
+            "grain {own}: {kept}, {foreign}"
+        );
+        let points = grain.indices.iter().map(|&i| tray.points[i as usize]);
+        assert!(grain.scan.points().iter().copied().eq(points));
+        owners.push(own);
+    }
+    owners.sort_unstable();
+    assert!(owners.into_iter().eq(0..12));
+}
+
+#[test]
+fn a_tray_that_is_moved_turned_scaled_and_shuffled_has_the_same_grains() {
+    let tray = tray();
+    let turn = Rotation3::from_euler_angles(0.3, -0.2, 0.0);
+    let moved = |point: &Point3<f64>| turn * point * 25.4 + Vector3::new(1e4, -3e3, 20.0);
+    let points: Vec<Point3<f64>> = tray.points.iter().rev().map(moved).collect();
+    let last = points.len() as u32 - 1;
+    let found = split(&Scan::from_points(points)).unwrap();
+    assert_eq!((found.grains.len(), found.cuts), (12, 1));
+    for grain in &found.grains {
+        let mut grain = grain.clone();
+        grain
+            .indices
+            .iter_mut()
+            .for_each(|index| *index = last - *index);
+        let (own, kept, foreign) = judged(&grain, &tray);
+        assert!(
+            kept >= 0.98 && foreign <= 0.02,
+            "grain {own}: {kept}, {foreign}"
+        );
+    }
+}
+
+#[test]
+fn a_body_is_one_grain_however_its_points_are_laid_out() {
+    for body in Body::ALL {
+        for sampling in Sampling::ALL {
+            let options = SynthOptions::clean(body).with_sampling(sampling);
+            let points = synthesize(&options).unwrap().points;
+            let found = split(&Scan::from_points(points.clone())).unwrap();
+            assert!(found.plane.is_none(), "{body}: a face is no tray");
+            let [grain] = found.grains.as_slice() else {
+                panic!("{body} {sampling}: {} grains", found.grains.len());
+            };
+            assert!(!grain.may_touch && found.dust_points * 200 < points.len());
+            assert_eq!(grain.indices.len() + found.dust_points, points.len());
+        }
+    }
+}
+
+#[test]
+fn parts_of_a_mesh_are_grains_in_the_order_of_their_places_and_points_met_often_are_kept() {
+    let ball = Mesh::radial(8, |_| 1.0);
+    let mut mesh = Mesh::default();
+    for x in [9.0, -9.0, 0.0] {
+        let first = mesh.vertices.len() as u32;
+        mesh.vertices
+            .extend(ball.vertices.iter().map(|v| v + Vector3::x() * x));
+        mesh.triangles
+            .extend(ball.triangles.iter().map(|t| t.map(|i| i + first)));
+    }
+    let found = split(&Scan::from_mesh(mesh.clone()).unwrap()).unwrap();
+    let firsts: Vec<f64> = found
+        .grains
+        .iter()
+        .map(|grain| grain.scan.points()[0].x.round())
+        .collect();
+    let x = ball.vertices[0].x.round();
+    assert_eq!(firsts, [x - 9.0, x, x + 9.0]);
+    assert!(
+        found
+            .grains
+            .iter()
+            .all(|grain| grain.scan.topology().unwrap().closed)
+    );
+    // As corners of faces are that share no points.
+    let loose: Vec<Point3<f64>> = mesh
+        .triangles
+        .iter()
+        .flatten()
+        .map(|&i| mesh.vertices[i as usize])
+        .collect();
+    let found = split(&Scan::from_points(loose.clone())).unwrap();
+    assert_eq!(found.grains.len(), 3);
+    let points: usize = found.grains.iter().map(|grain| grain.indices.len()).sum();
+    assert_eq!(points, loose.len());
+}

@@ -1,0 +1,173 @@
+use super::{errors, folder, grainform, json, names, succeed};
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::process::{Command, Stdio};
+use tempfile::TempDir;
+
+/// What is measured: little, so that it takes no time.
+const FEW: [&str; 3] = ["--only", "area,volume,dimensions", "-q"];
+
+/// The files that are the same bytes in every run.
+const RESULTS: [&str; 3] = ["results.csv", "results.parquet", "summary.json"];
+
+/// A folder with some small scans in the folder `lot`.
+fn lot(count: usize) -> TempDir {
+    let folder = folder();
+    std::fs::create_dir(folder.path().join("lot")).unwrap();
+    for number in 0..count {
+        let axes = format!("{},2,1.5", 2.0 + 0.1 * number as f64);
+        let name = format!("lot/{number:02}.xyz");
+        let words = [
+            "synth",
+            "ellipsoid",
+            "--axes",
+            &axes,
+            "--points",
+            "98",
+            "-o",
+            &name,
+        ];
+        succeed(&folder, &words);
+    }
+    folder
+}
+
+fn batch<'a>(words: &[&'a str]) -> Vec<&'a str> {
+    [&["batch"], words, &FEW].concat()
+}
+
+fn bytes(folder: &TempDir, results: &str) -> Vec<Vec<u8>> {
+    let read = |name: &&str| std::fs::read(folder.path().join(results).join(name)).expect("a file");
+    RESULTS.iter().map(read).collect()
+}
+
+/// The rows of a table by the names of their columns.
+fn rows(path: &Path) -> Vec<BTreeMap<String, String>> {
+    let mut reader = csv::Reader::from_path(path).unwrap();
+    reader.deserialize().map(|row| row.unwrap()).collect()
+}
+
+#[test]
+fn rows_are_the_same_bytes_with_any_number_of_threads_and_bad_files_are_told() {
+    let folder = lot(3);
+    std::fs::write(folder.path().join("lot/bad, \"very\".ply"), "no scan").unwrap();
+    let paths = ["lot", "gone.ply"];
+    let run = |output: &str, jobs: &str| {
+        let output = ["-o", output, "--jobs", jobs, "--unit", "mm"];
+        grainform(&folder, &batch(&[&paths[..], &output].concat()))
+    };
+    let one = run("one", "1");
+    assert_eq!(one.status.code(), Some(1), "{}", errors(&one));
+    assert!(
+        errors(&one).contains("2 of 5 scans have no result"),
+        "{}",
+        errors(&one)
+    );
+    assert_eq!(run("three", "3").status.code(), Some(1));
+    assert_eq!(bytes(&folder, "one"), bytes(&folder, "three"));
+
+    let rows = rows(&folder.path().join("one/results.csv"));
+    let paths: Vec<&str> = rows.iter().map(|row| row["path"].as_str()).collect();
+    let expected = [
+        "lot/00.xyz",
+        "lot/01.xyz",
+        "lot/02.xyz",
+        "lot/bad, \"very\".ply",
+        "gone.ply",
+    ];
+    assert_eq!(paths, expected);
+    for row in &rows[..3] {
+        assert_eq!((row["status"].as_str(), row["unit"].as_str()), ("ok", "mm"));
+    }
+    let row = &rows[0];
+    let fit = json(&folder, &["fit", &row["path"]]);
+    for (column, value) in [
+        ("area", &fit["area"]),
+        ("volume_se", &fit["standard_errors"]["volume"]),
+        ("dimensions.length", &fit["dimensions"]["length"]),
+        ("heldout_rms", &fit["heldout_rms"]),
+    ] {
+        assert_eq!(row[column].parse().ok(), value.as_f64(), "{column}");
+    }
+    assert!(rows[3]["reason"].contains("expected `ply`") && rows[3]["area"].is_empty());
+    assert!(rows[4]["reason"].contains("cannot read the file gone.ply"));
+    assert!(rows[4]["hash"].is_empty() && rows[3]["hash"].len() == 64);
+
+    let [csv, parquet] = ["one/results.csv", "three"]
+        .map(|lot| json(&folder, &["compare", lot, "one/results.parquet"]));
+    assert_eq!(csv, parquet);
+    let area = &csv[0];
+    assert_eq!(
+        (area["measure"].as_str(), area["difference"].as_f64()),
+        (Some("area"), Some(0.0))
+    );
+    assert_eq!(area["counts"], serde_json::json!([3, 3]));
+}
+
+#[test]
+fn a_batch_that_is_killed_goes_on_without_loss() {
+    let folder = lot(6);
+    succeed(&folder, &batch(&["lot", "-o", "whole"]));
+    let words = ["lot", "-o", "killed", "--models", "--jobs", "2"];
+    let journal = folder.path().join("killed/journal.jsonl");
+    let lines = || std::fs::read_to_string(&journal).map_or(0, |text| text.lines().count());
+    for moment in [1, 3] {
+        let mut child = Command::new(assert_cmd::cargo::cargo_bin!("grainform"))
+            .args(batch(&words))
+            .current_dir(folder.path())
+            .stderr(Stdio::null())
+            .spawn()
+            .expect("the binary is built");
+        while lines() < moment && child.try_wait().unwrap().is_none() {
+            std::thread::yield_now();
+        }
+        child.kill().unwrap();
+        child.wait().unwrap();
+    }
+    // What a power cut may leave.
+    let mut text = std::fs::read(&journal).unwrap();
+    text.extend(b"0123456789abcdef {\"path\":\"lot/1");
+    std::fs::write(&journal, text).unwrap();
+    succeed(&folder, &batch(&words));
+    assert_eq!(bytes(&folder, "killed"), bytes(&folder, "whole"));
+    assert_eq!(names(&folder.path().join("killed/models")).len(), 6);
+    assert_eq!(lines(), 6, "every grain once");
+}
+
+#[test]
+fn what_was_changed_is_done_again_and_nothing_else() {
+    let folder = lot(2);
+    succeed(&folder, &batch(&["lot", "-o", "r"]));
+    let kept = |words: &[&str]| {
+        let words: Vec<&str> = batch(words)
+            .into_iter()
+            .filter(|word| *word != "-q")
+            .collect();
+        let told = errors(&grainform(&folder, &words));
+        let note = told.lines().find_map(|line| line.strip_prefix("note: "));
+        note.map_or(0, |note| note.split(' ').next().unwrap().parse().unwrap())
+    };
+    assert_eq!(kept(&["lot", "-o", "r"]), 2);
+    succeed(
+        &folder,
+        &["synth", "sphere", "--points", "98", "-o", "lot/01.xyz"],
+    );
+    assert_eq!(kept(&["lot", "-o", "r"]), 1);
+    assert_eq!(kept(&["lot", "-o", "r", "--segments", "1"]), 0);
+    assert_eq!(kept(&["lot/0[02].xyz", "-o", "r"]), 1);
+    assert_eq!(rows(&folder.path().join("r/results.csv")).len(), 1);
+}
+
+#[test]
+fn a_second_batch_on_the_same_folder_refuses() {
+    let folder = lot(1);
+    std::fs::create_dir(folder.path().join("r")).unwrap();
+    let lock = std::fs::File::create(folder.path().join("r/.lock")).unwrap();
+    lock.try_lock().unwrap();
+    let refused = grainform(&folder, &batch(&["lot", "-o", "r"]));
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(errors(&refused).starts_with("error: another batch writes into r"));
+    assert_eq!(names(&folder.path().join("r")), [".lock"]);
+    drop(lock);
+    succeed(&folder, &batch(&["lot", "-o", "r"]));
+}

@@ -1,0 +1,58 @@
+use super::{folder, json, names, succeed};
+use std::collections::BTreeSet;
+
+#[test]
+fn a_tray_becomes_a_file_for_each_grain_in_the_frame_of_the_tray() {
+    let folder = folder();
+    let words = [
+        "synth", "tray", "--grains", "4", "--points", "12000", "--seed", "3",
+    ];
+    let words = [&words[..], &["-o", "tray.ply", "--labels", "labels.txt"]].concat();
+    let made = json(&folder, &words);
+    let report = json(
+        &folder,
+        &["split", "tray.ply", "-o", "grains", "--unit", "mm"],
+    );
+    assert_eq!(report["grains"].as_array().unwrap().len(), 4);
+    assert_eq!(
+        (&report["unit"], &report["dust"]),
+        (&"mm".into(), &8.into())
+    );
+    let files = names(&folder.path().join("grains"));
+    assert_eq!(
+        files,
+        [
+            "grain_0001.ply",
+            "grain_0002.ply",
+            "grain_0003.ply",
+            "grain_0004.ply"
+        ]
+    );
+
+    let read = |name: &str| {
+        let scan = grainform::scan::read_scan(&folder.path().join(name)).unwrap();
+        let bits = scan.points().iter().map(|p| p.coords.map(f64::to_bits));
+        bits.map(<[u64; 3]>::from).collect::<Vec<_>>()
+    };
+    let labels = std::fs::read_to_string(folder.path().join("labels.txt")).unwrap();
+    let all = read("tray.ply");
+    assert_eq!((all.len(), labels.lines().count()), (all.len(), all.len()));
+    assert_eq!(made["points"], all.len());
+    let mut found = BTreeSet::new();
+    for file in files {
+        let own: BTreeSet<_> = read(&format!("grains/{file}")).into_iter().collect();
+        let of_point = all.iter().zip(labels.lines());
+        let of_own: Vec<&str> = of_point
+            .filter(|(p, _)| own.contains(*p))
+            .map(|(_, label)| label)
+            .collect();
+        assert_eq!(of_own.len(), own.len());
+        let label = of_own[own.len() / 2];
+        let foreign = of_own.iter().filter(|other| **other != label).count();
+        assert!(100 * foreign <= own.len(), "{foreign} of {}", own.len());
+        found.insert(label);
+    }
+    assert_eq!(found.into_iter().collect::<Vec<_>>(), ["1", "2", "3", "4"]);
+    let text = succeed(&folder, &["split", "tray.ply", "-o", "again"]);
+    assert!(text.contains("neighbours    are at most"), "{text}");
+}
