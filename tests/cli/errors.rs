@@ -65,7 +65,7 @@ fn unusable_inputs_are_named() {
 fn a_torus_is_refused_with_its_genus_or_the_share_that_faces_away() {
     let outputs = ["-o", "m.json", "--mesh", "m.stl", "--harmonics", "m.csv"];
     let words = [&["fit", "torus.obj"], &outputs[..]].concat();
-    refuse(&words, &["torus.obj", "1 handles (its genus)"]);
+    refuse(&words, &["torus.obj", "1 handle (its genus)"]);
     refuse(
         &[&words[..], &["--surface", "star"]].concat(),
         &["torus.obj", "not star-shaped", "% of its area faces away"],

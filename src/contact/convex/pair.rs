@@ -70,7 +70,8 @@ pub struct ConvexContact {
 ///
 /// let sphere = Superquadric::single([1.0; 3], 2.0, 2.0)?;
 /// let at = |x| Frame { centre: Point3::new(x, 0.0, 0.0), axes: Matrix3::identity() };
-/// let pair = ConvexPair::new((&sphere, &at(0.0)), (&sphere, &at(1.9)));
+/// let (here, there) = (at(0.0), at(1.9));
+/// let pair = ConvexPair::new((&sphere, &here), (&sphere, &there));
 /// let contact = pair.contact(None);
 /// assert_eq!(contact.status, ConvexStatus::Touching);
 /// assert!((pair.overlap(&contact) - 0.1).abs() < 1e-6);

@@ -2,6 +2,7 @@
 
 use crate::fit::context::Cancelled;
 use crate::mesh::MeshDefect;
+use crate::scan::plural;
 
 /// Why a mesh has no map to the sphere.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
@@ -30,8 +31,9 @@ pub enum MapError {
     },
     /// The surface has handles.
     #[error(
-        "the surface is not that of a ball but has {genus} handles (its genus), as a ring has one: fill them, for no \
-         surface over the sphere has any"
+        "the surface is not that of a ball but has {} (its genus), as a ring has one: fill them, for no surface over \
+         the sphere has any",
+        plural(*genus, "handle")
     )]
     Handles {
         /// Their number.
