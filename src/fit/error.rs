@@ -93,8 +93,8 @@ pub enum FitError {
     },
     /// The scan holds several bodies.
     #[error(
-        "the scan holds {bodies} separate bodies, and one grain can be fitted: split it (grainform split), or keep the \
-         largest (--largest)"
+        "the scan holds at least {bodies} separate bodies, and one grain can be fitted: split it (grainform split), or \
+         keep the largest (--largest)"
     )]
     SeveralBodies {
         /// Number of bodies.

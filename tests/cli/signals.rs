@@ -15,11 +15,17 @@ fn model() -> TempDir {
     folder
 }
 
-/// Writes a mesh of some 150 MB with `words` before the command, and waits until it is being written.
-fn writing(folder: &TempDir, words: &[&str]) -> Child {
+/// Cells along an edge of a mesh of some 300 MB, which is not written before a signal arrives.
+const LARGE: &str = "700";
+
+/// Cells along an edge of a mesh of some 150 MB, whose writing is seen.
+const SMALL: &str = "512";
+
+/// Writes a mesh with `words` before the command, and waits until it is being written.
+fn writing(folder: &TempDir, resolution: &str, words: &[&str]) -> Child {
     let grainform = assert_cmd::cargo::cargo_bin!("grainform");
     let grainform = grainform.to_str().expect("text");
-    let mesh = ["mesh", "m.json", "-o", "m.stl", "--resolution", "512"];
+    let mesh = ["mesh", "m.json", "-o", "m.stl", "--resolution", resolution];
     let words = [words, &[grainform], &mesh].concat();
     let mut child = Command::new(words[0])
         .args(&words[1..])
@@ -44,7 +50,7 @@ fn send(child: &Child, signal: Signal) {
 fn a_signal_ends_the_run_and_leaves_no_temporary_file() {
     let folder = model();
     for signal in [Signal::INT, Signal::TERM, Signal::HUP] {
-        let mut child = writing(&folder, &[]);
+        let mut child = writing(&folder, LARGE, &[]);
         send(&child, signal);
         let status = child.wait().unwrap();
         assert_eq!(status.signal(), Some(signal.as_raw()));
@@ -55,7 +61,7 @@ fn a_signal_ends_the_run_and_leaves_no_temporary_file() {
 #[test]
 fn what_a_killed_run_leaves_the_next_one_sweeps_up() {
     let folder = model();
-    let mut child = writing(&folder, &[]);
+    let mut child = writing(&folder, LARGE, &[]);
     send(&child, Signal::KILL);
     child.wait().unwrap();
     let left = names(folder.path());
@@ -69,7 +75,7 @@ fn what_a_killed_run_leaves_the_next_one_sweeps_up() {
 #[test]
 fn the_temporary_file_of_a_living_run_is_left_alone() {
     let folder = model();
-    let mut child = writing(&folder, &[]);
+    let mut child = writing(&folder, SMALL, &[]);
     succeed(&folder, &["synth", "bean", "-o", "b.ply"]);
     assert!(child.wait().unwrap().success());
     assert_eq!(names(folder.path()), ["b.ply", "m.json", "m.stl"]);
@@ -79,7 +85,11 @@ fn the_temporary_file_of_a_living_run_is_left_alone() {
 #[test]
 fn a_run_under_nohup_outlives_its_terminal() {
     let folder = model();
-    let mut child = writing(&folder, &["sh", "-c", "trap '' HUP; exec \"$@\"", "sh"]);
+    let mut child = writing(
+        &folder,
+        SMALL,
+        &["sh", "-c", "trap '' HUP; exec \"$@\"", "sh"],
+    );
     send(&child, Signal::HUP);
     assert!(child.wait().unwrap().success());
     assert_eq!(names(folder.path()), ["m.json", "m.stl"]);
