@@ -5,9 +5,7 @@ use super::console::{Console, put_json};
 use super::fitting::{ScanFit, fit_scan, say_stats};
 use super::values::SurfaceArg;
 use super::{outputs, superquadric};
-use crate::export::MeshFormat;
 use crate::fit::Fitted;
-use crate::model::{Surface, grain_to_json};
 use crate::report::{FitReport, largest_loss, write_harmonics};
 use anyhow::{Result, bail};
 use std::time::Instant;
@@ -84,15 +82,7 @@ pub(super) fn run(args: FitArgs, console: Console) -> Result<()> {
 /// Writes the files asked for; gives what the conversion to published coefficients loses.
 fn write_files(args: &FitArgs, fitted: &Fitted) -> Result<Option<f64>> {
     let grain = &fitted.grain;
-    if let Some(path) = &args.mesh {
-        let format = MeshFormat::of(path).unwrap_or(MeshFormat::Ply);
-        let mesh = grain.mesh(args.meshing.resolution.into());
-        outputs::write(path, |file| format.write(&mesh, file))?;
-    }
-    if let Some(path) = &args.output {
-        let text = grain_to_json(&fitted.grain_with_errors());
-        outputs::write(path, |file| Ok(writeln!(file, "{text}")?))?;
-    }
+    outputs::write_grain(args, grain, || fitted.grain_with_errors())?;
     let Some(path) = &args.harmonics else {
         return Ok(None);
     };

@@ -1,7 +1,9 @@
 //! What is written: files, checked before any work is done for them, or standard output.
 
+use super::args::FitArgs;
 use super::inputs::is_stream;
-use crate::export::{WriteError, sweep, write_atomically};
+use crate::export::{MeshFormat, WriteError, sweep, write_atomically};
+use crate::model::{Grain, Surface, grain_to_json};
 use anyhow::{Context, Result, bail};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
@@ -84,6 +86,24 @@ pub(super) fn write(
     let mut stream = BufWriter::new(io::stdout().lock());
     write(&mut stream)?;
     Ok(stream.flush()?)
+}
+
+/// Writes the mesh of a grain and its model, `saved`, where they are asked for.
+pub(super) fn write_grain(
+    args: &FitArgs,
+    grain: &Grain,
+    saved: impl FnOnce() -> Grain,
+) -> Result<()> {
+    if let Some(path) = &args.mesh {
+        let format = MeshFormat::of(path).unwrap_or(MeshFormat::Ply);
+        let mesh = grain.mesh(args.meshing.resolution.into());
+        write(path, |file| format.write(&mesh, file))?;
+    }
+    if let Some(path) = &args.output {
+        let text = grain_to_json(&saved());
+        write(path, |file| Ok(writeln!(file, "{text}")?))?;
+    }
+    Ok(())
 }
 
 /// What an output is called.

@@ -4,12 +4,11 @@ use super::args::FitArgs;
 use super::console::{Console, put_json};
 use super::values::SuperquadricArg;
 use super::{inputs, outputs};
-use crate::export::MeshFormat;
 use crate::fit::{
     Context as FitContext, FitOptions, PreparedScan, fit_multi_superquadric, fit_superquadric,
     largest_body,
 };
-use crate::model::{Grain, Surface, grain_to_json};
+use crate::model::Grain;
 use crate::report::SuperquadricReport;
 use anyhow::{Context, Result, bail};
 use std::borrow::Cow;
@@ -30,7 +29,7 @@ pub(super) fn run(
     let progress = console.progress();
     let (grain, report) = fitted(args, form)?;
     progress.stage("Writing");
-    write_files(args, &grain)?;
+    outputs::write_grain(args, &grain, || grain.clone())?;
     drop(progress);
     if args.fitting.json {
         return put_json(&report);
@@ -69,17 +68,4 @@ fn fitted(args: &FitArgs, form: SuperquadricArg) -> Result<(Grain, SuperquadricR
             Ok((found.grain()?, report))
         }
     }
-}
-
-fn write_files(args: &FitArgs, grain: &Grain) -> Result<()> {
-    if let Some(path) = &args.mesh {
-        let format = MeshFormat::of(path).unwrap_or(MeshFormat::Ply);
-        let mesh = grain.mesh(args.meshing.resolution.into());
-        outputs::write(path, |file| format.write(&mesh, file))?;
-    }
-    if let Some(path) = &args.output {
-        let text = grain_to_json(grain);
-        outputs::write(path, |file| Ok(writeln!(file, "{text}")?))?;
-    }
-    Ok(())
 }

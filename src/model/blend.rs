@@ -1,5 +1,6 @@
 //! K functions on a cover of the sphere, blended so that no seam is left.
 
+use super::InvalidGrain;
 use crate::sphere::{CapBasis, Cover, Jet, cube_grid};
 use crate::vectorize::vectorize;
 use nalgebra::Vector3;
@@ -20,6 +21,33 @@ pub(super) struct Blend<const K: usize> {
 }
 
 impl<const K: usize> Blend<K> {
+    /// A blend of one list of coefficients per cell of the cover, in its order; `degree_of` checks the list of a cell
+    /// and tells its degree.
+    ///
+    /// # Errors
+    /// [`InvalidGrain`] if the lists are not as many as the cells, or one of them is refused.
+    pub(super) fn new(
+        cover: Cover,
+        coefficients: Vec<Vec<f64>>,
+        degree_of: impl Fn(usize, &[f64]) -> Result<usize, InvalidGrain>,
+    ) -> Result<Self, InvalidGrain> {
+        if coefficients.len() != cover.cells().len() {
+            return Err(InvalidGrain::SegmentCount {
+                found: coefficients.len(),
+                expected: cover.cells().len(),
+            });
+        }
+        let mut degree = 0;
+        for (cell, list) in coefficients.iter().enumerate() {
+            degree = degree.max(degree_of(cell, list)?);
+        }
+        Ok(Self {
+            cover,
+            coefficients,
+            basis: CapBasis::new(degree),
+        })
+    }
+
     /// The K coefficients of each function of a cell.
     pub(super) fn of_cell(&self, cell: usize) -> &[[f64; K]] {
         self.coefficients[cell].as_chunks().0

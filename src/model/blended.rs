@@ -23,22 +23,8 @@ impl Blended {
     /// # Errors
     /// [`InvalidGrain`] if the lists do not fit the cover or hold a number that is not finite.
     pub fn new(cover: Cover, coefficients: Vec<Vec<f64>>) -> Result<Self, InvalidGrain> {
-        if coefficients.len() != cover.cells().len() {
-            return Err(InvalidGrain::SegmentCount {
-                found: coefficients.len(),
-                expected: cover.cells().len(),
-            });
-        }
-        let mut degree = 0;
-        for (cell, list) in coefficients.iter().enumerate() {
-            degree = degree.max(check_expansion(cell, list)?);
-        }
         Ok(Self {
-            radius: Blend {
-                cover,
-                coefficients,
-                basis: CapBasis::new(degree),
-            },
+            radius: Blend::new(cover, coefficients, check_expansion)?,
         })
     }
 

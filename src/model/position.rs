@@ -3,7 +3,7 @@
 use super::blend::Blend;
 use super::invalid::check_expansion;
 use super::{Derivatives, InvalidGrain};
-use crate::sphere::{CapBasis, Cover, HarmonicBasis, Jet};
+use crate::sphere::{Cover, HarmonicBasis, Jet};
 use nalgebra::{Matrix3, Vector3};
 use rayon::prelude::*;
 
@@ -59,22 +59,8 @@ impl Position {
     /// # Errors
     /// [`InvalidGrain`] if the lists do not fit the cover or hold a number that is not finite.
     pub fn blended(cover: Cover, coefficients: Vec<Vec<f64>>) -> Result<Self, InvalidGrain> {
-        if coefficients.len() != cover.cells().len() {
-            return Err(InvalidGrain::SegmentCount {
-                found: coefficients.len(),
-                expected: cover.cells().len(),
-            });
-        }
-        let mut degree = 0;
-        for (cell, list) in coefficients.iter().enumerate() {
-            degree = degree.max(check(cell, list)?);
-        }
         Ok(Self {
-            chart: Chart::Cells(Blend {
-                cover,
-                coefficients,
-                basis: CapBasis::new(degree),
-            }),
+            chart: Chart::Cells(Blend::new(cover, coefficients, check)?),
         })
     }
 

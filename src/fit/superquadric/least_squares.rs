@@ -3,14 +3,12 @@
 use super::bodies::Body;
 use super::normal_equations::{NormalEquations, Reach, Weighing, distances};
 use crate::fit::context::{Cancelled, Context};
+use crate::spread::robust_deviation;
 use nalgebra::{Cholesky, DVector, Vector3};
 
 /// Scale of the loss, in mean radii, where few points are astray and where many are.
 const WIDE: f64 = 0.5;
 const NARROW: f64 = 0.03;
-
-/// Standard deviation of normal errors over the median of their sizes.
-const PER_MEDIAN: f64 = 1.4826;
 
 /// Passes with standard deviations of their own, until they change by less than a share.
 const MAX_PASSES: usize = 4;
@@ -31,16 +29,14 @@ pub(super) struct Minimum {
     pub(super) weighing: Weighing,
 }
 
-/// The median distance of points from bodies.
-pub(super) fn median(bodies: &[Body], points: &[Vector3<f64>]) -> f64 {
-    let mut sizes: Vec<f64> = distances(bodies, points).iter().map(|d| d.abs()).collect();
-    let middle = sizes.len() / 2;
-    *sizes.select_nth_unstable_by(middle, f64::total_cmp).1
+/// Standard deviation of the distances of points from bodies, whatever a few strays do.
+pub(super) fn deviation(bodies: &[Body], points: &[Vector3<f64>]) -> f64 {
+    robust_deviation(distances(bodies, points).into_iter())
 }
 
 /// The weighing that goes with the distances of points from bodies.
 pub(super) fn weighed(bodies: &[Body], points: &[Vector3<f64>], like: &Weighing) -> Weighing {
-    let deviation = PER_MEDIAN * median(bodies, points);
+    let deviation = deviation(bodies, points);
     Weighing {
         scale: match like.reach {
             Reach::Wide => WIDE,

@@ -4,7 +4,7 @@ use super::bodies::Body;
 use super::cloud::Cloud;
 use super::error::SuperquadricFitError;
 use super::form::Form;
-use super::least_squares::{Minimum, least, median, minimised};
+use super::least_squares::{Minimum, deviation, least, minimised};
 use super::normal_equations::{Reach, Weighing, distances};
 use super::standard_errors::{ParameterErrors, standard_errors};
 use crate::fit::context::Context;
@@ -95,12 +95,12 @@ pub(super) fn best(
         &few
     };
     let wide = best_within(cloud, few, form, Reach::Wide, context)?;
-    let nearness = median(&wide.bodies, few);
+    let nearness = deviation(&wide.bodies, few);
     let start = match nearness < NEAR {
         true => wide,
         false => {
             let narrow = best_within(cloud, few, form, Reach::Narrow, context)?;
-            match median(&narrow.bodies, few) < MUCH_NEARER * nearness {
+            match deviation(&narrow.bodies, few) < MUCH_NEARER * nearness {
                 true => narrow,
                 false => wide,
             }

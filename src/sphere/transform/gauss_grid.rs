@@ -1,11 +1,16 @@
 //! Values of an expansion at Gauss-Legendre rings of equispaced azimuths, and the transpose.
 
+use super::kept::Kept;
 use super::polar::PolarTable;
 use crate::sphere::azimuth_fft::{AzimuthFft, even_smooth_number};
 use crate::sphere::{GaussLegendre, HarmonicBasis, harmonic_index};
 use nalgebra::Vector3;
 use realfft::num_complex::Complex;
 use std::f64::consts::PI;
+use std::sync::Arc;
+
+/// Grids of all degrees, and degrees of exactness, that have been asked for.
+static GRIDS: Kept<[usize; 2], GaussGrid> = Kept::new();
 
 /// A grid on which sums with [`Self::weights`] are integrals of all polynomials up to a degree, for
 /// expansions up to another. Values are stored ring by ring, from the north pole.
@@ -18,8 +23,13 @@ pub(super) struct GaussGrid {
 }
 
 impl GaussGrid {
-    /// For expansions up to `degree`, exact for polynomials of degree `exact`.
-    pub(super) fn new(degree: usize, exact: usize) -> Self {
+    /// The grid for expansions up to `degree`, exact for polynomials of degree `exact`. It is made once in a process,
+    /// and kept.
+    pub(super) fn of_degree(degree: usize, exact: usize) -> Arc<Self> {
+        GRIDS.get([degree, exact], || Self::new(degree, exact))
+    }
+
+    fn new(degree: usize, exact: usize) -> Self {
         let rule = GaussLegendre::new(exact / 2 + 1);
         let fft = AzimuthFft::new(even_smooth_number(exact + 1));
         let rings = rule.nodes().len();

@@ -12,11 +12,7 @@
 //! Error: that of the coefficients w_j.
 
 use super::gauss_grid::GaussGrid;
-use std::collections::BTreeMap;
-use std::sync::{Arc, Mutex, PoisonError};
-
-/// Grids of all degrees that have been asked for.
-static GRIDS: Mutex<BTreeMap<usize, Arc<GaussGrid>>> = Mutex::new(BTreeMap::new());
+use std::sync::Arc;
 
 /// The matrix as an operator.
 pub(crate) struct HarmonicGram {
@@ -30,14 +26,14 @@ impl HarmonicGram {
     /// # Panics
     /// If there are fewer than (2 `degree` + 1)² of them.
     pub(crate) fn new(degree: usize, moments: &[f64]) -> Self {
-        let wide = GaussGrid::new(2 * degree, 4 * degree);
+        let wide = GaussGrid::of_degree(2 * degree, 4 * degree);
         let mut diagonal = vec![0.0; wide.len()];
         wide.synthesis(moments, &mut diagonal);
         for (entry, weight) in diagonal.iter_mut().zip(wide.weights()) {
             *entry *= weight;
         }
         Self {
-            grid: kept(degree),
+            grid: GaussGrid::of_degree(degree, 4 * degree),
             diagonal,
         }
     }
@@ -54,14 +50,4 @@ impl HarmonicGram {
         }
         self.grid.adjoint(&mut values, out);
     }
-}
-
-/// The grid of a degree. It is made once in a process, and kept.
-fn kept(degree: usize) -> Arc<GaussGrid> {
-    let kept = || GRIDS.lock().unwrap_or_else(PoisonError::into_inner);
-    let known = kept().get(&degree).cloned();
-    known.unwrap_or_else(|| {
-        let made = Arc::new(GaussGrid::new(degree, 4 * degree));
-        Arc::clone(kept().entry(degree).or_insert(made))
-    })
 }

@@ -1,15 +1,15 @@
 //! An expansion on an oversampled grid of the doubled sphere, ready to be interpolated from.
 
+use super::kept::Kept;
 use super::oversampled::oversampled;
 use super::polar::PolarTable;
 use crate::sphere::azimuth_fft::{AzimuthFft, even_smooth_number};
 use realfft::num_complex::Complex;
-use std::collections::BTreeMap;
 use std::f64::consts::PI;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
 
 /// Tables of all degrees and widths of the kernel that have been asked for.
-static GRIDS: Mutex<BTreeMap<[usize; 2], Arc<Grid>>> = Mutex::new(BTreeMap::new());
+static GRIDS: Kept<[usize; 2], Grid> = Kept::new();
 
 /// A grid of rings theta_i = 2 pi i / n, i = 0, ..., n / 2, and equispaced azimuths, twice as fine as
 /// the degree needs, with a halo of half the kernel's width around it: beyond a pole the function goes on
@@ -25,12 +25,7 @@ pub(super) struct Grid {
 impl Grid {
     /// The grid of a degree, for a kernel of an even width. It is made once in a process, and kept.
     pub(super) fn of_degree(degree: usize, width: usize) -> Arc<Self> {
-        let kept = || GRIDS.lock().unwrap_or_else(PoisonError::into_inner);
-        let known = kept().get(&[degree, width]).cloned();
-        known.unwrap_or_else(|| {
-            let made = Arc::new(Self::new(degree, width));
-            Arc::clone(kept().entry([degree, width]).or_insert(made))
-        })
+        GRIDS.get([degree, width], || Self::new(degree, width))
     }
 
     fn new(degree: usize, width: usize) -> Self {

@@ -17,6 +17,7 @@
 mod gauss_grid;
 mod gram;
 mod grid;
+mod kept;
 mod kernel;
 mod oversampled;
 mod places;
