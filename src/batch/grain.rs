@@ -157,7 +157,7 @@ fn row(fitted: &Fitted, warnings: &[String], settings: &Settings) -> Row {
             .map(|missing| format!("{}: {}", missing.measure, missing.reason))
             .collect(),
         no_standard_errors: fit.no_standard_errors,
-        warnings: sentences(warnings, &fitted.warnings),
+        warnings: sentences(warnings, &fitted.warnings, settings.unit),
         figures,
         ..Row::default()
     }

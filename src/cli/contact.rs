@@ -12,11 +12,7 @@ use std::path::Path;
 pub(super) fn run(args: ContactArgs, console: Console) -> Result<()> {
     threads::start(0, console)?;
     if let Some(pose) = &args.pose_b {
-        let report = placed::contacts(&args, pose)?;
-        return match args.json {
-            true => put_json(&report),
-            false => console.print(&report),
-        };
+        return placed::run(&args, pose, console);
     }
     let report = contact(&args)?;
     if args.json {
@@ -25,6 +21,18 @@ pub(super) fn run(args: ContactArgs, console: Console) -> Result<()> {
     console.print(&report)?;
     console.warn(&report.warnings);
     Ok(())
+}
+
+impl ContactArgs {
+    /// The materials of the grain, of this Young's modulus, and of what it touches.
+    pub(super) fn materials(&self, modulus_mpa: f64) -> Result<[Material; 2]> {
+        let own = Material::new(1e6 * modulus_mpa, self.poissons_ratio)?;
+        let other = Material::new(
+            1e6 * self.other_youngs_modulus_mpa.unwrap_or(modulus_mpa),
+            self.other_poissons_ratio.unwrap_or(self.poissons_ratio),
+        )?;
+        Ok([own, other])
+    }
 }
 
 fn contact(args: &ContactArgs) -> Result<ContactReport> {
@@ -36,11 +44,7 @@ fn contact(args: &ContactArgs) -> Result<ContactReport> {
     if !(indentation_um > 0.0 && indentation_um.is_finite()) {
         bail!("the indentation must be above zero, not {indentation_um} um");
     }
-    let own = Material::new(1e6 * modulus_mpa, args.poissons_ratio)?;
-    let other = Material::new(
-        1e6 * args.other_youngs_modulus_mpa.unwrap_or(modulus_mpa),
-        args.other_poissons_ratio.unwrap_or(args.poissons_ratio),
-    )?;
+    let [own, other] = args.materials(modulus_mpa)?;
     let load = Load {
         unit,
         effective_modulus_pa: effective_modulus_pa(&own, &other),

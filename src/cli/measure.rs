@@ -12,7 +12,7 @@ pub(super) fn run(args: MeasureArgs, console: Console) -> Result<()> {
     threads::start(0, console)?;
     let progress = console.progress();
     progress.stage("Measuring");
-    let report = measure(&args)?.in_unit(args.unit);
+    let report = measure(&args)?;
     drop(progress);
     if args.json {
         return put_json(&report);
@@ -29,12 +29,14 @@ fn measure(args: &MeasureArgs) -> Result<MeasureReport> {
         [] => Measure::ALL.as_slice(),
         asked => asked,
     };
+    let report = |of, survey: &Survey, warnings| {
+        MeasureReport::new(input.clone(), of, survey, only, warnings).in_unit(args.unit)
+    };
     let bytes = inputs::read(path, &args.input.limit)?;
     if bytes.trim_ascii_start().starts_with(b"{") {
         let grain = inputs::parse_model(path, &bytes)?;
         let survey = Survey::of_grain(&grain, args.scheme.0);
-        let of = Measured::Model;
-        return Ok(MeasureReport::new(input, of, &survey, only, Vec::new()));
+        return Ok(report(Measured::Model, &survey, Vec::new()));
     }
     if args.scheme.0 != Scheme::Exact {
         bail!("{input} is a scan: integration schemes are for models; leave --scheme out");
@@ -45,14 +47,12 @@ fn measure(args: &MeasureArgs) -> Result<MeasureReport> {
     }
     if let Some(scanned) = scanned_body(&scan) {
         let survey = Survey::of_scanned(&scanned);
-        let (of, warnings) = (Measured::Faces, scan.warnings.clone());
-        let report = MeasureReport::new(input, of, &survey, only, warnings);
+        let report = report(Measured::Faces, &survey, scan.warnings.clone());
         return Ok(report.with_faces(&scanned));
     }
     let surface = scanned_surface(&scan).with_context(|| format!("cannot measure {input}"))?;
     let survey =
         Survey::of_mesh(&surface.mesh).with_context(|| format!("cannot measure {input}"))?;
-    let warnings = sentences(&scan.warnings, &surface.warnings);
-    let of = surface.kind.into();
-    Ok(MeasureReport::new(input, of, &survey, only, warnings))
+    let warnings = sentences(&scan.warnings, &surface.warnings, args.unit);
+    Ok(report(surface.kind.into(), &survey, warnings))
 }

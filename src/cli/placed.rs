@@ -1,41 +1,92 @@
 //! `grainform contact A B --pose-b ...`
 
 use super::args::ContactArgs;
+use super::console::{Console, put_json};
 use super::inputs;
-use super::values::PoseArg;
-use crate::contact::union_contacts;
-use crate::model::{Frame, Grain, SuperquadricGrain, Surface};
-use crate::report::PlacedReport;
-use anyhow::{Result, anyhow};
+use super::values::{LawArg, PoseArg};
+use crate::contact::{
+    ContactBody, VolumeLaw, contact_regions, effective_modulus_pa, union_contacts,
+};
+use crate::measure::grain_properties;
+use crate::model::{Frame, Grain, Surface};
+use crate::report::{NormalLaw, PlacedReport, RegionsReport};
+use anyhow::{Context, Result, anyhow, bail};
+use nalgebra::{Isometry3, Translation3};
 use std::path::Path;
 
-/// Where two unions of superquadrics touch, the second moved.
-pub(super) fn contacts(args: &ContactArgs, pose: &PoseArg) -> Result<PlacedReport> {
+/// Tells where two bodies touch, the second moved: of unions of superquadrics by proof, of all others by region.
+pub(super) fn run(args: &ContactArgs, pose: &PoseArg, console: Console) -> Result<()> {
     let missing = || anyhow!("--pose-b places a second body: name its model after the first");
     let other = args.other.as_deref().ok_or_else(missing)?;
     let read = |path: &Path| -> Result<Grain> {
         inputs::parse_model(path, &inputs::read(path, &args.limit)?)
     };
-    let (first, second) = (read(&args.model)?, read(other)?);
-    let [one, two] = [convex(&first, &args.model)?, convex(&second, other)?];
+    let grains = [read(&args.model)?, read(other)?];
+    let names = [inputs::name(&args.model), inputs::name(other)];
+    let law = law(args, &grains)?;
+    if law.is_none()
+        && let Some(report) = of_unions(&grains, &names, pose)
+    {
+        return match args.json {
+            true => put_json(&report),
+            false => console.print(&report),
+        };
+    }
+    let [one, two] = &grains;
+    let moved = Isometry3::from_parts(Translation3::from(pose.aside), pose.turn);
+    let found = contact_regions(&ContactBody::new(one), &ContactBody::new(two), &moved)
+        .with_context(|| format!("cannot tell the contact of {} and {}", names[0], names[1]))?;
+    let [one, two] = names;
+    let report = RegionsReport::new(one, two, args.unit, &found, law.as_ref());
+    if args.json {
+        return put_json(&report);
+    }
+    console.print(&report)?;
+    console.warn(&report.warnings);
+    Ok(())
+}
+
+/// The touches of two unions of superquadrics, if they are that.
+fn of_unions(grains: &[Grain; 2], names: &[String; 2], pose: &PoseArg) -> Option<PlacedReport> {
+    let [first, second] = grains;
+    let [one, two] = [first.superquadric()?, second.superquadric()?];
     let frame = second.frame();
     let moved = Frame {
         centre: pose.turn * frame.centre + pose.aside,
         axes: pose.turn.to_rotation_matrix() * frame.axes,
     };
     let touches = union_contacts((one.body(), &first.frame()), (two.body(), &moved));
-    let names = [inputs::name(&args.model), inputs::name(other)];
-    let [one, two] = names;
-    Ok(PlacedReport::new(one, two, &touches))
+    let [one, two] = names.clone();
+    Some(PlacedReport::new(one, two, &touches))
 }
 
-/// The grain as a union of convex bodies.
-fn convex<'a>(grain: &'a Grain, path: &Path) -> Result<&'a SuperquadricGrain> {
-    grain.superquadric().ok_or_else(|| {
-        anyhow!(
-            "{} is not made of convex bodies, which --pose-b needs: fit the scan with --surface superquadric, poly, \
-             poly12 or multi",
-            inputs::name(path)
-        )
-    })
+/// The law by which forces are told, if they are asked for.
+fn law(args: &ContactArgs, grains: &[Grain; 2]) -> Result<Option<NormalLaw>> {
+    let (unit, modulus) = match (args.unit, args.youngs_modulus_mpa, args.law) {
+        (Some(unit), Some(modulus), _) => (unit, modulus),
+        (_, None, None) => return Ok(None),
+        _ => bail!("a force needs --unit and --youngs-modulus-mpa"),
+    };
+    let [own, other] = args.materials(modulus)?;
+    let effective_modulus_pa = effective_modulus_pa(&own, &other);
+    if !effective_modulus_pa.is_finite() {
+        bail!("both bodies are rigid: give one of them a finite Young's modulus");
+    }
+    let metres_per_unit = unit.metres();
+    Ok(Some(match args.law.unwrap_or(LawArg::Hertz) {
+        LawArg::Hertz => NormalLaw::Hertz {
+            effective_modulus_pa,
+            metres_per_unit,
+        },
+        LawArg::Volume => {
+            let volumes = grains
+                .each_ref()
+                .map(|grain| grain_properties(grain).properties.volume);
+            NormalLaw::Volume(VolumeLaw::new(
+                volumes,
+                metres_per_unit,
+                effective_modulus_pa,
+            ))
+        }
+    }))
 }

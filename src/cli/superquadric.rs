@@ -5,11 +5,11 @@ use super::console::{Console, put_json};
 use super::values::SuperquadricArg;
 use super::{inputs, outputs};
 use crate::fit::{
-    Context as FitContext, FitOptions, PreparedScan, fit_multi_superquadric, fit_superquadric,
-    largest_body,
+    Context as FitContext, FitOptions, FitWarning, PreparedScan, fit_multi_superquadric,
+    fit_superquadric, largest_body,
 };
 use crate::model::Grain;
-use crate::report::SuperquadricReport;
+use crate::report::{SuperquadricReport, sentences};
 use anyhow::{Context, Result, bail};
 use std::borrow::Cow;
 
@@ -46,7 +46,7 @@ pub(super) fn run(
 fn fitted(args: &FitArgs, form: SuperquadricArg) -> Result<(Grain, SuperquadricReport)> {
     let (name, unit) = (args.fitting.name(), args.fitting.unit);
     let scan = inputs::scan(&args.fitting.scan, &args.fitting.input)?;
-    let (scan, _) = match args.fitting.largest {
+    let (scan, others_left_out) = match args.fitting.largest {
         true => largest_body(&scan),
         false => (Cow::Borrowed(&scan), None),
     };
@@ -54,7 +54,13 @@ fn fitted(args: &FitArgs, form: SuperquadricArg) -> Result<(Grain, SuperquadricR
     let options = FitOptions::default();
     let prepared = PreparedScan::new(&scan, options.symmetry).with_context(failed)?;
     let points = prepared.points();
-    let (warnings, count) = (scan.warnings.clone(), points.len());
+    let of_fit: Vec<FitWarning> = prepared
+        .warnings
+        .iter()
+        .copied()
+        .chain(others_left_out)
+        .collect();
+    let (warnings, count) = (sentences(&scan.warnings, &of_fit, unit), points.len());
     let context = FitContext::default();
     match form {
         SuperquadricArg::Single(form) => {

@@ -94,6 +94,25 @@ impl FromStr for PoseArg {
     }
 }
 
+/// The law of a normal force.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum LawArg {
+    Hertz,
+    Volume,
+}
+
+impl FromStr for LawArg {
+    type Err = &'static str;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        match text {
+            "hertz" => Ok(Self::Hertz),
+            "volume" => Ok(Self::Volume),
+            _ => Err("expected hertz or volume"),
+        }
+    }
+}
+
 /// A format of scans.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ScanFormat(pub(super) &'static str);

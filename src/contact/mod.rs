@@ -1,12 +1,29 @@
-//! Normal contact of two surfaces, or of a surface and a plane, by the theory of Hertz; and contacts of convex bodies
-//! and of unions of them, which are found however they lie.
+//! Normal contact of two surfaces, or of a surface and a plane, by the theory of Hertz; contacts of convex bodies and of
+//! unions of them, which are found however they lie; and all regions in which surfaces of any kind overlap.
+//!
+//! ```
+//! use grainform::contact::{ContactBody, contact_regions};
+//! use grainform::nalgebra::{Isometry3, Vector3};
+//! use grainform::{model::Radial, shapes::Ellipsoid};
+//!
+//! // Two balls of radius 1, their centres 1.9 apart.
+//! let ball = Ellipsoid { semi_axes: Vector3::repeat(1.0) };
+//! let ball = Radial(&ball);
+//! let body = ContactBody::new(&ball);
+//! let pose = Isometry3::translation(0.0, 0.0, 1.9);
+//! let found = contact_regions(&body, &body, &pose)?;
+//! assert!((found.regions[0].depth - 0.1).abs() < 1e-9);
+//! # Ok::<(), grainform::contact::RegionError>(())
+//! ```
 
 mod convex;
 mod edge;
 mod force_error;
 mod material;
+mod regions;
 mod relative;
 mod touch;
+mod volume_law;
 
 pub use convex::{
     ConvexContact, ConvexPair, ConvexStatus, Method, UnionContact, Warm, union_contacts,
@@ -14,5 +31,9 @@ pub use convex::{
 pub use edge::{EdgeError, TangentCap};
 pub use force_error::{Curved, force_error};
 pub use material::{Material, MaterialError, effective_modulus_pa};
+pub use regions::{
+    ContactBody, ContactRegion, ContactRegions, RegionError, RegionWork, contact_regions,
+};
 pub use relative::{ContactError, Correction, LARGEST_RATIO, RelativeCurvature};
 pub use touch::{Touch, TouchError, touch};
+pub use volume_law::VolumeLaw;

@@ -1,4 +1,14 @@
 //! Writing grains, meshes and point clouds, whole or not at all.
+//!
+//! ```
+//! use grainform::{Mesh, export::write_stl};
+//!
+//! let ball = Mesh::radial(8, |_| 1.0);
+//! let mut bytes = Vec::new();
+//! write_stl(&ball, &mut bytes)?;
+//! assert_eq!(bytes.len(), 84 + 50 * ball.triangles.len());
+//! # Ok::<(), grainform::export::WriteError>(())
+//! ```
 
 mod atomic;
 mod error;

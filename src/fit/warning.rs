@@ -23,6 +23,8 @@ pub enum FitWarning {
         /// Their number.
         others: usize,
     },
+    /// The points have a neck, at which [`split`](crate::scan::split) would cut them apart.
+    Neck,
     /// Points that stand apart from their neighbours were left out.
     Strays {
         /// Their number.

@@ -13,6 +13,7 @@ mod harmonics;
 mod measure;
 mod number;
 mod placed;
+mod regions;
 mod rule;
 mod search;
 mod split;
@@ -35,6 +36,7 @@ pub use measure::{
 };
 pub use number::{percent, short};
 pub use placed::{PlacedReport, PlacedTouch};
+pub use regions::{NormalLaw, RegionRecord, RegionsReport};
 pub use search::{CandidateRecord, SearchReport};
 pub use split::{PlaneRecord, SplitGrainRecord, SplitReport};
 pub use superquadric::{SuperquadricRecord, SuperquadricReport};

@@ -87,7 +87,7 @@ impl SearchReport {
             mean_radius: fitted.mean_radius,
             reference: fitted.unseen.is_none().then(|| fitted.reference.into()),
             seconds: Seconds::default(),
-            warnings: sentences(scan_warnings, &fitted.warnings),
+            warnings: sentences(scan_warnings, &fitted.warnings, unit),
         }
     }
 

@@ -39,7 +39,7 @@ pub struct SuperquadricReport {
     /// RMS distances of points that were held out, of one part, of two and so on; absent of a single one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub held_out: Option<Vec<f64>>,
-    /// Warnings of the scan.
+    /// What to know of the scan.
     pub warnings: Vec<String>,
 }
 

@@ -1,6 +1,7 @@
 //! Warnings and reasons as sentences.
 
 use super::number::short;
+use super::unit::{Labels, Unit};
 use crate::fit::{FitWarning, NoInterval, Rejection, Unseen};
 use crate::measure::{FacesDefect, Fill};
 use crate::scan::plural;
@@ -25,7 +26,23 @@ impl fmt::Display for Rejection {
 }
 
 impl fmt::Display for FitWarning {
+    /// Lengths and areas are in the scan's unit, which is not named.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.write(f, Labels(None))
+    }
+}
+
+/// A warning whose lengths and areas are told with their unit.
+struct Labelled<'a>(&'a FitWarning, Labels);
+
+impl fmt::Display for Labelled<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.write(f, self.1)
+    }
+}
+
+impl FitWarning {
+    fn write(&self, f: &mut fmt::Formatter<'_>, labels: Labels) -> fmt::Result {
         match *self {
             Self::FacesNotClosed(FacesDefect::Open { holes, share }) => write!(
                 f,
@@ -42,12 +59,13 @@ impl fmt::Display for FitWarning {
                 holes, edges, area, ..
             }) => write!(
                 f,
-                "{} in the surface that the fit is compared with: {edges} edges, and {} of its area.",
+                "{} in the surface that the fit is compared with: {edges} edges, and {}{} of its area.",
                 match holes {
                     1 => "A small hole was closed".into(),
                     _ => format!("{holes} small holes were closed"),
                 },
-                short(area)
+                short(area),
+                labels.area()
             ),
             Self::Dust { parts } => write!(
                 f,
@@ -66,6 +84,10 @@ impl fmt::Display for FitWarning {
                     "{others} other bodies were left out; the largest was kept."
                 )
             }
+            Self::Neck => write!(
+                f,
+                "The points have a neck, as of two grains that touch: if these are two, split them (grainform split)."
+            ),
             Self::Strays { strays: 1, points } => write!(
                 f,
                 "1 of {points} points stands apart from its neighbours by more than 10 % of the radius \
@@ -116,9 +138,10 @@ impl fmt::Display for FitWarning {
             ),
             Self::Unproved { found } => write!(
                 f,
-                "The radius could not be shown to be above zero everywhere; the least that was met is {}. A file of the \
+                "The radius could not be shown to be above zero everywhere; the least that was met is {}{}. A file of the \
                  model may be refused: ask for a lower degree, or for more segments.",
-                short(found)
+                short(found),
+                labels.length()
             ),
             Self::Asymmetric { share } => write!(
                 f,
@@ -134,10 +157,11 @@ impl fmt::Display for FitWarning {
             } => rejected(f, reason, segments, is_only),
             Self::LimitNotMet { rms, limit } => write!(
                 f,
-                "The segments differ from the estimate by {} (RMS), more than the limit of {}: allow more \
+                "The segments differ from the estimate by {}{unit} (RMS), more than the limit of {}{unit}: allow more \
                  of them (--max-segments) or a larger error (--tolerance), or ask for one expansion (--segments 1).",
                 short(rms),
-                short(limit)
+                short(limit),
+                unit = labels.length()
             ),
         }
     }
@@ -213,8 +237,14 @@ fn rejected(
     }
 }
 
-/// The sentences of a reader's and a fit's warnings.
-pub(crate) fn sentences(of_scan: &[String], of_fit: &[FitWarning]) -> Vec<String> {
-    let of_fit = of_fit.iter().map(ToString::to_string);
+/// The sentences of a reader's and a fit's warnings; lengths with their unit, if it is known.
+pub(crate) fn sentences(
+    of_scan: &[String],
+    of_fit: &[FitWarning],
+    unit: Option<Unit>,
+) -> Vec<String> {
+    let of_fit = of_fit
+        .iter()
+        .map(|warning| Labelled(warning, Labels(unit)).to_string());
     of_scan.iter().cloned().chain(of_fit).collect()
 }

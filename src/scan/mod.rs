@@ -4,6 +4,7 @@
 //! panics, and each error says what was wrong, where, and what to do.
 
 pub(crate) mod check;
+mod drawn;
 mod error;
 mod format;
 mod inspect;
@@ -23,9 +24,11 @@ use std::path::Path;
 use crate::mesh::Mesh;
 use nalgebra::Point3;
 
+pub(crate) use drawn::drawn;
 pub use error::{ParseError, Place, ReadError};
 use format::Format;
 pub use source::{MAX_BYTES, read_bytes, read_stream};
+pub(crate) use split::has_neck;
 pub use split::{Plane, Split, SplitGrain, split};
 pub use topology::Topology;
 pub(crate) use topology::each_edge;

@@ -13,6 +13,41 @@ fn ellipsoid() -> tempfile::TempDir {
 }
 
 #[test]
+fn two_placed_surfaces_overlap_where_their_poles_meet_and_both_laws_agree_there() {
+    let folder = ellipsoid();
+    let placed = |pose: &str, more: &[&str]| {
+        let words = ["contact", "m.json", "m.json", "--pose-b", pose];
+        json(&folder, &[&words, more].concat())
+    };
+    let apart = placed("0,0,2.1,1,0,0,0", &[]);
+    assert_eq!(apart["regions"].as_array().unwrap().len(), 0);
+    assert_eq!(apart["triangles_skipped"], apart["triangles"]);
+
+    let load = ["--unit", "mm", "--youngs-modulus-mpa", "91"];
+    let by = |law| placed("0,0,1.98,1,0,0,0", &[&load[..], &["--law", law]].concat());
+    let [hertz, volume] = ["hertz", "volume"].map(by);
+    let figure = |report: &serde_json::Value, name: &str| {
+        let regions = report["regions"].as_array().unwrap();
+        assert_eq!(regions.len(), 1);
+        regions[0][name].as_f64().unwrap()
+    };
+    let depth = figure(&hertz, "depth");
+    assert!((depth / 0.02 - 1.0).abs() < 0.05, "{depth}");
+    // Two caps of radius of curvature 4: R* = 2, V = pi R* u².
+    let shared = figure(&hertz, "volume");
+    let expected = std::f64::consts::PI * 2.0 * depth * depth;
+    assert!((shared / expected - 1.0).abs() < 0.02, "{shared}");
+    // E* = 50 MPa.
+    let force = 4.0 / 3.0 * 50e6 * (2e-3_f64).sqrt() * (1e-3 * depth).powf(1.5);
+    let told = figure(&hertz, "normal_force_n");
+    assert!((told / force - 1.0).abs() < 0.03, "{told} {force}");
+    // Of the volume, with R* of the balls of equal volume, 4^(1/3) / 2: F ~ R*^(-3/4) V^(1/4) dV/du.
+    let expected = force * (2.0 / (0.5 * 4_f64.cbrt())).powf(0.75);
+    let told = figure(&volume, "normal_force_n");
+    assert!((told / expected - 1.0).abs() < 0.03, "{told} {expected}");
+}
+
+#[test]
 fn an_ellipsoid_on_a_plane_is_pressed_as_hertz_has_it() {
     let folder = ellipsoid();
     let load = [

@@ -6,7 +6,7 @@ mod shared;
 pub(super) use many::{BatchArgs, CompareArgs, SplitArgs};
 pub(super) use shared::{FittingArgs, InputArgs, LimitArgs, MeshingArgs};
 
-use super::values::{CloudFormat, PoseArg, SchemeArg, Subject, SurfaceArg, share, vector};
+use super::values::{CloudFormat, LawArg, PoseArg, SchemeArg, Subject, SurfaceArg, share, vector};
 use crate::export::MeshFormat;
 use crate::report::{Measure, Unit};
 use crate::shapes::Sampling;
@@ -198,11 +198,16 @@ pub(super) struct ContactArgs {
     #[arg(long, value_name = "DEG", default_value_t = 0.0)]
     pub(super) angle_deg: f64,
 
-    /// Place the second body, a union of superquadrics as the first must be: what its scan is moved by and, as a
-    /// quaternion, turned by about the origin before; tells all places where they touch, and no force
+    /// Place the second body: what its scan is moved by and, as a quaternion, turned by about the origin before; tells
+    /// all places where they overlap, and with --unit and --youngs-modulus-mpa the forces there
     #[arg(long, value_name = "X,Y,Z,QW,QX,QY,QZ", requires = "other", allow_hyphen_values = true,
-          conflicts_with_all = ["unit", "indentation_um", "youngs_modulus_mpa", "edge_radius"])]
+          conflicts_with_all = ["indentation_um", "edge_radius"])]
     pub(super) pose_b: Option<PoseArg>,
+
+    /// The law of these forces: hertz, of the depth and the curvatures, or volume, of the volume that both bodies share,
+    /// which keeps energy [default: hertz]
+    #[arg(long, value_name = "LAW", requires = "pose_b")]
+    pub(super) law: Option<LawArg>,
 
     /// Unit of the scans' lengths: um, mm, cm or m
     #[arg(long, value_name = "UNIT", required_unless_present = "pose_b")]

@@ -5,11 +5,11 @@
 //! the band between them): none of its pieces surrounds its own middle. Bodies do, and what stands before or
 //! behind one of them is none of it.
 
-use super::samples::order;
 use super::strays::LEAST_STRAY;
 use crate::disjoint_sets::DisjointSets;
 use crate::fit::gaps::largest_gap;
 use crate::fit::neighbours::Neighbours;
+use crate::scan::drawn;
 use nalgebra::{Point3, Vector3};
 use std::cmp::Reverse;
 use std::f64::consts::PI;
@@ -56,7 +56,7 @@ pub(super) struct Pieces {
 impl Pieces {
     /// Looks for bodies in a cloud.
     pub(super) fn new(points: &[Point3<f64>]) -> Self {
-        let points = drawn(points);
+        let points = drawn(points, MOST_LINKED);
         let (large, small) = pieces(&points);
         let mut large: Vec<Piece> = large.into_iter().map(Piece::new).collect();
         large.sort_by_key(|piece| Reverse((piece.is_closed, piece.points.len())));
@@ -166,26 +166,6 @@ impl Piece {
         };
         others.iter().filter(stands_off).count() as f64 > STANDING_OFF * others.len() as f64
     }
-}
-
-/// The distinct points, or a sample of them that does not depend on their order; sorted.
-fn drawn(points: &[Point3<f64>]) -> Vec<Point3<f64>> {
-    let step = points.len().div_ceil(MOST_LINKED).max(1) as u64;
-    let is_drawn = |point: &&Point3<f64>| hash(point).is_multiple_of(step);
-    let mut drawn: Vec<Point3<f64>> = points.iter().filter(is_drawn).copied().collect();
-    drawn.sort_unstable_by(|a, b| order(&[a.x, a.y, a.z, 0.0], &[b.x, b.y, b.z, 0.0]));
-    drawn.dedup();
-    drawn
-}
-
-/// A number that coordinates decide, and that looks random.
-fn hash(point: &Point3<f64>) -> u64 {
-    let mix = |hash: u64, c: &f64| {
-        let mixed = (hash ^ (c + 0.0).to_bits()).wrapping_mul(0x9e37_79b9_7f4a_7c15);
-        mixed ^ (mixed >> 29)
-    };
-    let mixed = point.iter().fold(0, mix);
-    mixed.wrapping_mul(0xbf58_476d_1ce4_e5b9) >> 32
 }
 
 /// The pieces that are large enough for bodies, and the others.

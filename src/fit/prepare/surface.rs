@@ -11,7 +11,7 @@ use crate::fit::unseen::Unseen;
 use crate::fit::warning::FitWarning;
 use crate::measure::{FacesDefect, Fill, scanned_body, without_dust};
 use crate::mesh::Mesh;
-use crate::scan::Scan;
+use crate::scan::{Scan, has_neck};
 use crate::sphere::triangulate_directions;
 use nalgebra::{Point3, Vector3};
 use std::borrow::Cow;
@@ -225,9 +225,13 @@ fn from_directions(points: Cow<'_, [Point3<f64>]>) -> Result<ScannedSurface<'_>,
         strays,
         points: all,
     });
+    let neck = has_neck(&points).then_some(FitWarning::Neck);
     Ok(ScannedSurface {
         unseen: Unseen::hole(gap.half_angle, points.len()),
-        warnings: strays.into_iter().chain(gap.warning()).collect(),
+        warnings: [neck, strays, gap.warning()]
+            .into_iter()
+            .flatten()
+            .collect(),
         mesh,
         kind: ReferenceKind::Directions,
         faces: None,

@@ -227,7 +227,7 @@ impl FitReport {
                 candidates: search.work.candidates_skipped,
                 segments: search.work.segments_skipped,
             },
-            warnings: sentences(scan_warnings, &fitted.warnings),
+            warnings: sentences(scan_warnings, &fitted.warnings, unit),
         }
     }
 }

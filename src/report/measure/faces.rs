@@ -2,6 +2,7 @@
 
 use crate::measure::{Fill, ScannedBody};
 use crate::report::number::short;
+use crate::report::unit::Labels;
 use crate::scan::plural;
 use serde::Serialize;
 use std::fmt;
@@ -45,13 +46,14 @@ impl FacesRecord {
     }
 
     /// What a reader of the figures must know, in whole sentences.
-    pub(super) fn sentences(&self) -> Vec<String> {
+    pub(super) fn sentences(&self, labels: Labels) -> Vec<String> {
         let filled = self.filled.map(|filled| {
             format!(
-                "Small holes were closed: {} with {}; the area holds {} for their fill.",
+                "Small holes were closed: {} with {}; the area holds {}{} for their fill.",
                 filled.holes,
                 plural(filled.edges, "edge"),
-                short(filled.area)
+                short(filled.area),
+                labels.area()
             )
         });
         let several = (self.bodies > 1).then(|| {

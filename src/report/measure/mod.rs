@@ -13,7 +13,7 @@ pub use records::{
     SphereRecord, Spheres,
 };
 
-use super::unit::Unit;
+use super::unit::{Labels, Unit};
 use crate::fit::ReferenceKind;
 use crate::measure::{
     Convexity, Form, ScannedBody, SideRatios, Spectrum, Sphericity, Survey, SurveyError,
@@ -188,7 +188,7 @@ impl MeasureReport {
     /// The same with what the faces of the scan enclose.
     pub fn with_faces(mut self, scanned: &ScannedBody) -> Self {
         let faces = FacesRecord::new(scanned);
-        self.warnings.extend(faces.sentences());
+        self.warnings.extend(faces.sentences(Labels(self.unit)));
         self.faces = Some(faces);
         self
     }

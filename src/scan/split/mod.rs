@@ -10,6 +10,7 @@ mod plane;
 
 pub use plane::Plane;
 
+use super::drawn::{by_coordinates, drawn};
 use super::{ParseError, Scan};
 use crate::mesh::{Mesh, part, parts};
 use links::Links;
@@ -73,6 +74,17 @@ pub fn split(scan: &Scan) -> Result<Split, ParseError> {
         .grains
         .sort_by(|one, other| by_place(&one.scan, &other.scan));
     Ok(split)
+}
+
+/// Points by which a neck is looked for in a scan of one body.
+const NECK_POINTS: usize = 4000;
+
+/// Whether a cloud without faces, taken for one body, has a neck at which [`split`] would cut it.
+pub(crate) fn has_neck(points: &[Point3<f64>]) -> bool {
+    let drawn = drawn(points, NECK_POINTS);
+    let distance = Links::new(&drawn).map(|links| links.distance);
+    let neck = distance.and_then(|distance| Neck::find(&drawn, distance));
+    neck.is_some_and(|neck| neck.is_cut())
 }
 
 fn split_faces(scan: &Scan) -> Split {
@@ -246,11 +258,6 @@ fn sorted(points: &[Point3<f64>]) -> Vec<u32> {
     let place = |i: &u32| points[*i as usize];
     order.par_sort_unstable_by(|a, b| by_coordinates(&place(a), &place(b)).then(a.cmp(b)));
     order
-}
-
-fn by_coordinates(one: &Point3<f64>, other: &Point3<f64>) -> Ordering {
-    let compare = |axis: usize| (one[axis] + 0.0).total_cmp(&(other[axis] + 0.0));
-    compare(0).then_with(|| compare(1)).then_with(|| compare(2))
 }
 
 fn by_place(one: &Scan, other: &Scan) -> Ordering {

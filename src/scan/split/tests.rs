@@ -125,3 +125,23 @@ fn parts_of_a_mesh_are_grains_in_the_order_of_their_places_and_points_met_often_
     let points: usize = found.grains.iter().map(|grain| grain.indices.len()).sum();
     assert_eq!(points, loose.len());
 }
+
+#[test]
+fn a_cloud_of_two_grains_that_touch_has_a_neck_and_one_grain_has_none() {
+    let grain = |body: Body| {
+        let options = SynthOptions {
+            points: 3000,
+            ..SynthOptions::clean(body)
+        };
+        synthesize(&options).unwrap().points
+    };
+    for body in [Body::Bean, Body::Chickpea, Body::Maize] {
+        assert!(!has_neck(&grain(body)), "{body:?}");
+    }
+    // A bean is 14.05 long and 7.95 wide: the second lies behind the first, or beside it.
+    for aside in [Vector3::new(14.0, 0.0, 0.0), Vector3::new(0.0, 8.0, 0.0)] {
+        let mut points = grain(Body::Bean);
+        points.extend(grain(Body::Bean).iter().map(|point| point + aside));
+        assert!(has_neck(&points), "{aside}");
+    }
+}

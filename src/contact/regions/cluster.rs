@@ -1,0 +1,352 @@
+//! Parts of two surfaces that are near each other, cut finer until what they share is known.
+
+use super::clip::{Crossing, Side, is_inside};
+use super::patch::Patch;
+use super::sums::Sums;
+use super::tree::{Bounds, BoundsTree};
+use super::{RegionError, RegionWork};
+use crate::disjoint_sets::DisjointSets;
+use crate::model::Surface;
+use nalgebra::{Isometry3, Point3, UnitQuaternion, Vector3};
+use std::collections::BTreeMap;
+
+/// Triangles of each surface round what is shared, from which on they are small enough.
+const ENOUGH: usize = 1500;
+
+/// Triangles of a part, at most.
+const MOST: usize = 100_000;
+
+/// Surfaces that do not cross although they may be off their triangles by so much of their size only are apart.
+const APART: f64 = 1e-8;
+
+/// Parts of both surfaces.
+pub(super) struct Cluster {
+    patches: [Patch; 2],
+    /// What they were found to share before the last cut, and before the one before that.
+    coarse: [Vec<Sums>; 2],
+    size: f64,
+    is_whole: bool,
+}
+
+/// What is shared in one place.
+pub(super) struct Found {
+    pub(super) sums: Sums,
+    pub(super) volume_error: f64,
+    /// Its extent along its normal.
+    pub(super) depth: f64,
+    /// Directions of a point of each surface deep in the other.
+    pub(super) starts: [Vector3<f64>; 2],
+}
+
+impl Cluster {
+    /// Of two whole surfaces.
+    pub(super) fn whole(wholes: [&Patch; 2], poses: &[Isometry3<f64>; 2]) -> Self {
+        let mut patches = wholes.map(Patch::clone);
+        let placed = [0, 1].map(|side| patches[side].placed(&poses[side]));
+        let size = placed
+            .iter()
+            .flatten()
+            .fold(0.0_f64, |size, p| size.max(p.coords.norm()));
+        for side in 0..2 {
+            let other = 1 - side;
+            let round = Bounds::new(placed[other].iter().copied(), 0.0);
+            let farthest = outermost(&placed[side], &placed[other]);
+            let point = placed[side][farthest];
+            patches[side].known[farthest] = Some(
+                round.holds(&point) && is_inside(&point, &placed[other], &wholes[other].triangles),
+            );
+        }
+        Self {
+            patches,
+            coarse: Default::default(),
+            size,
+            is_whole: true,
+        }
+    }
+
+    /// What is shared, as far as the triangles are small enough for that; and, cut finer, what is not.
+    pub(super) fn cut(
+        &self,
+        surfaces: [&dyn Surface; 2],
+        poses: &[Isometry3<f64>; 2],
+        work: &mut RegionWork,
+    ) -> Result<(Vec<Self>, Vec<Found>), RegionError> {
+        // With the surface along two axes, boxes are no thicker than it is bent.
+        let turn =
+            UnitQuaternion::rotation_between(&(poses[0] * self.patches[0].area()), &Vector3::z())
+                .unwrap_or_default();
+        let placed = [0, 1].map(|side| self.patches[side].placed(&(turn * poses[side])));
+        let trees = [0, 1].map(|side| BoundsTree::new(self.patches[side].bounds(&placed[side])));
+        let (near, compared) = trees[0].pairs(&trees[1]);
+        work.compared += compared;
+        let sides = [0, 1].map(|side| Side {
+            vertices: &placed[side],
+            triangles: &self.patches[side].triangles,
+            known: &self.patches[side].known,
+        });
+        let crossing = Crossing::new([&sides[0], &sides[1]], &near);
+        if self.is_whole && near.is_empty() && crossing.inside.iter().flatten().any(|is| *is) {
+            return Err(RegionError::Inside);
+        }
+        let kept = Kept::new(self, &near, &crossing);
+        if self.is_whole {
+            work.skipped = work.triangles - kept.count();
+        }
+        let (mut finer, mut found) = (Vec::new(), Vec::new());
+        for part in kept.parts(self, &near) {
+            let regions = self.regions(&part, &crossing);
+            let sums: Vec<Sums> = regions
+                .iter()
+                .map(|region| region.sums.turned(&turn.inverse()))
+                .collect();
+            let triangles = part.iter().map(Vec::len).max().unwrap_or(0);
+            let is_known = self.coarse.iter().all(|coarse| coarse.len() == sums.len());
+            let is_fine = regions.iter().all(Region::is_fine);
+            let is_enough = !regions.is_empty() && is_known && is_fine;
+            if is_enough || triangles > MOST {
+                if !crossing.is_sound {
+                    return Err(RegionError::Crossing);
+                }
+                for (region, sums) in regions.iter().zip(&sums) {
+                    let (sums, volume_error) = self.extrapolated(sums);
+                    let (depth, starts) = self.deepest(region, &crossing, &placed);
+                    found.push(Found {
+                        sums,
+                        volume_error,
+                        depth,
+                        starts,
+                    });
+                }
+                continue;
+            }
+            let sag = self
+                .patches
+                .iter()
+                .map(Patch::largest_sag)
+                .fold(0.0, f64::max);
+            if regions.is_empty() && sag < APART * self.size {
+                continue;
+            }
+            let patches = [0, 1].map(|side| {
+                let patch = kept.known(side, &self.patches[side], &crossing);
+                let finer = patch.part(&part[side]).finer(surfaces[side]);
+                work.evaluated += finer.vertices.len();
+                finer
+            });
+            finer.push(Self {
+                patches,
+                coarse: [sums, self.coarse[0].clone()],
+                size: self.size,
+                is_whole: false,
+            });
+        }
+        Ok((finer, found))
+    }
+
+    /// What is shared by some triangles of both surfaces, by the places where that hangs together.
+    fn regions(&self, part: &[Vec<u32>; 2], crossing: &Crossing) -> Vec<Region> {
+        let offset = self.patches[0].triangles.len() as u32;
+        let number = |side: usize, triangle: u32| triangle + offset * side as u32;
+        let mut sets = DisjointSets::new(self.patches.iter().map(|p| p.triangles.len()).sum());
+        for &[one, two] in &crossing.crossed {
+            sets.join(number(0, one), number(1, two));
+        }
+        for (side, triangles) in part.iter().enumerate() {
+            let mut first = BTreeMap::new();
+            for &triangle in triangles {
+                let own = number(side, triangle);
+                for corner in self.patches[side].triangles[triangle as usize] {
+                    if crossing.inside[side][corner as usize] {
+                        sets.join(*first.entry(corner).or_insert(own), own);
+                    }
+                }
+            }
+        }
+        let mut regions: BTreeMap<u32, Region> = BTreeMap::new();
+        for (side, triangles) in part.iter().enumerate() {
+            for &triangle in triangles {
+                let rim = crossing.rim(side, triangle);
+                if rim.is_empty() {
+                    continue;
+                }
+                let region = regions.entry(sets.of(number(side, triangle))).or_default();
+                region.triangles[side].push(triangle);
+                region.sums += Sums::of(rim, rim[0][0], side == 0);
+            }
+        }
+        regions.into_values().filter(Region::is_solid).collect()
+    }
+
+    /// How far a region goes along its normal, and directions of a point of each surface deep in the other.
+    fn deepest(
+        &self,
+        region: &Region,
+        crossing: &Crossing,
+        placed: &[Vec<Point3<f64>>; 2],
+    ) -> (f64, [Vector3<f64>; 2]) {
+        let normal = region.sums.area.normalize();
+        let heights = |side: usize| {
+            let rims = region.triangles[side].iter();
+            rims.flat_map(move |&triangle| crossing.rim(side, triangle))
+                .map(move |[p, _]| p.coords.dot(&normal))
+        };
+        let high = heights(0).fold(f64::NEG_INFINITY, f64::max);
+        let low = heights(1).fold(f64::INFINITY, f64::min);
+        let starts = [0, 1].map(|side| {
+            let towards = [1.0, -1.0][side];
+            let corners = region.triangles[side]
+                .iter()
+                .flat_map(|&triangle| self.patches[side].triangles[triangle as usize]);
+            let depth = |corner: &u32| {
+                let at = *corner as usize;
+                let is_inside = crossing.inside[side][at];
+                (is_inside, towards * placed[side][at].coords.dot(&normal))
+            };
+            let deepest = corners.max_by(|a, b| {
+                let ((a_in, a_deep), (b_in, b_deep)) = (depth(a), depth(b));
+                a_in.cmp(&b_in)
+                    .then(a_deep.total_cmp(&b_deep))
+                    .then(b.cmp(a))
+            });
+            deepest.map_or(normal, |corner| {
+                self.patches[side].directions[corner as usize]
+            })
+        });
+        (high - low, starts)
+    }
+
+    /// What sums say of surfaces, by those of triangles twice and four times as large, and the error of the volume.
+    fn extrapolated(&self, fine: &Sums) -> (Sums, f64) {
+        let [coarse, coarser] = &self.coarse;
+        let Some(coarse) = fine.nearest(coarse) else {
+            return (*fine, fine.volume);
+        };
+        let best = fine.extrapolated(coarse);
+        let error = match fine.nearest(coarser) {
+            Some(coarser) => best.volume - coarse.extrapolated(coarser).volume,
+            None => best.volume - fine.volume,
+        };
+        (best, error.abs())
+    }
+}
+
+/// A place where something is shared.
+#[derive(Default)]
+struct Region {
+    triangles: [Vec<u32>; 2],
+    sums: Sums,
+}
+
+impl Region {
+    /// Whether it has a volume and a normal.
+    fn is_solid(&self) -> bool {
+        self.sums.volume > 0.0 && self.sums.area.norm() > 0.0
+    }
+
+    fn is_fine(&self) -> bool {
+        self.triangles
+            .iter()
+            .all(|triangles| triangles.len() >= ENOUGH)
+    }
+}
+
+/// What is kept for the next cut: what is near the other surface, or in it.
+struct Kept {
+    is_near: [Vec<bool>; 2],
+    is_kept: [Vec<bool>; 2],
+}
+
+impl Kept {
+    fn new(cluster: &Cluster, near: &[[u32; 2]], crossing: &Crossing) -> Self {
+        let mut is_near = [0, 1].map(|side| vec![false; cluster.patches[side].triangles.len()]);
+        for pair in near {
+            for side in 0..2 {
+                is_near[side][pair[side] as usize] = true;
+            }
+        }
+        let is_kept = [0, 1].map(|side| {
+            let inside = |corner: &u32| crossing.inside[side][*corner as usize];
+            let all = cluster.patches[side].triangles.iter().zip(&is_near[side]);
+            all.map(|(corners, is_near)| *is_near || corners.iter().any(inside))
+                .collect()
+        });
+        Self { is_near, is_kept }
+    }
+
+    fn count(&self) -> usize {
+        self.is_kept
+            .iter()
+            .flatten()
+            .filter(|is_kept| **is_kept)
+            .count()
+    }
+
+    /// The triangles of both surfaces, by the parts that hang together.
+    fn parts(&self, cluster: &Cluster, near: &[[u32; 2]]) -> Vec<[Vec<u32>; 2]> {
+        let offset = self.is_kept[0].len() as u32;
+        let mut sets = DisjointSets::new(self.is_kept.iter().map(Vec::len).sum());
+        for &[one, two] in near {
+            sets.join(one, offset + two);
+        }
+        let kept = |side: usize| {
+            let all = (0..)
+                .zip(&self.is_kept[side])
+                .filter(|(_, is_kept)| **is_kept);
+            all.map(|(triangle, _)| triangle)
+        };
+        for side in 0..2 {
+            let mut first = vec![None; cluster.patches[side].vertices.len()];
+            for triangle in kept(side) {
+                let own = triangle + offset * side as u32;
+                for corner in cluster.patches[side].triangles[triangle as usize] {
+                    sets.join(*first[corner as usize].get_or_insert(own), own);
+                }
+            }
+        }
+        let mut parts: BTreeMap<u32, [Vec<u32>; 2]> = BTreeMap::new();
+        for side in 0..2 {
+            for triangle in kept(side) {
+                let set = sets.of(triangle + offset * side as u32);
+                parts.entry(set).or_default()[side].push(triangle);
+            }
+        }
+        parts
+            .into_values()
+            .filter(|part| part.iter().all(|side| !side.is_empty()))
+            .collect()
+    }
+
+    /// The patch, with what is known of its vertices for sure: those of what is left out lie outside, and those far from
+    /// the other surface where they are.
+    fn known(&self, side: usize, patch: &Patch, crossing: &Crossing) -> Patch {
+        let mut known: Vec<Option<bool>> = crossing.inside[side]
+            .iter()
+            .map(|is_inside| Some(*is_inside))
+            .collect();
+        for (triangle, corners) in patch.triangles.iter().enumerate() {
+            if self.is_near[side][triangle] {
+                corners
+                    .iter()
+                    .for_each(|&corner| known[corner as usize] = None);
+            }
+        }
+        for (triangle, corners) in patch.triangles.iter().enumerate() {
+            if !self.is_kept[side][triangle] {
+                corners
+                    .iter()
+                    .for_each(|&corner| known[corner as usize] = Some(false));
+            }
+        }
+        patch.knowing(known)
+    }
+}
+
+/// The point farthest from the middle of others.
+fn outermost(points: &[Point3<f64>], others: &[Point3<f64>]) -> usize {
+    let sum: Vector3<f64> = others.iter().map(|point| point.coords).sum();
+    let middle = Point3::from(sum / others.len().max(1) as f64);
+    let apart = |i: &usize| (points[*i] - middle).norm_squared();
+    (0..points.len())
+        .max_by(|a, b| apart(a).total_cmp(&apart(b)).then(b.cmp(a)))
+        .unwrap_or(0)
+}

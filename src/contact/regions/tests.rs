@@ -1,0 +1,149 @@
+use super::*;
+use crate::contact::VolumeLaw;
+use crate::model::{Derivatives, Radial, StarSurface};
+use crate::shapes::{Ellipsoid, Solid};
+use approx::assert_relative_eq;
+use nalgebra::{Matrix3, UnitQuaternion};
+use std::f64::consts::PI;
+
+fn ball(radius: f64) -> Ellipsoid {
+    Ellipsoid {
+        semi_axes: Vector3::repeat(radius),
+    }
+}
+
+/// Volume shared by balls of radii `r` and `s` whose centres are `d` apart.
+fn lens(r: f64, s: f64, d: f64) -> f64 {
+    let u = r + s - d;
+    PI * u * u * (d * d + 2.0 * d * (r + s) - 3.0 * (r - s).powi(2)) / (12.0 * d)
+}
+
+#[test]
+fn balls_share_a_lens() {
+    let (one, two) = (ball(1.0), ball(0.5));
+    let (one, two) = (Radial(&one), Radial(&two));
+    let (one, two) = (ContactBody::new(&one), ContactBody::new(&two));
+    let towards = Vector3::new(0.3, -0.5, 0.8).normalize();
+    // The last has the centre of the small ball in the large one.
+    for depth in [1e-5, 1e-2, 0.7] {
+        let distance = 1.5 - depth;
+        let pose = Isometry3::new(towards * distance, Vector3::new(0.4, 0.2, 0.1));
+        let found = contact_regions(&one, &two, &pose).unwrap();
+        let [region] = &found.regions[..] else {
+            panic!("{found:?}")
+        };
+        let volume = lens(1.0, 0.5, distance);
+        assert!(
+            (region.volume - volume).abs() <= region.volume_error,
+            "{depth}"
+        );
+        assert!(region.volume_error < 2e-3 * volume, "{depth}");
+        assert_relative_eq!(region.volume, volume, max_relative = 3e-4);
+        assert_relative_eq!(region.depth, depth, max_relative = 1e-9);
+        assert_relative_eq!(region.normal, towards, epsilon = 1e-4);
+        // Its rim's radius squared, times pi: the vector area of a cap is that of its rim.
+        let to_rim = (distance * distance + 1.0 - 0.25) / (2.0 * distance);
+        assert_relative_eq!(
+            region.area.norm(),
+            PI * (1.0 - to_rim * to_rim),
+            max_relative = 1e-3
+        );
+        assert!(found.work.skipped > found.work.triangles / 2);
+    }
+    for distance in [1.5 + 1e-6, 4.0] {
+        let pose = Isometry3::new(towards * distance, Vector3::zeros());
+        let found = contact_regions(&one, &two, &pose).unwrap();
+        assert_eq!(found.regions, []);
+    }
+    let within = Isometry3::new(towards * 0.2, Vector3::zeros());
+    assert_eq!(
+        contact_regions(&one, &two, &within),
+        Err(RegionError::Inside)
+    );
+}
+
+#[test]
+fn a_dented_body_is_touched_on_both_sides_of_its_dent() {
+    /// r = 1 - 0.4 z³: its rim is 0.641 high, and its middle 0.6.
+    struct Dented;
+    impl StarSurface for Dented {
+        fn radius(&self, n: &Vector3<f64>) -> f64 {
+            1.0 - 0.4 * n.z.powi(3)
+        }
+
+        fn radius_and_gradient(&self, n: &Vector3<f64>) -> (f64, Vector3<f64>) {
+            let across = Vector3::z() - n * n.z;
+            (self.radius(n), across * (-1.2 * n.z * n.z))
+        }
+
+        fn derivatives(&self, n: &Vector3<f64>) -> Derivatives {
+            let (radius, gradient) = self.radius_and_gradient(n);
+            let across = Vector3::z() - n * n.z;
+            let tangential = Matrix3::identity() - n * n.transpose();
+            Derivatives {
+                radius,
+                gradient,
+                hessian: tangential * (1.2 * n.z.powi(3))
+                    - across * across.transpose() * (2.4 * n.z),
+            }
+        }
+    }
+    let (dented, rod) = (
+        Dented,
+        Ellipsoid {
+            semi_axes: Vector3::new(3.0, 0.3, 0.3),
+        },
+    );
+    let (dented, rod) = (Radial(&dented), Radial(&rod));
+    let pose = Isometry3::translation(0.0, 0.0, 0.92);
+    let found =
+        contact_regions(&ContactBody::new(&dented), &ContactBody::new(&rod), &pose).unwrap();
+    let [one, two] = &found.regions[..] else {
+        panic!("{:?}", found.regions)
+    };
+    assert_relative_eq!(one.volume, two.volume, max_relative = 1e-3);
+    assert_relative_eq!(one.point.x, -two.point.x, epsilon = 1e-3);
+    assert!(one.normal.z > 0.5 && two.normal.z > 0.5);
+}
+
+#[test]
+fn the_force_of_the_volume_does_no_work_on_a_closed_path() {
+    let (one, two) = (
+        Ellipsoid {
+            semi_axes: Vector3::new(1.0, 0.8, 0.6),
+        },
+        Ellipsoid {
+            semi_axes: Vector3::new(0.5, 0.9, 0.7),
+        },
+    );
+    let volumes = [&one, &two].map(|body| body.integrals().properties.volume);
+    let law = VolumeLaw::new(volumes, 1e-3, 1e7);
+    let (one, two) = (Radial(&one), Radial(&two));
+    let (one, two) = (ContactBody::new(&one), ContactBody::new(&two));
+    let turn = UnitQuaternion::from_euler_angles(0.3, 1.0, -0.5);
+    let (mut work, mut energies) = (0.0, Vec::new());
+    let steps = 24;
+    for step in 0..steps {
+        let angle = 2.0 * PI * f64::from(step) / f64::from(steps);
+        let (sin, cos) = angle.sin_cos();
+        let place = Vector3::new(0.2 * cos, 0.15 * sin, 1.15 + 0.1 * cos);
+        let along =
+            Vector3::new(-0.2 * sin, 0.15 * cos, -0.1 * sin) * (2e-3 * PI / f64::from(steps));
+        let pose = Isometry3::from_parts(Translation3::from(place), turn);
+        let found = contact_regions(&one, &two, &pose).unwrap();
+        let [region] = &found.regions[..] else {
+            panic!("{found:?}")
+        };
+        work += law.force_n(region).dot(&along);
+        energies.push(law.energy_j(region));
+    }
+    // Sums over equal steps of a closed path are exact to all orders.
+    let most = energies.iter().copied().fold(0.0, f64::max);
+    let least = energies.iter().copied().fold(f64::INFINITY, f64::min);
+    assert!(most > 2.0 * least);
+    assert!(
+        work.abs() < 2e-5 * (most - least),
+        "{work} of {}",
+        most - least
+    );
+}

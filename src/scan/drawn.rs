@@ -1,0 +1,30 @@
+//! A few of many points, the same whatever their order.
+
+use nalgebra::Point3;
+use std::cmp::Ordering;
+
+/// The distinct points or, of more than some number, about so many of them, drawn by a hash of their coordinates; sorted.
+pub(crate) fn drawn(points: &[Point3<f64>], most: usize) -> Vec<Point3<f64>> {
+    let step = points.len().div_ceil(most).max(1) as u64;
+    let is_drawn = |point: &&Point3<f64>| hash(point).is_multiple_of(step);
+    let mut drawn: Vec<Point3<f64>> = points.iter().filter(is_drawn).copied().collect();
+    drawn.sort_unstable_by(by_coordinates);
+    drawn.dedup();
+    drawn
+}
+
+/// By x, then y, then z.
+pub(super) fn by_coordinates(one: &Point3<f64>, other: &Point3<f64>) -> Ordering {
+    let compare = |axis: usize| (one[axis] + 0.0).total_cmp(&(other[axis] + 0.0));
+    compare(0).then_with(|| compare(1)).then_with(|| compare(2))
+}
+
+/// A number that coordinates decide, and that looks random.
+fn hash(point: &Point3<f64>) -> u64 {
+    let mix = |hash: u64, c: &f64| {
+        let mixed = (hash ^ (c + 0.0).to_bits()).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+        mixed ^ (mixed >> 29)
+    };
+    let mixed = point.iter().fold(0, mix);
+    mixed.wrapping_mul(0xbf58_476d_1ce4_e5b9) >> 32
+}
