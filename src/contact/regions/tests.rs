@@ -126,7 +126,7 @@ fn the_force_of_the_volume_does_no_work_on_a_closed_path() {
     for step in 0..steps {
         let angle = 2.0 * PI * f64::from(step) / f64::from(steps);
         let (sin, cos) = angle.sin_cos();
-        let place = Vector3::new(0.2 * cos, 0.15 * sin, 1.15 + 0.1 * cos);
+        let place = Vector3::new(0.2 * cos, 0.15 * sin, 0.95 + 0.1 * cos);
         let along =
             Vector3::new(-0.2 * sin, 0.15 * cos, -0.1 * sin) * (2e-3 * PI / f64::from(steps));
         let pose = Isometry3::from_parts(Translation3::from(place), turn);
