@@ -5,6 +5,7 @@
 //! ```text
 //! scan -> fit -> model -> measure -> export / report
 //!                  \-> contact
+//!                  \-> clump
 //! ```
 //!
 //! A scan of many grains is first [split](scan::split), and many scans are gone through in a `batch`.
@@ -24,6 +25,7 @@ pub mod bench;
 #[cfg(feature = "cli")]
 #[doc(hidden)]
 pub mod cli;
+pub mod clump;
 pub mod contact;
 mod disjoint_sets;
 mod elliptic;

@@ -4,6 +4,7 @@ mod args;
 mod batch;
 mod bench;
 mod candidates;
+mod clump;
 mod compare;
 mod console;
 mod contact;
@@ -20,6 +21,7 @@ mod search;
 mod shell;
 #[cfg(unix)]
 mod signals;
+mod solid;
 mod split;
 mod superquadric;
 mod synth;
@@ -54,6 +56,7 @@ pub fn run() -> ExitCode {
         Command::Mesh(args) => mesh::run(args, console),
         Command::Measure(args) => measure::run(args, console),
         Command::Contact(args) => contact::run(args, console),
+        Command::Clump(args) => clump::run(args, console),
         Command::Synth(args) => synth::run(args, console),
         Command::Split(args) => split::run(args, console),
         Command::Batch(args) => batch::run(args, console),
