@@ -5,7 +5,7 @@
 //! ```text
 //! scan -> fit -> model -> measure -> export / report
 //!                  \-> contact
-//!                  \-> clump
+//!                  \-> clump -> engines
 //! ```
 //!
 //! A scan of many grains is first [split](scan::split), and many scans are gone through in a `batch`.
@@ -29,6 +29,7 @@ pub mod clump;
 pub mod contact;
 mod disjoint_sets;
 mod elliptic;
+pub mod engines;
 pub mod export;
 pub mod fit;
 pub mod measure;

@@ -40,7 +40,10 @@ pub(super) fn run(args: ClumpArgs, console: Console) -> Result<()> {
 
 /// By the extension; standard output as JSON.
 fn write(path: &Path, report: &ClumpReport) -> Result<()> {
-    if path.extension().is_some_and(|e| e.eq_ignore_ascii_case("csv")) {
+    if path
+        .extension()
+        .is_some_and(|e| e.eq_ignore_ascii_case("csv"))
+    {
         return outputs::write(path, |file| Ok(report.write_csv(file)?));
     }
     let text = serde_json::to_string_pretty(report)?;

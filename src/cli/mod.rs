@@ -9,6 +9,7 @@ mod compare;
 mod console;
 mod contact;
 mod count;
+mod export_dem;
 mod fit;
 mod fitting;
 mod inputs;
@@ -57,6 +58,7 @@ pub fn run() -> ExitCode {
         Command::Measure(args) => measure::run(args, console),
         Command::Contact(args) => contact::run(args, console),
         Command::Clump(args) => clump::run(args, console),
+        Command::ExportDem(args) => export_dem::run(args, console),
         Command::Synth(args) => synth::run(args, console),
         Command::Split(args) => split::run(args, console),
         Command::Batch(args) => batch::run(args, console),

@@ -44,7 +44,9 @@ pub(super) fn read(path: &Path, input: &InputArgs) -> Result<Solid> {
         if scanned.bodies > 1 {
             bail!("{name} holds {} bodies; split it first", scanned.bodies);
         }
-        let properties = Survey::of_scanned(&scanned).properties().with_context(unusable)?;
+        let properties = Survey::of_scanned(&scanned)
+            .properties()
+            .with_context(unusable)?;
         return Ok(Solid {
             mesh: scanned.mesh,
             properties,

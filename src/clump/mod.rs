@@ -186,7 +186,11 @@ struct Search {
 impl Search {
     fn new(mesh: &Mesh) -> Result<Self, ClumpError> {
         let places = even_places(mesh, PLACES);
-        let feet: Vec<EvenPlace> = places.iter().step_by(PLACES_PER_CANDIDATE).copied().collect();
+        let feet: Vec<EvenPlace> = places
+            .iter()
+            .step_by(PLACES_PER_CANDIDATE)
+            .copied()
+            .collect();
         let mut candidates = medial_balls(mesh, &feet);
         candidates.retain(|ball| {
             let numbers = [ball.radius, ball.centre.x, ball.centre.y, ball.centre.z];

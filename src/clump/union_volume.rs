@@ -83,8 +83,12 @@ mod tests {
             * (apart * apart + 2.0 * apart * (large + small) - 3.0 * (large - small).powi(2));
         let expected = 4.0 / 3.0 * PI * (large.powi(3) + small.powi(3)) - lens;
         let direction = Point3::new(0.48, 0.6, 0.64) * apart;
-        let balls = [(Point3::origin(), large), (direction, small), (direction, 0.3)]
-            .map(|(centre, radius)| Ball { centre, radius });
+        let balls = [
+            (Point3::origin(), large),
+            (direction, small),
+            (direction, 0.3),
+        ]
+        .map(|(centre, radius)| Ball { centre, radius });
         assert_relative_eq!(union_volume(&balls, 300), expected, max_relative = 1e-4);
         assert_relative_eq!(union_volume(&balls, 1200), expected, max_relative = 1.5e-5);
     }

@@ -1,7 +1,7 @@
 //! The arguments of what other engines take: clumps and their inputs.
 
 use super::{InputArgs, OUTPUT};
-use crate::cli::values::share;
+use crate::cli::values::{EngineArg, share};
 use crate::report::Unit;
 use clap::Args;
 use std::path::PathBuf;
@@ -42,6 +42,63 @@ pub(in crate::cli) struct ClumpArgs {
     /// Print one JSON object
     #[arg(long, help_heading = OUTPUT)]
     pub(in crate::cli) json: bool,
+
+    #[command(flatten)]
+    pub(in crate::cli) input: InputArgs,
+}
+
+/// Write a folder that an engine of the discrete element method runs as it is
+///
+/// Each grain becomes a clump of spheres, with mass, centre and inertia of the grain; for anm, harmonics about its centre
+/// of mass. In the engine they fall from a column into a box and come to rest. Everything in the folder is in SI units.
+#[derive(Args)]
+pub(in crate::cli) struct ExportDemArgs {
+    /// Models written by `fit`, or scans; several are mixed in equal numbers
+    #[arg(value_name = "MODEL.json|SCAN", required = true)]
+    pub(in crate::cli) paths: Vec<PathBuf>,
+
+    /// The engine: lammps, yade, liggghts, mercurydpm, or anm (shapes as NIST publishes them, for SPHERHARM)
+    #[arg(long, value_name = "NAME")]
+    pub(in crate::cli) engine: EngineArg,
+
+    /// Write the files into this folder
+    #[arg(short, long, value_name = "DIR", help_heading = OUTPUT)]
+    pub(in crate::cli) output: PathBuf,
+
+    /// Unit of the scans' lengths: um, mm, cm or m
+    #[arg(long, value_name = "UNIT")]
+    pub(in crate::cli) unit: Unit,
+
+    #[command(flatten)]
+    pub(in crate::cli) spheres: SpheresArgs,
+
+    /// Number of grains
+    #[arg(long, value_name = "K", default_value_t = 200)]
+    pub(in crate::cli) grains: usize,
+
+    /// Seed of the orientations at the start
+    #[arg(long, value_name = "S", default_value_t = 1)]
+    pub(in crate::cli) seed: u64,
+
+    /// Density of the grains, in kg/m³
+    #[arg(long, value_name = "RHO", default_value_t = 2500.0)]
+    pub(in crate::cli) density: f64,
+
+    /// Young's modulus of grains and walls: softer than the grain's own, for the time step is as the inverse of its root
+    #[arg(long, value_name = "E", default_value_t = 10.0)]
+    pub(in crate::cli) youngs_modulus_mpa: f64,
+
+    /// Poisson's ratio
+    #[arg(long, value_name = "NU", default_value_t = 0.3)]
+    pub(in crate::cli) poissons_ratio: f64,
+
+    /// Coefficient of sliding friction
+    #[arg(long, value_name = "MU", default_value_t = 0.3)]
+    pub(in crate::cli) friction: f64,
+
+    /// Coefficient of restitution
+    #[arg(long, value_name = "E", default_value_t = 0.5)]
+    pub(in crate::cli) restitution: f64,
 
     #[command(flatten)]
     pub(in crate::cli) input: InputArgs,

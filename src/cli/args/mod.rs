@@ -4,7 +4,7 @@ mod engines;
 mod many;
 mod shared;
 
-pub(super) use engines::{ClumpArgs, SpheresArgs};
+pub(super) use engines::{ClumpArgs, ExportDemArgs, SpheresArgs};
 pub(super) use many::{BatchArgs, CompareArgs, SplitArgs};
 pub(super) use shared::{FittingArgs, InputArgs, LimitArgs, MeshingArgs};
 
@@ -51,6 +51,7 @@ pub(super) enum Command {
     Measure(MeasureArgs),
     Contact(ContactArgs),
     Clump(ClumpArgs),
+    ExportDem(ExportDemArgs),
     Synth(SynthArgs),
     Split(SplitArgs),
     Batch(BatchArgs),
