@@ -28,18 +28,20 @@ pub(super) struct Solid {
 /// Reads a model or a scan; the content decides.
 pub(super) fn read(path: &Path, input: &InputArgs) -> Result<Solid> {
     let name = inputs::name(path);
+    let unusable = || format!("{name} encloses no grain");
     let bytes = inputs::read(path, &input.limit)?;
     if bytes.trim_ascii_start().starts_with(b"{") {
         let grain = inputs::parse_model(path, &bytes)?;
         return Ok(Solid {
-            properties: Survey::of_grain(&grain, Scheme::Exact).properties()?,
+            properties: Survey::of_grain(&grain, Scheme::Exact)
+                .properties()
+                .with_context(unusable)?,
             mesh: grain.mesh(RESOLUTION),
             grain: Some(grain),
             warnings: Vec::new(),
         });
     }
     let scan = inputs::parse_scan(path, &bytes, input)?;
-    let unusable = || format!("{name} encloses no grain");
     if let Some(scanned) = scanned_body(&scan) {
         if scanned.bodies > 1 {
             bail!("{name} holds {} bodies; split it first", scanned.bodies);

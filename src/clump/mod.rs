@@ -9,12 +9,15 @@
 mod cover;
 mod gap;
 mod refine;
+#[cfg(test)]
+mod tests;
 mod union_volume;
 
 use crate::Mesh;
 use crate::measure::{Ball, EvenPlace, MassProperties, even_places, medial_balls};
 use cover::Cover;
 use gap::root_mean_square;
+use nalgebra::{Point3, Vector3};
 use refine::refine;
 use std::f64::consts::PI;
 pub use union_volume::union_volume;
@@ -147,15 +150,11 @@ pub fn clump(
         _ => {}
     }
     let radius = equivalent_radius(grain.volume);
-    let at_unit_size = Mesh {
-        vertices: mesh
-            .vertices
-            .iter()
-            .map(|vertex| ((vertex - grain.centroid) / radius).into())
-            .collect(),
-        triangles: mesh.triangles.clone(),
-    };
-    let search = Search::new(&at_unit_size)?;
+    // Written so that NaN fails.
+    if !(radius > 0.0 && radius.is_finite()) {
+        return Err(ClumpError::NoInside);
+    }
+    let search = Search::new(&at_unit_size(mesh, &grain.centroid, radius))?;
     let (spheres, rms) = match target {
         ClumpTarget::Spheres(count) => search.of_count(count),
         ClumpTarget::Error(share) => search.of_error(share)?,
@@ -172,6 +171,31 @@ pub fn clump(
         grain: *grain,
         rms: rms * radius,
     })
+}
+
+/// The mesh so many times smaller about a centre, its triangles in the order of their distances from there: whatever
+/// order they came in.
+fn at_unit_size(mesh: &Mesh, centre: &Point3<f64>, radius: f64) -> Mesh {
+    let vertices = mesh.vertices.iter();
+    let vertices: Vec<Point3<f64>> = vertices
+        .map(|vertex| ((vertex - centre) / radius).into())
+        .collect();
+    let square = |corner: u32| vertices[corner as usize].coords.norm_squared();
+    let mut triangles: Vec<(f64, [u32; 3])> = mesh
+        .triangles
+        .iter()
+        .map(|&[a, b, c]| {
+            let turns = [[a, b, c], [b, c, a], [c, a, b]];
+            let first = turns.map(|turn| square(turn[0]));
+            let first = Vector3::from(first).imax();
+            (square(a) + square(b) + square(c), turns[first])
+        })
+        .collect();
+    triangles.sort_by(|one, other| one.0.total_cmp(&other.0));
+    Mesh {
+        triangles: triangles.into_iter().map(|(_, corners)| corners).collect(),
+        vertices,
+    }
 }
 
 /// Of a grain of equivalent radius one.

@@ -74,11 +74,14 @@ pub enum InvalidDeck {
     /// There is no grain, or no kind.
     #[error("there are no grains")]
     NoGrains,
-    /// More grains than a deck holds.
-    #[error("{found} grains are more than a deck holds ({})", Deck::MOST_GRAINS)]
+    /// More spheres than a deck holds.
+    #[error(
+        "the spheres of all {grains} grains are more than {}; ask for fewer grains or spheres",
+        Deck::MOST_SPHERES
+    )]
     TooMany {
-        /// The number asked for.
-        found: usize,
+        /// Grains asked for.
+        grains: usize,
     },
     /// Two kinds have the same name.
     #[error("two of the grains have the same name")]
@@ -138,8 +141,8 @@ impl GrainMaterial {
 }
 
 impl Deck {
-    /// The most grains.
-    pub const MOST_GRAINS: usize = 10_000_000;
+    /// The most spheres of all grains.
+    pub const MOST_SPHERES: usize = 20_000_000;
 
     /// So many grains, the kinds taken in turn, on a lattice above a square floor, as wide as they will lie high, each
     /// turned at random; the same for the same seed.
@@ -157,8 +160,9 @@ impl Deck {
         if count == 0 || kinds.is_empty() {
             return Err(InvalidDeck::NoGrains);
         }
-        if count > Self::MOST_GRAINS {
-            return Err(InvalidDeck::TooMany { found: count });
+        let most = kinds.iter().map(|kind| kind.spheres.len()).max();
+        if count.saturating_mul(most.unwrap_or(0)) > Self::MOST_SPHERES {
+            return Err(InvalidDeck::TooMany { grains: count });
         }
         let is_twin = |(index, kind): (usize, &Kind)| {
             kinds[..index].iter().any(|other| other.name == kind.name)

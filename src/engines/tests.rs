@@ -172,6 +172,8 @@ fn decks_that_make_no_sense_are_refused() {
         made.unwrap_err().to_string()
     };
     assert_eq!(column(&kinds, 0, material), "there are no grains");
+    let many = column(&kinds, usize::MAX, material);
+    assert!(many.contains("more than 20000000"), "{many}");
     let twice = [kinds.clone(), kinds.clone()].concat();
     assert!(column(&twice, 4, material).contains("same name"));
     let sticky = GrainMaterial {
@@ -190,7 +192,7 @@ fn complex_harmonics_make_the_same_radius() {
     let text = write_anm(&AnmExpansion::from_real(&real));
     let lines: Vec<Vec<f64>> = text.lines().map(numbers).collect();
     assert_eq!(lines.len(), 9);
-    for n in [[0.36, 0.48, 0.8], [-0.6, 0.64, -0.48], [0.0, -0.6, 0.8]].map(Vector3::from) {
+    for n in [[0.36, 0.48, 0.8], [-0.6, 0.64, -0.48], [0.0, -0.6, 0.8]].map(Vector3::<f64>::from) {
         let (s, phi) = (n.x.hypot(n.y), n.y.atan2(n.x));
         // N P_l^m with the phase (-1)^m, m >= 0.
         let legendre = |degree: f64, order: f64| match (degree as usize, order as usize) {

@@ -107,7 +107,7 @@ impl fmt::Display for ClumpReport {
         )?;
         writeln!(
             f,
-            "volume        {} beside the grain's {}{}",
+            "volume        {} beside the grain's {}{}, known to 0.01 %",
             percent(self.volume_error),
             short(self.volume),
             labels.volume()
