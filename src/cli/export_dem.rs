@@ -8,7 +8,7 @@ use super::{inputs, outputs, solid, threads};
 use crate::clump::clump;
 use crate::engines::{AnmExpansion, Deck, GrainMaterial, InputFile, Kind, anm_files};
 use crate::measure::{SPECTRUM_DEGREE, Scheme, Survey};
-use crate::model::Grain;
+use crate::model::{Grain, Superquadric};
 use crate::report::{ClumpReport, short};
 use anyhow::{Context, Result};
 use std::path::Path;
@@ -97,7 +97,7 @@ fn deck(args: &ExportDemArgs, subjects: &[Subject]) -> Result<(Deck, Vec<String>
 }
 
 /// The one superquadric that a grain is.
-fn single(grain: &Grain) -> Option<crate::model::Superquadric> {
+fn single(grain: &Grain) -> Option<Superquadric> {
     match grain.superquadric()?.body().parts() {
         [part] => Some(part.shape),
         _ => None,

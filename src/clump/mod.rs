@@ -7,39 +7,20 @@
 //! count twice.
 
 mod cover;
+mod error;
 mod gap;
 mod refine;
+mod search;
 #[cfg(test)]
 mod tests;
 mod union_volume;
 
 use crate::Mesh;
-use crate::measure::{Ball, EvenPlace, MassProperties, even_places, medial_balls};
-use cover::Cover;
-use gap::root_mean_square;
-use nalgebra::{Point3, Vector3};
-use refine::refine;
+use crate::measure::{Ball, MassProperties};
+pub use error::{ClumpError, MOST_SPHERES};
+use search::{Search, at_unit_size};
 use std::f64::consts::PI;
 pub use union_volume::union_volume;
-
-/// The most spheres of a clump.
-pub const MOST_SPHERES: usize = 500;
-
-/// Places of the surface that the clump is compared with.
-const PLACES: usize = 4000;
-
-/// So many times fewer places have a candidate.
-const PLACES_PER_CANDIDATE: usize = 4;
-
-/// Rows along each side of the box in which volumes are found.
-const ROWS: usize = 300;
-
-/// How near to the grain's the volume of the clump is made, relative to it.
-const VOLUME_TOLERANCE: f64 = 1e-5;
-
-/// Steps allowed to that, and the longest of them.
-const VOLUME_STEPS: usize = 20;
-const LONGEST_OFFSET: f64 = 0.2;
 
 /// What ends the search.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -48,45 +29,6 @@ pub enum ClumpTarget {
     Spheres(usize),
     /// The fewest spheres found whose [`Clump::rms`] is at most this share of the [`Clump::equivalent_radius`].
     Error(f64),
-}
-
-/// Why there is no clump.
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum ClumpError {
-    /// A triangle names a vertex that does not exist.
-    #[error("triangle {triangle} names a vertex that does not exist")]
-    MissingVertex {
-        /// Position of the triangle in the mesh.
-        triangle: usize,
-    },
-    /// The number of spheres is out of range.
-    #[error("a clump has 1 to {MOST_SPHERES} spheres, not {found}")]
-    Count {
-        /// The number asked for.
-        found: usize,
-    },
-    /// The error asked for is no share above zero.
-    #[error("the error of a clump must be a share above zero, not {found}")]
-    Share {
-        /// The share asked for.
-        found: f64,
-    },
-    /// The error asked for is not reached.
-    #[error(
-        "{MOST_SPHERES} spheres come within {:.2} % of the equivalent radius (RMS), not within {:.2} %",
-        100.0 * reached,
-        100.0 * asked
-    )]
-    NotReached {
-        /// The share asked for.
-        asked: f64,
-        /// What the most spheres reach.
-        reached: f64,
-    },
-    /// No ball was found inside: the mesh encloses nothing, is wound inwards, or has a coordinate that is not finite.
-    #[error("no sphere was found inside the surface")]
-    NoInside,
 }
 
 /// A grain made of spheres.
@@ -160,7 +102,7 @@ pub fn clump(
         ClumpTarget::Error(share) => search.of_error(share)?,
     };
     Ok(Clump {
-        volume_error: union_volume(&spheres, ROWS) / UNIT_VOLUME - 1.0,
+        volume_error: search::excess_volume(&spheres),
         spheres: spheres
             .into_iter()
             .map(|ball| Ball {
@@ -171,136 +113,4 @@ pub fn clump(
         grain: *grain,
         rms: rms * radius,
     })
-}
-
-/// The mesh so many times smaller about a centre, its triangles in the order of their distances from there: whatever
-/// order they came in.
-fn at_unit_size(mesh: &Mesh, centre: &Point3<f64>, radius: f64) -> Mesh {
-    let vertices = mesh.vertices.iter();
-    let vertices: Vec<Point3<f64>> = vertices
-        .map(|vertex| ((vertex - centre) / radius).into())
-        .collect();
-    let square = |corner: u32| vertices[corner as usize].coords.norm_squared();
-    let mut triangles: Vec<(f64, [u32; 3])> = mesh
-        .triangles
-        .iter()
-        .map(|&[a, b, c]| {
-            let turns = [[a, b, c], [b, c, a], [c, a, b]];
-            let first = turns.map(|turn| square(turn[0]));
-            let first = Vector3::from(first).imax();
-            (square(a) + square(b) + square(c), turns[first])
-        })
-        .collect();
-    triangles.sort_by(|one, other| one.0.total_cmp(&other.0));
-    Mesh {
-        triangles: triangles.into_iter().map(|(_, corners)| corners).collect(),
-        vertices,
-    }
-}
-
-/// Of a grain of equivalent radius one.
-const UNIT_VOLUME: f64 = 4.0 * PI / 3.0;
-
-/// A grain of unit size, and what its clumps are made from.
-struct Search {
-    places: Vec<EvenPlace>,
-    cover: Cover,
-}
-
-impl Search {
-    fn new(mesh: &Mesh) -> Result<Self, ClumpError> {
-        let places = even_places(mesh, PLACES);
-        let feet: Vec<EvenPlace> = places
-            .iter()
-            .step_by(PLACES_PER_CANDIDATE)
-            .copied()
-            .collect();
-        let mut candidates = medial_balls(mesh, &feet);
-        candidates.retain(|ball| {
-            let numbers = [ball.radius, ball.centre.x, ball.centre.y, ball.centre.z];
-            numbers.iter().all(|x| x.is_finite()) && ball.radius > 0.0
-        });
-        match candidates.is_empty() {
-            true => Err(ClumpError::NoInside),
-            false => Ok(Self {
-                cover: Cover::new(&places, candidates),
-                places,
-            }),
-        }
-    }
-
-    /// At most so many spheres, and their error.
-    fn of_count(&self, count: usize) -> (Vec<Ball>, f64) {
-        let spheres = with_volume(refine(&self.places, self.cover.of_count(count)));
-        let spheres = without_swallowed(spheres);
-        let rms = root_mean_square(&self.places, &spheres);
-        (spheres, rms)
-    }
-
-    /// The fewest spheres found whose error is at most a share of the radius.
-    fn of_error(&self, share: f64) -> Result<(Vec<Ball>, f64), ClumpError> {
-        let (mut low, mut high) = (0, 1);
-        let mut best = self.of_count(high);
-        while best.1 > share {
-            if high == MOST_SPHERES {
-                let reached = best.1;
-                return Err(ClumpError::NotReached {
-                    asked: share,
-                    reached,
-                });
-            }
-            (low, high) = (high, (2 * high).min(MOST_SPHERES));
-            best = self.of_count(high);
-        }
-        while high - low > 1 {
-            let middle = (low + high) / 2;
-            let found = self.of_count(middle);
-            match found.1 <= share {
-                true => (high, best) = (middle, found),
-                false => low = middle,
-            }
-        }
-        Ok(best)
-    }
-}
-
-/// The spheres that no other one holds.
-fn without_swallowed(spheres: Vec<Ball>) -> Vec<Ball> {
-    let is_held = |(index, ball): (usize, &Ball)| {
-        spheres.iter().enumerate().any(|(other, holder)| {
-            let room = holder.radius - ball.radius - (holder.centre - ball.centre).norm();
-            room > 0.0 || (room == 0.0 && other < index)
-        })
-    };
-    let left = spheres.iter().enumerate();
-    let left = left.filter(|(index, ball)| ball.radius > 0.0 && !is_held((*index, ball)));
-    left.map(|(_, ball)| *ball).collect()
-}
-
-/// The spheres with radii that differ by one length, so that the clump has the volume of the grain of unit size.
-fn with_volume(spheres: Vec<Ball>) -> Vec<Ball> {
-    let wider = |offset: f64| -> Vec<Ball> {
-        let radius = |ball: &Ball| (ball.radius + offset).max(0.0);
-        let wider = spheres.iter().map(|ball| Ball {
-            radius: radius(ball),
-            ..*ball
-        });
-        wider.collect()
-    };
-    let excess = |offset: f64| union_volume(&wider(offset), ROWS) / UNIT_VOLUME - 1.0;
-    // A secant through the last two, the first with the slope of a sphere of unit size.
-    let (mut offset, mut found) = (0.0, excess(0.0));
-    let mut slope = 3.0;
-    for _ in 0..VOLUME_STEPS {
-        if found.abs() <= VOLUME_TOLERANCE {
-            break;
-        }
-        let next = offset - (found / slope).clamp(-LONGEST_OFFSET, LONGEST_OFFSET);
-        let then = excess(next);
-        if then != found {
-            slope = ((then - found) / (next - offset)).max(1.0);
-        }
-        (offset, found) = (next, then);
-    }
-    wider(offset)
 }

@@ -1,7 +1,7 @@
 use super::*;
 use crate::measure::mesh_properties;
 use approx::assert_relative_eq;
-use nalgebra::Rotation3;
+use nalgebra::{Point3, Rotation3, Vector3};
 
 /// Balls that overlap along x, as seen from the origin, in which all of them are.
 const BALLS: [(f64, f64); 2] = [(-0.7, 1.0), (0.6, 0.8)];

@@ -1,6 +1,6 @@
 //! NIST's anm files: a grain's radius in complex harmonics, as SPHERHARM for LAMMPS reads it.
 
-use super::InputFile;
+use super::file::InputFile;
 use std::f64::consts::SQRT_2;
 use std::fmt::Write;
 

@@ -1,6 +1,6 @@
 //! What an engine is to do: grains in a column above a box, which fall and come to rest.
 
-use super::Kind;
+use super::kind::Kind;
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;

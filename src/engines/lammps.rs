@@ -2,8 +2,9 @@
 //!
 //! What is read by the versions of 2021 as well as those of 2025: no overlap keywords, no kinetic energy of atoms.
 
+use super::deck::{Deck, GRAVITY};
+use super::file::{InputFile, row};
 use super::readme::readme;
-use super::{Deck, GRAVITY, InputFile, row};
 use std::fmt::Write;
 
 /// Steps between two looks at the kinetic energy, and between two lines of the log.

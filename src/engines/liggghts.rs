@@ -1,7 +1,10 @@
 //! LIGGGHTS: multispheres, and superquadrics for builds that know them.
 
+use super::deck::{Deck, GRAVITY};
+use super::file::{InputFile, row};
+use super::kind::Kind;
 use super::readme::readme;
-use super::{Deck, GRAVITY, InputFile, Kind, row};
+use crate::measure::Ball;
 use std::fmt::Write;
 
 /// Primes above ten thousand, which is what its random numbers begin with.
@@ -15,7 +18,7 @@ const MOST_FALLS: f64 = 40.0;
 
 pub(super) fn files(deck: &Deck) -> Vec<InputFile> {
     let spheres = |kind: &Kind| {
-        let row = |ball: &crate::measure::Ball| {
+        let row = |ball: &Ball| {
             let [x, y, z] = ball.centre.coords.into();
             row([x, y, z, ball.radius]) + "\n"
         };

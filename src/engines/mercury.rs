@@ -1,7 +1,9 @@
 //! MercuryDPM: clumps in the folders that its tool MClump writes and its reader of clumps takes.
 
+use super::deck::Deck;
+use super::file::InputFile;
+use super::kind::Kind;
 use super::readme::readme;
-use super::{Deck, InputFile, Kind};
 use std::fmt::Write;
 
 pub(super) fn files(deck: &Deck) -> Vec<InputFile> {

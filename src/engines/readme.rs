@@ -1,6 +1,7 @@
 //! The README of a folder: what runs it, what is in it, what its numbers mean.
 
-use super::{Deck, InputFile};
+use super::deck::Deck;
+use super::file::InputFile;
 
 /// Three lines.
 pub(super) fn readme(deck: &Deck, needs: &str, command: &str, files: &str) -> InputFile {

@@ -4,8 +4,10 @@
 //! touch are given next to no density, and six that touch nothing carry the grain's mass, on its principal axes as far
 //! out as its moments ask for. Its own figures of the clump are then those of the grain.
 
+use super::deck::{Deck, GRAVITY};
+use super::file::InputFile;
+use super::kind::Kind;
 use super::readme::readme;
-use super::{Deck, GRAVITY, InputFile, Kind};
 use std::fmt::Write;
 
 /// Density of the spheres that touch, relative to the grain's.

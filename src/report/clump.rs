@@ -3,6 +3,7 @@
 use super::number::{percent, short, triple};
 use super::unit::{Labels, Unit};
 use crate::clump::Clump;
+use crate::measure::Ball;
 use serde::Serialize;
 use std::fmt;
 use std::io::{self, Write};
@@ -50,7 +51,7 @@ pub struct ClumpSphere {
 impl ClumpReport {
     /// The report of a clump of an input.
     pub fn new(input: String, clump: &Clump, unit: Option<Unit>) -> Self {
-        let sphere = |ball: &crate::measure::Ball| ClumpSphere {
+        let sphere = |ball: &Ball| ClumpSphere {
             x: ball.centre.x,
             y: ball.centre.y,
             z: ball.centre.z,
