@@ -22,7 +22,7 @@ pub(super) fn run(args: ClumpArgs, console: Console) -> Result<()> {
     let name = inputs::name(&args.path);
     let found = clump(&solid.mesh, &solid.properties, args.spheres.target())
         .with_context(|| format!("cannot make a clump of {name}"))?;
-    let report = ClumpReport::new(name, &found, args.unit);
+    let report = ClumpReport::new(name, &found, args.unit, solid.warnings);
     if let Some(path) = &args.output {
         write(path, &report)?;
     }
@@ -31,7 +31,7 @@ pub(super) fn run(args: ClumpArgs, console: Console) -> Result<()> {
         return put_json(&report);
     }
     console.print(&report)?;
-    console.warn(&solid.warnings);
+    console.warn(&report.warnings);
     match &args.output {
         Some(path) => console.wrote(&outputs::name(path)),
         None => Ok(()),

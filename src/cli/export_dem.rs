@@ -83,7 +83,7 @@ fn deck(args: &ExportDemArgs, subjects: &[Subject]) -> Result<(Deck, Vec<String>
             Some(shape) => kind.with_superquadric(&shape, metres),
             None => kind,
         });
-        let report = ClumpReport::new(input.clone(), &found, Some(args.unit));
+        let report = ClumpReport::new(input.clone(), &found, Some(args.unit), Vec::new());
         told.push(format!("grain         {name}\n{report}"));
     }
     let material = GrainMaterial {

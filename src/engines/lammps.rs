@@ -4,7 +4,7 @@
 
 use super::deck::{Deck, GRAVITY};
 use super::file::{InputFile, row};
-use super::readme::readme;
+use super::readme::runs;
 use std::fmt::Write;
 
 /// Steps between two looks at the kinetic energy, and between two lines of the log.
@@ -19,7 +19,7 @@ pub(super) fn files(deck: &Deck) -> Vec<InputFile> {
         InputFile::new("data.clumps", data(deck)),
         InputFile::new("bodies.in", bodies(deck)),
         InputFile::new("in.settle", script(deck)),
-        readme(
+        runs(
             deck,
             "LAMMPS with the packages GRANULAR and RIGID",
             "lmp -in in.settle, or mpirun -n 4 lmp -in in.settle",

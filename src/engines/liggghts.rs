@@ -3,7 +3,7 @@
 use super::deck::{Deck, GRAVITY};
 use super::file::{InputFile, row};
 use super::kind::Kind;
-use super::readme::readme;
+use super::readme::runs;
 use crate::measure::Ball;
 use std::fmt::Write;
 
@@ -37,7 +37,7 @@ pub(super) fn files(deck: &Deck) -> Vec<InputFile> {
         files.push(InputFile::new("in.superquadrics", script));
         told += " in.superquadrics is the same with superquadrics, for a build with atom_style superquadric.";
     }
-    files.push(readme(deck, "LIGGGHTS 3", "liggghts -in in.settle", &told));
+    files.push(runs(deck, "LIGGGHTS 3", "liggghts -in in.settle", &told));
     files
 }
 

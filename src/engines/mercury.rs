@@ -3,16 +3,19 @@
 use super::deck::Deck;
 use super::file::InputFile;
 use super::kind::Kind;
-use super::readme::readme;
+use super::readme::{kinds, readme};
 use std::fmt::Write;
 
 pub(super) fn files(deck: &Deck) -> Vec<InputFile> {
     let mut files: Vec<InputFile> = deck.kinds.iter().flat_map(clump).collect();
+    let first = format!(
+        "Clumps for MercuryDPM, of {}: `cp -r clumps/* MERCURY/Tools/MClump/clumps/`.",
+        kinds(deck)
+    );
     files.push(readme(
         deck,
-        "MercuryDPM, whose drivers are compiled",
-        "cp -r clumps/* MERCURY/Tools/MClump/clumps/",
-        "After that a driver that includes ClumpIO.h loads them by LoadClumps; grains and box are the driver's.",
+        &first,
+        "A driver that includes ClumpIO.h loads them by LoadClumps; number of grains, box and contact are the driver's.",
     ));
     files
 }

@@ -7,7 +7,7 @@
 use super::deck::{Deck, GRAVITY};
 use super::file::InputFile;
 use super::kind::Kind;
-use super::readme::readme;
+use super::readme::runs;
 use std::fmt::Write;
 
 /// Density of the spheres that touch, relative to the grain's.
@@ -40,7 +40,7 @@ pub(super) fn files(deck: &Deck) -> Vec<InputFile> {
         InputFile::new("spheres.csv", spheres),
         InputFile::new("grains.csv", grains),
         InputFile::new("settle.py", script(deck)),
-        readme(
+        runs(
             deck,
             "YADE",
             "yade -n -x settle.py",

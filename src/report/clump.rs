@@ -33,6 +33,8 @@ pub struct ClumpReport {
     pub centroid: [f64; 3],
     /// Inertia of the grain about its centroid at density one, along the axes of the scan.
     pub inertia: [[f64; 3]; 3],
+    /// What is odd about a scan: whole sentences.
+    pub warnings: Vec<String>,
 }
 
 /// A sphere of a clump.
@@ -50,7 +52,7 @@ pub struct ClumpSphere {
 
 impl ClumpReport {
     /// The report of a clump of an input.
-    pub fn new(input: String, clump: &Clump, unit: Option<Unit>) -> Self {
+    pub fn new(input: String, clump: &Clump, unit: Option<Unit>, warnings: Vec<String>) -> Self {
         let sphere = |ball: &Ball| ClumpSphere {
             x: ball.centre.x,
             y: ball.centre.y,
@@ -69,6 +71,7 @@ impl ClumpReport {
             volume: clump.grain.volume,
             centroid: clump.grain.centroid.into(),
             inertia: clump.grain.inertia.into(),
+            warnings,
         }
     }
 

@@ -140,8 +140,8 @@ fn what_no_engine_can_run_is_refused_in_a_sentence() {
             "there are no grains",
         ),
         (
-            &["--engine", "yade", "--density", "-1"],
-            "the density must be above zero, not -1 kg/m³",
+            &["--engine", "yade", "--density", "0"],
+            "the density must be above zero, not 0 kg/m³",
         ),
         (
             &["--engine", "yade", "--poissons-ratio", "0.7"],
