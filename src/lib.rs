@@ -5,6 +5,7 @@
 //! ```text
 //! scan -> fit -> model -> measure -> export / report
 //!                  \-> contact
+//!                  \-> clump -> engines
 //! ```
 //!
 //! A scan of many grains is first [split](scan::split), and many scans are gone through in a `batch`.
@@ -24,9 +25,11 @@ pub mod bench;
 #[cfg(feature = "cli")]
 #[doc(hidden)]
 pub mod cli;
+pub mod clump;
 pub mod contact;
 mod disjoint_sets;
 mod elliptic;
+pub mod engines;
 pub mod export;
 pub mod fit;
 pub mod measure;

@@ -4,14 +4,23 @@ use std::path::Path;
 use std::process::Command;
 
 const README: &str = include_str!("../README.md");
+const BEDS: &str = include_str!("../docs/beds.md");
 
 /// The content of the fenced blocks of a language.
-fn blocks(language: &str) -> impl Iterator<Item = &'static str> {
+fn blocks(text: &'static str, language: &str) -> impl Iterator<Item = &'static str> {
     let fence = format!("```{language}\n");
-    let blocks: Vec<&str> = README.split(&fence).skip(1).collect();
+    let blocks: Vec<&str> = text.split(&fence).skip(1).collect();
     blocks
         .into_iter()
         .map(|rest| rest.split("```").next().expect("a part"))
+}
+
+/// Its commands, in their order.
+fn commands(text: &'static str) -> Vec<&'static str> {
+    blocks(text, "sh")
+        .flat_map(str::lines)
+        .filter(|line| line.starts_with("grainform "))
+        .collect()
 }
 
 /// Runs a line `grainform ...` in a folder; gives its standard output.
@@ -48,10 +57,7 @@ fn folder() -> tempfile::TempDir {
 #[test]
 fn every_command_of_the_readme_runs() {
     let folder = folder();
-    let commands: Vec<&str> = blocks("sh")
-        .flat_map(str::lines)
-        .filter(|line| line.starts_with("grainform "))
-        .collect();
+    let commands = commands(README);
     for command in ["fit", "search", "mesh", "measure", "synth"] {
         let start = format!("grainform {command} ");
         assert!(
@@ -61,6 +67,18 @@ fn every_command_of_the_readme_runs() {
     }
     for line in commands {
         run(line, folder.path());
+    }
+}
+
+#[test]
+fn the_way_from_a_scan_to_a_bed_leads_to_a_folder_for_an_engine() {
+    let folder = folder();
+    for line in commands(BEDS) {
+        run(line, folder.path());
+    }
+    assert!(folder.path().join("clump.json").is_file());
+    for name in ["data.clumps", "bodies.in", "in.settle", "README"] {
+        assert!(folder.path().join("dem").join(name).is_file(), "{name}");
     }
 }
 
@@ -89,6 +107,6 @@ fn timeless(summary: &str) -> String {
 #[test]
 fn the_summary_of_the_readme_is_what_fit_prints() {
     let printed = run("grainform fit grains/maize.ply", folder().path());
-    let told = blocks("text").next().expect("a summary");
+    let told = blocks(README, "text").next().expect("a summary");
     assert_eq!(timeless(told), timeless(&printed));
 }

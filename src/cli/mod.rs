@@ -4,10 +4,12 @@ mod args;
 mod batch;
 mod bench;
 mod candidates;
+mod clump;
 mod compare;
 mod console;
 mod contact;
 mod count;
+mod export_dem;
 mod fit;
 mod fitting;
 mod inputs;
@@ -20,6 +22,7 @@ mod search;
 mod shell;
 #[cfg(unix)]
 mod signals;
+mod solid;
 mod split;
 mod superquadric;
 mod synth;
@@ -54,6 +57,8 @@ pub fn run() -> ExitCode {
         Command::Mesh(args) => mesh::run(args, console),
         Command::Measure(args) => measure::run(args, console),
         Command::Contact(args) => contact::run(args, console),
+        Command::Clump(args) => clump::run(args, console),
+        Command::ExportDem(args) => export_dem::run(args, console),
         Command::Synth(args) => synth::run(args, console),
         Command::Split(args) => split::run(args, console),
         Command::Batch(args) => batch::run(args, console),

@@ -1,5 +1,6 @@
 //! Values of arguments that have a notation of their own.
 
+use crate::engines::Engine;
 use crate::fit::{Form, Kind, MAX_UNION_PARTS, Seams, Tolerance};
 use crate::measure::Scheme;
 use crate::shapes::{Body, UnknownBody};
@@ -63,6 +64,24 @@ impl FromStr for SurfaceArg {
                 return Err(format!("expected {known}"));
             }
         }))
+    }
+}
+
+/// An engine, or the format of shapes.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum EngineArg {
+    Deck(Engine),
+    Anm,
+}
+
+impl FromStr for EngineArg {
+    type Err = &'static str;
+
+    fn from_str(name: &str) -> Result<Self, Self::Err> {
+        match name {
+            "anm" => Ok(Self::Anm),
+            name => name.parse().map(Self::Deck),
+        }
     }
 }
 

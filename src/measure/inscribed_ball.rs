@@ -2,12 +2,12 @@
 
 use super::Ball;
 use super::clearance::{self, Obstacles};
-use super::medial::{deepest, medial_ball};
-use super::triangle_tree::{TriangleTree, nearest_in_triangle};
+use super::even_places::even_places;
+use super::medial::{deepest, medial_balls};
+use super::triangle_tree::nearest_in_triangle;
 use super::winding::winding_number;
 use crate::Mesh;
 use nalgebra::Vector3;
-use rayon::prelude::*;
 use thiserror::Error;
 
 /// Places of the surface from which balls of the medial axis are found. A pocket that holds a larger ball than
@@ -63,23 +63,7 @@ pub fn inscribed_ball(mesh: &Mesh) -> Result<Ball, InscribedBallError> {
     if mesh.triangles.is_empty() || !mesh.triangles.iter().flatten().all(is_finite) {
         return Err(InscribedBallError::NoSurface);
     }
-    let tree = TriangleTree::new(mesh);
-    let used = mesh
-        .triangles
-        .iter()
-        .map(|corners| mesh.vertices[corners[0] as usize]);
-    let [low, high] = used.fold(
-        [
-            Vector3::repeat(f64::INFINITY),
-            Vector3::repeat(f64::NEG_INFINITY),
-        ],
-        |[low, high], place| [low.inf(&place.coords), high.sup(&place.coords)],
-    );
-    let largest = (high - low).norm();
-    let medial: Vec<Ball> = feet(mesh)
-        .par_iter()
-        .map(|(foot, inward)| medial_ball(foot, inward, largest, |place| tree.nearest(place)))
-        .collect();
+    let medial = medial_balls(mesh, &even_places(mesh, FEET));
     let is_inside = |ball: &Ball| winding_number(mesh, &ball.centre) > 0.5;
     deepest(medial, is_inside)
         .iter()
@@ -87,32 +71,6 @@ pub fn inscribed_ball(mesh: &Mesh) -> Result<Ball, InscribedBallError> {
         .filter(is_inside)
         .max_by(|one, other| one.radius.total_cmp(&other.radius))
         .ok_or(InscribedBallError::NoInside)
-}
-
-/// Places of the surface, equal areas apart, and the inward unit normals there.
-fn feet(mesh: &Mesh) -> Vec<(Vector3<f64>, Vector3<f64>)> {
-    let doubles: Vec<f64> = (0..mesh.count()).map(|i| mesh.normal(i).norm()).collect();
-    let step = doubles.iter().sum::<f64>() / FEET as f64;
-    let (mut passed, mut feet) = (0.0, Vec::with_capacity(FEET));
-    for (index, double) in doubles.iter().enumerate() {
-        let inward = mesh
-            .normal(index)
-            .try_normalize(0.0)
-            .map(|outward| -outward);
-        while let Some(inward) = inward
-            && let along = ((feet.len() as f64 + 0.5) * step - passed) / double
-            && along < 1.0
-            && feet.len() < FEET
-        {
-            // Equal areas of the triangle: from one corner on, and across by steps of the golden ratio.
-            let across = (feet.len() as f64 * 0.618_033_988_749_895).fract();
-            let [a, b, c] = corners(mesh, index);
-            let place = a + (b + (c - b) * across - a) * along.max(0.0).sqrt();
-            feet.push((place, inward));
-        }
-        passed += double;
-    }
-    feet
 }
 
 /// Every triangle must name vertices that exist.

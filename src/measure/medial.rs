@@ -1,7 +1,11 @@
 //! Balls of the medial axis: those inside a surface that touch it in two places.
 
 use super::Ball;
+use super::even_places::EvenPlace;
+use super::triangle_tree::TriangleTree;
+use crate::Mesh;
 use nalgebra::Vector3;
+use rayon::prelude::*;
 
 /// Shrinkings of a ball; five to ten are usual.
 const MAX_SHRINKS: usize = 60;
@@ -16,6 +20,24 @@ const STARTS: usize = 4;
 /// Share of the deepest ball's radius below which a ball is no start: the search that follows makes a
 /// medial ball larger by a few percent as a rule.
 const SHALLOW: f64 = 0.8;
+
+/// The ball inside a closed mesh that touches it at each of some places, and somewhere else. Every triangle must name
+/// vertices that exist.
+pub(crate) fn medial_balls(mesh: &Mesh, places: &[EvenPlace]) -> Vec<Ball> {
+    let tree = TriangleTree::new(mesh);
+    let mut low = Vector3::repeat(f64::INFINITY);
+    let mut high = -low;
+    for corners in &mesh.triangles {
+        let place = &mesh.vertices[corners[0] as usize].coords;
+        (low, high) = (low.inf(place), high.sup(place));
+    }
+    let largest = (high - low).norm();
+    let nearest = |place: &Vector3<f64>| tree.nearest(place);
+    places
+        .par_iter()
+        .map(|at| medial_ball(&at.place, &-at.outward, largest, nearest))
+        .collect()
+}
 
 /// The ball that touches a surface at `foot` from the side to which the unit vector `inward` points, and
 /// touches it somewhere else, by the shrinking of a ball of the radius `largest` (Ma, Bae and Choi 2012).

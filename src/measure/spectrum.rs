@@ -4,6 +4,7 @@ use super::elements::Element;
 use crate::sphere::{HarmonicBasis, coefficient_count};
 use rayon::prelude::*;
 use serde::Serialize;
+use std::f64::consts::PI;
 
 /// Largest degree of a [`Spectrum`]: the largest that the source uses for whole grains.
 pub const SPECTRUM_DEGREE: usize = 20;
@@ -26,11 +27,21 @@ pub struct Spectrum {
     pub relative_amplitude: Vec<f64>,
 }
 
-impl Spectrum {
+/// The radius seen from the centroid as harmonics.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RadialExpansion {
+    /// Coefficients a_l^m of the real orthonormal harmonics at index l(l+1) + m, in the unit, along the axes of the
+    /// scan.
+    pub coefficients: Vec<f64>,
+    /// Root mean square over all directions of what the harmonics miss of the radius, in the unit.
+    pub rms: f64,
+}
+
+impl RadialExpansion {
     /// That of the surface made of these elements, seen from the centroid.
-    pub(super) fn new(elements: &[Element]) -> Self {
-        let count = coefficient_count(SPECTRUM_DEGREE);
-        let basis = HarmonicBasis::new(SPECTRUM_DEGREE);
+    pub(super) fn new(elements: &[Element], degree: usize) -> Self {
+        let count = coefficient_count(degree);
+        let basis = HarmonicBasis::new(degree);
         let sums: Vec<Vec<f64>> = elements
             .par_chunks(PER_TASK)
             .map(|elements| {
@@ -47,11 +58,30 @@ impl Spectrum {
             })
             .collect();
         let coefficient = |j: usize| sums.iter().map(|sums| sums[j]).sum::<f64>();
+        let coefficients: Vec<f64> = (0..count).map(coefficient).collect();
+        let missed = |element: &Element| {
+            let (direction, distance, solid_angle) = element.seen();
+            let mut values = vec![0.0; count];
+            basis.evaluate(&direction, &mut values);
+            let found: f64 = values.iter().zip(&coefficients).map(|(y, a)| y * a).sum();
+            (found - distance).powi(2) * solid_angle
+        };
+        let missed: Vec<f64> = elements.par_iter().map(missed).collect();
+        Self {
+            rms: (missed.iter().sum::<f64>() / (4.0 * PI)).max(0.0).sqrt(),
+            coefficients,
+        }
+    }
+}
+
+impl Spectrum {
+    /// That of the surface made of these elements, seen from the centroid.
+    pub(super) fn new(elements: &[Element]) -> Self {
+        let found = RadialExpansion::new(elements, SPECTRUM_DEGREE).coefficients;
         let power: Vec<f64> = (0..=SPECTRUM_DEGREE)
             .map(|degree| {
-                (degree * degree..coefficient_count(degree))
-                    .map(|j| coefficient(j).powi(2))
-                    .sum()
+                let own = degree * degree..coefficient_count(degree);
+                found[own].iter().map(|a| a * a).sum()
             })
             .collect();
         Self {

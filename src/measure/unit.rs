@@ -5,7 +5,8 @@
 //! found is scaled back.
 
 use super::{
-    Ball, EquivalentEllipsoid, MassProperties, OrientedBox, Outline, PrincipalInertia, Spectrum,
+    Ball, EquivalentEllipsoid, MassProperties, OrientedBox, Outline, PrincipalInertia,
+    RadialExpansion, Spectrum,
 };
 use crate::Mesh;
 use nalgebra::{Point3, Vector3};
@@ -134,6 +135,14 @@ impl Unit {
             enclosing_diameter: found.enclosing_diameter * self.length,
             inscribed_diameter: found.inscribed_diameter * self.length,
             roundness: found.roundness,
+        }
+    }
+
+    pub(super) fn expansion(&self, found: RadialExpansion) -> RadialExpansion {
+        let coefficients = found.coefficients.into_iter();
+        RadialExpansion {
+            coefficients: coefficients.map(|a| a * self.length).collect(),
+            rms: found.rms * self.length,
         }
     }
 

@@ -2,8 +2,10 @@
 
 mod batch;
 mod bench;
+mod clump;
 mod contact;
 mod errors;
+mod export_dem;
 mod fit;
 mod harmonics;
 mod measure;

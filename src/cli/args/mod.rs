@@ -1,8 +1,10 @@
 //! The arguments as they are typed.
 
+mod engines;
 mod many;
 mod shared;
 
+pub(super) use engines::{ClumpArgs, ExportDemArgs, SpheresArgs};
 pub(super) use many::{BatchArgs, CompareArgs, SplitArgs};
 pub(super) use shared::{FittingArgs, InputArgs, LimitArgs, MeshingArgs};
 
@@ -48,6 +50,8 @@ pub(super) enum Command {
     Mesh(MeshArgs),
     Measure(MeasureArgs),
     Contact(ContactArgs),
+    Clump(ClumpArgs),
+    ExportDem(ExportDemArgs),
     Synth(SynthArgs),
     Split(SplitArgs),
     Batch(BatchArgs),

@@ -11,8 +11,8 @@ use super::nodes::{Integrand, nodes};
 use super::unit::Unit;
 use super::{
     Ball, Convexity, CurvatureStatistics, EquivalentEllipsoid, Form, MassProperties, OrientedBox,
-    Outline, PrincipalInertia, ScannedBody, SideRatios, Spectrum, Sphericity, convex_hull,
-    enclosing_ball, extents, inscribed_ball, minimum_box, project,
+    Outline, PrincipalInertia, RadialExpansion, ScannedBody, SideRatios, Spectrum, Sphericity,
+    convex_hull, enclosing_ball, extents, inscribed_ball, minimum_box, project,
 };
 use crate::Mesh;
 use crate::model::{Grain, Radial, StarSurface, Surface};
@@ -307,6 +307,16 @@ impl<'a> Survey<'a> {
     /// As [`Self::angularity`].
     pub fn spectrum(&self) -> Result<Spectrum, SurveyError> {
         Ok(self.unit.spectrum(Spectrum::new(self.star_shaped()?)))
+    }
+
+    /// The radius seen from the centroid in harmonics up to a degree.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::spectrum`].
+    pub fn expansion(&self, degree: usize) -> Result<RadialExpansion, SurveyError> {
+        let found = RadialExpansion::new(self.star_shaped()?, degree);
+        Ok(self.unit.expansion(found))
     }
 
     /// Outlines seen along the principal axes: along the length, the width and the thickness. The last

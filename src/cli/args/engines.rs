@@ -1,0 +1,105 @@
+//! The arguments of what other engines take: clumps and their inputs.
+
+use super::{InputArgs, OUTPUT};
+use crate::cli::values::{EngineArg, share};
+use crate::report::Unit;
+use clap::Args;
+use std::path::PathBuf;
+
+/// How many spheres a clump has.
+#[derive(Args)]
+pub(in crate::cli) struct SpheresArgs {
+    /// Number of spheres, 1 to 500; fewer where more bring nothing
+    #[arg(long, value_name = "N", default_value_t = 10)]
+    pub(in crate::cli) spheres: usize,
+
+    /// Take the fewest spheres found that come within this share of the equivalent radius (RMS), such as 2%
+    #[arg(long, value_name = "E%", value_parser = share, conflicts_with = "spheres")]
+    pub(in crate::cli) error: Option<f64>,
+}
+
+/// Make a grain of overlapping spheres, for engines that know no other shape
+///
+/// Balls of the grain's medial axis are chosen, fitted to its surface, and made larger or smaller by the same length
+/// until the clump has the volume of the grain. Mass, centre and inertia told are those of the grain.
+#[derive(Args)]
+pub(in crate::cli) struct ClumpArgs {
+    /// A model written by `fit`, or a scan; the content decides
+    #[arg(value_name = "MODEL.json|SCAN")]
+    pub(in crate::cli) path: PathBuf,
+
+    #[command(flatten)]
+    pub(in crate::cli) spheres: SpheresArgs,
+
+    /// Write the clump here: .json (as --json prints it) or .csv (x, y, z, r)
+    #[arg(short, long, value_name = "FILE", help_heading = OUTPUT)]
+    pub(in crate::cli) output: Option<PathBuf>,
+
+    /// Unit of the scan's lengths, told beside them: um, mm, cm or m
+    #[arg(long, value_name = "UNIT", help_heading = OUTPUT)]
+    pub(in crate::cli) unit: Option<Unit>,
+
+    /// Print one JSON object
+    #[arg(long, help_heading = OUTPUT)]
+    pub(in crate::cli) json: bool,
+
+    #[command(flatten)]
+    pub(in crate::cli) input: InputArgs,
+}
+
+/// Write a folder that an engine of the discrete element method runs as it is
+///
+/// Each grain becomes a clump of spheres, with mass, centre and inertia of the grain; for anm, harmonics about its centre
+/// of mass. In the engine they fall from a column into a box and come to rest. Everything in the folder is in SI units.
+#[derive(Args)]
+pub(in crate::cli) struct ExportDemArgs {
+    /// Models written by `fit`, or scans; several are mixed in equal numbers
+    #[arg(value_name = "MODEL.json|SCAN", required = true)]
+    pub(in crate::cli) paths: Vec<PathBuf>,
+
+    /// The engine: lammps, yade, liggghts, mercurydpm, or anm (shapes as NIST publishes them, for SPHERHARM)
+    #[arg(long, value_name = "NAME")]
+    pub(in crate::cli) engine: EngineArg,
+
+    /// Write the files into this folder
+    #[arg(short, long, value_name = "DIR", help_heading = OUTPUT)]
+    pub(in crate::cli) output: PathBuf,
+
+    /// Unit of the scans' lengths: um, mm, cm or m
+    #[arg(long, value_name = "UNIT")]
+    pub(in crate::cli) unit: Unit,
+
+    #[command(flatten)]
+    pub(in crate::cli) spheres: SpheresArgs,
+
+    /// Number of grains
+    #[arg(long, value_name = "K", default_value_t = 200)]
+    pub(in crate::cli) grains: usize,
+
+    /// Seed of the orientations at the start
+    #[arg(long, value_name = "S", default_value_t = 1)]
+    pub(in crate::cli) seed: u64,
+
+    /// Density of the grains, in kg/m³
+    #[arg(long, value_name = "RHO", default_value_t = 2500.0)]
+    pub(in crate::cli) density: f64,
+
+    /// Young's modulus of grains and walls: softer than the grain's own, for the time step is as the inverse of its root
+    #[arg(long, value_name = "E", default_value_t = 10.0)]
+    pub(in crate::cli) youngs_modulus_mpa: f64,
+
+    /// Poisson's ratio
+    #[arg(long, value_name = "NU", default_value_t = 0.3)]
+    pub(in crate::cli) poissons_ratio: f64,
+
+    /// Coefficient of sliding friction
+    #[arg(long, value_name = "MU", default_value_t = 0.3)]
+    pub(in crate::cli) friction: f64,
+
+    /// Coefficient of restitution
+    #[arg(long, value_name = "E", default_value_t = 0.5)]
+    pub(in crate::cli) restitution: f64,
+
+    #[command(flatten)]
+    pub(in crate::cli) input: InputArgs,
+}

@@ -1,0 +1,133 @@
+//! `grainform export-dem`
+
+use super::args::ExportDemArgs;
+use super::console::Console;
+use super::solid::Solid;
+use super::values::EngineArg;
+use super::{inputs, outputs, solid, threads};
+use crate::clump::clump;
+use crate::engines::{AnmExpansion, Deck, GrainMaterial, InputFile, Kind, anm_files};
+use crate::measure::{SPECTRUM_DEGREE, Scheme, Survey};
+use crate::model::{Grain, Superquadric};
+use crate::report::{ClumpReport, short};
+use anyhow::{Context, Result};
+use std::path::Path;
+
+/// A body, what its input is called, and its name in the folder.
+struct Subject {
+    solid: Solid,
+    input: String,
+    name: String,
+}
+
+pub(super) fn run(args: ExportDemArgs, console: Console) -> Result<()> {
+    threads::start(0, console)?;
+    let progress = console.progress();
+    progress.stage("Reading");
+    let subjects = read(&args)?;
+    progress.stage("Finding spheres");
+    let (files, told) = match args.engine {
+        EngineArg::Anm => shapes(&args, &subjects)?,
+        EngineArg::Deck(engine) => {
+            let (deck, told) = deck(&args, &subjects)?;
+            (engine.files(&deck), told)
+        }
+    };
+    progress.stage("Writing");
+    for file in &files {
+        write(&args.output, file)?;
+    }
+    drop(progress);
+    for line in told {
+        console.print(line)?;
+    }
+    for subject in &subjects {
+        console.warn(&subject.solid.warnings);
+    }
+    let folder = args.output.display();
+    console.wrote(&format!("{folder}: {} files", files.len()))
+}
+
+fn read(args: &ExportDemArgs) -> Result<Vec<Subject>> {
+    let mut subjects: Vec<Subject> = Vec::new();
+    for path in &args.paths {
+        let stem = path.file_stem().map(|stem| stem.to_string_lossy());
+        let stem = stem.filter(|stem| stem != "-").unwrap_or("grain".into());
+        let twins = subjects.iter().filter(|subject| {
+            let (head, number) = subject.name.rsplit_once('_').unwrap_or((&subject.name, ""));
+            subject.name == stem || (head == stem && number.parse::<usize>().is_ok())
+        });
+        let name = match twins.count() {
+            0 => stem.into_owned(),
+            twins => format!("{stem}_{}", twins + 1),
+        };
+        subjects.push(Subject {
+            solid: solid::read(path, &args.input)?,
+            input: inputs::name(path),
+            name,
+        });
+    }
+    Ok(subjects)
+}
+
+/// The deck, and what is lost by each clump.
+fn deck(args: &ExportDemArgs, subjects: &[Subject]) -> Result<(Deck, Vec<String>)> {
+    let metres = args.unit.metres();
+    let (mut kinds, mut told) = (Vec::new(), Vec::new());
+    for Subject { solid, input, name } in subjects {
+        let failed = || format!("cannot make a clump of {input}");
+        let found =
+            clump(&solid.mesh, &solid.properties, args.spheres.target()).with_context(failed)?;
+        let kind = Kind::new(name, &found, metres, args.density).with_context(failed)?;
+        kinds.push(match solid.grain.as_ref().and_then(single) {
+            Some(shape) => kind.with_superquadric(&shape, metres),
+            None => kind,
+        });
+        let report = ClumpReport::new(input.clone(), &found, Some(args.unit), Vec::new());
+        told.push(format!("grain         {name}\n{report}"));
+    }
+    let material = GrainMaterial {
+        youngs_modulus: 1e6 * args.youngs_modulus_mpa,
+        poissons_ratio: args.poissons_ratio,
+        friction: args.friction,
+        restitution: args.restitution,
+        density: args.density,
+    };
+    Ok((Deck::column(kinds, args.grains, material, args.seed)?, told))
+}
+
+/// The one superquadric that a grain is.
+fn single(grain: &Grain) -> Option<Superquadric> {
+    match grain.superquadric()?.body().parts() {
+        [part] => Some(part.shape),
+        _ => None,
+    }
+}
+
+/// Files of harmonics, and what is lost by each.
+fn shapes(args: &ExportDemArgs, subjects: &[Subject]) -> Result<(Vec<InputFile>, Vec<String>)> {
+    let metres = args.unit.metres();
+    let (mut grains, mut told) = (Vec::new(), Vec::new());
+    for Subject { solid, input, name } in subjects {
+        let failed = || format!("cannot expand {input} about its centre of mass");
+        let survey = match &solid.grain {
+            Some(grain) => Survey::of_grain(grain, Scheme::Exact),
+            None => Survey::of_mesh(&solid.mesh).with_context(failed)?,
+        };
+        let found = survey.expansion(SPECTRUM_DEGREE).with_context(failed)?;
+        told.push(format!(
+            "grain         {name}\nharmonics     degree {SPECTRUM_DEGREE}, RMS {} {} from the grain",
+            short(found.rms),
+            args.unit
+        ));
+        let real: Vec<f64> = found.coefficients.iter().map(|a| a * metres).collect();
+        grains.push((name.clone(), AnmExpansion::from_real(&real)));
+    }
+    Ok((anm_files(&grains), told))
+}
+
+fn write(folder: &Path, file: &InputFile) -> Result<()> {
+    let path = folder.join(&file.path);
+    outputs::make_folder(path.parent().unwrap_or(folder))?;
+    outputs::write(&path, |writer| Ok(writer.write_all(file.text.as_bytes())?))
+}

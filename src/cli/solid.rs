@@ -1,0 +1,68 @@
+//! A closed body from a scan or a model, for what is made of bodies of either kind.
+
+use super::args::InputArgs;
+use super::inputs;
+use crate::fit::scanned_surface;
+use crate::measure::{MassProperties, Scheme, Survey, scanned_body};
+use crate::mesh::Mesh;
+use crate::model::{Grain, Surface};
+use crate::report::sentences;
+use anyhow::{Context, Result, bail};
+use std::path::Path;
+
+/// Cells per cube edge of the mesh of a model.
+const RESOLUTION: usize = 64;
+
+/// A body, whatever it comes from.
+pub(super) struct Solid {
+    /// Closed, wound counter-clockwise from outside.
+    pub(super) mesh: Mesh,
+    /// Those of a model are its own, not its mesh's.
+    pub(super) properties: MassProperties,
+    /// The model, if it is one.
+    pub(super) grain: Option<Grain>,
+    /// What is odd about a scan: whole sentences.
+    pub(super) warnings: Vec<String>,
+}
+
+/// Reads a model or a scan; the content decides.
+pub(super) fn read(path: &Path, input: &InputArgs) -> Result<Solid> {
+    let name = inputs::name(path);
+    let unusable = || format!("{name} encloses no grain");
+    let bytes = inputs::read(path, &input.limit)?;
+    if bytes.trim_ascii_start().starts_with(b"{") {
+        let grain = inputs::parse_model(path, &bytes)?;
+        return Ok(Solid {
+            properties: Survey::of_grain(&grain, Scheme::Exact)
+                .properties()
+                .with_context(unusable)?,
+            mesh: grain.mesh(RESOLUTION),
+            grain: Some(grain),
+            warnings: Vec::new(),
+        });
+    }
+    let scan = inputs::parse_scan(path, &bytes, input)?;
+    if let Some(scanned) = scanned_body(&scan) {
+        if scanned.bodies > 1 {
+            bail!("{name} holds {} bodies; split it first", scanned.bodies);
+        }
+        let properties = Survey::of_scanned(&scanned)
+            .properties()
+            .with_context(unusable)?;
+        return Ok(Solid {
+            mesh: scanned.mesh,
+            properties,
+            grain: None,
+            warnings: scan.warnings.clone(),
+        });
+    }
+    let surface = scanned_surface(&scan).with_context(unusable)?;
+    let survey = Survey::of_mesh(&surface.mesh).with_context(unusable)?;
+    let properties = survey.properties()?;
+    Ok(Solid {
+        warnings: sentences(&scan.warnings, &surface.warnings),
+        mesh: surface.mesh.clone(),
+        properties,
+        grain: None,
+    })
+}

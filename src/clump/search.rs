@@ -1,0 +1,164 @@
+//! The search for the spheres of a grain of unit size.
+
+use super::cover::Cover;
+use super::error::{ClumpError, MOST_SPHERES};
+use super::gap::root_mean_square;
+use super::refine::refine;
+use super::union_volume::union_volume;
+use crate::Mesh;
+use crate::measure::{Ball, EvenPlace, even_places, medial_balls};
+use nalgebra::{Point3, Vector3};
+use std::f64::consts::PI;
+
+/// Places of the surface that the clump is compared with.
+const PLACES: usize = 4000;
+
+/// So many times fewer places have a candidate.
+const PLACES_PER_CANDIDATE: usize = 4;
+
+/// Rows along each side of the box in which volumes are found.
+const ROWS: usize = 300;
+
+/// How near to the grain's the volume of the clump is made, relative to it.
+const VOLUME_TOLERANCE: f64 = 1e-5;
+
+/// Steps allowed to that, and the longest of them.
+const VOLUME_STEPS: usize = 20;
+const LONGEST_OFFSET: f64 = 0.2;
+
+/// Of a grain of equivalent radius one.
+const UNIT_VOLUME: f64 = 4.0 * PI / 3.0;
+
+/// The mesh so many times smaller about a centre, its triangles in the order of their distances from there: whatever
+/// order they came in.
+pub(super) fn at_unit_size(mesh: &Mesh, centre: &Point3<f64>, radius: f64) -> Mesh {
+    let vertices = mesh.vertices.iter();
+    let vertices: Vec<Point3<f64>> = vertices
+        .map(|vertex| ((vertex - centre) / radius).into())
+        .collect();
+    let square = |corner: u32| vertices[corner as usize].coords.norm_squared();
+    let mut triangles: Vec<(f64, [u32; 3])> = mesh
+        .triangles
+        .iter()
+        .map(|&[a, b, c]| {
+            let turns = [[a, b, c], [b, c, a], [c, a, b]];
+            let first = turns.map(|turn| square(turn[0]));
+            let first = Vector3::from(first).imax();
+            (square(a) + square(b) + square(c), turns[first])
+        })
+        .collect();
+    triangles.sort_by(|one, other| one.0.total_cmp(&other.0));
+    Mesh {
+        triangles: triangles.into_iter().map(|(_, corners)| corners).collect(),
+        vertices,
+    }
+}
+
+/// A grain of unit size, and what its clumps are made from.
+pub(super) struct Search {
+    places: Vec<EvenPlace>,
+    cover: Cover,
+}
+
+impl Search {
+    pub(super) fn new(mesh: &Mesh) -> Result<Self, ClumpError> {
+        let places = even_places(mesh, PLACES);
+        let feet: Vec<EvenPlace> = places
+            .iter()
+            .step_by(PLACES_PER_CANDIDATE)
+            .copied()
+            .collect();
+        let mut candidates = medial_balls(mesh, &feet);
+        candidates.retain(|ball| {
+            let numbers = [ball.radius, ball.centre.x, ball.centre.y, ball.centre.z];
+            numbers.iter().all(|x| x.is_finite()) && ball.radius > 0.0
+        });
+        match candidates.is_empty() {
+            true => Err(ClumpError::NoInside),
+            false => Ok(Self {
+                cover: Cover::new(&places, candidates),
+                places,
+            }),
+        }
+    }
+
+    /// At most so many spheres, and their error.
+    pub(super) fn of_count(&self, count: usize) -> (Vec<Ball>, f64) {
+        let spheres = with_volume(refine(&self.places, self.cover.of_count(count)));
+        let spheres = without_swallowed(spheres);
+        let rms = root_mean_square(&self.places, &spheres);
+        (spheres, rms)
+    }
+
+    /// The fewest spheres found whose error is at most a share of the radius.
+    pub(super) fn of_error(&self, share: f64) -> Result<(Vec<Ball>, f64), ClumpError> {
+        let (mut low, mut high) = (0, 1);
+        let mut best = self.of_count(high);
+        while best.1 > share {
+            if high == MOST_SPHERES {
+                let reached = best.1;
+                return Err(ClumpError::NotReached {
+                    asked: share,
+                    reached,
+                });
+            }
+            (low, high) = (high, (2 * high).min(MOST_SPHERES));
+            best = self.of_count(high);
+        }
+        while high - low > 1 {
+            let middle = (low + high) / 2;
+            let found = self.of_count(middle);
+            match found.1 <= share {
+                true => (high, best) = (middle, found),
+                false => low = middle,
+            }
+        }
+        Ok(best)
+    }
+}
+
+/// The spheres that no other one holds.
+fn without_swallowed(spheres: Vec<Ball>) -> Vec<Ball> {
+    let is_held = |(index, ball): (usize, &Ball)| {
+        spheres.iter().enumerate().any(|(other, holder)| {
+            let room = holder.radius - ball.radius - (holder.centre - ball.centre).norm();
+            room > 0.0 || (room == 0.0 && other < index)
+        })
+    };
+    let left = spheres.iter().enumerate();
+    let left = left.filter(|(index, ball)| ball.radius > 0.0 && !is_held((*index, ball)));
+    left.map(|(_, ball)| *ball).collect()
+}
+
+/// The spheres with radii that differ by one length, so that the clump has the volume of the grain of unit size.
+fn with_volume(spheres: Vec<Ball>) -> Vec<Ball> {
+    let wider = |offset: f64| -> Vec<Ball> {
+        let radius = |ball: &Ball| (ball.radius + offset).max(0.0);
+        let wider = spheres.iter().map(|ball| Ball {
+            radius: radius(ball),
+            ..*ball
+        });
+        wider.collect()
+    };
+    let excess = |offset: f64| excess_volume(&wider(offset));
+    // A secant through the last two, the first with the slope of a sphere of unit size.
+    let (mut offset, mut found) = (0.0, excess(0.0));
+    let mut slope = 3.0;
+    for _ in 0..VOLUME_STEPS {
+        if found.abs() <= VOLUME_TOLERANCE {
+            break;
+        }
+        let next = offset - (found / slope).clamp(-LONGEST_OFFSET, LONGEST_OFFSET);
+        let then = excess(next);
+        if then != found {
+            slope = ((then - found) / (next - offset)).max(1.0);
+        }
+        (offset, found) = (next, then);
+    }
+    wider(offset)
+}
+
+/// The volume of a clump beside that of the grain of unit size.
+pub(super) fn excess_volume(spheres: &[Ball]) -> f64 {
+    union_volume(spheres, ROWS) / UNIT_VOLUME - 1.0
+}

@@ -1,0 +1,78 @@
+use super::*;
+use crate::measure::mesh_properties;
+use approx::assert_relative_eq;
+use nalgebra::{Point3, Rotation3, Vector3};
+
+/// Balls that overlap along x, as seen from the origin, in which all of them are.
+const BALLS: [(f64, f64); 2] = [(-0.7, 1.0), (0.6, 0.8)];
+
+fn body() -> Mesh {
+    Mesh::radial(40, |n| {
+        let exit = |(x, radius): (f64, f64)| {
+            let square = radius * radius - x * x * (1.0 - n.x * n.x);
+            x * n.x + square.max(0.0).sqrt()
+        };
+        BALLS.map(exit).into_iter().fold(0.0, f64::max)
+    })
+}
+
+fn found(mesh: &Mesh, target: ClumpTarget) -> Clump {
+    clump(mesh, &mesh_properties(mesh).unwrap(), target).unwrap()
+}
+
+#[test]
+fn the_balls_that_a_body_is_made_of_are_found() {
+    let mesh = body();
+    let mut spheres = found(&mesh, ClumpTarget::Spheres(2)).spheres;
+    spheres.sort_by(|one, other| one.centre.x.total_cmp(&other.centre.x));
+    assert_eq!(spheres.len(), 2);
+    for (ball, (x, radius)) in spheres.iter().zip(BALLS) {
+        assert_relative_eq!(ball.centre, Point3::new(x, 0.0, 0.0), epsilon = 5e-3);
+        assert_relative_eq!(ball.radius, radius, max_relative = 5e-3);
+    }
+    let fewest = found(&mesh, ClumpTarget::Error(0.01));
+    assert_eq!(fewest.spheres.len(), 2);
+    assert!(fewest.rms < 0.01 * fewest.equivalent_radius());
+}
+
+#[test]
+fn neither_place_nor_turn_nor_unit_nor_order_matter() {
+    let mesh = Mesh::radial(24, |n| 1.0 + 0.3 * n.x + 0.2 * n.y * n.z - 0.1 * n.x * n.z);
+    let one = found(&mesh, ClumpTarget::Spheres(6));
+    let turn = Rotation3::from_euler_angles(0.3, -1.1, 2.0);
+    let place = |p: &Point3<f64>| turn * p * 1e-3 + Vector3::new(0.05, -0.02, 0.03);
+    let mut triangles = mesh.triangles.clone();
+    triangles.reverse();
+    let moved = Mesh {
+        vertices: mesh.vertices.iter().map(place).collect(),
+        triangles,
+    };
+    let other = found(&moved, ClumpTarget::Spheres(6));
+    assert_eq!(one.spheres.len(), other.spheres.len());
+    for (ball, other) in one.spheres.iter().zip(&other.spheres) {
+        assert_relative_eq!(other.centre, place(&ball.centre), epsilon = 1e-6);
+        assert_relative_eq!(other.radius, 1e-3 * ball.radius, max_relative = 1e-3);
+    }
+}
+
+#[test]
+fn what_encloses_nothing_has_no_clump() {
+    let mesh = body();
+    let grain = mesh_properties(&mesh).unwrap();
+    let target = ClumpTarget::Spheres(3);
+    assert_eq!(
+        clump(&Mesh::default(), &grain, target),
+        Err(ClumpError::NoInside)
+    );
+    let nothing = MassProperties {
+        volume: f64::NAN,
+        ..grain
+    };
+    assert_eq!(clump(&mesh, &nothing, target), Err(ClumpError::NoInside));
+    let mut broken = mesh;
+    broken.triangles[4][1] = u32::MAX;
+    assert_eq!(
+        clump(&broken, &grain, target),
+        Err(ClumpError::MissingVertex { triangle: 4 })
+    );
+}

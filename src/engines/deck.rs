@@ -1,0 +1,247 @@
+//! What an engine is to do: grains in a column above a box, which fall and come to rest.
+
+use super::kind::Kind;
+use nalgebra::{Quaternion, UnitQuaternion, Vector3};
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng;
+use rand_distr::{Distribution, StandardNormal};
+use std::f64::consts::PI;
+
+/// The acceleration of gravity, in m/s².
+pub const GRAVITY: f64 = 9.81;
+
+/// Share of the box's volume that settled grains are taken to fill, for its size only.
+const FILLED: f64 = 0.55;
+
+/// Least distance of grains at the start beside the balls that hold them.
+const APART: f64 = 1.02;
+
+/// Least width of a box, in balls that hold a grain.
+const LEAST_WIDTH: f64 = 3.0;
+
+/// Share of the time that a Rayleigh wave takes through the smallest sphere.
+const TIME_STEP: f64 = 0.2;
+
+/// Grains are at rest when their kinetic energy is below this share of what they lose in falling their own diameter.
+const AT_REST: f64 = 1e-8;
+
+/// What grains are made of: one material for grains and walls.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct GrainMaterial {
+    /// Young's modulus, in Pa. Engines take one softer than the grain's own, for the time step is as the inverse of
+    /// its root.
+    pub youngs_modulus: f64,
+    /// Poisson's ratio.
+    pub poissons_ratio: f64,
+    /// Coefficient of sliding friction.
+    pub friction: f64,
+    /// Coefficient of restitution of a normal impact.
+    pub restitution: f64,
+    /// Density, in kg/m³.
+    pub density: f64,
+}
+
+/// A grain at the start.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Placed {
+    /// Which of the kinds it is.
+    pub kind: usize,
+    /// Its centre of mass, in metres.
+    pub centre: Vector3<f64>,
+    /// What its principal axes are turned by from x, y, z.
+    pub turn: UnitQuaternion<f64>,
+}
+
+/// Grains in a column with a square floor, z up, at rest at first.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Deck {
+    /// The kinds of grains.
+    pub kinds: Vec<Kind>,
+    /// The grains, the lowest first.
+    pub grains: Vec<Placed>,
+    /// Side of the floor from the origin along x and y, in metres.
+    pub side: f64,
+    /// Height of the column, in metres.
+    pub height: f64,
+    /// What they are made of.
+    pub material: GrainMaterial,
+}
+
+/// Why there is no deck.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum InvalidDeck {
+    /// There is no grain, or no kind.
+    #[error("there are no grains")]
+    NoGrains,
+    /// More spheres than a deck holds.
+    #[error(
+        "the spheres of all {grains} grains are more than {}; ask for fewer grains or spheres",
+        Deck::MOST_SPHERES
+    )]
+    TooMany {
+        /// Grains asked for.
+        grains: usize,
+    },
+    /// Two kinds have the same name.
+    #[error("two of the grains have the same name")]
+    SameName,
+    /// A number of the material is out of its range.
+    #[error("{what} must be {range}, not {found}")]
+    Material {
+        /// Which.
+        what: &'static str,
+        /// What it may be.
+        range: &'static str,
+        /// What it is.
+        found: f64,
+    },
+}
+
+impl GrainMaterial {
+    fn check(&self) -> Result<(), InvalidDeck> {
+        let above_zero = |x: f64| x > 0.0 && x.is_finite();
+        let checks = [
+            (
+                "Young's modulus",
+                "above zero",
+                self.youngs_modulus,
+                above_zero(self.youngs_modulus),
+            ),
+            (
+                "Poisson's ratio",
+                "from 0 to 0.5",
+                self.poissons_ratio,
+                (0.0..0.5).contains(&self.poissons_ratio),
+            ),
+            (
+                "the coefficient of friction",
+                "zero or above",
+                self.friction,
+                self.friction >= 0.0 && self.friction.is_finite(),
+            ),
+            (
+                "the coefficient of restitution",
+                "above 0.05 and at most 1",
+                self.restitution,
+                self.restitution > 0.05 && self.restitution <= 1.0,
+            ),
+            (
+                "the density",
+                "above zero",
+                self.density,
+                above_zero(self.density),
+            ),
+        ];
+        match checks.into_iter().find(|check| !check.3) {
+            Some((what, range, found, _)) => Err(InvalidDeck::Material { what, range, found }),
+            None => Ok(()),
+        }
+    }
+}
+
+impl Deck {
+    /// The most spheres of all grains.
+    pub const MOST_SPHERES: usize = 20_000_000;
+
+    /// So many grains, the kinds taken in turn, on a lattice above a square floor, as wide as they will lie high, each
+    /// turned at random; the same for the same seed.
+    ///
+    /// # Errors
+    ///
+    /// [`InvalidDeck`].
+    pub fn column(
+        kinds: Vec<Kind>,
+        count: usize,
+        material: GrainMaterial,
+        seed: u64,
+    ) -> Result<Self, InvalidDeck> {
+        material.check()?;
+        if count == 0 || kinds.is_empty() {
+            return Err(InvalidDeck::NoGrains);
+        }
+        let most = kinds.iter().map(|kind| kind.spheres.len()).max();
+        if count.saturating_mul(most.unwrap_or(0)) > Self::MOST_SPHERES {
+            return Err(InvalidDeck::TooMany { grains: count });
+        }
+        let is_twin = |(index, kind): (usize, &Kind)| {
+            kinds[..index].iter().any(|other| other.name == kind.name)
+        };
+        if kinds.iter().enumerate().any(is_twin) {
+            return Err(InvalidDeck::SameName);
+        }
+        let mass: f64 = (0..count).map(|i| kinds[i % kinds.len()].mass).sum();
+        let radii = kinds.iter().map(Kind::bounding_radius);
+        let cell = 2.0 * APART * radii.fold(0.0, f64::max);
+        let side = (mass / material.density / FILLED)
+            .cbrt()
+            .max(LEAST_WIDTH * cell);
+        let per_row = (side / cell) as usize;
+        let mut random = ChaCha8Rng::seed_from_u64(seed);
+        let placed = |index: usize| {
+            let [i, j, k] = [
+                index % per_row,
+                index / per_row % per_row,
+                index / (per_row * per_row),
+            ];
+            let across = |i: usize| (i as f64 + 0.5) * side / per_row as f64;
+            // Four normal deviates point everywhere alike.
+            let [w, x, y, z] = std::array::from_fn(|_| StandardNormal.sample(&mut random));
+            Placed {
+                kind: index % kinds.len(),
+                centre: Vector3::new(across(i), across(j), (k as f64 + 0.5) * cell),
+                turn: UnitQuaternion::new_normalize(Quaternion::new(w, x, y, z)),
+            }
+        };
+        let grains: Vec<Placed> = (0..count).map(placed).collect();
+        Ok(Self {
+            height: grains[count - 1].centre.z + cell,
+            kinds,
+            grains,
+            side,
+            material,
+        })
+    }
+
+    /// The time step, in s: a fifth of the time that a Rayleigh wave takes across the smallest sphere,
+    /// pi r sqrt(rho / G) / (0.1631 nu + 0.8766) with G the shear modulus.
+    pub fn time_step(&self) -> f64 {
+        let GrainMaterial {
+            youngs_modulus,
+            poissons_ratio,
+            density,
+            ..
+        } = self.material;
+        let shear = youngs_modulus / (2.0 * (1.0 + poissons_ratio));
+        let wave = (shear / density).sqrt() * (0.1631 * poissons_ratio + 0.8766);
+        TIME_STEP * PI * self.least_radius() / wave
+    }
+
+    /// The time in which the topmost grain has fallen, in s.
+    pub fn fall(&self) -> f64 {
+        (2.0 * self.height / GRAVITY).sqrt()
+    }
+
+    /// The kinetic energy, in J, below which all grains together are at rest: 1e-8 of what they lose in falling their
+    /// own diameter.
+    pub fn rest_energy(&self) -> f64 {
+        let lost = |grain: &Placed| {
+            let mass = self.kinds[grain.kind].mass;
+            let diameter = (6.0 * mass / self.material.density / PI).cbrt();
+            mass * GRAVITY * diameter
+        };
+        AT_REST * self.grains.iter().map(lost).sum::<f64>()
+    }
+
+    /// The radius of the smallest sphere, in metres.
+    pub fn least_radius(&self) -> f64 {
+        let radii = self.kinds.iter().map(Kind::least_radius);
+        radii.fold(f64::INFINITY, f64::min)
+    }
+
+    /// The diameter of the largest ball that holds a grain, in metres.
+    pub fn largest_diameter(&self) -> f64 {
+        let radii = self.kinds.iter().map(Kind::bounding_radius);
+        2.0 * radii.fold(0.0, f64::max)
+    }
+}

@@ -1,0 +1,40 @@
+//! MercuryDPM: clumps in the folders that its tool MClump writes and its reader of clumps takes.
+
+use super::deck::Deck;
+use super::file::InputFile;
+use super::kind::Kind;
+use super::readme::{kinds, readme};
+use std::fmt::Write;
+
+pub(super) fn files(deck: &Deck) -> Vec<InputFile> {
+    let mut files: Vec<InputFile> = deck.kinds.iter().flat_map(clump).collect();
+    let first = format!(
+        "Clumps for MercuryDPM, of {}: `cp -r clumps/* MERCURY/Tools/MClump/clumps/`.",
+        kinds(deck)
+    );
+    files.push(readme(
+        deck,
+        &first,
+        "A driver that includes ClumpIO.h loads them by LoadClumps; number of grains, box and contact are the driver's.",
+    ));
+    files
+}
+
+/// Spheres, mass, inertia and the axes of the moments: x, y and z, for a [`Kind`] lies along them.
+fn clump(kind: &Kind) -> [InputFile; 4] {
+    let mut spheres = String::new();
+    for ball in &kind.spheres {
+        let [x, y, z] = ball.centre.coords.into();
+        let _ = writeln!(spheres, "{x:e},{y:e},{z:e},{:e}", ball.radius);
+    }
+    let [i, j, k] = kind.moments.into();
+    let inertia = format!("{i:e},0,0\n0,{j:e},0\n0,0,{k:e}\n");
+    let file =
+        |name: &str, text: String| InputFile::new(format!("clumps/{}/{name}", kind.name), text);
+    [
+        file("clump/clump.txt", spheres),
+        file("inertia/mass.txt", format!("{:e}\n", kind.mass)),
+        file("inertia/toi.txt", inertia),
+        file("inertia/pd.txt", "1,0,0\n0,1,0\n0,0,1\n".into()),
+    ]
+}

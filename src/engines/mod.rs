@@ -1,0 +1,23 @@
+//! Inputs for engines of the discrete element method: a folder for each that runs as it is.
+//!
+//! Lengths are in metres, masses in kg, times in s. Each engine has a function that takes a [`Deck`] and gives the files
+//! of its folder; nothing is written here but text.
+
+mod anm;
+mod deck;
+mod engine;
+mod file;
+mod kind;
+mod lammps;
+mod liggghts;
+mod mercury;
+mod readme;
+#[cfg(test)]
+mod tests;
+mod yade;
+
+pub use anm::{AnmExpansion, anm_files, write_anm};
+pub use deck::{Deck, GRAVITY, GrainMaterial, InvalidDeck, Placed};
+pub use engine::Engine;
+pub use file::InputFile;
+pub use kind::{InvalidKind, Kind};

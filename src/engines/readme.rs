@@ -1,0 +1,40 @@
+//! The README of a folder: what is done with it, what is in it, what its numbers mean.
+
+use super::deck::Deck;
+use super::file::InputFile;
+
+/// The README of a folder that an engine runs, in three lines.
+pub(super) fn runs(deck: &Deck, needs: &str, command: &str, files: &str) -> InputFile {
+    let count = deck.grains.len();
+    let kinds = kinds(deck);
+    let first = format!(
+        "{count} grains of {kinds} fall into a box: run `{command}` in this folder ({needs})."
+    );
+    readme(deck, &first, files)
+}
+
+/// A README whose first two lines are given.
+pub(super) fn readme(deck: &Deck, first: &str, files: &str) -> InputFile {
+    let material = &deck.material;
+    InputFile::new(
+        "README",
+        format!(
+            "{first}\n{files}\nSI units (m, kg, s); density {} kg/m³, Young's modulus {:e} Pa, Poisson's ratio {}, friction \
+             {}, restitution {}; mass and inertia are those of the grain, not sums over its spheres.\n",
+            material.density,
+            material.youngs_modulus,
+            material.poissons_ratio,
+            material.friction,
+            material.restitution,
+        ),
+    )
+}
+
+/// What the kinds are called, and how many spheres and how much mass each has.
+pub(super) fn kinds(deck: &Deck) -> String {
+    let kinds = deck.kinds.iter().map(|kind| {
+        let spheres = kind.spheres.len();
+        format!("{} ({spheres} spheres, {:.6e} kg)", kind.name, kind.mass)
+    });
+    kinds.collect::<Vec<_>>().join(", ")
+}

@@ -1,0 +1,224 @@
+//! What is written is read back as the engines read it.
+
+use super::*;
+use crate::clump::Clump;
+use crate::measure::{Ball, MassProperties};
+use approx::assert_relative_eq;
+use nalgebra::{Matrix3, Point3, Rotation3, Vector3};
+
+/// A grain away from the origin and turned, in mm: mass 1.5e-5 kg.
+fn clump() -> Clump {
+    let turn = Rotation3::from_euler_angles(0.4, -0.9, 1.3);
+    let moments = Matrix3::from_diagonal(&Vector3::new(12.0, 25.0, 31.0));
+    let ball = |x: f64, radius: f64| Ball {
+        centre: Point3::new(3.0, -2.0, 7.0) + turn * Vector3::new(x, 0.2, 0.1),
+        radius,
+    };
+    Clump {
+        spheres: vec![ball(-1.2, 0.9), ball(0.1, 1.1), ball(1.1, 0.8)],
+        grain: MassProperties {
+            area: 20.0,
+            volume: 6.0,
+            centroid: Point3::new(3.0, -2.0, 7.0),
+            inertia: turn * moments * turn.transpose(),
+        },
+        rms: 0.1,
+        volume_error: 0.0,
+    }
+}
+
+fn deck() -> Deck {
+    let kind = Kind::new("a grain", &clump(), 1e-3, 2500.0).unwrap();
+    let material = GrainMaterial {
+        youngs_modulus: 1e7,
+        poissons_ratio: 0.3,
+        friction: 0.4,
+        restitution: 0.6,
+        density: 2500.0,
+    };
+    Deck::column(vec![kind], 20, material, 7).unwrap()
+}
+
+fn text(engine: Engine, path: &str) -> String {
+    let files = engine.files(&deck());
+    let file = files.into_iter().find(|file| file.path == path);
+    file.unwrap_or_else(|| panic!("{path}")).text
+}
+
+/// The numbers of a line, whatever separates them.
+fn numbers(line: &str) -> Vec<f64> {
+    let words = line.split(|c: char| c == ',' || c.is_whitespace());
+    words.filter_map(|word| word.parse().ok()).collect()
+}
+
+#[test]
+fn a_kind_has_mass_and_moments_of_the_grain_about_the_origin() {
+    let kind = &deck().kinds[0];
+    assert_eq!(kind.name, "a_grain");
+    assert_relative_eq!(kind.mass, 1.5e-5, max_relative = 1e-12);
+    let expected = Vector3::new(12.0, 25.0, 31.0) * 2.5e-12;
+    assert_relative_eq!(kind.moments, expected, max_relative = 1e-12);
+    // The distances of spheres from each other are those of the clump.
+    let [first, _, last] = &kind.spheres[..] else {
+        panic!()
+    };
+    let apart = (first.centre - last.centre).norm();
+    assert_relative_eq!(apart, 2.3e-3, max_relative = 1e-12);
+}
+
+#[test]
+fn lammps_reads_spheres_in_their_places_and_the_inertia_of_each_grain_in_space() {
+    let deck = deck();
+    let data = text(Engine::Lammps, "data.clumps");
+    let (atoms, molecules) = data
+        .split_once("Atoms # sphere")
+        .unwrap()
+        .1
+        .split_once("Molecules")
+        .unwrap();
+    let atoms: Vec<Vec<f64>> = atoms
+        .lines()
+        .map(numbers)
+        .filter(|n| n.len() == 7)
+        .collect();
+    let molecules: Vec<Vec<f64>> = molecules
+        .lines()
+        .map(numbers)
+        .filter(|n| n.len() == 2)
+        .collect();
+    assert_eq!((atoms.len(), molecules.len()), (60, 60));
+    let bodies = text(Engine::Lammps, "bodies.in");
+    let mut bodies = bodies.lines();
+    assert_eq!(bodies.next(), Some("20"));
+    for (index, (line, grain)) in bodies.zip(&deck.grains).enumerate() {
+        let body = numbers(line);
+        assert_eq!((body.len(), body[0]), (20, (index + 1) as f64));
+        assert_relative_eq!(body[1], 1.5e-5, max_relative = 1e-9);
+        assert_relative_eq!(
+            Vector3::from_column_slice(&body[2..5]),
+            grain.centre,
+            max_relative = 1e-9
+        );
+        let [xx, yy, zz, xy, xz, yz] = body[5..11] else {
+            panic!()
+        };
+        let inertia = Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz);
+        // Along the turned axes the moments are those of the kind.
+        for (axis, moment) in [12.0, 25.0, 31.0].into_iter().enumerate() {
+            let along = grain.turn * Vector3::ith(axis, 1.0);
+            assert_relative_eq!(inertia * along, along * (moment * 2.5e-12), epsilon = 1e-18);
+        }
+        for (sphere, ball) in deck.kinds[0].spheres.iter().enumerate() {
+            let at = 3 * index + sphere;
+            assert_eq!(molecules[at], [(at + 1) as f64, (index + 1) as f64]);
+            assert_relative_eq!(atoms[at][2], 2.0 * ball.radius, max_relative = 1e-12);
+            let place = grain.turn.inverse()
+                * (Vector3::from_column_slice(&atoms[at][4..7]) - grain.centre);
+            assert_relative_eq!(place, ball.centre.coords, epsilon = 1e-12);
+        }
+    }
+    assert!(text(Engine::Lammps, "in.settle").contains("infile bodies.in gravity grav"));
+}
+
+#[test]
+fn yade_liggghts_and_mercury_are_given_the_same_grain() {
+    let kind = deck().kinds.remove(0);
+    let moments: [f64; 3] = kind.moments.into();
+    let [i, j, k] = moments;
+    let yade = text(Engine::Yade, "kinds.csv");
+    assert_eq!(numbers(yade.lines().nth(1).unwrap()), [kind.mass, i, j, k]);
+    let settle = text(Engine::Liggghts, "in.settle");
+    let template = settle.lines().find(|line| line.contains("multisphere 1"));
+    let (_, tensor) = template.unwrap().split_once("mass").unwrap();
+    assert_eq!(numbers(tensor)[..7], [kind.mass, i, 0.0, 0.0, j, 0.0, k]);
+    let mercury = |file: &str| text(Engine::MercuryDpm, &format!("clumps/a_grain/{file}"));
+    assert_eq!(numbers(&mercury("inertia/mass.txt")), [kind.mass]);
+    let toi = numbers(&mercury("inertia/toi.txt"));
+    assert_eq!(toi, [i, 0.0, 0.0, 0.0, j, 0.0, 0.0, 0.0, k]);
+    let spheres: Vec<f64> = kind
+        .spheres
+        .iter()
+        .flat_map(|ball| [ball.centre.x, ball.centre.y, ball.centre.z, ball.radius])
+        .collect();
+    assert_eq!(numbers(&mercury("clump/clump.txt")), spheres);
+    assert_eq!(numbers(&text(Engine::Liggghts, "a_grain.spheres")), spheres);
+    let yade = text(Engine::Yade, "spheres.csv");
+    let yade: Vec<f64> = yade.lines().flat_map(numbers).collect();
+    assert_eq!(yade, spheres);
+}
+
+#[test]
+fn grains_begin_apart_and_inside() {
+    let deck = deck();
+    let reach = deck.largest_diameter();
+    for (index, grain) in deck.grains.iter().enumerate() {
+        let place = grain.centre;
+        let inside = |x: f64, side: f64| x >= reach / 2.0 && x <= side - reach / 2.0;
+        assert!(inside(place.x, deck.side) && inside(place.y, deck.side));
+        assert!(inside(place.z, deck.height));
+        for other in &deck.grains[..index] {
+            assert!((other.centre - place).norm() > reach);
+        }
+    }
+}
+
+#[test]
+fn decks_that_make_no_sense_are_refused() {
+    let Deck {
+        kinds, material, ..
+    } = deck();
+    let column = |kinds: &[Kind], count, material| {
+        let made = Deck::column(kinds.to_vec(), count, material, 0);
+        made.unwrap_err().to_string()
+    };
+    assert_eq!(column(&kinds, 0, material), "there are no grains");
+    let many = column(&kinds, usize::MAX, material);
+    assert!(many.contains("more than 20000000"), "{many}");
+    let twice = [kinds.clone(), kinds.clone()].concat();
+    assert!(column(&twice, 4, material).contains("same name"));
+    let sticky = GrainMaterial {
+        friction: f64::NAN,
+        ..material
+    };
+    assert!(column(&kinds, 4, sticky).contains("friction must be zero or above"));
+    assert!(Kind::new("a", &clump(), 1e-3, 0.0).is_err());
+    assert!(Kind::new("a", &clump(), 1e-200, 1.0).is_err());
+}
+
+#[test]
+fn complex_harmonics_make_the_same_radius() {
+    let basis = crate::sphere::HarmonicBasis::new(2);
+    let real: Vec<f64> = (0..9).map(|i| 0.3 + 0.1 * f64::from(i)).collect();
+    let text = write_anm(&AnmExpansion::from_real(&real));
+    let lines: Vec<Vec<f64>> = text.lines().map(numbers).collect();
+    assert_eq!(lines.len(), 9);
+    for n in [[0.36, 0.48, 0.8], [-0.6, 0.64, -0.48], [0.0, -0.6, 0.8]].map(Vector3::<f64>::from) {
+        let (s, phi) = (n.x.hypot(n.y), n.y.atan2(n.x));
+        // N P_l^m with the phase (-1)^m, m >= 0.
+        let legendre = |degree: f64, order: f64| match (degree as usize, order as usize) {
+            (0, 0) => 0.282_094_791_773_878_1,
+            (1, 0) => 0.488_602_511_902_919_9 * n.z,
+            (1, 1) => -0.345_494_149_471_335_5 * s,
+            (2, 0) => 0.315_391_565_252_520_05 * (3.0 * n.z * n.z - 1.0),
+            (2, 1) => -0.772_548_404_046_379_2 * s * n.z,
+            _ => 0.386_274_202_023_189_6 * s * s,
+        };
+        let term = |line: &Vec<f64>| {
+            let [degree, order, re, im] = line[..] else {
+                panic!()
+            };
+            let sign = if order < 0.0 {
+                (-1.0_f64).powf(order)
+            } else {
+                1.0
+            };
+            let (sine, cosine) = (order * phi).sin_cos();
+            sign * legendre(degree, order.abs()) * (re * cosine - im * sine)
+        };
+        let found: f64 = lines.iter().map(term).sum();
+        let mut values = vec![0.0; 9];
+        basis.evaluate(&n, &mut values);
+        let expected: f64 = values.iter().zip(&real).map(|(y, a)| y * a).sum();
+        assert_relative_eq!(found, expected, max_relative = 1e-12);
+    }
+}

@@ -1,0 +1,170 @@
+//! YADE: clumps, and a script.
+//!
+//! YADE finds mass, centre and inertia of a clump from the volumes and densities of its spheres. So the spheres that
+//! touch are given next to no density, and six that touch nothing carry the grain's mass, on its principal axes as far
+//! out as its moments ask for. Its own figures of the clump are then those of the grain.
+
+use super::deck::{Deck, GRAVITY};
+use super::file::InputFile;
+use super::kind::Kind;
+use super::readme::runs;
+use std::fmt::Write;
+
+/// Density of the spheres that touch, relative to the grain's.
+const LIGHT: f64 = 1e-12;
+
+/// So many times the time of the fall are run at most.
+const MOST_FALLS: f64 = 40.0;
+
+pub(super) fn files(deck: &Deck) -> Vec<InputFile> {
+    let mut kinds = String::from("kind,mass,ixx,iyy,izz\n");
+    let mut spheres = String::from("kind,x,y,z,r\n");
+    for kind in &deck.kinds {
+        let Kind { name, moments, .. } = kind;
+        let [i, j, k]: [f64; 3] = (*moments).into();
+        let _ = writeln!(kinds, "{name},{:e},{i:e},{j:e},{k:e}", kind.mass);
+        for ball in &kind.spheres {
+            let [x, y, z] = ball.centre.coords.into();
+            let _ = writeln!(spheres, "{name},{x:e},{y:e},{z:e},{:e}", ball.radius);
+        }
+    }
+    let mut grains = String::from("kind,x,y,z,qw,qx,qy,qz\n");
+    for grain in &deck.grains {
+        let name = &deck.kinds[grain.kind].name;
+        let [x, y, z] = grain.centre.into();
+        let [i, j, k, w] = grain.turn.coords.into();
+        let _ = writeln!(grains, "{name},{x:e},{y:e},{z:e},{w:e},{i:e},{j:e},{k:e}");
+    }
+    vec![
+        InputFile::new("kinds.csv", kinds),
+        InputFile::new("spheres.csv", spheres),
+        InputFile::new("grains.csv", grains),
+        InputFile::new("settle.py", script(deck)),
+        runs(
+            deck,
+            "YADE",
+            "yade -n -x settle.py",
+            "kinds.csv holds mass and principal moments, spheres.csv the spheres of each kind, grains.csv where grains \
+             begin, settle.py the run; settled.csv is where they lie at the end.",
+        ),
+    ]
+}
+
+fn script(deck: &Deck) -> String {
+    let material = &deck.material;
+    let step = deck.time_step();
+    format!(
+        r#"# Clumps fall into a box and come to rest. SI units: m, kg, s, J.
+import csv
+import os
+import sys
+from math import atan, pi, sqrt
+from yade import utils
+
+side = {side:e}
+rest = {rest:e}  # kinetic energy below which all are at rest
+density = {density:e}
+
+
+def rows(name):
+    with open(name) as file:
+        return list(csv.DictReader(file))
+
+
+def numbers(row, names):
+    return [float(row[name]) for name in names.split()]
+
+
+def material(density):
+    return O.materials.append(FrictMat(
+        young={young:e}, poisson={poisson:e}, frictionAngle=atan({friction:e}), density=density))
+
+
+kinds = {{row["kind"]: numbers(row, "mass ixx iyy izz") for row in rows("kinds.csv")}}
+spheres = {{name: [] for name in kinds}}
+for row in rows("spheres.csv"):
+    spheres[row["kind"]].append(numbers(row, "x y z r"))
+
+# Spheres that touch weigh next to nothing; six that touch nothing carry mass and inertia.
+light = material({light:e} * density)
+carriers = {{}}
+for name, (mass, *moments) in kinds.items():
+    size = 0.01 * sqrt(min(moments) / mass)
+    own = material(mass / 6 / (4 / 3 * pi * size**3))
+    sum_of_squares = 1.5 / mass * sum(moments) - 1.8 * size**2
+    arms = [sqrt(sum_of_squares - 3 / mass * i + 1.2 * size**2) for i in moments]
+    carriers[name] = (own, size, arms)
+
+walls = material(density)
+O.bodies.append([utils.wall(at, axis, material=walls)
+                 for at, axis in ((0, 0), (side, 0), (0, 1), (side, 1), (0, 2))])
+clumps = []
+for row in rows("grains.csv"):
+    name = row["kind"]
+    centre = Vector3(*numbers(row, "x y z"))
+    turn = Quaternion(*numbers(row, "qw qx qy qz"))
+    members = [utils.sphere(centre + turn * Vector3(x, y, z), r, material=light) for x, y, z, r in spheres[name]]
+    own, size, arms = carriers[name]
+    for axis in range(3):
+        for sign in (1, -1):
+            arm = Vector3(0, 0, 0)
+            arm[axis] = sign * arms[axis]
+            members.append(utils.sphere(centre + turn * arm, size, material=own, mask=0))
+    clump, ids = O.bodies.appendClumped(members, discretization=0)
+    clumps.append(clump)
+    # What damping at contacts takes for the mass.
+    for body in ids:
+        O.bodies[body].state.mass = kinds[name][0]
+
+O.engines = [
+    ForceResetter(),
+    InsertionSortCollider([Bo1_Sphere_Aabb(), Bo1_Wall_Aabb()], verletDist={skin:e}),
+    InteractionLoop(
+        [Ig2_Sphere_Sphere_ScGeom(), Ig2_Wall_Sphere_ScGeom()],
+        [Ip2_FrictMat_FrictMat_MindlinPhys(en={restitution:e}, es={restitution:e})],
+        [Law2_ScGeom_MindlinPhys_Mindlin()]),
+    NewtonIntegrator(damping=0, gravity=(0, 0, -{GRAVITY}), exactAsphericalRot=True),
+]
+O.dt = {step:e}
+
+
+def energy():
+    total = 0
+    for clump in clumps:
+        state = O.bodies[clump].state
+        spin = state.ori.conjugate() * state.angVel
+        total += 0.5 * state.mass * state.vel.squaredNorm()
+        total += 0.5 * sum(state.inertia[i] * spin[i]**2 for i in range(3))
+    return total
+
+
+first = O.bodies[clumps[0]].state
+print("first grain: mass %.9e kg, centre %.9e %.9e %.9e m, moments %.9e %.9e %.9e kg m2" % (
+    first.mass, *first.pos, *sorted(first.inertia)))
+O.run({falling}, True)
+while energy() >= rest and O.iter < {most}:
+    O.run(500, True)
+lost = sum(1 for clump in clumps if not (0 < O.bodies[clump].state.pos[2]
+           and all(0 < O.bodies[clump].state.pos[axis] < side for axis in (0, 1))))
+print("at rest: kinetic energy %e J, %d grains, %d lost, %d steps" % (energy(), len(clumps), lost, O.iter))
+with open("settled.csv", "w") as file:
+    file.write("x,y,z,r\n")
+    for body in O.bodies:
+        if isinstance(body.shape, Sphere) and body.mask:
+            file.write("%.9e,%.9e,%.9e,%.9e\n" % (*body.state.pos, body.shape.radius))
+sys.stdout.flush()
+os._exit(0)
+"#,
+        side = deck.side,
+        rest = deck.rest_energy(),
+        density = material.density,
+        young = material.youngs_modulus,
+        poisson = material.poissons_ratio,
+        friction = material.friction,
+        restitution = material.restitution,
+        light = LIGHT,
+        skin = 0.3 * deck.least_radius(),
+        falling = (deck.fall() / step) as usize,
+        most = (MOST_FALLS * deck.fall() / step) as usize,
+    )
+}

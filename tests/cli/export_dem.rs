@@ -1,0 +1,268 @@
+use super::{errors, folder, grain, grainform, json, names, number, succeed};
+use std::path::Path;
+use std::process::Command;
+use tempfile::TempDir;
+
+/// Writes the input of an engine into the folder `dem`.
+fn export(folder: &TempDir, engine: &str, more: &[&str]) -> String {
+    let bean = grain("bean.ply");
+    let words = [
+        "export-dem",
+        &bean,
+        "--engine",
+        engine,
+        "-o",
+        "dem",
+        "--unit",
+        "mm",
+    ];
+    succeed(folder, &[&words[..], more].concat())
+}
+
+fn read(folder: &Path, name: &str) -> String {
+    std::fs::read_to_string(folder.join(name)).unwrap_or_else(|error| panic!("{name}: {error}"))
+}
+
+#[test]
+fn a_folder_holds_mass_and_inertia_of_the_grain() {
+    let folder = folder();
+    let told = export(&folder, "lammps", &["--spheres", "5", "--grains", "8"]);
+    assert!(
+        told.contains("5 spheres") && told.contains("wrote dem: 4 files"),
+        "{told}"
+    );
+    let dem = folder.path().join("dem");
+    assert_eq!(
+        names(&dem),
+        ["README", "bodies.in", "data.clumps", "in.settle"]
+    );
+    assert_eq!(read(&dem, "README").lines().count(), 3);
+    let measured = json(
+        &folder,
+        &["measure", &grain("bean.ply"), "--only", "volume,principal"],
+    );
+    let bodies = read(&dem, "bodies.in");
+    let first: Vec<f64> = bodies
+        .lines()
+        .nth(1)
+        .unwrap()
+        .split(' ')
+        .map(|x| x.parse().unwrap())
+        .collect();
+    let mass = number(&measured, "volume") * 1e-9 * 2500.0;
+    assert!((first[1] / mass - 1.0).abs() < 1e-6);
+    // The trace is the same in all axes.
+    let trace: f64 = first[5..8].iter().sum();
+    let moments = measured["principal"]["moments"].as_array().unwrap();
+    let expected: f64 = moments.iter().map(|moment| moment.as_f64().unwrap()).sum();
+    assert!((trace / (expected * 1e-15 * 2500.0) - 1.0).abs() < 1e-6);
+    let atoms = read(&dem, "data.clumps");
+    assert!(atoms.contains("40 atoms"));
+    // The same words give the same bytes.
+    export(&folder, "lammps", &["--spheres", "5", "--grains", "8"]);
+    assert!(read(&dem, "bodies.in") == bodies && read(&dem, "data.clumps") == atoms);
+}
+
+#[test]
+fn shapes_for_nist_are_centred_and_their_loss_is_told() {
+    let folder = folder();
+    let told = export(&folder, "anm", &[]);
+    assert!(told.contains("degree 20, RMS"), "{told}");
+    let anm = read(&folder.path().join("dem"), "bean.anm");
+    let lines: Vec<Vec<f64>> = anm
+        .lines()
+        .map(|line| {
+            line.split_whitespace()
+                .map(|x| x.parse().unwrap())
+                .collect()
+        })
+        .collect();
+    assert_eq!(lines.len(), 21 * 21);
+    // a_00 is the mean radius times sqrt(4 pi), in metres.
+    let measured = json(
+        &folder,
+        &["measure", &grain("bean.ply"), "--only", "spheres,spectrum"],
+    );
+    let power = measured["spectrum"]["power"][0].as_f64().unwrap();
+    assert_eq!(lines[0][..2], [0.0, 0.0]);
+    assert!((lines[0][2] / (power.sqrt() * 1e-3) - 1.0).abs() < 1e-9);
+    let mirrored = |line: &&Vec<f64>| line[0] == 3.0 && line[1].abs() == 3.0;
+    let [plus, minus] = lines.iter().filter(mirrored).collect::<Vec<_>>()[..] else {
+        panic!()
+    };
+    assert_eq!((plus[2], plus[3]), (-minus[2], minus[3]));
+}
+
+#[test]
+fn superquadrics_are_written_as_such_where_liggghts_knows_them() {
+    let folder = folder();
+    succeed(
+        &folder,
+        &["synth", "cylinder", "--axes", "2,2,1", "-o", "c.ply"],
+    );
+    let fit = ["fit", "c.ply", "--surface", "superquadric", "-o", "c.json"];
+    succeed(&folder, &fit);
+    let words = [
+        "export-dem",
+        "c.json",
+        "--engine",
+        "liggghts",
+        "--unit",
+        "cm",
+    ];
+    succeed(
+        &folder,
+        &[&words[..], &["-o", "dem", "--spheres", "8"]].concat(),
+    );
+    let script = read(&folder.path().join("dem"), "in.superquadrics");
+    let (_, shape) = script.split_once("shape constant ").expect("a shape");
+    let shape: Vec<f64> = shape
+        .split(' ')
+        .take(3)
+        .map(|x| x.parse().unwrap())
+        .collect();
+    for (found, expected) in shape.iter().zip([0.02, 0.02, 0.01]) {
+        assert!((found / expected - 1.0).abs() < 0.05, "{shape:?}");
+    }
+}
+
+#[test]
+fn what_no_engine_can_run_is_refused_in_a_sentence() {
+    let folder = folder();
+    let bean = grain("bean.ply");
+    for (more, sentence) in [
+        (
+            &["--engine", "abacus"][..],
+            "expected lammps, yade, liggghts, mercurydpm or anm",
+        ),
+        (
+            &["--engine", "yade", "--grains", "0"],
+            "there are no grains",
+        ),
+        (
+            &["--engine", "yade", "--density", "0"],
+            "the density must be above zero, not 0 kg/m³",
+        ),
+        (
+            &["--engine", "yade", "--poissons-ratio", "0.7"],
+            "Poisson's ratio must be from 0 to 0.5",
+        ),
+    ] {
+        let words = ["export-dem", &bean, "--unit", "mm", "-o", "dem"];
+        let output = grainform(&folder, &[&words[..], more].concat());
+        assert_eq!(output.status.code(), Some(2));
+        let message = errors(&output);
+        assert!(message.contains(sentence), "{message}");
+    }
+}
+
+/// Runs an engine in the folder `dem`; gives what it prints after `at rest:`.
+fn run(folder: &TempDir, program: &str, words: &[&str]) -> String {
+    let output = Command::new(program)
+        .args(words)
+        .current_dir(folder.path().join("dem"))
+        .env("OMP_NUM_THREADS", "1")
+        .output()
+        .expect("the engine is in the path");
+    let printed = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(output.status.success(), "{printed} {}", errors(&output));
+    // LAMMPS prints the command too, with the names of its variables.
+    let mut ends = printed
+        .lines()
+        .filter_map(|line| line.strip_prefix("at rest: "));
+    ends.next().expect("an end").to_owned()
+}
+
+/// The number after some words.
+fn after(printed: &str, words: &str) -> f64 {
+    let (_, rest) = printed.split_once(words).expect(words);
+    rest.split_whitespace().next().unwrap().parse().unwrap()
+}
+
+/// The coordinates of spheres, in metres, and their radii.
+fn settled(text: &str, separator: char, skip: usize) -> Vec<Vec<f64>> {
+    let numbers = |line: &str| -> Option<Vec<f64>> {
+        let words = line.split(separator).skip(skip);
+        let words = words.filter(|word| !word.is_empty());
+        let numbers: Vec<f64> = words
+            .map(|x| x.trim().parse().ok())
+            .collect::<Option<_>>()?;
+        (numbers.len() == 4).then_some(numbers)
+    };
+    text.lines().filter_map(numbers).collect()
+}
+
+/// The grains lie in the box, the lowest spheres on the floor, and no higher than grains can.
+fn assert_lies(spheres: &[Vec<f64>], count: usize) {
+    assert_eq!(spheres.len(), count);
+    let low = |sphere: &Vec<f64>| sphere[2] - sphere[3];
+    let lowest = spheres.iter().map(low).fold(f64::MAX, f64::min);
+    let highest = spheres.iter().map(|sphere| sphere[2]).fold(0.0, f64::max);
+    assert!(lowest.abs() < 1e-4, "{lowest}");
+    assert!(highest < 0.08, "{highest}");
+}
+
+#[test]
+#[ignore = "needs LAMMPS (lmp) in the path"]
+fn lammps_lets_two_hundred_grains_come_to_rest() {
+    let folder = folder();
+    export(&folder, "lammps", &["--spheres", "5"]);
+    let printed = run(&folder, "lmp", &["-in", "in.settle"]);
+    assert!(after(&printed, "kinetic energy ") < 1e-9, "{printed}");
+    assert!(printed.contains("1000 spheres"), "{printed}");
+    let dump = read(&folder.path().join("dem"), "settled.dump");
+    assert_lies(&settled(&dump, ' ', 3), 1000);
+}
+
+#[test]
+#[ignore = "needs YADE (yade) in the path"]
+fn yade_takes_mass_centre_and_inertia_as_they_are_and_lets_the_grains_come_to_rest() {
+    let folder = folder();
+    export(&folder, "yade", &["--spheres", "5"]);
+    let dem = folder.path().join("dem");
+    let output = Command::new("yade")
+        .args(["-n", "-x", "settle.py"])
+        .current_dir(&dem)
+        .output()
+        .expect("the engine is in the path");
+    let printed = String::from_utf8_lossy(&output.stdout).into_owned();
+    let rest = printed.lines().find(|line| line.starts_with("at rest: "));
+    let rest = rest.unwrap_or_else(|| panic!("{printed} {}", errors(&output)));
+    assert!(after(rest, "kinetic energy ") < 1e-9, "{rest}");
+    assert!(rest.contains("200 grains, 0 lost"), "{rest}");
+    let kinds = read(&dem, "kinds.csv");
+    let numbers = |line: &str, skip: usize| -> Vec<f64> {
+        let words = line.split([',', ' ']).filter_map(|word| word.parse().ok());
+        words.skip(skip).collect()
+    };
+    let expected = numbers(kinds.lines().nth(1).unwrap(), 0);
+    let line = printed
+        .lines()
+        .find(|line| line.starts_with("first grain: "));
+    let found = numbers(line.expect("the first grain"), 0);
+    let grains = read(&dem, "grains.csv");
+    let placed = numbers(grains.lines().nth(1).unwrap(), 0);
+    for (found, expected) in [
+        (found[0], expected[0]),
+        (found[1], placed[0]),
+        (found[2], placed[1]),
+        (found[3], placed[2]),
+        (found[4], expected[1]),
+        (found[5], expected[2]),
+        (found[6], expected[3]),
+    ] {
+        assert!((found / expected - 1.0).abs() < 1e-6, "{found} {expected}");
+    }
+    assert_lies(&settled(&read(&dem, "settled.csv"), ',', 0), 1000);
+}
+
+#[test]
+#[ignore = "needs LIGGGHTS (liggghts) in the path"]
+fn liggghts_lets_two_hundred_grains_come_to_rest() {
+    let folder = folder();
+    export(&folder, "liggghts", &["--spheres", "5"]);
+    let printed = run(&folder, "liggghts", &["-in", "in.settle"]);
+    assert!(after(&printed, "kinetic energy ") < 1e-9, "{printed}");
+    let dump = read(&folder.path().join("dem"), "settled.dump");
+    assert_lies(&settled(&dump, ' ', 2), 1000);
+}
