@@ -106,21 +106,4 @@ fn what_does_not_go_with_superquadrics_is_refused() {
         assert_eq!(output.status.code(), Some(2));
         assert!(errors(&output).contains(reason), "{}", errors(&output));
     }
-    succeed(
-        &folder,
-        &["fit", "s.ply", "--segments", "1", "-o", "star.json"],
-    );
-    let pose = [
-        "contact",
-        "star.json",
-        "star.json",
-        "--pose-b",
-        "0,0,2,1,0,0,0",
-    ];
-    let output = grainform(&folder, &pose);
-    assert!(
-        errors(&output).contains("not made of convex bodies"),
-        "{}",
-        errors(&output)
-    );
 }
