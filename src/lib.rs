@@ -32,6 +32,8 @@ pub mod fit;
 pub mod measure;
 pub mod mesh;
 pub mod model;
+#[cfg(feature = "cli")]
+pub mod picture;
 mod polygon_hull;
 pub mod report;
 pub mod scan;
