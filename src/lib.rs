@@ -17,6 +17,7 @@
 //!   ever guessed.
 //! * **Density** is one: a moment of inertia is in the scan's unit to the fifth power.
 
+pub mod annotate;
 #[cfg(feature = "cli")]
 pub mod batch;
 #[cfg(feature = "cli")]
@@ -35,6 +36,8 @@ pub mod model;
 #[cfg(feature = "cli")]
 pub mod picture;
 mod polygon_hull;
+#[cfg(feature = "cli")]
+pub mod portrait;
 pub mod report;
 pub mod scan;
 pub mod shapes;

@@ -6,7 +6,7 @@ use std::fs;
 use std::path::Path;
 
 /// The top modules from the ground up: each imports only from those before it.
-const FLOORS: [&str; 19] = [
+const FLOORS: [&str; 21] = [
     "vectorize",
     "disjoint_sets",
     "elliptic",
@@ -18,6 +18,8 @@ const FLOORS: [&str; 19] = [
     "scan",
     "model",
     "measure",
+    "annotate",
+    "portrait",
     "shapes",
     "contact",
     "fit",

@@ -1,10 +1,12 @@
 //! `grainform mesh`
 
-use super::args::{MeshArgs, MeshingArgs};
+use super::args::{InputArgs, LimitArgs, MeshArgs, MeshingArgs};
 use super::console::Console;
 use super::{inputs, outputs, threads};
-use crate::export::MeshFormat;
-use crate::model::Surface;
+use crate::annotate::{Annotated, ScanDeviation};
+use crate::export::{Detail, MeshFormat};
+use crate::model::{Grain, Surface};
+use crate::portrait::colours;
 use anyhow::{Result, bail};
 
 /// Bytes that a mesh takes per square of its resolution, while it is made.
@@ -24,17 +26,51 @@ pub(super) fn run(args: MeshArgs, console: Console) -> Result<()> {
     let bytes = inputs::read(&args.model, &args.limit)?;
     let progress = console.progress();
     progress.stage("Meshing");
-    let mesh = inputs::parse_model(&args.model, &bytes)?.mesh(args.meshing.resolution.into());
-    progress.stage("Writing");
+    let grain = inputs::parse_model(&args.model, &bytes)?;
+    let resolution = args.meshing.resolution.into();
     let format = MeshFormat::of(&args.output).unwrap_or(args.format);
-    outputs::write(&args.output, |file| format.write(&mesh, file))?;
+    let (vertices, triangles) = match format {
+        MeshFormat::Stl | MeshFormat::Obj => {
+            let mesh = grain.mesh(resolution);
+            progress.stage("Writing");
+            outputs::write(&args.output, |file| format.write(&mesh, file))?;
+            (mesh.vertices.len(), mesh.triangles.len())
+        }
+        MeshFormat::Ply | MeshFormat::Vtp | MeshFormat::Glb => {
+            let surface = annotated(&args, &grain)?;
+            let detail = Detail {
+                normals: &surface.normals,
+                fields: &surface.fields,
+                colours: &colours(&surface),
+            };
+            progress.stage("Writing");
+            outputs::write(&args.output, |file| {
+                format.write_detailed(&surface.mesh, &detail, file)
+            })?;
+            (surface.mesh.vertices.len(), surface.mesh.triangles.len())
+        }
+    };
     drop(progress);
     console.wrote(&format!(
-        "{}: {} vertices, {} triangles",
+        "{}: {vertices} vertices, {triangles} triangles",
         outputs::name(&args.output),
-        mesh.vertices.len(),
-        mesh.triangles.len()
     ))
+}
+
+/// The mesh with what is known at its vertices.
+fn annotated(args: &MeshArgs, grain: &Grain) -> Result<Annotated> {
+    let surface = Annotated::new(grain, args.meshing.resolution.into());
+    let Some(path) = &args.scan else {
+        return Ok(surface);
+    };
+    let input = InputArgs {
+        format: None,
+        limit: LimitArgs {
+            max_bytes: args.limit.max_bytes,
+        },
+    };
+    let scan = inputs::scan(path, &input)?;
+    Ok(surface.with_deviation(&ScanDeviation::new(grain, &scan)))
 }
 
 impl MeshingArgs {

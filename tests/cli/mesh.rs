@@ -39,8 +39,8 @@ fn the_mesh_of_a_model_is_that_of_its_fit() {
     );
     let text = succeed(&folder, &["mesh", "m.json", "-o", "model.ply"]);
     assert_eq!(text, "wrote model.ply: 24578 vertices, 49152 triangles\n");
-    let bytes = |name: &str| std::fs::read(folder.path().join(name)).unwrap();
-    assert!(bytes("fit.ply") == bytes("model.ply"));
+    let scan = |name: &str| read_scan(&folder.path().join(name)).unwrap();
+    assert!(scan("fit.ply") == scan("model.ply"));
 }
 
 #[test]
