@@ -34,6 +34,8 @@ pub mod measure;
 pub mod mesh;
 pub mod model;
 #[cfg(feature = "cli")]
+pub mod page;
+#[cfg(feature = "cli")]
 pub mod picture;
 mod polygon_hull;
 #[cfg(feature = "cli")]

@@ -16,6 +16,7 @@ mod mesh;
 mod outputs;
 mod placed;
 mod progress;
+mod report;
 mod search;
 mod shell;
 #[cfg(unix)]
@@ -59,6 +60,7 @@ pub fn run() -> ExitCode {
         Command::Batch(args) => batch::run(args, console),
         Command::Compare(args) => compare::run(args, console),
         Command::Bench(args) => bench::run(args, console),
+        Command::Report(args) => report::run(args, console),
         Command::Completions(args) => shell::completions(&args),
         Command::Man(args) => shell::man(&args),
     };

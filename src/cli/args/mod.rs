@@ -3,7 +3,7 @@
 mod many;
 mod shared;
 
-pub(super) use many::{BatchArgs, CompareArgs, SplitArgs};
+pub(super) use many::{BatchArgs, CompareArgs, ReportArgs, SplitArgs};
 pub(super) use shared::{FittingArgs, InputArgs, LimitArgs, MeshingArgs};
 
 use super::values::{CloudFormat, PoseArg, SchemeArg, Subject, SurfaceArg, share, vector};
@@ -53,6 +53,7 @@ pub(super) enum Command {
     Batch(BatchArgs),
     Compare(CompareArgs),
     Bench(BenchArgs),
+    Report(ReportArgs),
     Completions(CompletionsArgs),
     Man(ManArgs),
 }

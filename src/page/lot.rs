@@ -1,0 +1,103 @@
+//! The part of a page about a folder of results.
+
+use super::packed::Packed;
+use crate::model::{Surface, load_grain};
+use nalgebra::Vector3;
+use rayon::prelude::*;
+use serde::Serialize;
+use std::path::{Path, PathBuf};
+use thiserror::Error;
+
+/// Cells along an edge of the cube of directions of small surfaces, of few grains and of many.
+const RESOLUTIONS: [(usize, usize); 2] = [(200, 14), (1000, 8)];
+
+/// Why a folder of results is not shown.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum LotError {
+    /// There is no table.
+    #[error("{} holds no results.csv; make one with grainform batch", folder.display())]
+    NoTable {
+        /// The folder.
+        folder: PathBuf,
+    },
+    /// The table is none.
+    #[error("cannot read {} as CSV: {source}", path.display())]
+    Csv {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        source: csv::Error,
+    },
+}
+
+/// What a page shows of a folder of results.
+#[derive(Debug, Clone, Serialize)]
+pub struct LotPart {
+    name: String,
+    columns: Vec<String>,
+    rows: Vec<Vec<String>>,
+    resolution: usize,
+    /// The surface of each grain whose model is there.
+    surfaces: Vec<Option<Packed>>,
+}
+
+impl LotPart {
+    /// Cells along an edge of the cube of directions of the surfaces.
+    pub(super) fn resolution(&self) -> usize {
+        self.resolution
+    }
+
+    /// Reads the table in a folder of results, and surfaces from the models in it, of a thousand grains at most.
+    ///
+    /// # Errors
+    /// [`LotError`] where there is no table.
+    pub fn read(folder: &Path) -> Result<Self, LotError> {
+        let path = folder.join("results.csv");
+        if !path.is_file() {
+            return Err(LotError::NoTable {
+                folder: folder.into(),
+            });
+        }
+        let failed = |source| LotError::Csv {
+            path: path.clone(),
+            source,
+        };
+        let mut reader = csv::Reader::from_path(&path).map_err(failed)?;
+        let texts = |record: &csv::StringRecord| record.iter().map(str::to_owned).collect();
+        let columns: Vec<String> = texts(reader.headers().map_err(failed)?);
+        let records = reader
+            .records()
+            .map(|record| record.map(|record| texts(&record)));
+        let rows: Vec<Vec<String>> = records.collect::<Result<_, _>>().map_err(failed)?;
+        let paths = columns.iter().position(|column| column == "path");
+        let inputs: Vec<PathBuf> = rows
+            .iter()
+            .map(|row| {
+                paths
+                    .and_then(|at| row.get(at))
+                    .map_or(PathBuf::new(), PathBuf::from)
+            })
+            .collect();
+        let most = RESOLUTIONS.iter().find(|(most, _)| rows.len() <= *most);
+        let (most, resolution) = *most.unwrap_or(&RESOLUTIONS[1]);
+        let names = crate::batch::names(&inputs);
+        let surface = |(at, name): (usize, &String)| {
+            let model = folder.join("models").join(format!("{name}.json"));
+            let grain = load_grain(&model).ok().filter(|_| at < most)?;
+            let mesh = grain.mesh(resolution);
+            let sum: Vector3<f64> = mesh.vertices.iter().map(|vertex| vertex.coords).sum();
+            let middle = sum / mesh.vertices.len() as f64;
+            Some(Packed::vectors(
+                mesh.vertices.iter().map(|vertex| vertex.coords - middle),
+            ))
+        };
+        Ok(Self {
+            name: folder.display().to_string(),
+            columns,
+            resolution,
+            surfaces: names.par_iter().enumerate().map(surface).collect(),
+            rows,
+        })
+    }
+}
