@@ -42,24 +42,21 @@ impl Annotated {
         let axes = grain.frame().axes;
         let (local, _) = cube_grid(resolution);
         let directions: Vec<Vector3<f64>> = local.iter().map(|n| axes * n).collect();
-        let curvatures: Vec<Curvature> = directions
-            .par_iter()
-            .map(|n| Curvature::new(n, &grain.jet(n)))
-            .collect();
+        let bent = directions.par_iter().map(|n| {
+            let curvature = Curvature::new(n, &grain.jet(n));
+            (curvature.normal, (curvature.mean(), curvature.gaussian()))
+        });
+        let (normals, (means, gaussians)): (Vec<_>, (Vec<_>, Vec<_>)) = bent.unzip();
         let segments = directions.par_iter().map(|n| grain.segment(n) as f64);
         let field = |name, values| Field { name, values };
-        let curved = |of: fn(&Curvature) -> f64| curvatures.iter().map(of).collect();
         Self {
             mesh: grain.mesh(resolution),
             fields: vec![
-                field("mean_curvature", curved(Curvature::mean)),
-                field("gaussian_curvature", curved(Curvature::gaussian)),
+                field("mean_curvature", means),
+                field("gaussian_curvature", gaussians),
                 field("segment", segments.collect()),
             ],
-            normals: curvatures
-                .iter()
-                .map(|curvature| curvature.normal)
-                .collect(),
+            normals,
             directions,
         }
     }

@@ -14,7 +14,9 @@ pub(super) fn run(args: FitArgs, console: Console) -> Result<()> {
     let started = Instant::now();
     let fitting = &args.fitting;
     let options = fitting.settle(console)?;
-    args.meshing.check(args.mesh.is_some(), console)?;
+    if let Some(path) = &args.mesh {
+        args.meshing.check_for(path, console)?;
+    }
     let is_taken = outputs::check(
         Some(&fitting.scan),
         &[

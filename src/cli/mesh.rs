@@ -8,9 +8,12 @@ use crate::export::{Detail, MeshFormat};
 use crate::model::{Grain, Surface};
 use crate::portrait::colours;
 use anyhow::{Result, bail};
+use std::path::Path;
 
-/// Bytes that a mesh takes per square of its resolution, while it is made.
-const BYTES_PER_CELL: u64 = 480;
+/// Bytes that a mesh takes per square of its resolution, while it is made: of places only, and with what is known at
+/// vertices or in formats that are put together in memory.
+const PLAIN: u64 = 480;
+const DETAILED: u64 = 2200;
 
 /// The most bytes that a mesh may take.
 const MOST_BYTES: u64 = 4_000_000_000;
@@ -22,13 +25,17 @@ pub(super) fn run(args: MeshArgs, console: Console) -> Result<()> {
     threads::start(0, console)?;
     let output = (Some(args.output.as_path()), outputs::MESH);
     let console = console.beside(outputs::check(Some(&args.model), &[output], false)?);
-    args.meshing.check(true, console)?;
+    let format = MeshFormat::of(&args.output).unwrap_or(args.format);
+    let bytes = match format {
+        MeshFormat::Stl | MeshFormat::Obj => PLAIN,
+        MeshFormat::Ply | MeshFormat::Vtp | MeshFormat::Glb => DETAILED,
+    };
+    args.meshing.check(bytes, console)?;
     let bytes = inputs::read(&args.model, &args.limit)?;
     let progress = console.progress();
     progress.stage("Meshing");
     let grain = inputs::parse_model(&args.model, &bytes)?;
     let resolution = args.meshing.resolution.into();
-    let format = MeshFormat::of(&args.output).unwrap_or(args.format);
     let (vertices, triangles) = match format {
         MeshFormat::Stl | MeshFormat::Obj => {
             let mesh = grain.mesh(resolution);
@@ -74,12 +81,19 @@ fn annotated(args: &MeshArgs, grain: &Grain) -> Result<Annotated> {
 }
 
 impl MeshingArgs {
-    /// Refuses a mesh that takes too much memory, and tells of one that takes much; `is_asked` is whether there
-    /// is one to make.
-    pub(super) fn check(&self, is_asked: bool, console: Console) -> Result<()> {
+    /// Refuses the mesh of a fit for a file if it takes too much memory, and tells of one that takes much.
+    pub(super) fn check_for(&self, file: &Path, console: Console) -> Result<()> {
+        let bytes = match MeshFormat::of(file) {
+            Some(MeshFormat::Vtp | MeshFormat::Glb) => DETAILED,
+            _ => PLAIN,
+        };
+        self.check(bytes, console)
+    }
+
+    fn check(&self, bytes_per_cell: u64, console: Console) -> Result<()> {
         let cells = u64::from(self.resolution).pow(2);
-        let bytes = BYTES_PER_CELL * cells;
-        if !is_asked || bytes < MANY_BYTES {
+        let bytes = bytes_per_cell * cells;
+        if bytes < MANY_BYTES {
             return Ok(());
         }
         let need = format!(
@@ -91,7 +105,7 @@ impl MeshingArgs {
         if bytes > MOST_BYTES {
             bail!(
                 "{need}; ask for at most {:.0}, which needs {:.0} GB",
-                ((MOST_BYTES / BYTES_PER_CELL) as f64).sqrt().floor(),
+                ((MOST_BYTES / bytes_per_cell) as f64).sqrt().floor(),
                 1e-9 * MOST_BYTES as f64
             );
         }

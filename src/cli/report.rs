@@ -31,7 +31,7 @@ pub(super) fn run(args: ReportArgs, console: Console) -> Result<()> {
     for path in &args.paths {
         progress.stage(format_args!("Reporting {}", escaped(&inputs::name(path))));
         match path.is_dir() {
-            true => lots.push(LotPart::read(path)?),
+            true => lots.push(LotPart::read(path, args.truth.as_deref())?),
             false => grains.push(grain_part(path, &args)?),
         }
     }

@@ -57,6 +57,7 @@ pub use inscribed_ball::{InscribedBallError, inscribed_ball};
 pub use integrals::{Integrals, MAX_EVALUATIONS, grain_properties, integrate};
 pub use mass::{MassProperties, Moments, PrincipalInertia};
 pub use mesh::{MeshIntegralError, mesh_properties};
+#[cfg(feature = "cli")]
 pub(crate) use minimum_box::box_along;
 pub use minimum_box::{OrientedBox, minimum_box};
 pub use outline::Outline;

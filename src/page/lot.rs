@@ -31,12 +31,21 @@ pub enum LotError {
     },
 }
 
+/// What is known of the grains of a folder.
+#[derive(Debug, Clone, Serialize)]
+struct Truth {
+    columns: Vec<String>,
+    /// A row for each of the table, where the grain is known.
+    rows: Vec<Option<Vec<String>>>,
+}
+
 /// What a page shows of a folder of results.
 #[derive(Debug, Clone, Serialize)]
 pub struct LotPart {
     name: String,
     columns: Vec<String>,
     rows: Vec<Vec<String>>,
+    truth: Option<Truth>,
     resolution: usize,
     /// The surface of each grain whose model is there.
     surfaces: Vec<Option<Packed>>,
@@ -48,28 +57,19 @@ impl LotPart {
         self.resolution
     }
 
-    /// Reads the table in a folder of results, and surfaces from the models in it, of a thousand grains at most.
+    /// Reads the table in a folder of results, and surfaces from the models in it, of a thousand grains at most. `truth`
+    /// is a table whose first column names the files of scans, and whose others are called as those of results.
     ///
     /// # Errors
     /// [`LotError`] where there is no table.
-    pub fn read(folder: &Path) -> Result<Self, LotError> {
+    pub fn read(folder: &Path, truth: Option<&Path>) -> Result<Self, LotError> {
         let path = folder.join("results.csv");
         if !path.is_file() {
             return Err(LotError::NoTable {
                 folder: folder.into(),
             });
         }
-        let failed = |source| LotError::Csv {
-            path: path.clone(),
-            source,
-        };
-        let mut reader = csv::Reader::from_path(&path).map_err(failed)?;
-        let texts = |record: &csv::StringRecord| record.iter().map(str::to_owned).collect();
-        let columns: Vec<String> = texts(reader.headers().map_err(failed)?);
-        let records = reader
-            .records()
-            .map(|record| record.map(|record| texts(&record)));
-        let rows: Vec<Vec<String>> = records.collect::<Result<_, _>>().map_err(failed)?;
+        let (columns, rows) = table(&path)?;
         let paths = columns.iter().position(|column| column == "path");
         let inputs: Vec<PathBuf> = rows
             .iter()
@@ -95,9 +95,44 @@ impl LotPart {
         Ok(Self {
             name: folder.display().to_string(),
             columns,
+            truth: truth.map(|path| Truth::read(path, &inputs)).transpose()?,
             resolution,
             surfaces: names.par_iter().enumerate().map(surface).collect(),
             rows,
         })
     }
+}
+
+impl Truth {
+    /// Reads what is known of some scans.
+    fn read(path: &Path, inputs: &[PathBuf]) -> Result<Self, LotError> {
+        let (columns, rows) = table(path)?;
+        let of = |input: &PathBuf| {
+            let is_of = |row: &&Vec<String>| {
+                let name = row.first().map(Path::new).and_then(Path::file_name);
+                name.is_some() && name == input.file_name()
+            };
+            rows.iter().find(is_of).cloned()
+        };
+        Ok(Self {
+            rows: inputs.iter().map(of).collect(),
+            columns,
+        })
+    }
+}
+
+/// The names of the columns of a table, and its rows.
+fn table(path: &Path) -> Result<(Vec<String>, Vec<Vec<String>>), LotError> {
+    let failed = |source| LotError::Csv {
+        path: path.into(),
+        source,
+    };
+    let texts = |record: &csv::StringRecord| record.iter().map(str::to_owned).collect();
+    let mut reader = csv::Reader::from_path(path).map_err(failed)?;
+    let columns = texts(reader.headers().map_err(failed)?);
+    let records = reader
+        .records()
+        .map(|record| record.map(|record| texts(&record)));
+    let rows: Result<_, _> = records.collect();
+    Ok((columns, rows.map_err(failed)?))
 }

@@ -87,11 +87,14 @@ fn text(value: &Value) -> Option<String> {
     match value {
         Value::Number(number) => number.as_f64().map(short),
         Value::Array(parts) => {
-            let told = parts
-                .iter()
-                .take(MOST_ENTRIES)
-                .map(text)
-                .collect::<Option<Vec<_>>>()?;
+            let sizes = parts.iter().filter_map(Value::as_f64).map(f64::abs);
+            let rounding = 1e-12 * sizes.fold(0.0, f64::max);
+            let entry = |part: &Value| match part.as_f64() {
+                Some(number) if number.abs() < rounding => Some("0".into()),
+                _ => text(part),
+            };
+            let told = parts.iter().take(MOST_ENTRIES).map(entry);
+            let told = told.collect::<Option<Vec<_>>>()?;
             let more = if parts.len() > MOST_ENTRIES {
                 ", ..."
             } else {

@@ -29,7 +29,10 @@ impl Range {
         let at = |share: f64| sorted.get((share * (sorted.len() as f64 - 1.0)).round() as usize);
         let ends = at(0.5 - 0.5 * HELD).zip(at(0.5 + 0.5 * HELD));
         let (low, high) = ends.map_or((0.0, 1.0), |(low, high)| (*low, *high));
-        let least = 1e-6 * low.abs().max(high.abs()).max(f64::MIN_POSITIVE);
+        let least = match low.abs().max(high.abs()) {
+            0.0 => 1.0,
+            size => 1e-6 * size,
+        };
         Self {
             low,
             high: high.max(low + least),
@@ -77,7 +80,9 @@ pub(super) fn round_down(value: f64) -> f64 {
 
 fn power_of_ten(value: f64) -> f64 {
     match value > 0.0 && value.is_finite() {
-        true => 10_f64.powi(value.log10().floor() as i32),
+        true => 10_f64
+            .powi(value.log10().floor() as i32)
+            .max(f64::MIN_POSITIVE),
         false => 1.0,
     }
 }
@@ -115,7 +120,7 @@ mod tests {
 
     #[test]
     fn nothing_and_one_number_have_a_range() {
-        for values in [vec![], vec![0.0; 3], vec![2.5]] {
+        for values in [vec![], vec![0.0; 3], vec![2.5], vec![1e-310]] {
             for range in [Range::signed(&values), Range::of(&values)] {
                 assert!(range.low < range.high, "{values:?}");
                 assert!(range.marks().len() < 20);

@@ -8,6 +8,20 @@ use tempfile::TempDir;
 /// A name that would run, were it read as HTML.
 const HOSTILE: &str = "<script>problems.push('ran')<!--.ply";
 
+const REPORT: [&str; 11] = [
+    "report",
+    HOSTILE,
+    "model.json",
+    "lot",
+    "--truth",
+    "truth.csv",
+    "--search",
+    "--unit",
+    "mm",
+    "-o",
+    "a.html",
+];
+
 /// A folder with a page of a grain, a model and a folder of results.
 fn page() -> (TempDir, String) {
     let folder = folder();
@@ -39,18 +53,9 @@ fn page() -> (TempDir, String) {
         only,
     ];
     assert_eq!(grainform(&folder, &words).status.code(), Some(1));
-    let words = [
-        "report",
-        HOSTILE,
-        "model.json",
-        "lot",
-        "--search",
-        "--unit",
-        "mm",
-        "-o",
-        "a.html",
-    ];
-    succeed(&folder, &words);
+    let truth = format!("file,volume,area\nellipsoid.ply,25.1,45.2\n{HOSTILE},392,280.7\n");
+    fs::write(folder.path().join("truth.csv"), truth).unwrap();
+    succeed(&folder, &REPORT);
     let text = fs::read_to_string(folder.path().join("a.html")).unwrap();
     (folder, text)
 }
@@ -73,21 +78,11 @@ fn a_page_needs_nothing_else_and_no_name_runs_in_it() {
     assert_eq!(volume["unit"], "mm³");
     assert!(volume["error"].is_string() && volume["definition"].as_str().unwrap().contains("r³"));
     let lot = &record["page"]["lots"][0];
+    assert_eq!(lot["truth"]["rows"][2][1], "392");
     let has_surface = |at: usize| lot["surfaces"][at].is_string();
     assert_eq!([0, 1, 2].map(has_surface), [false, true, true]);
 
-    let words = [
-        "report",
-        HOSTILE,
-        "model.json",
-        "lot",
-        "--search",
-        "--unit",
-        "mm",
-        "-o",
-        "a.html",
-    ];
-    succeed(&folder, &words);
+    succeed(&folder, &REPORT);
     assert!(fs::read_to_string(folder.path().join("a.html")).unwrap() == text);
 }
 

@@ -125,6 +125,11 @@ pub(in crate::cli) struct ReportArgs {
     #[arg(long, value_name = "OUT.png", help_heading = OUTPUT)]
     pub(in crate::cli) png: Option<PathBuf>,
 
+    /// Compare results with what is known of their grains: a table whose first column names the files of scans, and whose
+    /// others are named as those of results.csv
+    #[arg(long, value_name = "TRUTH.csv")]
+    pub(in crate::cli) truth: Option<PathBuf>,
+
     /// Show the errors of k x k independent segments of every degree too, as `search --seams none` fits them
     #[arg(long, help_heading = SEARCH)]
     pub(in crate::cli) search: bool,

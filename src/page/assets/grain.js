@@ -10,8 +10,8 @@ const FIELDS = {
 };
 
 function unitOf(unit, power) {
-  const name = unit || 'unit of the scan';
-  return { 0: '', 1: name, '-1': `1/(${name})`, '-2': `1/(${name})²` }[power];
+  const [one, name] = unit ? [unit, unit] : ['unit of the scan', '(unit of the scan)'];
+  return { 0: '', 1: one, '-1': `1/${name}`, '-2': `1/${name}²` }[power];
 }
 
 function titleOf(name, unit) {

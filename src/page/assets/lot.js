@@ -25,6 +25,44 @@ function showSurface(viewer, places, corners) {
   viewer.draw();
 }
 
+// The number below which so large a share of a normal distribution lies (Winitzki 2008), to 0.002.
+function normalQuantile(share) {
+  const p = 2 * share - 1;
+  const logarithm = Math.log(1 - p * p);
+  const a = 2 / (Math.PI * 0.147) + logarithm / 2;
+  return Math.SQRT2 * Math.sign(p) * Math.sqrt(Math.sqrt(a * a - logarithm / 0.147) - a);
+}
+
+// Bias and spread of what has a truth, and whether standard errors are as large as errors.
+function truthPart(lot, all, number, nameOf) {
+  const { columns, rows } = lot.truth;
+  const measures = columns.filter((name) => lot.columns.includes(name) && name !== 'path');
+  const found = measures.map((name) => {
+    const known = all.map((row) => {
+      const cell = rows[row] ? rows[row][columns.indexOf(name)] : '';
+      const truth = cell ? Number(cell) : NaN;
+      const error = number(row, name) - truth;
+      return { row, share: error / truth, z: error / number(row, `${name}_se`) };
+    }).filter(({ share }) => Number.isFinite(share));
+    const mean = known.reduce((sum, { share }) => sum + share, 0) / known.length;
+    const spread = Math.sqrt(known.reduce((sum, { share }) => sum + (share - mean) ** 2, 0) / Math.max(1, known.length - 1));
+    const scaled = known.filter(({ z }) => Number.isFinite(z)).sort((a, b) => a.z - b.z);
+    const within = scaled.filter(({ z }) => Math.abs(z) <= 1.96).length;
+    return { name, mean, spread, scaled, count: known.length, held: scaled.length ? `${within} of ${scaled.length}` : 'no errors told' };
+  }).filter(({ count }) => count);
+  const percent = (share) => `${(100 * share).toFixed(3)} %`;
+  const cells = ({ name, count, mean, spread, held }) => [name, String(count), percent(mean), percent(spread), held].map((cell) => el('td', {}, cell));
+  const heads = ['measure', 'grains', 'bias', 'spread', 'within 1.96 standard errors'].map((name) => el('th', {}, name));
+  const points = found.flatMap(({ scaled }, series) => scaled.map(({ row, z }, at) => ({
+    x: normalQuantile((at + 0.5) / scaled.length), y: z, series, label: nameOf(row),
+  })));
+  return el('div', {}, el('table', {}, el('thead', {}, el('tr', {}, heads)), el('tbody', {}, found.map((one) => el('tr', {}, cells(one))))),
+    points.length ? scatter({
+      title: 'Calibration of standard errors', xTitle: 'quantile of the normal distribution', yTitle: 'error / standard error',
+      points, within: [-2, 2], guides: [[-2, -2, 2, 2]], series: found.map(({ name }) => name),
+    }) : []);
+}
+
 function lotPart(lot, grid) {
   const corners = Uint32Array.from(grid.flat());
   const number = (row, name) => {
@@ -46,7 +84,7 @@ function lotPart(lot, grid) {
     shownRows.forEach((shown, at) => shown.classList.toggle('chosen', at === row));
     const cells = lot.columns.map((name, at) => [name, lot.rows[row][at]]).filter(([, cell]) => cell);
     detail.replaceChildren(el('h3', {}, nameOf(row)), el('div', { class: 'row' },
-      el('figure', { class: 'view' }, lot.surfaces[row] ? canvas : el('p', { class: 'note' }, 'There is no model of this grain: batch --models saves them.')),
+      el('figure', { class: 'view small' }, lot.surfaces[row] ? canvas : el('p', { class: 'note' }, 'There is no model of this grain: batch --models saves them.')),
       el('div', { class: 'wide' }, el('table', {}, el('tbody', {}, cells.map(([name, cell]) =>
         el('tr', {}, el('td', {}, name), el('td', {}, Number.isFinite(Number(cell)) ? told(Number(cell)) : cell))))))));
     if (lot.surfaces[row]) showSurface(viewer, floatsOf(lot.surfaces[row]), corners);
@@ -92,7 +130,8 @@ function lotPart(lot, grid) {
 
   const sides = ['length', 'width', 'thickness'].map((side) => `dimensions.${side}`);
   const zingg = sides.every((side) => numeric.includes(side)) ? scatter({
-    title: 'Zingg diagram', xTitle: 'thickness / width', yTitle: 'width / length',
+    title: 'Zingg diagram', xTitle: 'thickness / width', yTitle: 'width / length', within: [0, 1],
+    guides: [[2 / 3, 0, 2 / 3, 1], [0, 2 / 3, 1, 2 / 3]],
     points: all.map((row) => {
       const [length, width, thickness] = sides.map((side) => number(row, side));
       return { x: thickness / width, y: width / length, label: nameOf(row), lead: () => lead(row) };
@@ -103,6 +142,7 @@ function lotPart(lot, grid) {
     el('p', { class: 'note' }, `${all.length} scans, ${failed} of them without a result. A click on a heading sorts, one on a grain shows it.`),
     el('div', { class: 'wide' }, table), detail,
     numeric.length ? [el('h3', {}, 'Any two measures'), el('p', {}, 'across ', x, ' up ', y), plot] : [],
+    lot.truth ? [el('h3', {}, 'Beside the truth'), truthPart(lot, all, number, nameOf)] : [],
     el('h3', {}, 'Distributions'),
     el('div', { class: 'row' }, main.slice(0, 8).map((name) => histogram(name, all.map((row) => number(row, name)), name)), zingg));
 }

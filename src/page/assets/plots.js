@@ -4,7 +4,7 @@
 const MARKS = ['#4477aa', '#ee6677', '#228833', '#ccbb44', '#66ccee', '#aa3377', '#888888', '#ee8866'];
 
 // A bar of the colours of a range with its numbers.
-function colourBar(range, steps, title) {
+function colourBar(range, steps, title, width = 230) {
   const height = 220;
   const rows = [...steps].reverse().map(([r, g, b], at) => el('rect', {
     x: 0, y: 24 + (at * height) / steps.length, width: 18, height: height / steps.length + 0.5, fill: `rgb(${r},${g},${b})`,
@@ -13,7 +13,7 @@ function colourBar(range, steps, title) {
     const y = 24 + height * (1 - (mark - range[0]) / (range[1] - range[0]));
     return [el('line', { class: 'axis', x1: 18, x2: 23, y1: y, y2: y }), el('text', { x: 27, y: y + 4 }, told(mark))];
   });
-  return el('svg', { width: 230, height: height + 36 }, el('text', { x: 0, y: 14 }, title), rows, marks);
+  return el('svg', { width, height: height + 36 }, el('text', { x: 0, y: 14 }, title), rows, marks);
 }
 
 // A map over polar angle (down) and azimuth (across).
@@ -39,7 +39,7 @@ function angleMap(title, rows, columns, values, range, steps) {
     el('image', { x: left, y: top, width, height, preserveAspectRatio: 'none', href: canvas.toDataURL() }),
     el('rect', { class: 'axis', x: left, y: top, width, height }), marks, levels,
     el('text', { x: left + width / 2, y: top + height + 36, 'text-anchor': 'middle' }, 'azimuth φ across, polar angle θ down'));
-  return el('figure', { class: 'row' }, drawn, colourBar(range, steps, ''));
+  return el('figure', { class: 'row' }, drawn, colourBar(range, steps, '', 90));
 }
 
 // An axis: from a number to its place, and the marks.
@@ -71,11 +71,12 @@ function frame(title, x, y, xTitle, yTitle, [left, top, width, height]) {
     el('text', { x: 12, y: top + height / 2, 'text-anchor': 'middle', transform: `rotate(-90 12 ${top + height / 2})` }, yTitle)];
 }
 
-// Points: [{x, y, series, label, lead}]; series are drawn as lines where `joined`.
-function scatter({ title, points, xTitle, yTitle, isLogX, isLogY, joined, series = [], guides = [] }) {
+// Points: [{x, y, series, label, lead}]; series are drawn as lines where `joined`. Both axes hold the numbers of `within`;
+// guides are lines from x, y to x, y.
+function scatter({ title, points, xTitle, yTitle, isLogX, isLogY, joined, within = [], series = [], guides = [] }) {
   const [left, top, width, height] = [64, 26, 380, 260];
-  const x = axisOf(points.map((point) => point.x), isLogX, left, left + width);
-  const y = axisOf(points.map((point) => point.y), isLogY, top + height, top);
+  const x = axisOf([...points.map((point) => point.x), ...within], isLogX, left, left + width);
+  const y = axisOf([...points.map((point) => point.y), ...within], isLogY, top + height, top);
   const known = points.filter((point) => x.isKnown(point.x) && y.isKnown(point.y));
   const colour = (at) => MARKS[(at || 0) % MARKS.length];
   const lines = joined ? [...new Set(known.map((point) => point.series))].map((one) => {
