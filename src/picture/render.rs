@@ -39,12 +39,13 @@ pub fn render(
     let bands = light.par_chunks_mut(BAND * fine[0]);
     let bands = bands.zip(depth.par_chunks_mut(BAND * fine[0])).enumerate();
     bands.for_each(|(number, (light, depth))| {
-        seen.draw(&mut Band {
+        let mut band = Band {
             width: fine[0],
             first: number * BAND,
             light,
             depth,
-        });
+        };
+        seen.draw(number, &mut band);
     });
     Image::from_fn([width, height], |x, y| {
         let mut sum = [0.0; 3];
@@ -64,6 +65,8 @@ struct Seen<'a> {
     /// Right, down, towards the eye.
     places: Vec<Vector3<f64>>,
     lit: Vec<Light>,
+    /// The triangles that reach into each band.
+    triangles: Vec<Vec<[u32; 3]>>,
     dots: Vec<Vector3<f64>>,
     lines: Vec<Vec<Vector3<f64>>>,
 }
@@ -79,13 +82,12 @@ impl<'a> Seen<'a> {
                 seen.z + nearer * fineness,
             )
         };
+        let corners = scene.corners.par_iter();
+        let places: Vec<_> = corners.map(|corner| place(&corner.place, 0.0)).collect();
         Self {
             scene,
-            places: scene
-                .corners
-                .par_iter()
-                .map(|corner| place(&corner.place, 0.0))
-                .collect(),
+            triangles: in_bands(&scene.triangles, &places, height.div_ceil(BAND)),
+            places,
             lit: scene
                 .corners
                 .par_iter()
@@ -104,8 +106,8 @@ impl<'a> Seen<'a> {
         }
     }
 
-    fn draw(&self, band: &mut Band) {
-        for corners in &self.scene.triangles {
+    fn draw(&self, number: usize, band: &mut Band) {
+        for corners in &self.triangles[number] {
             let [a, b, c] = corners.map(|corner| self.lit[corner as usize]);
             let places = corners.map(|corner| self.places[corner as usize]);
             band.triangle(places, |s, t| {
@@ -126,6 +128,23 @@ impl<'a> Seen<'a> {
             band.stroke([*place; 2], FINENESS as f64 * dot.width, linear(dot.colour));
         }
     }
+}
+
+/// The triangles that reach into each of some bands.
+fn in_bands(triangles: &[[u32; 3]], places: &[Vector3<f64>], bands: usize) -> Vec<Vec<[u32; 3]>> {
+    let mut found = vec![Vec::new(); bands];
+    for corners in triangles {
+        let rows = corners.map(|corner| places[corner as usize].y);
+        let low = rows.into_iter().fold(f64::INFINITY, f64::min).max(0.0);
+        let high = rows.into_iter().fold(f64::NEG_INFINITY, f64::max);
+        if high >= 0.0 {
+            let last = ((high / BAND as f64) as usize + 1).min(bands);
+            for band in (low / BAND as f64) as usize..last {
+                found[band].push(*corners);
+            }
+        }
+    }
+    found
 }
 
 /// A corner in the light; one that is turned away is lit as its other side.

@@ -94,7 +94,7 @@ function scatter({ title, points, xTitle, yTitle, isLogX, isLogY, joined, within
   const ruled = guides.map(([fromX, fromY, toX, toY]) => el('line', {
     class: 'axis', 'stroke-dasharray': '4 3', x1: x.place(fromX), y1: y.place(fromY), x2: x.place(toX), y2: y.place(toY),
   }));
-  return el('svg', { class: 'plot', width: left + width + (series.length ? 120 : 16), height: top + height + 44 },
+  return el('svg', { class: 'plot', width: left + width + (series.length ? 190 : 16), height: top + height + 44 },
     frame(title, x, y, xTitle, yTitle, [left, top, width, height]), ruled, lines, dots, names);
 }
 
