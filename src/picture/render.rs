@@ -138,9 +138,10 @@ fn in_bands(triangles: &[[u32; 3]], places: &[Vector3<f64>], bands: usize) -> Ve
         let low = rows.into_iter().fold(f64::INFINITY, f64::min).max(0.0);
         let high = rows.into_iter().fold(f64::NEG_INFINITY, f64::max);
         if high >= 0.0 {
-            let last = ((high / BAND as f64) as usize + 1).min(bands);
-            for band in (low / BAND as f64) as usize..last {
-                found[band].push(*corners);
+            let last = ((high / BAND as f64) as usize).saturating_add(1).min(bands);
+            let first = ((low / BAND as f64) as usize).min(last);
+            for band in &mut found[first..last] {
+                band.push(*corners);
             }
         }
     }
