@@ -4,7 +4,7 @@ use crate::measure::feet;
 use crate::model::Surface;
 use crate::scan::Scan;
 use kiddo::{ImmutableKdTree, SquaredEuclidean};
-use nalgebra::Point3;
+use nalgebra::{Point3, Vector3};
 use rayon::prelude::*;
 use std::num::NonZero;
 
@@ -17,7 +17,10 @@ const MOST_POINTS: usize = 100_000;
 /// The most points, those within faces included.
 const MOST_WITH_FACES: usize = 4 * MOST_POINTS;
 
-/// Faces are given points at so many steps along the longest side of the scan.
+/// Faces are large from this angle on, seen from the centre, in radians: then a fit takes points all over them too.
+const LARGE: f64 = 0.25;
+
+/// Large faces are given points at so many steps along the longest side of the scan.
 const STEPS: f64 = 40.0;
 
 /// Beyond so many typical distances from the nearest point, and so large a share of the scan's size, nothing is known.
@@ -37,7 +40,7 @@ impl ScanDeviation {
     /// Of the points of a scan, and of points all over its faces where these are large. Of more than 100 000 points
     /// every second, every third ... is taken.
     pub fn new(grain: &(impl Surface + Sync + ?Sized), scan: &Scan) -> Self {
-        let size = size(scan.points());
+        let (size, centre) = (size(scan.points()), grain.frame().centre);
         let all = scan.points().len() + scan.triangles().len();
         let stride = all.div_ceil(MOST_POINTS).max(1);
         let mut points: Vec<Point3<f64>> = scan.points().iter().copied().step_by(stride).collect();
@@ -46,7 +49,9 @@ impl ScanDeviation {
             if points.len() > MOST_WITH_FACES {
                 break;
             }
-            add_within(&corners, size / STEPS, &mut points);
+            if is_large(&corners.map(|corner| corner - centre)) {
+                add_within(&corners, size / STEPS, &mut points);
+            }
         }
         let feet = feet(grain, &points);
         let places: Vec<[f64; 3]> = points.iter().map(|point| point.coords.into()).collect();
@@ -126,6 +131,11 @@ fn size(points: &[Point3<f64>]) -> f64 {
         high - low
     };
     side(0).max(side(1)).max(side(2)).max(0.0)
+}
+
+/// Whether two of three corners, seen from the centre, are far apart.
+fn is_large([a, b, c]: &[Vector3<f64>; 3]) -> bool {
+    a.angle(b).max(b.angle(c)).max(c.angle(a)) > LARGE
 }
 
 /// Adds points within a triangle, so that none is much farther than a step from the next.

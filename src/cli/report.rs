@@ -175,7 +175,11 @@ fn facts(report: &FitReport, fitted: &Fitted) -> Vec<(&'static str, String)> {
     let unit = report.unit.map_or(String::new(), |unit| format!(" {unit}"));
     let length = |length: f64| {
         let share = 100.0 * length / report.mean_radius;
-        format!("{}{unit} ({share:.2e} % of the mean radius)", short(length))
+        let share = match share.abs() {
+            0.0 | 0.001.. => format!("{share:.3}"),
+            _ => format!("{share:.1e}"),
+        };
+        format!("{}{unit} ({share} % of the mean radius)", short(length))
     };
     let mut facts = vec![
         ("scan", plural(report.points, "point")),

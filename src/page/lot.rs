@@ -1,8 +1,9 @@
 //! The part of a page about a folder of results.
 
 use super::packed::Packed;
+use crate::measure::mesh_properties;
 use crate::model::{Surface, load_grain};
-use nalgebra::Vector3;
+use nalgebra::Point3;
 use rayon::prelude::*;
 use serde::Serialize;
 use std::path::{Path, PathBuf};
@@ -47,7 +48,7 @@ pub struct LotPart {
     rows: Vec<Vec<String>>,
     truth: Option<Truth>,
     resolution: usize,
-    /// The surface of each grain whose model is there.
+    /// The surface of each grain whose model is there, along its principal axes.
     surfaces: Vec<Option<Packed>>,
 }
 
@@ -86,11 +87,10 @@ impl LotPart {
             let model = folder.join("models").join(format!("{name}.json"));
             let grain = load_grain(&model).ok().filter(|_| at < most)?;
             let mesh = grain.mesh(resolution);
-            let sum: Vector3<f64> = mesh.vertices.iter().map(|vertex| vertex.coords).sum();
-            let middle = sum / mesh.vertices.len() as f64;
-            Some(Packed::vectors(
-                mesh.vertices.iter().map(|vertex| vertex.coords - middle),
-            ))
+            let solid = mesh_properties(&mesh).ok()?;
+            let axes = solid.principal()?.axes;
+            let seen = |vertex: &Point3<f64>| axes.tr_mul(&(vertex - solid.centroid));
+            Some(Packed::vectors(mesh.vertices.iter().map(seen)))
         };
         Ok(Self {
             name: folder.display().to_string(),

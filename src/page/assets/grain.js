@@ -35,6 +35,8 @@ function grainView(grain) {
   const viewer = new Viewer(canvas, radiusOf(vertices));
   const fields = grain.fields.map(({ name, values }) => ({ name, values: floatsOf(values) }));
   const surface = viewer.add({ kind: 'triangles', places: vertices, normals: unitsOf(grain.normals), corners: countsOf(grain.triangles) });
+  const axes = floatsOf(grain.axes);
+  viewer.lookAlong([0, 6].map((end) => [0, 1, 2].map((i) => axes[end + 3 + i] - axes[end + i])));
   const ink = () => (isDark() ? [0.9, 0.9, 0.9] : [0.1, 0.1, 0.1]);
   const lines = (places, colour, shown) => viewer.add({ kind: 'lines', places: Float32Array.from(places), colour, shown });
   const pairs = (line) => {
@@ -48,7 +50,7 @@ function grainView(grain) {
     surface,
     'segment outlines': lines(grain.borders.flatMap((border) => pairs(floatsOf(border))), () => [0.15, 0.15, 0.15], true),
     'scan points': viewer.add({ kind: 'points', places: floatsOf(grain.points), colour: () => [0.16, 0.25, 0.5], size: 2, shown: false }),
-    'principal axes': lines(floatsOf(grain.axes), () => (isDark() ? [1, 0.75, 0.3] : [0.75, 0.35, 0]), false),
+    'principal axes': lines(axes, () => (isDark() ? [1, 0.75, 0.3] : [0.75, 0.35, 0]), false),
     'minimum box': lines(edges.flatMap((at) => [...corners.slice(3 * at, 3 * at + 3)]), ink, false),
   };
   const toggles = Object.entries(layers).filter(([, layer]) => layer.places.length).map(([name, layer]) => {

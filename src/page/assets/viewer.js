@@ -78,6 +78,13 @@ class Viewer {
     this.draw();
   }
 
+  // Looks from aside at what is longest along the first of two axes, and next along the other.
+  lookAlong(axes) {
+    const [u, v] = axes.map((axis) => axis.map((part) => part / Math.hypot(...axis)));
+    const w = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
+    this.turn = this.turn.map((row) => [0, 1, 2].map((i) => row[0] * u[i] + row[1] * v[i] + row[2] * w[i]));
+  }
+
   add(layer) {
     const gl = this.gl;
     if (!gl) return layer;
