@@ -18,6 +18,7 @@
 //!   ever guessed.
 //! * **Density** is one: a moment of inertia is in the scan's unit to the fifth power.
 
+pub mod annotate;
 #[cfg(feature = "cli")]
 pub mod batch;
 #[cfg(feature = "cli")]
@@ -35,7 +36,13 @@ pub mod fit;
 pub mod measure;
 pub mod mesh;
 pub mod model;
+#[cfg(feature = "cli")]
+pub mod page;
+#[cfg(feature = "cli")]
+pub mod picture;
 mod polygon_hull;
+#[cfg(feature = "cli")]
+pub mod portrait;
 pub mod report;
 pub mod scan;
 pub mod shapes;

@@ -6,7 +6,7 @@ use std::fs;
 use std::path::Path;
 
 /// The top modules from the ground up: each imports only from those before it.
-const FLOORS: [&str; 20] = [
+const FLOORS: [&str; 24] = [
     "vectorize",
     "disjoint_sets",
     "elliptic",
@@ -14,9 +14,12 @@ const FLOORS: [&str; 20] = [
     "spread",
     "sphere",
     "mesh",
+    "picture",
     "scan",
     "model",
     "measure",
+    "annotate",
+    "portrait",
     "shapes",
     "contact",
     "clump",
@@ -26,6 +29,7 @@ const FLOORS: [&str; 20] = [
     "report",
     "batch",
     "bench",
+    "page",
     "cli",
 ];
 

@@ -26,5 +26,6 @@ pub use grain::Settings;
 pub use inputs::inputs;
 pub use journal::Row;
 pub use population::{Outlier, Population, Statistics};
+pub(crate) use run::names;
 pub use run::{Batch, Done, Progress, run};
 pub use table::{Lot, read_lot};

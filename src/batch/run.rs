@@ -311,8 +311,9 @@ fn read(path: &Path, limit: u64) -> io::Result<Vec<u8>> {
     }
 }
 
-/// A name for every scan: that of its file, or where several have it, that of its path.
-fn names(inputs: &[PathBuf]) -> Vec<String> {
+/// A name for every scan, by which its model and its mesh are saved: that of its file, or where several have it, that of
+/// its path.
+pub(crate) fn names(inputs: &[PathBuf]) -> Vec<String> {
     let stem = |path: &Path| {
         path.file_stem()
             .unwrap_or_default()

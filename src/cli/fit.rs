@@ -14,13 +14,16 @@ pub(super) fn run(args: FitArgs, console: Console) -> Result<()> {
     let started = Instant::now();
     let fitting = &args.fitting;
     let options = fitting.settle(console)?;
-    args.meshing.check(args.mesh.is_some(), console)?;
+    if let Some(path) = &args.mesh {
+        args.meshing.check_for(path, console)?;
+    }
     let is_taken = outputs::check(
         Some(&fitting.scan),
         &[
             (args.output.as_deref(), &["json"]),
             (args.mesh.as_deref(), outputs::MESH),
             (args.harmonics.as_deref(), &["csv"]),
+            (args.png.as_deref(), &["png"]),
         ],
         fitting.json,
     )?;
@@ -36,6 +39,7 @@ pub(super) fn run(args: FitArgs, console: Console) -> Result<()> {
     let progress = console.progress();
     let ScanFit {
         fitted,
+        scan,
         scan_warnings,
         mut seconds,
     } = fit_scan(fitting, &options, &progress)?;
@@ -53,6 +57,19 @@ pub(super) fn run(args: FitArgs, console: Console) -> Result<()> {
     let before = started.elapsed().as_secs_f64();
     progress.stage("Writing");
     let loss = write_files(&args, &fitted)?;
+    if let Some(path) = &args.png {
+        progress.stage("Drawing");
+        let choice = fitted.search.choice();
+        let title = format!(
+            "{}: {} points; degree {}, {} segments, {} coefficients",
+            fitting.name(),
+            fitted.points,
+            choice.degree,
+            choice.segments,
+            fitted.grain.coefficient_count()
+        );
+        outputs::write_picture(path, &fitted.grain, Some(&scan), title, fitting.unit)?;
+    }
     drop(progress);
     seconds.total = started.elapsed().as_secs_f64();
     seconds.mesh = seconds.total - before;
@@ -65,7 +82,7 @@ pub(super) fn run(args: FitArgs, console: Console) -> Result<()> {
         put_json(&report)?;
     } else if let Some(report) = &report {
         console.print(report)?;
-        for path in [&args.output, &args.mesh, &args.harmonics]
+        for path in [&args.output, &args.mesh, &args.harmonics, &args.png]
             .into_iter()
             .flatten()
         {

@@ -6,13 +6,14 @@ use super::progress::Progress;
 use super::{inputs, threads};
 use crate::fit::{self, FitOptions, Fitted, Kind, Stage, Work, largest_body};
 use crate::report::{Seconds, escaped};
+use crate::scan::Scan;
 use anyhow::{Context, Result};
-use std::borrow::Cow;
 use std::time::Instant;
 
 /// A fit, and what came with it.
 pub(super) struct ScanFit {
     pub(super) fitted: Fitted,
+    pub(super) scan: Scan,
     pub(super) scan_warnings: Vec<String>,
     pub(super) seconds: Seconds,
 }
@@ -53,8 +54,11 @@ pub(super) fn fit_scan(
     progress.stage(format_args!("Reading {}", escaped(&name)));
     let scan = inputs::scan(&args.scan, &args.input)?;
     let (scan, others_left_out) = match args.largest {
-        true => largest_body(&scan),
-        false => (Cow::Borrowed(&scan), None),
+        true => {
+            let (largest, left_out) = largest_body(&scan);
+            (largest.into_owned(), left_out)
+        }
+        false => (scan, None),
     };
     let read = started.elapsed().as_secs_f64();
 
@@ -77,6 +81,7 @@ pub(super) fn fit_scan(
     Ok(ScanFit {
         fitted,
         scan_warnings: scan.warnings.clone(),
+        scan,
         seconds: Seconds {
             read,
             search: started.elapsed().as_secs_f64() - read,

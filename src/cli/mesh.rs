@@ -1,14 +1,19 @@
 //! `grainform mesh`
 
-use super::args::{MeshArgs, MeshingArgs};
+use super::args::{InputArgs, LimitArgs, MeshArgs, MeshingArgs};
 use super::console::Console;
 use super::{inputs, outputs, threads};
-use crate::export::MeshFormat;
-use crate::model::Surface;
+use crate::annotate::{Annotated, ScanDeviation};
+use crate::export::{Detail, MeshFormat};
+use crate::model::{Grain, Surface};
+use crate::portrait::colours;
 use anyhow::{Result, bail};
+use std::path::Path;
 
-/// Bytes that a mesh takes per square of its resolution, while it is made.
-const BYTES_PER_CELL: u64 = 480;
+/// Bytes that a mesh takes per square of its resolution, while it is made: of places only, and with what is known at
+/// vertices or in formats that are put together in memory.
+const PLAIN: u64 = 480;
+const DETAILED: u64 = 2200;
 
 /// The most bytes that a mesh may take.
 const MOST_BYTES: u64 = 4_000_000_000;
@@ -20,30 +25,75 @@ pub(super) fn run(args: MeshArgs, console: Console) -> Result<()> {
     threads::start(0, console)?;
     let output = (Some(args.output.as_path()), outputs::MESH);
     let console = console.beside(outputs::check(Some(&args.model), &[output], false)?);
-    args.meshing.check(true, console)?;
+    let format = MeshFormat::of(&args.output).unwrap_or(args.format);
+    let bytes = match format {
+        MeshFormat::Stl | MeshFormat::Obj => PLAIN,
+        MeshFormat::Ply | MeshFormat::Vtp | MeshFormat::Glb => DETAILED,
+    };
+    args.meshing.check(bytes, console)?;
     let bytes = inputs::read(&args.model, &args.limit)?;
     let progress = console.progress();
     progress.stage("Meshing");
-    let mesh = inputs::parse_model(&args.model, &bytes)?.mesh(args.meshing.resolution.into());
-    progress.stage("Writing");
-    let format = MeshFormat::of(&args.output).unwrap_or(args.format);
-    outputs::write(&args.output, |file| format.write(&mesh, file))?;
+    let grain = inputs::parse_model(&args.model, &bytes)?;
+    let resolution = args.meshing.resolution.into();
+    let (vertices, triangles) = match format {
+        MeshFormat::Stl | MeshFormat::Obj => {
+            let mesh = grain.mesh(resolution);
+            progress.stage("Writing");
+            outputs::write(&args.output, |file| format.write(&mesh, file))?;
+            (mesh.vertices.len(), mesh.triangles.len())
+        }
+        MeshFormat::Ply | MeshFormat::Vtp | MeshFormat::Glb => {
+            let surface = annotated(&args, &grain)?;
+            let detail = Detail {
+                normals: &surface.normals,
+                fields: &surface.fields,
+                colours: &colours(&surface),
+            };
+            progress.stage("Writing");
+            outputs::write(&args.output, |file| {
+                format.write_detailed(&surface.mesh, &detail, file)
+            })?;
+            (surface.mesh.vertices.len(), surface.mesh.triangles.len())
+        }
+    };
     drop(progress);
     console.wrote(&format!(
-        "{}: {} vertices, {} triangles",
+        "{}: {vertices} vertices, {triangles} triangles",
         outputs::name(&args.output),
-        mesh.vertices.len(),
-        mesh.triangles.len()
     ))
 }
 
+/// The mesh with what is known at its vertices.
+fn annotated(args: &MeshArgs, grain: &Grain) -> Result<Annotated> {
+    let surface = Annotated::new(grain, args.meshing.resolution.into());
+    let Some(path) = &args.scan else {
+        return Ok(surface);
+    };
+    let input = InputArgs {
+        format: None,
+        limit: LimitArgs {
+            max_bytes: args.limit.max_bytes,
+        },
+    };
+    let scan = inputs::scan(path, &input)?;
+    Ok(surface.with_deviation(&ScanDeviation::new(grain, &scan)))
+}
+
 impl MeshingArgs {
-    /// Refuses a mesh that takes too much memory, and tells of one that takes much; `is_asked` is whether there
-    /// is one to make.
-    pub(super) fn check(&self, is_asked: bool, console: Console) -> Result<()> {
+    /// Refuses the mesh of a fit for a file if it takes too much memory, and tells of one that takes much.
+    pub(super) fn check_for(&self, file: &Path, console: Console) -> Result<()> {
+        let bytes = match MeshFormat::of(file) {
+            Some(MeshFormat::Vtp | MeshFormat::Glb) => DETAILED,
+            _ => PLAIN,
+        };
+        self.check(bytes, console)
+    }
+
+    fn check(&self, bytes_per_cell: u64, console: Console) -> Result<()> {
         let cells = u64::from(self.resolution).pow(2);
-        let bytes = BYTES_PER_CELL * cells;
-        if !is_asked || bytes < MANY_BYTES {
+        let bytes = bytes_per_cell * cells;
+        if bytes < MANY_BYTES {
             return Ok(());
         }
         let need = format!(
@@ -55,7 +105,7 @@ impl MeshingArgs {
         if bytes > MOST_BYTES {
             bail!(
                 "{need}; ask for at most {:.0}, which needs {:.0} GB",
-                ((MOST_BYTES / BYTES_PER_CELL) as f64).sqrt().floor(),
+                ((MOST_BYTES / bytes_per_cell) as f64).sqrt().floor(),
                 1e-9 * MOST_BYTES as f64
             );
         }

@@ -18,6 +18,7 @@ mod mesh;
 mod outputs;
 mod placed;
 mod progress;
+mod report;
 mod search;
 mod shell;
 #[cfg(unix)]
@@ -64,6 +65,7 @@ pub fn run() -> ExitCode {
         Command::Batch(args) => batch::run(args, console),
         Command::Compare(args) => compare::run(args, console),
         Command::Bench(args) => bench::run(args, console),
+        Command::Report(args) => report::run(args, console),
         Command::Completions(args) => shell::completions(&args),
         Command::Man(args) => shell::man(&args),
     };

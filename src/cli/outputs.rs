@@ -4,12 +4,16 @@ use super::args::FitArgs;
 use super::inputs::is_stream;
 use crate::export::{MeshFormat, WriteError, sweep, write_atomically};
 use crate::model::{Grain, Surface, grain_to_json};
+use crate::picture::Ground;
+use crate::portrait::{Caption, portrait};
+use crate::report::Unit;
+use crate::scan::Scan;
 use anyhow::{Context, Result, bail};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 /// Extensions of meshes.
-pub(super) const MESH: &[&str] = &["stl", "ply", "obj"];
+pub(super) const MESH: &[&str] = &["stl", "ply", "obj", "vtp", "glb"];
 
 /// A file to write, if any, and the extensions it may have.
 pub(super) type Output<'a> = (Option<&'a Path>, &'a [&'a str]);
@@ -104,6 +108,25 @@ pub(super) fn write_grain(
         write(path, |file| Ok(writeln!(file, "{text}")?))?;
     }
     Ok(())
+}
+
+/// Draws the portrait of a grain into a PNG file.
+pub(super) fn write_picture(
+    path: &Path,
+    grain: &Grain,
+    scan: Option<&Scan>,
+    title: String,
+    unit: Option<Unit>,
+) -> Result<()> {
+    let caption = Caption {
+        title,
+        unit: unit.map_or(String::new(), |unit| unit.to_string()),
+    };
+    let image = portrait(grain, scan, &caption, Ground::Light);
+    write(path, |file| {
+        let written = image.write_png(file);
+        written.map_err(|error| WriteError::Io(io::Error::other(error)))
+    })
 }
 
 /// What an output is called.

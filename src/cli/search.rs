@@ -25,6 +25,7 @@ pub(super) fn run(args: SearchArgs, console: Console) -> Result<()> {
         fitted,
         scan_warnings,
         mut seconds,
+        ..
     } = fit_scan(fitting, &options, &progress)?;
     let mut report = SearchReport::new(
         fitting.name(),

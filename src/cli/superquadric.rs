@@ -10,6 +10,7 @@ use crate::fit::{
 };
 use crate::model::Grain;
 use crate::report::{SuperquadricReport, sentences};
+use crate::scan::Scan;
 use anyhow::{Context, Result, bail};
 use std::borrow::Cow;
 
@@ -27,15 +28,19 @@ pub(super) fn run(
         );
     }
     let progress = console.progress();
-    let (grain, report) = fitted(args, form)?;
+    let (grain, scan, report) = fitted(args, form)?;
     progress.stage("Writing");
     outputs::write_grain(args, &grain, || grain.clone())?;
+    if let Some(path) = &args.png {
+        let title = format!("{}: {} points", args.fitting.name(), scan.points().len());
+        outputs::write_picture(path, &grain, Some(&scan), title, args.fitting.unit)?;
+    }
     drop(progress);
     if args.fitting.json {
         return put_json(&report);
     }
     console.print(&report)?;
-    for path in [&args.output, &args.mesh].into_iter().flatten() {
+    for path in [&args.output, &args.mesh, &args.png].into_iter().flatten() {
         console.wrote(&outputs::name(path))?;
     }
     console.warn(&report.warnings);
@@ -43,7 +48,7 @@ pub(super) fn run(
 }
 
 /// Reads and fits the scan.
-fn fitted(args: &FitArgs, form: SuperquadricArg) -> Result<(Grain, SuperquadricReport)> {
+fn fitted(args: &FitArgs, form: SuperquadricArg) -> Result<(Grain, Scan, SuperquadricReport)> {
     let (name, unit) = (args.fitting.name(), args.fitting.unit);
     let scan = inputs::scan(&args.fitting.scan, &args.fitting.input)?;
     let (scan, others_left_out) = match args.fitting.largest {
@@ -66,12 +71,12 @@ fn fitted(args: &FitArgs, form: SuperquadricArg) -> Result<(Grain, SuperquadricR
         SuperquadricArg::Single(form) => {
             let found = fit_superquadric(points, form, &context).with_context(failed)?;
             let report = SuperquadricReport::of_single(name.clone(), unit, count, &found, warnings);
-            Ok((found.grain()?, report))
+            Ok((found.grain()?, scan.into_owned(), report))
         }
         SuperquadricArg::Multi(most) => {
             let found = fit_multi_superquadric(points, most, &context).with_context(failed)?;
             let report = SuperquadricReport::of_multi(name.clone(), unit, count, &found, warnings);
-            Ok((found.grain()?, report))
+            Ok((found.grain()?, scan.into_owned(), report))
         }
     }
 }

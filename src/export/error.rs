@@ -43,7 +43,7 @@ pub enum WriteError {
 #[non_exhaustive]
 pub enum SaveError {
     /// The extension names no format that is written here.
-    #[error("cannot save {}: its extension must be stl, ply or obj", path.display())]
+    #[error("cannot save {}: its extension must be stl, ply, obj, vtp or glb", path.display())]
     UnknownExtension {
         /// The file asked for.
         path: PathBuf,

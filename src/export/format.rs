@@ -4,7 +4,10 @@ use std::io::Write;
 use std::path::Path;
 use std::str::FromStr;
 
-use super::{WriteError, write_obj, write_ply, write_stl};
+use super::glb::write_glb;
+use super::mesh::write_detailed_ply;
+use super::vtp::write_vtp;
+use super::{Detail, WriteError, write_obj, write_stl};
 use crate::mesh::Mesh;
 
 /// A format that meshes are written in.
@@ -16,6 +19,10 @@ pub enum MeshFormat {
     Ply,
     /// Wavefront OBJ: decimals that read back as the same numbers.
     Obj,
+    /// VTK PolyData, which ParaView and PyVista open: 64-bit numbers.
+    Vtp,
+    /// Binary glTF 2.0, which viewers of many kinds open: 32-bit numbers, seen from the middle of the mesh.
+    Glb,
 }
 
 impl MeshFormat {
@@ -29,12 +36,29 @@ impl MeshFormat {
     ///
     /// # Errors
     ///
-    /// Those of [`write_stl`], [`write_ply`] and [`write_obj`].
-    pub fn write(self, mesh: &Mesh, mut writer: &mut dyn Write) -> Result<(), WriteError> {
+    /// [`WriteError`]: a coordinate that the format cannot hold, a broken index, or a failing writer.
+    pub fn write(self, mesh: &Mesh, writer: &mut dyn Write) -> Result<(), WriteError> {
+        self.write_detailed(mesh, &Detail::default(), writer)
+    }
+
+    /// Writes a mesh and what is known at its vertices, as far as the format holds it: PLY and VTP hold normals and
+    /// fields, GLB colours too, STL and OBJ nothing.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Self::write`].
+    pub fn write_detailed(
+        self,
+        mesh: &Mesh,
+        detail: &Detail,
+        mut writer: &mut dyn Write,
+    ) -> Result<(), WriteError> {
         match self {
             Self::Stl => write_stl(mesh, &mut writer),
-            Self::Ply => write_ply(mesh, &mut writer),
+            Self::Ply => write_detailed_ply(mesh, detail, &mut writer),
             Self::Obj => write_obj(mesh, &mut writer),
+            Self::Vtp => write_vtp(mesh, detail, &mut writer),
+            Self::Glb => write_glb(mesh, detail, &mut writer),
         }
     }
 }
@@ -47,7 +71,9 @@ impl FromStr for MeshFormat {
             "stl" => Ok(Self::Stl),
             "ply" => Ok(Self::Ply),
             "obj" => Ok(Self::Obj),
-            _ => Err("expected stl, ply or obj"),
+            "vtp" => Ok(Self::Vtp),
+            "glb" => Ok(Self::Glb),
+            _ => Err("expected stl, ply, obj, vtp or glb"),
         }
     }
 }

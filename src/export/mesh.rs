@@ -8,7 +8,7 @@ use std::io::{self, Write};
 
 use nalgebra::Vector3;
 
-use super::WriteError;
+use super::{Detail, WriteError};
 use crate::mesh::Mesh;
 
 /// What fills the header of 80 bytes. Text that starts with `solid` would pass for a text STL.
@@ -79,16 +79,38 @@ impl<W: Write> Write for Titled<'_, W> {
 ///
 /// [`WriteError`]: a coordinate that is not finite, a broken index, or a failing writer.
 pub fn write_ply(mesh: &Mesh, writer: &mut impl Write) -> Result<(), WriteError> {
+    write_detailed_ply(mesh, &Detail::default(), writer)
+}
+
+/// The same, with normals and fields as further properties of the vertices.
+pub(super) fn write_detailed_ply(
+    mesh: &Mesh,
+    detail: &Detail,
+    writer: &mut impl Write,
+) -> Result<(), WriteError> {
     check(mesh, f64::MAX)?;
     count("vertices", mesh.vertices.len())?;
+    let has_normals = detail.has_normals(mesh);
     writer.write_all(super::points::ply_header(mesh.vertices.len()).as_bytes())?;
+    let normals = ["nx", "ny", "nz"].into_iter().filter(|_| has_normals);
+    for name in normals.chain(detail.fields(mesh).map(|field| field.name)) {
+        writeln!(writer, "property double {name}")?;
+    }
     let faces = mesh.triangles.len();
     writeln!(
         writer,
         "element face {faces}\nproperty list uchar uint vertex_indices"
     )?;
     writer.write_all(b"end_header\n")?;
-    super::points::write_rows(&mesh.vertices, writer)?;
+    for (at, vertex) in mesh.vertices.iter().enumerate() {
+        super::points::write_rows(&[*vertex], writer)?;
+        if has_normals {
+            super::points::write_rows(&[detail.normals[at].into()], writer)?;
+        }
+        for field in detail.fields(mesh) {
+            writer.write_all(&field.values[at].to_le_bytes())?;
+        }
+    }
     for corners in &mesh.triangles {
         let mut row = [3; 13];
         for (corner, bytes) in corners.iter().zip(row[1..].chunks_exact_mut(4)) {
@@ -116,12 +138,12 @@ pub fn write_obj(mesh: &Mesh, writer: &mut impl Write) -> Result<(), WriteError>
     Ok(())
 }
 
-fn count(what: &'static str, count: usize) -> Result<u32, WriteError> {
+pub(super) fn count(what: &'static str, count: usize) -> Result<u32, WriteError> {
     u32::try_from(count).map_err(|_| WriteError::TooMany { what, count })
 }
 
 /// Refuses what the format cannot hold, before a byte is written.
-fn check(mesh: &Mesh, largest: f64) -> Result<(), WriteError> {
+pub(super) fn check(mesh: &Mesh, largest: f64) -> Result<(), WriteError> {
     super::points::check(&mesh.vertices, largest)?;
     let vertices = mesh.vertices.len();
     for (triangle, corners) in mesh.triangles.iter().enumerate() {

@@ -11,18 +11,22 @@
 //! ```
 
 mod atomic;
+mod detail;
 mod error;
 mod format;
+mod glb;
 mod grain;
 mod mesh;
 mod points;
 mod temporary;
+mod vtp;
 
 use std::path::Path;
 
 use crate::mesh::Mesh;
 
 pub use atomic::write_atomically;
+pub use detail::Detail;
 pub use error::{SaveError, WriteError};
 pub use format::MeshFormat;
 pub use grain::save_grain;
@@ -30,7 +34,7 @@ pub use mesh::{write_obj, write_ply, write_stl};
 pub use points::{write_points_ply, write_points_xyz};
 pub use temporary::{remove_temporaries, sweep};
 
-/// Saves a mesh in the format that the path's extension names: `stl`, `ply` or `obj`.
+/// Saves a mesh in the format that the path's extension names: `stl`, `ply`, `obj`, `vtp` or `glb`.
 ///
 /// # Errors
 ///
@@ -57,7 +61,10 @@ mod tests {
         assert_eq!(save("a.obj").unwrap(), b"");
         for name in ["a.vtk", "stl"] {
             let error = save(name).unwrap_err().to_string();
-            assert!(error.ends_with("must be stl, ply or obj"), "{error}");
+            assert!(
+                error.ends_with("must be stl, ply, obj, vtp or glb"),
+                "{error}"
+            );
         }
     }
 }

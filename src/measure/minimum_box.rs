@@ -52,7 +52,7 @@ impl OrientedBox {
 }
 
 /// The smallest box with the given orthonormal axes (columns, in any order) that holds all points.
-pub(super) fn box_along(points: &[Point3<f64>], axes: &Matrix3<f64>) -> OrientedBox {
+pub(crate) fn box_along(points: &[Point3<f64>], axes: &Matrix3<f64>) -> OrientedBox {
     oriented(bounds(points, axes), axes)
 }
 

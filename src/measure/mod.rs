@@ -60,6 +60,8 @@ pub use integrals::{Integrals, MAX_EVALUATIONS, grain_properties, integrate};
 pub use mass::{MassProperties, Moments, PrincipalInertia};
 pub(crate) use medial::medial_balls;
 pub use mesh::{MeshIntegralError, mesh_properties};
+#[cfg(feature = "cli")]
+pub(crate) use minimum_box::box_along;
 pub use minimum_box::{OrientedBox, minimum_box};
 pub use outline::Outline;
 pub use projection::{OUTLINE_AZIMUTHS, ProjectionError, project};

@@ -17,6 +17,7 @@ mod published;
 mod ray;
 mod seams;
 mod segmented;
+mod segments;
 mod star_grain;
 mod star_surface;
 mod stretch;

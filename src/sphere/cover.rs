@@ -119,6 +119,15 @@ impl Cover {
         &self.cells
     }
 
+    /// The number of the cell that the direction `n` lies in, margins left aside.
+    pub(crate) fn cell(&self, n: &Vector3<f64>) -> usize {
+        let mut near = self
+            .near(self.bucket(n))
+            .iter()
+            .map(|cell| usize::from(*cell));
+        near.find(|cell| self.cells[*cell].holds(n)).unwrap_or(0)
+    }
+
     /// How far neighbours blend on both sides of a cell's border, in widths of the cell.
     pub fn margin(&self) -> f64 {
         self.margin

@@ -57,6 +57,13 @@ impl CubeCell {
         (face * parts + place(n[(axis + 1) % 3])) * parts + place(n[(axis + 2) % 3])
     }
 
+    /// Whether a direction lies in the cell.
+    pub(super) fn holds(&self, n: &Vector3<f64>) -> bool {
+        let [face, parts, row, column] =
+            [self.face.into(), self.parts, self.row, self.column].map(usize::from);
+        Self::position(self.parts, n) == (face * parts + row) * parts + column
+    }
+
     /// The four cells of half the width that make this one.
     pub fn quarters(&self) -> [Self; 4] {
         [(0, 0), (0, 1), (1, 0), (1, 1)].map(|(i, j)| Self {

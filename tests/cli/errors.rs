@@ -78,7 +78,7 @@ fn outputs_are_checked_before_work() {
     let must = "its extension must be";
     refuse(
         &["fit", maize, "--mesh", "a.vtk"],
-        &["a.vtk", must, "stl, ply or obj"],
+        &["a.vtk", must, "stl, ply, obj, vtp or glb"],
     );
     refuse(&["fit", maize, "-o", "a.stl"], &["a.stl", must, "json"]);
     refuse(&["fit", maize, "--harmonics", "a"], &[must, "csv"]);

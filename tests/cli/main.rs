@@ -11,6 +11,7 @@ mod harmonics;
 mod measure;
 mod mesh;
 mod positions;
+mod report;
 mod search;
 #[cfg(unix)]
 mod signals;

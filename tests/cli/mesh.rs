@@ -39,8 +39,8 @@ fn the_mesh_of_a_model_is_that_of_its_fit() {
     );
     let text = succeed(&folder, &["mesh", "m.json", "-o", "model.ply"]);
     assert_eq!(text, "wrote model.ply: 24578 vertices, 49152 triangles\n");
-    let bytes = |name: &str| std::fs::read(folder.path().join(name)).unwrap();
-    assert!(bytes("fit.ply") == bytes("model.ply"));
+    let scan = |name: &str| read_scan(&folder.path().join(name)).unwrap();
+    assert!(scan("fit.ply") == scan("model.ply"));
 }
 
 #[test]
@@ -53,4 +53,36 @@ fn a_model_file_holds_what_was_fitted() {
     assert_eq!(report["segments"], grain.star().unwrap().segments());
     assert_eq!(report["degree"], grain.degree());
     assert_eq!(model::grain_to_json(&grain) + "\n", text);
+}
+
+#[test]
+fn a_mesh_holds_what_is_known_at_its_vertices() {
+    let folder = folder();
+    let bean = grain("bean.ply");
+    succeed(&folder, &["fit", &bean, "-o", "m.json"]);
+    let text = |name: &str, words: &[&str]| {
+        let words = [&["mesh", "m.json", "--resolution", "8", "-o", name], words].concat();
+        succeed(&folder, &words);
+        let bytes = std::fs::read(folder.path().join(name)).unwrap();
+        String::from_utf8_lossy(&bytes).into_owned()
+    };
+    for (name, known, asked) in [
+        (
+            "m.ply",
+            "property double mean_curvature\n",
+            "property double deviation\n",
+        ),
+        ("m.vtp", "Name=\"gaussian_curvature\"", "Name=\"deviation\""),
+        ("m.glb", "\"_SEGMENT\"", "\"_DEVIATION\""),
+    ] {
+        let without = text(name, &[]);
+        assert!(
+            without.contains(known) && !without.contains(asked),
+            "{name}"
+        );
+        let with = text(name, &["--scan", &bean]);
+        assert!(with.contains(known) && with.contains(asked), "{name}");
+    }
+    let scan = read_scan(&folder.path().join("m.ply")).unwrap();
+    assert_eq!(scan.points().len(), 6 * 8 * 8 + 2);
 }

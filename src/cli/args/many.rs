@@ -1,6 +1,6 @@
 //! The arguments of commands for many grains.
 
-use super::{InputArgs, LimitArgs, OUTPUT, RUN};
+use super::{InputArgs, LimitArgs, OUTPUT, RUN, SEARCH};
 use crate::cli::values::{Auto, tolerance};
 use crate::fit::Tolerance;
 use crate::report::{Measure, Unit};
@@ -103,4 +103,45 @@ pub(in crate::cli) struct CompareArgs {
     /// Print one JSON object
     #[arg(long)]
     pub(in crate::cli) json: bool,
+}
+
+/// Write a page about scans, models and results that opens in any browser
+///
+/// One file that needs nothing else. Of a scan, which is fitted, or a model: the surface, to be turned, in colours that
+/// tell how far the scan is off, or the curvature; maps over the angles; measures with standard errors and definitions.
+/// Of a folder of results: a table that can be sorted, distributions, any two measures against each other, and every
+/// grain whose model `batch --models` has saved.
+#[derive(Args)]
+pub(in crate::cli) struct ReportArgs {
+    /// Scans, models written by `fit`, and folders of results of `batch`
+    #[arg(value_name = "SCAN|MODEL.json|RESULTS", required = true)]
+    pub(in crate::cli) paths: Vec<PathBuf>,
+
+    /// Write the page here
+    #[arg(short, long, value_name = "REPORT.html", help_heading = OUTPUT)]
+    pub(in crate::cli) output: PathBuf,
+
+    /// Write a picture of the grain here
+    #[arg(long, value_name = "OUT.png", help_heading = OUTPUT)]
+    pub(in crate::cli) png: Option<PathBuf>,
+
+    /// Compare results with what is known of their grains: a table whose first column names the files of scans, and whose
+    /// others are named as those of results.csv
+    #[arg(long, value_name = "TRUTH.csv")]
+    pub(in crate::cli) truth: Option<PathBuf>,
+
+    /// Show the errors of k x k independent segments of every degree too, as `search --seams none` fits them
+    #[arg(long, help_heading = SEARCH)]
+    pub(in crate::cli) search: bool,
+
+    /// Of several bodies in a scan, fit the largest
+    #[arg(long, help_heading = SEARCH)]
+    pub(in crate::cli) largest: bool,
+
+    /// Unit of the scans' lengths, told beside them: um, mm, cm or m
+    #[arg(long, value_name = "UNIT", help_heading = OUTPUT)]
+    pub(in crate::cli) unit: Option<Unit>,
+
+    #[command(flatten)]
+    pub(in crate::cli) input: InputArgs,
 }

@@ -5,7 +5,7 @@ mod many;
 mod shared;
 
 pub(super) use engines::{ClumpArgs, ExportDemArgs, SpheresArgs};
-pub(super) use many::{BatchArgs, CompareArgs, SplitArgs};
+pub(super) use many::{BatchArgs, CompareArgs, ReportArgs, SplitArgs};
 pub(super) use shared::{FittingArgs, InputArgs, LimitArgs, MeshingArgs};
 
 use super::values::{CloudFormat, LawArg, PoseArg, SchemeArg, Subject, SurfaceArg, share, vector};
@@ -57,6 +57,7 @@ pub(super) enum Command {
     Batch(BatchArgs),
     Compare(CompareArgs),
     Bench(BenchArgs),
+    Report(ReportArgs),
     Completions(CompletionsArgs),
     Man(ManArgs),
 }
@@ -93,13 +94,17 @@ pub(super) struct FitArgs {
     #[arg(short, long, value_name = "MODEL.json", help_heading = OUTPUT)]
     pub(super) output: Option<PathBuf>,
 
-    /// Write a closed mesh of the fitted surface here: .stl, .ply or .obj (- for standard output, as PLY)
+    /// Write a closed mesh of the fitted surface here: .stl, .ply, .obj, .vtp or .glb (- for standard output, as PLY)
     #[arg(long, value_name = "OUT", help_heading = OUTPUT)]
     pub(super) mesh: Option<PathBuf>,
 
     /// Write the published coefficients a_l^m of every segment here
     #[arg(long, value_name = "OUT.csv", help_heading = OUTPUT)]
     pub(super) harmonics: Option<PathBuf>,
+
+    /// Write a picture here: scan and surface, and three views with how far the scan is off in colours
+    #[arg(long, value_name = "OUT.png", help_heading = OUTPUT)]
+    pub(super) png: Option<PathBuf>,
 
     #[command(flatten)]
     pub(super) meshing: MeshingArgs,
@@ -119,17 +124,25 @@ pub(super) struct SearchArgs {
 }
 
 /// Mesh a model
+///
+/// PLY, VTP and GLB hold what is known at each vertex too: normal, mean and Gaussian curvature, number of the segment,
+/// and with --scan the signed distance of the scan from the surface (positive outside; not a number where the scan has
+/// no points near by).
 #[derive(Args)]
 pub(super) struct MeshArgs {
     /// A model written by `fit`
     #[arg(value_name = "MODEL.json")]
     pub(super) model: PathBuf,
 
-    /// Write the mesh here: .stl, .ply or .obj (- for standard output)
+    /// Write the mesh here: .stl, .ply, .obj, .vtp (VTK) or .glb (glTF) (- for standard output)
     #[arg(short, long, value_name = "OUT")]
     pub(super) output: PathBuf,
 
-    /// Format of the mesh on standard output: stl, ply or obj
+    /// The scan that the model was fitted to
+    #[arg(long, value_name = "SCAN")]
+    pub(super) scan: Option<PathBuf>,
+
+    /// Format of the mesh on standard output: stl, ply, obj, vtp or glb
     #[arg(long, value_name = "FORMAT", default_value = "ply")]
     pub(super) format: MeshFormat,
 

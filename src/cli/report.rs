@@ -1,0 +1,218 @@
+//! `grainform report`
+
+use super::args::ReportArgs;
+use super::console::Console;
+use super::{inputs, outputs, threads};
+use crate::fit::{Context as FitContext, FitOptions, Fitted, Kind, Seams, fit_scan, largest_body};
+use crate::measure::{Scheme, Survey};
+use crate::model::Grain;
+use crate::page::{GrainPart, LotPart, MeasureRow, Page, SearchPart, Subject, write_page};
+use crate::report::{
+    FitReport, Measure, MeasureReport, Measured, SearchReport, escaped, sentences, short,
+};
+use crate::scan::{Scan, plural};
+use anyhow::{Context, Result, bail};
+use std::path::Path;
+
+pub(super) fn run(args: ReportArgs, console: Console) -> Result<()> {
+    threads::start(0, console)?;
+    let input = match args.paths.as_slice() {
+        [path] if !path.is_dir() => Some(path.as_path()),
+        _ if args.png.is_some() => bail!("--png draws one grain: name one scan or model"),
+        _ => None,
+    };
+    let files = [
+        (Some(args.output.as_path()), &["html", "htm"][..]),
+        (args.png.as_deref(), &["png"][..]),
+    ];
+    let console = console.beside(outputs::check(input, &files, false)?);
+    let progress = console.progress();
+    let (mut grains, mut lots) = (Vec::new(), Vec::new());
+    for path in &args.paths {
+        progress.stage(format_args!("Reporting {}", escaped(&inputs::name(path))));
+        match path.is_dir() {
+            true => lots.push(LotPart::read(path, args.truth.as_deref())?),
+            false => grains.push(grain_part(path, &args)?),
+        }
+    }
+    let page = Page {
+        version: env!("CARGO_PKG_VERSION"),
+        command: command(),
+        grains,
+        lots,
+    };
+    progress.stage("Writing");
+    outputs::write(&args.output, |file| Ok(write_page(&page, file)?))?;
+    drop(progress);
+    for path in [Some(&args.output), args.png.as_ref()]
+        .into_iter()
+        .flatten()
+    {
+        console.wrote(&outputs::name(path))?;
+    }
+    Ok(())
+}
+
+/// What was typed.
+fn command() -> String {
+    let words = std::env::args_os().skip(1);
+    let words = words.map(|word| word.to_string_lossy().into_owned());
+    std::iter::once("grainform".to_owned())
+        .chain(words)
+        .collect::<Vec<_>>()
+        .join(" ")
+}
+
+/// Reads a scan, which is fitted, or a model.
+fn grain_part(path: &Path, args: &ReportArgs) -> Result<GrainPart> {
+    let name = inputs::name(path);
+    let bytes = inputs::read(path, &args.input.limit)?;
+    let hash = ("BLAKE3 of the input", blake3::hash(&bytes).to_string());
+    if bytes.trim_ascii_start().starts_with(b"{") {
+        let grain = inputs::parse_model(path, &bytes)?;
+        let (measures, warnings) = measured(&grain, args);
+        draw(args, &name, &grain, None)?;
+        return Ok(GrainPart::new(Subject {
+            name,
+            grain: &grain,
+            scan: None,
+            unit: args.unit,
+            facts: vec![
+                ("model", plural(grain.coefficient_count(), "coefficient")),
+                hash,
+            ],
+            measures: MeasureRow::of(&measures.measures, None, args.unit),
+            warnings,
+            search: None,
+        }));
+    }
+    let scan = inputs::parse_scan(path, &bytes, &args.input)?;
+    let (scan, left_out) = match args.largest {
+        true => {
+            let (largest, left_out) = largest_body(&scan);
+            (largest.into_owned(), left_out)
+        }
+        false => (scan, None),
+    };
+    let options = FitOptions::default();
+    let failed = || format!("cannot fit {name}");
+    let mut fitted = fit_scan(&scan, &options, &FitContext::default()).with_context(failed)?;
+    fitted.warnings.extend(left_out);
+    let search = match args.search {
+        true => Some(search(&scan, &name).with_context(failed)?),
+        false => None,
+    };
+    let told = FitReport::new(name.clone(), args.unit, &fitted, &options, &[]);
+    let mut warnings = sentences(scan.warnings(), &fitted.warnings);
+    let measures =
+        match fitted.unseen {
+            Some(_) => {
+                let missing = told.not_measured.iter();
+                warnings.extend(missing.map(|missing| {
+                    format!("Not measured: {}, {}.", missing.measure, missing.reason)
+                }));
+                Vec::new()
+            }
+            None => {
+                let (measures, missing) = measured(&fitted.grain, args);
+                warnings.extend(missing);
+                MeasureRow::of(&measures.measures, told.standard_errors.as_ref(), args.unit)
+            }
+        };
+    draw(args, &name, &fitted.grain, Some(&scan))?;
+    let mut facts = facts(&told, &fitted);
+    facts.push(hash);
+    Ok(GrainPart::new(Subject {
+        name,
+        grain: &fitted.grain,
+        scan: Some(&scan),
+        unit: args.unit,
+        facts,
+        measures,
+        warnings,
+        search,
+    }))
+}
+
+/// All measures of a grain, and those that cannot be had, as sentences.
+fn measured(grain: &Grain, args: &ReportArgs) -> (MeasureReport, Vec<String>) {
+    let survey = Survey::of_grain(grain, Scheme::Exact);
+    let report = MeasureReport::new(
+        String::new(),
+        Measured::Model,
+        &survey,
+        &Measure::ALL,
+        Vec::new(),
+    );
+    let missing = report.not_measured.iter();
+    let missing =
+        missing.map(|missing| format!("Not measured: {}, {}.", missing.measure, missing.reason));
+    let missing = missing.collect();
+    (report.in_unit(args.unit), missing)
+}
+
+/// Fits all independent segments, as the source does.
+fn search(scan: &Scan, name: &str) -> Result<SearchPart> {
+    let options = FitOptions {
+        seams: Seams::None,
+        kind: Kind::Star,
+        exhaustive: true,
+        ..FitOptions::default()
+    };
+    let fitted = fit_scan(scan, &options, &FitContext::default())?;
+    Ok((&SearchReport::new(name.into(), None, &fitted, &options, &[])).into())
+}
+
+fn draw(args: &ReportArgs, name: &str, grain: &Grain, scan: Option<&Scan>) -> Result<()> {
+    let Some(path) = &args.png else {
+        return Ok(());
+    };
+    outputs::write_picture(path, grain, scan, name.to_owned(), args.unit)
+}
+
+/// What the fit rests on and how good it is.
+fn facts(report: &FitReport, fitted: &Fitted) -> Vec<(&'static str, String)> {
+    let unit = report.unit.map_or(String::new(), |unit| format!(" {unit}"));
+    let length = |length: f64| {
+        let share = 100.0 * length / report.mean_radius;
+        let share = match share.abs() {
+            0.0 | 0.001.. => format!("{share:.3}"),
+            _ => format!("{share:.1e}"),
+        };
+        format!("{}{unit} ({share} % of the mean radius)", short(length))
+    };
+    let mut facts = vec![
+        ("scan", plural(report.points, "point")),
+        (
+            "model",
+            format!(
+                "degree {}, {}, {}",
+                report.degree,
+                plural(report.segments, "segment"),
+                plural(report.coefficients, "coefficient")
+            ),
+        ),
+        ("chosen for", report.rule.clone()),
+        (
+            "residuals",
+            format!(
+                "RMS {}, largest {}{unit}",
+                length(report.rms),
+                short(report.max)
+            ),
+        ),
+    ];
+    facts.extend(report.heldout_rms.map(|rms| ("held-out RMS", length(rms))));
+    facts.extend(report.noise.map(|noise| ("noise", length(noise))));
+    facts.push((
+        "mean radius",
+        format!("{}{unit}", short(fitted.mean_radius)),
+    ));
+    facts.extend(
+        report
+            .no_standard_errors
+            .clone()
+            .map(|reason| ("no standard errors", reason)),
+    );
+    facts
+}

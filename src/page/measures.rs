@@ -1,0 +1,203 @@
+//! Measures as rows of a table.
+
+use super::definitions::definition;
+use crate::report::{StandardErrorsRecord, Unit, short};
+use serde::Serialize;
+use serde_json::Value;
+
+/// A row of the table of measures.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct MeasureRow {
+    /// Its key in the record of measures, such as `sphericity.wadell`.
+    pub name: String,
+    /// Its value, or values.
+    pub value: String,
+    /// Its standard error, where it is known.
+    pub error: Option<String>,
+    /// Its unit; empty of plain numbers.
+    pub unit: String,
+    /// What it means.
+    pub definition: String,
+}
+
+/// Entries of a list that are shown.
+const MOST_ENTRIES: usize = 12;
+
+impl MeasureRow {
+    /// The rows of a record of measures. A record's own parts come in the order of their names.
+    pub fn of(
+        measures: &impl Serialize,
+        errors: Option<&StandardErrorsRecord>,
+        unit: Option<Unit>,
+    ) -> Vec<Self> {
+        let record = |record: Result<Value, _>| record.unwrap_or(Value::Null);
+        let measures = record(serde_json::to_value(measures));
+        let errors = record(serde_json::to_value(errors));
+        let mut rows = Vec::new();
+        collect("", &measures, &errors, unit, &mut rows);
+        rows
+    }
+}
+
+fn collect(
+    name: &str,
+    value: &Value,
+    errors: &Value,
+    unit: Option<Unit>,
+    rows: &mut Vec<MeasureRow>,
+) {
+    let below = |part: &str| match name {
+        "" => part.to_owned(),
+        name => format!("{name}.{part}"),
+    };
+    match value {
+        Value::Object(parts) => {
+            for (part, value) in parts {
+                collect(&below(part), value, errors, unit, rows);
+            }
+        }
+        Value::Array(parts) if parts.iter().any(Value::is_object) => {
+            for (at, part) in parts.iter().enumerate() {
+                let along = part.get("along").and_then(Value::as_str);
+                let part_name = along.map_or(at.to_string(), str::to_owned);
+                collect(&below(&part_name), part, errors, unit, rows);
+            }
+        }
+        _ => rows.extend(text(value).map(|text| MeasureRow {
+            name: name.to_owned(),
+            value: text,
+            error: error(name, errors),
+            unit: unit_of(name, unit),
+            definition: definition(&plain(name)).unwrap_or_default(),
+        })),
+    }
+}
+
+/// The key without the axis that an outline is seen along.
+fn plain(name: &str) -> String {
+    let axes = [".length.", ".width.", ".thickness."];
+    let found = axes
+        .iter()
+        .find(|axis| name.starts_with("projections") && name.contains(**axis));
+    found.map_or(name.to_owned(), |axis| name.replacen(axis, ".", 1))
+}
+
+/// Numbers and lists of numbers; nothing of what is not measured, nor of names.
+fn text(value: &Value) -> Option<String> {
+    match value {
+        Value::Number(number) => number.as_f64().map(short),
+        Value::Array(parts) => {
+            let sizes = parts.iter().filter_map(Value::as_f64).map(f64::abs);
+            let rounding = 1e-12 * sizes.fold(0.0, f64::max);
+            let entry = |part: &Value| match part.as_f64() {
+                Some(number) if number.abs() < rounding => Some("0".into()),
+                _ => text(part),
+            };
+            let told = parts.iter().take(MOST_ENTRIES).map(entry);
+            let told = told.collect::<Option<Vec<_>>>()?;
+            let more = if parts.len() > MOST_ENTRIES {
+                ", ..."
+            } else {
+                ""
+            };
+            let separator = if parts.iter().any(Value::is_array) {
+                "; "
+            } else {
+                ", "
+            };
+            Some(told.join(separator) + more)
+        }
+        _ => None,
+    }
+}
+
+fn error(name: &str, errors: &Value) -> Option<String> {
+    let at = match name {
+        "principal.moments" => "/moments".into(),
+        name => format!("/{}", name.replace('.', "/")),
+    };
+    let is_told = ["area", "volume", "principal.moments", "centroid"].contains(&name);
+    let is_told = is_told || name.starts_with("dimensions.");
+    // Those of the centroid are along the grain's axes, not the scan's.
+    let is_told = is_told && name != "centroid";
+    errors.pointer(&at).filter(|_| is_told).and_then(text)
+}
+
+/// The unit of a measure, by the power of length that it is.
+fn unit_of(name: &str, unit: Option<Unit>) -> String {
+    let last = name.rsplit('.').next().unwrap_or_default();
+    let first = name.split('.').next().unwrap_or_default();
+    let power = match (first, last) {
+        ("curvature", "convex_share" | "gauss_bonnet_error") => 0,
+        ("curvature", _) if name.contains(".gaussian.") => -2,
+        ("curvature", _) => -1,
+        (_, "axes") | ("convexity" | "sphericity" | "form" | "ratios", _) => 0,
+        ("spectrum", "power") => 2,
+        (_, "area") => 2,
+        (_, "volume") => 3,
+        ("inertia", _) | (_, "moments") => 5,
+        ("projections", last) => {
+            let lengths = ["perimeter", "feret", "diameter"];
+            i32::from(lengths.iter().any(|end| last.ends_with(end)))
+        }
+        ("centroid" | "dimensions" | "minimum_box" | "spheres" | "ellipsoid", _) => 1,
+        _ => 0,
+    };
+    let Some(unit) = unit.filter(|_| power != 0) else {
+        return match power {
+            0 => String::new(),
+            1 => "unit".into(),
+            power => format!("unit{}", raised(power)),
+        };
+    };
+    match power {
+        1 => unit.to_string(),
+        power => format!("{unit}{}", raised(power)),
+    }
+}
+
+fn raised(power: i32) -> &'static str {
+    match power {
+        -2 => "⁻²",
+        -1 => "⁻¹",
+        2 => "²",
+        3 => "³",
+        _ => "⁵",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    #[test]
+    fn rows_have_names_units_and_definitions() {
+        let record = json!({
+            "area": 2.5,
+            "roundness": null,
+            "principal": {"moments": [1.0, 2.0, 3.0]},
+            "projections": [{"along": "length", "perimeter": 4.0, "solidity": 0.5}],
+            "curvature": {"gaussian": {"mean": 7.0}},
+        });
+        let rows = MeasureRow::of(&record, None, Some(Unit::Millimetre));
+        let told: Vec<_> = rows
+            .iter()
+            .map(|row| (&*row.name, &*row.value, &*row.unit))
+            .collect();
+        assert_eq!(
+            told,
+            [
+                ("area", "2.50000", "mm²"),
+                ("curvature.gaussian.mean", "7.00000", "mm⁻²"),
+                ("principal.moments", "1.00000, 2.00000, 3.00000", "mm⁵"),
+                ("projections.length.perimeter", "4.00000", "mm"),
+                ("projections.length.solidity", "0.500000", ""),
+            ]
+        );
+        assert!(
+            rows.iter().all(|row| !row.definition.is_empty()),
+            "{rows:?}"
+        );
+    }
+}

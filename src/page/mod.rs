@@ -1,0 +1,33 @@
+//! A report as one HTML page that needs nothing else: grains that can be turned, maps, measures, tables of results.
+//!
+//! What is shown is a record in JSON within the page; scripts of our own draw it. No name or number becomes part of the
+//! page in any other way, so that nothing in a scan can run there.
+
+mod assemble;
+mod definitions;
+mod grain;
+mod lot;
+mod measures;
+mod packed;
+mod search;
+
+pub use assemble::write_page;
+pub use grain::{GrainPart, Subject};
+pub use lot::{LotError, LotPart};
+pub use measures::MeasureRow;
+pub use search::SearchPart;
+
+use serde::Serialize;
+
+/// What a page shows.
+#[derive(Debug, Clone, Serialize)]
+pub struct Page {
+    /// Version of grainform.
+    pub version: &'static str,
+    /// The command that made it.
+    pub command: String,
+    /// Grains, each with a part of its own.
+    pub grains: Vec<GrainPart>,
+    /// Folders of results, likewise.
+    pub lots: Vec<LotPart>,
+}
