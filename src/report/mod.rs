@@ -6,6 +6,7 @@
 //! a person. Errors of area and volume are signed and relative; lengths are in the scan's unit.
 
 mod contact;
+mod curled;
 mod escape;
 mod estimate;
 mod fit;
@@ -23,6 +24,7 @@ mod unit;
 mod warning;
 
 pub use contact::{ContactReport, Load, TouchRecord};
+pub use curled::CurledReport;
 #[cfg(feature = "cli")]
 pub(crate) use escape::escaped;
 pub use estimate::{EstimateRecord, EvaluationRecord};

@@ -6,7 +6,9 @@ mod shared;
 pub(super) use many::{BatchArgs, CompareArgs, SplitArgs};
 pub(super) use shared::{FittingArgs, InputArgs, LimitArgs, MeshingArgs};
 
-use super::values::{CloudFormat, PoseArg, SchemeArg, Subject, SurfaceArg, share, vector};
+use super::values::{
+    CloudFormat, PoseArg, SchemeArg, SemiAxes, Subject, SurfaceArg, exponents, share, vector,
+};
 use crate::export::MeshFormat;
 use crate::report::{Measure, Unit};
 use crate::shapes::Sampling;
@@ -22,7 +24,8 @@ const RUN: &str = "Run";
 /// Fits a small analytic surface, segmented spherical harmonics, to the 3D scan of a grain, and tells
 /// how good it is.
 ///
-/// Scans are read from PLY, STL, OBJ and XYZ files, packed with gzip or not. The name - is standard input, or
+/// Scans are read from PLY, STL, OBJ and XYZ files and from segmented volumes (NRRD, MetaImage, NIfTI, TIFF stacks,
+/// .npy), packed with gzip or not. The name - is standard input, or
 /// standard output; what is said beside an output goes to standard error. Lengths are in the scan's unit. Exit
 /// codes: 0 all done; 1 done, but some inputs of a batch failed; 2 bad usage or
 /// unusable input.
@@ -248,8 +251,10 @@ pub(super) struct ContactArgs {
 /// Make a synthetic scan of a body whose area, volume and inertia are known, or of a tray of grains
 #[derive(Args)]
 pub(super) struct SynthArgs {
-    /// bean, chickpea or maize, or a shape: sphere, ellipsoid, cylinder, bicone, octahedron, cuboid or
-    /// cube; or tray: grains on a plane, one in ten touching another, with dust
+    /// bean, chickpea or maize; a shape: sphere, ellipsoid, cylinder, bicone, octahedron, cuboid or cube; a
+    /// superquadric, or poly, whose octants differ; what no centre sees whole: banana, cup, mushroom, hook or random,
+    /// another one for every seed, as a mesh or, with --points, as points; or tray: grains on a plane, one in ten
+    /// touching another, with dust
     pub(super) body: Subject,
 
     /// Number of grains on a tray
@@ -260,9 +265,14 @@ pub(super) struct SynthArgs {
     #[arg(long, value_name = "FILE.txt")]
     pub(super) labels: Option<PathBuf>,
 
-    /// Semi-axes of a shape, or half its extents, in x, y and z [default: the shape's own]
-    #[arg(long, value_name = "A,B,C", value_parser = vector, allow_hyphen_values = true)]
-    pub(super) axes: Option<Vector3<f64>>,
+    /// Semi-axes of a shape, or half its extents, in x, y and z; six of a poly, on the positive and on the negative
+    /// side of each [default: the shape's own]
+    #[arg(long, value_name = "A,B,C", allow_hyphen_values = true)]
+    pub(super) axes: Option<SemiAxes>,
+
+    /// Exponents of a superquadric or a poly: n1 of z, n2 of x and y [default: 4,2]
+    #[arg(long, value_name = "N1,N2", value_parser = exponents)]
+    pub(super) exponents: Option<[f64; 2]>,
 
     /// Number of points; met as nearly as the sampling can [default: the body's own]
     #[arg(long, value_name = "N")]
@@ -293,7 +303,7 @@ pub(super) struct SynthArgs {
     #[arg(long, value_name = "K", default_value_t = 0)]
     pub(super) seed: u64,
 
-    /// Write the points here: .ply or .xyz (- for standard output)
+    /// Write the points here: .ply or .xyz, a mesh .stl or .obj too (- for standard output)
     #[arg(short, long, value_name = "FILE")]
     pub(super) output: Option<PathBuf>,
 

@@ -10,7 +10,7 @@ mod plane;
 
 pub use plane::Plane;
 
-use super::{ParseError, Scan};
+use super::{ParseError, Scan, Volume, VolumeError};
 use crate::mesh::{Mesh, part, parts};
 use links::Links;
 use nalgebra::Point3;
@@ -31,7 +31,8 @@ const MOST_CUTS: usize = 12;
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Split {
-    /// The grains, by the middles of their boxes: ascending in x, of equal x in y, then in z.
+    /// The grains, by the middles of their boxes: ascending in x, of equal x in y, then in z; those of a segmented
+    /// volume by their labels.
     pub grains: Vec<SplitGrain>,
     /// How far neighbours of one surface are apart at most, in the scan's unit; none of a mesh.
     pub distance: Option<f64>,
@@ -55,6 +56,8 @@ pub struct SplitGrain {
     pub scan: Scan,
     /// Positions of its points among those of that scan, ascending; of a mesh, none.
     pub indices: Vec<u32>,
+    /// Its label in a segmented volume.
+    pub label: Option<i64>,
     /// Whether it may be several that touch: it has a waist, but no neck.
     pub may_touch: bool,
 }
@@ -75,6 +78,28 @@ pub fn split(scan: &Scan) -> Result<Split, ParseError> {
     Ok(split)
 }
 
+/// The grains of a segmented volume, one for each label, in the order of the labels.
+///
+/// # Errors
+/// [`VolumeError`] where there is no label, or the values are none.
+pub fn split_labels(volume: &Volume) -> Result<Split, VolumeError> {
+    let grain = |(label, scan)| SplitGrain {
+        scan,
+        indices: Vec::new(),
+        label: Some(label),
+        may_touch: false,
+    };
+    Ok(Split {
+        grains: volume.scans()?.into_iter().map(grain).collect(),
+        distance: None,
+        plane: None,
+        plane_points: 0,
+        dust: 0,
+        dust_points: 0,
+        cuts: 0,
+    })
+}
+
 fn split_faces(scan: &Scan) -> Split {
     let mesh = scan.welded();
     let (grains, dust): (Vec<Mesh>, Vec<Mesh>) = without_dust(
@@ -93,6 +118,7 @@ fn split_faces(scan: &Scan) -> Split {
             .map(|mesh| SplitGrain {
                 scan: Scan::from_part(mesh),
                 indices: Vec::new(),
+                label: None,
                 may_touch: false,
             })
             .collect(),
@@ -174,6 +200,7 @@ fn split_points(all: &[Point3<f64>]) -> Split {
                 SplitGrain {
                     scan: Scan::from_points(points),
                     indices,
+                    label: None,
                     may_touch: clump.may_touch,
                 }
             })
