@@ -1,7 +1,9 @@
 //! A triangle mesh: what a scan may bring, what a fitted grain is exported as.
 
+mod contour;
 mod parts;
 
+pub(crate) use contour::{Grid, contour};
 pub(crate) use parts::{part, parts};
 
 use crate::sphere::cube_grid;

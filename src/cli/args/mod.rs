@@ -81,7 +81,7 @@ pub(super) struct FitArgs {
     pub(super) fitting: FittingArgs,
 
     /// What is fitted: star (a radius in every direction from a centre), position (of points over the sphere, of any
-    /// closed faces without handles), or auto: a radius, and where that hides area, ends above its limit or is
+    /// closed faces without handles, or of dense points), or auto: a radius, and where that hides area, ends above its limit or is
     /// steep, the better of both. Or the few numbers of a superquadric (5), of one whose octants differ (poly, 8;
     /// poly12), or of a union of superquadrics (multi: as many as held-out points ask for, 4 or PARTS at most)
     #[arg(long, value_name = "auto|star|position|superquadric|poly|poly12|multi[:PARTS]", default_value = "auto",

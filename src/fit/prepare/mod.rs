@@ -16,6 +16,7 @@ pub(crate) use axes::principal_axes;
 pub use largest::largest_body;
 pub use reference::{Reference, ReferenceKind};
 pub(crate) use samples::{CellGrid, Sample, Samples};
+pub(crate) use surface::usable;
 pub use surface::{ScannedSurface, scanned_surface};
 
 use super::error::FitError;

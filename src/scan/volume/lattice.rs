@@ -1,7 +1,7 @@
 //! Points that are the centres of the outermost voxels of a grain: whole numbers, and closed all round.
 
-use super::boundary::Grid;
 use super::voxel_scan;
+use crate::mesh::Grid;
 use crate::scan::Scan;
 use nalgebra::{Matrix3, Point3};
 

@@ -4,7 +4,6 @@
 //! a few lines each and are read here, for the crates that know them bring whole array libraries along; TIFF has a
 //! crate of its own.
 
-mod boundary;
 mod error;
 mod lattice;
 mod metaimage;
@@ -19,8 +18,7 @@ pub(super) use lattice::filled as filled_lattice;
 
 use super::check::check;
 use super::{ReadError, Scan, inspect, source};
-use crate::mesh::Mesh;
-use boundary::{Grid, boundary};
+use crate::mesh::{Grid, Mesh, contour};
 use nalgebra::{Matrix3, Point3, Vector3};
 use samples::Samples;
 use std::collections::BTreeMap;
@@ -277,7 +275,7 @@ impl Extent {
 
 /// The boundary of the voxels of a grid as a scan.
 fn voxel_scan(grid: &Grid, first: Point3<f64>, steps: &Matrix3<f64>) -> Result<Scan, VolumeError> {
-    let mut mesh: Mesh = boundary(grid);
+    let mut mesh: Mesh = contour(grid, |_, _| 0.5);
     for vertex in &mut mesh.vertices {
         *vertex = first + steps * vertex.coords;
     }

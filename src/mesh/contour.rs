@@ -1,16 +1,17 @@
-//! The boundary of the voxels of a grain, as a closed mesh.
+//! The surface between the voxels inside a body and those outside, as a closed mesh.
 //!
-//! Where a voxel inside and one outside are neighbours along an axis there is a vertex, in the middle between their
-//! centres. Around each corner at which eight voxels meet the vertices form loops, which are cut in triangles. Voxels
-//! inside hang together by faces only, and so each edge of the mesh has two triangles, whatever the image.
+//! Where a voxel inside and one outside are neighbours along an axis there is a vertex between their centres. Around
+//! each corner at which eight voxels meet the vertices form loops, which are cut in triangles: marching cubes (Lorensen
+//! and Cline 1987) with a table that is made and not typed. Voxels inside hang together by faces only, and so each edge
+//! of the mesh has two triangles, whatever the image.
 
-use crate::mesh::Mesh;
+use super::Mesh;
 use nalgebra::Point3;
 use std::collections::HashMap;
 
 /// Which voxels are inside, with a margin of one voxel outside.
 #[derive(Debug, Clone)]
-pub(super) struct Grid {
+pub(crate) struct Grid {
     /// With the margin.
     size: [usize; 3],
     is_inside: Vec<bool>,
@@ -18,7 +19,7 @@ pub(super) struct Grid {
 
 impl Grid {
     /// No voxel inside yet of so many along each axis.
-    pub(super) fn new(size: [usize; 3]) -> Self {
+    pub(crate) fn new(size: [usize; 3]) -> Self {
         let size = size.map(|side| side + 2);
         Self {
             size,
@@ -31,14 +32,14 @@ impl Grid {
     }
 
     /// Puts a voxel inside.
-    pub(super) fn fill(&mut self, voxel: [usize; 3]) {
+    pub(crate) fn fill(&mut self, voxel: [usize; 3]) {
         let index = self.index(voxel.map(|i| i + 1));
         self.is_inside[index] = true;
     }
 
     /// Puts all voxels inside that are enclosed: not reached from the margin through faces of voxels outside. Gives the
     /// number of voxels inside.
-    pub(super) fn fill_enclosed(&mut self) -> usize {
+    pub(crate) fn fill_enclosed(&mut self) -> usize {
         let mut is_reached = self.is_inside.clone();
         let steps = [1, self.size[0], self.size[0] * self.size[1]];
         let mut found = vec![0];
@@ -75,8 +76,10 @@ impl Grid {
     }
 }
 
-/// The boundary, with the centre of the first voxel as origin and voxels of sides 1.
-pub(super) fn boundary(grid: &Grid) -> Mesh {
+/// The surface between voxels inside and outside, with the centre of the first voxel as origin and voxels of sides 1.
+/// `share` tells how far from a voxel towards its neighbour along an axis it lies, from 0 to 1; both are told by their
+/// places, from 1 on, for the margin has 0.
+pub(crate) fn contour(grid: &Grid, share: impl Fn([usize; 3], usize) -> f64) -> Mesh {
     let tables: Vec<Vec<[Face; 3]>> = (0..256).map(triangles).collect();
     let mut numbers: HashMap<(usize, usize), u32> = HashMap::new();
     let mut mesh = Mesh::default();
@@ -92,7 +95,7 @@ pub(super) fn boundary(grid: &Grid) -> Mesh {
                             .entry((grid.index(at), face.axis))
                             .or_insert_with(|| {
                                 let mut place = at.map(|i| i as f64 - 1.0);
-                                place[face.axis] += 0.5;
+                                place[face.axis] += share(at, face.axis);
                                 mesh.vertices.push(Point3::from(place));
                                 mesh.vertices.len() as u32 - 1
                             })
@@ -244,7 +247,7 @@ mod tests {
                     grid.fill([index % 12, index / 12 % 12, index / 144]);
                 }
             }
-            let scan = Scan::from_mesh(boundary(&grid)).unwrap();
+            let scan = Scan::from_mesh(contour(&grid, |_, _| 0.5)).unwrap();
             let topology = scan.topology().unwrap();
             assert!(topology.closed && topology.volume > 0.0, "{topology:?}");
         }
@@ -254,7 +257,7 @@ mod tests {
     fn one_voxel_is_an_octahedron() {
         let mut grid = Grid::new([1; 3]);
         grid.fill([0; 3]);
-        let mesh = boundary(&grid);
+        let mesh = contour(&grid, |_, _| 0.5);
         assert_eq!((mesh.vertices.len(), mesh.triangles.len()), (6, 8));
         let topology = Scan::from_mesh(mesh).unwrap().topology.unwrap();
         assert!((topology.volume - 1.0 / 6.0).abs() < 1e-15);
