@@ -8,7 +8,7 @@ use super::context::Context;
 use super::error::FitError;
 use super::options::{FitOptions, Kind, Seams};
 use super::outcome::{Fitted, KindChoice, Residuals, Rival};
-use super::position::{PositionFit, fit_position};
+use super::position::fit_position;
 use super::prepare::PreparedScan;
 use super::warning::FitWarning;
 use crate::measure::{Deviation, feet};
@@ -28,6 +28,9 @@ const LOOKED_AT: usize = 24;
 
 /// Share of the area that a radius may hide and still be kept without a look at positions, where it is within its limit.
 const HIDDEN: f64 = 0.001;
+
+/// Where a surface is folded it is fitted again with half as many cells, as long as there are more than these.
+const FEWEST_CELLS: usize = 6;
 
 /// Most vertices of a scan whose distances from a radius are compared with those from a position.
 const MOST_COMPARED: usize = 4000;
@@ -170,17 +173,20 @@ fn positioned(
     context: &Context<'_>,
     kind: KindChoice,
 ) -> Result<Fitted, FitError> {
-    let fit = fit_position(scan, options, context)?;
-    let PositionFit {
-        frame,
-        surface,
-        radius,
-        ..
-    } = fit;
-    let degree = surface.degree();
-    let cells = surface.coefficients().len();
-    let grain = PositionGrain::new(frame, surface).map_err(FitError::NoSurface)?;
-    grain.check().map_err(FitError::NoSurface)?;
+    let mut options = options.clone();
+    let (fit, grain, cells) = loop {
+        let fit = fit_position(scan, &options, context)?;
+        let cells = fit.surface.coefficients().len();
+        let grain = PositionGrain::new(fit.frame, fit.surface.clone());
+        match grain.and_then(|grain| grain.check().map(|()| grain)) {
+            Ok(grain) => break (fit, grain, cells),
+            Err(_) if options.segments.is_none() && cells > FEWEST_CELLS => {
+                options.max_segments = Some((cells / 2).max(FEWEST_CELLS));
+            }
+            Err(error) => return Err(FitError::NoSurface(error)),
+        }
+    };
+    let (degree, radius) = (fit.surface.degree(), fit.radius);
     let grain = Grain::from(grain);
     let candidate = Candidate {
         heldout_rms: Some(fit.held_out.rms),

@@ -21,12 +21,13 @@ const MOST_POINTS: usize = 20_000;
 /// The spacing is the median distance of a point's neighbour of this rank.
 const RANK: usize = 6;
 
-/// Sides of voxels, and reach of the crust from a point, in spacings.
-const VOXEL: f64 = 0.8;
+/// Sides of voxels, and the usual reach of the crust from a point, in spacings.
+const VOXEL: f64 = 0.7;
 const REACH: f64 = 1.6;
 
-/// Factors by which the reach is tried, until the surface is closed and has no handle.
-const WIDER: [f64; 4] = [1.0, 1.25, 1.6, 2.0];
+/// Factors by which the reach is tried, until the surface is closed, has no handle and lies on the points. A narrow crust
+/// leaks between points laid at random, a wide one fills thin walls.
+const WIDER: [f64; 6] = [0.7, 0.8, 0.9, 1.0, 1.25, 1.6];
 
 /// Share of the box of the points that the inside fills at least.
 const LEAST_INSIDE: f64 = 0.02;
@@ -51,11 +52,13 @@ pub(super) fn surface_of_points(points: &[Point3<f64>]) -> Result<Mesh, FitError
         let mesh = surface(&voxels, spacing);
         let edges = 3 * mesh.triangles.len() as i64 / 2;
         let euler = mesh.vertices.len() as i64 - edges + mesh.triangles.len() as i64;
-        if euler == 2 {
-            return guarded(mesh, &drawn, REACH * spacing);
-        }
-        failed = FitError::Ring {
-            handles: usize::try_from(1 - euler / 2).unwrap_or(0),
+        let handles = usize::try_from(1 - euler / 2).unwrap_or(0);
+        let share = off(&drawn, &mesh.vertices, REACH * spacing);
+        let share = share.max(off(&mesh.vertices, &drawn, REACH * spacing));
+        failed = match (handles, share > LARGEST_OFF) {
+            (0, false) => return Ok(mesh),
+            (0, true) => FitError::OffCrust { share },
+            _ => FitError::Ring { handles },
         };
     }
     Err(failed)
@@ -89,24 +92,17 @@ fn surface(voxels: &Voxels, spacing: f64) -> Mesh {
     mesh
 }
 
-/// The surface, if the points lie on it, and it lies on the points.
-fn guarded(mesh: Mesh, points: &[Point3<f64>], reach: f64) -> Result<Mesh, FitError> {
-    let off = |all: &[Point3<f64>], others: &[Point3<f64>]| {
-        let others: Vec<Vector3<f64>> = others.iter().map(|point| point.coords).collect();
-        let near = Neighbours::new(&others);
-        let is_off = |point: &&Point3<f64>| {
-            let nearest = near.nearest(&point.coords, 1);
-            nearest
-                .first()
-                .is_none_or(|at| (point.coords - others[*at]).norm() > reach)
-        };
-        all.iter().filter(is_off).count() as f64 / all.len().max(1) as f64
+/// Share of some points that have none of the others within reach.
+fn off(all: &[Point3<f64>], others: &[Point3<f64>], reach: f64) -> f64 {
+    let others: Vec<Vector3<f64>> = others.iter().map(|point| point.coords).collect();
+    let near = Neighbours::new(&others);
+    let is_off = |point: &&Point3<f64>| {
+        let nearest = near.nearest(&point.coords, 1);
+        nearest
+            .first()
+            .is_none_or(|at| (point.coords - others[*at]).norm() > reach)
     };
-    let share = off(points, &mesh.vertices).max(off(&mesh.vertices, points));
-    match share > LARGEST_OFF {
-        true => Err(FitError::OffCrust { share }),
-        false => Ok(mesh),
-    }
+    all.iter().filter(is_off).count() as f64 / all.len().max(1) as f64
 }
 
 /// The median distance of neighbours of a rank.

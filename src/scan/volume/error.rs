@@ -74,6 +74,14 @@ pub enum VolumeError {
         /// The most that are read.
         most: usize,
     },
+    /// The labels lie all over each other.
+    #[error(
+        "the boxes around the labels fill the image {times:.0} times: these are grey values; segment the image first"
+    )]
+    Interleaved {
+        /// Volume of the boxes over that of the image.
+        times: f64,
+    },
     /// All voxels are zero.
     #[error("all voxels are zero: the image has no label")]
     NoLabels,

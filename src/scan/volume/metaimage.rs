@@ -30,10 +30,11 @@ pub(super) fn parse(bytes: &[u8], beside: &Beside<'_>) -> Result<Volume, VolumeE
     let kind = kind.ok_or(VolumeError::Header {
         what: "ElementType",
     })?;
-    let is_true = |names: [&str; 2]| {
-        let mut found = names.iter().filter_map(|name| field(name));
-        found.any(|value| value.eq_ignore_ascii_case("true"))
-    };
+    let is_true = |name: &str| field(name).is_some_and(|value| value.eq_ignore_ascii_case("true"));
+    if field("HeaderSize").is_some_and(|size| size != "0") {
+        let what = "a MetaImage whose voxels begin somewhere in a file".into();
+        return Err(VolumeError::Unsupported { what });
+    }
     if field("ElementNumberOfChannels").is_some_and(|channels| channels != "1") {
         let what = "a MetaImage of several numbers per voxel".into();
         return Err(VolumeError::Unsupported { what });
@@ -43,7 +44,7 @@ pub(super) fn parse(bytes: &[u8], beside: &Beside<'_>) -> Result<Volume, VolumeE
         Some(name) => Some(beside.read(name)?),
     };
     let voxels = named.as_deref().unwrap_or(rest);
-    let bytes = match is_true(["CompressedData", "CompressedData"]) {
+    let bytes = match is_true("CompressedData") {
         true => inflate(voxels, beside.limit)?,
         false => voxels.to_vec(),
     };
@@ -55,7 +56,7 @@ pub(super) fn parse(bytes: &[u8], beside: &Beside<'_>) -> Result<Volume, VolumeE
     let directions = directions.map_or(Matrix3::identity(), |numbers| {
         Matrix3::from_column_slice(&numbers)
     });
-    let order = match is_true(["BinaryDataByteOrderMSB", "ElementByteOrderMSB"]) {
+    let order = match is_true("BinaryDataByteOrderMSB") || is_true("ElementByteOrderMSB") {
         true => Order::Big,
         false => Order::Little,
     };

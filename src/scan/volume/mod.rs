@@ -27,6 +27,9 @@ use std::path::Path;
 /// More labels than any scan has grains: it is an image of grey values.
 const MOST_LABELS: usize = 100_000;
 
+/// Volume of the boxes round all labels, over that of the image, at most: grains that are packed overlap a few times.
+const MOST_BOXES: f64 = 100.0;
+
 /// Standard deviation of a point in the middle between two voxels from the surface that parts them, along its normal
 /// and on average over all normals, in voxels: it may be anywhere between them, along an axis.
 const SCATTER: f64 = 0.204;
@@ -220,6 +223,12 @@ impl Volume {
         if extents.is_empty() {
             return Err(VolumeError::NoLabels);
         }
+        let boxes: f64 = extents.values().map(Extent::volume).sum();
+        let image: f64 = self.size.iter().map(|side| *side as f64).product();
+        if boxes > MOST_BOXES * image {
+            let times = boxes / image;
+            return Err(VolumeError::Interleaved { times });
+        }
         let grain = |(label, extent): (&i64, &Extent)| Ok((*label, self.grain(*label, extent)?));
         extents.iter().map(grain).collect()
     }
@@ -263,6 +272,12 @@ impl Default for Extent {
 }
 
 impl Extent {
+    /// Voxels of the box.
+    fn volume(&self) -> f64 {
+        let sides = (0..3).map(|axis| (self.high[axis] - self.low[axis] + 1) as f64);
+        sides.product()
+    }
+
     /// Adds a run of voxels along the first axis.
     fn add(&mut self, from: [usize; 3], to: [usize; 3]) {
         self.voxels += to[0] - from[0] + 1;

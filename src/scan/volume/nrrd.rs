@@ -13,6 +13,13 @@ pub(super) fn parse(bytes: &[u8], beside: &Beside<'_>) -> Result<Volume, VolumeE
         let what = "an NRRD image that has not three axes".into();
         return Err(VolumeError::Unsupported { what });
     };
+    if ["line skip", "lineskip", "byte skip", "byteskip"]
+        .iter()
+        .any(|name| field(name).is_some_and(|skip| skip != "0"))
+    {
+        let what = "an NRRD image whose voxels begin somewhere in a file".into();
+        return Err(VolumeError::Unsupported { what });
+    }
     let kind = field("type").and_then(kind);
     let kind = kind.ok_or(VolumeError::Header { what: "type" })?;
     let order = match field("endian") {

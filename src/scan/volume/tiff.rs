@@ -8,8 +8,13 @@ use tiff::decoder::{Decoder, DecodingResult, Limits};
 use tiff::tags::Tag;
 use tiff::{ColorType, TiffError};
 
+/// How many times smaller than its voxels a file may be: no more than packing can do, so that no header makes room for
+/// what is not there.
+const LARGEST_RATIO: usize = 1100;
+
 pub(super) fn parse(bytes: &[u8], limit: u64) -> Result<Volume, VolumeError> {
     let limit = usize::try_from(limit).unwrap_or(usize::MAX);
+    let limit = limit.min(LARGEST_RATIO.saturating_mul(bytes.len()));
     let mut limits = Limits::default();
     limits.decoding_buffer_size = limit;
     let mut decoder = Decoder::new(Cursor::new(bytes))
