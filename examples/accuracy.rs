@@ -20,7 +20,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                 let options = SynthOptions::clean(body)
                     .with_sampling(sampling)
                     .with_noise(noise);
-                println!("{}", row(&options)?);
+                println!("{}", row(body, &options)?);
             }
         }
     }
@@ -28,7 +28,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 }
 
 /// One scan, fitted with the default options, against the closed form.
-fn row(options: &SynthOptions) -> Result<String, Box<dyn std::error::Error>> {
+fn row(body: Body, options: &SynthOptions) -> Result<String, Box<dyn std::error::Error>> {
     let synthetic = synthesize(options)?;
     let scan = Scan::from_points(synthetic.points);
     let fitted = fit(&scan, &FitOptions::default())?;
@@ -38,7 +38,7 @@ fn row(options: &SynthOptions) -> Result<String, Box<dyn std::error::Error>> {
     );
     Ok(format!(
         "| {} | {} | {} | {} % | {} | {} | {:+.3} % | {:+.3} % | {:.3} % |",
-        options.body,
+        body,
         scan.points().len(),
         options.sampling,
         100.0 * options.noise,
@@ -46,7 +46,7 @@ fn row(options: &SynthOptions) -> Result<String, Box<dyn std::error::Error>> {
         fitted.grain.coefficient_count(),
         100.0 * (found.area / truth.area - 1.0),
         100.0 * (found.volume / truth.volume - 1.0),
-        100.0 * distance(&fitted, options.body)? / synthetic.truth.mean_radius,
+        100.0 * distance(&fitted, body)? / synthetic.truth.mean_radius,
     ))
 }
 

@@ -1,8 +1,12 @@
 //! A triangle mesh: what a scan may bring, what a fitted grain is exported as.
 
+mod contour;
 mod parts;
+mod relaxed;
 
+pub(crate) use contour::{Grid, contour};
 pub(crate) use parts::{part, parts};
+pub(crate) use relaxed::relaxed;
 
 use crate::sphere::cube_grid;
 use nalgebra::{Point3, Vector3};

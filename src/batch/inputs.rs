@@ -6,7 +6,9 @@ use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
 /// How the names of scans end, packed or not.
-const EXTENSIONS: [&str; 4] = ["ply", "stl", "obj", "xyz"];
+const EXTENSIONS: [&str; 12] = [
+    "ply", "stl", "obj", "xyz", "nrrd", "nhdr", "mha", "mhd", "nii", "npy", "tif", "tiff",
+];
 
 /// The files that paths name, in their order and each once: a file is itself, a folder the scans right in it by name,
 /// `@list.txt` the paths in its lines, and what is no file is a pattern such as `lot*/*.ply`.

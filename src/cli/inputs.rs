@@ -2,8 +2,8 @@
 
 use super::args::{InputArgs, LimitArgs};
 use crate::model::{Grain, grain_from_json};
-use crate::scan::{ReadError, Scan, parse_file, read_bytes, read_stream};
-use anyhow::{Result, anyhow};
+use crate::scan::{ReadError, Scan, Volume, parse_file, parse_volume, read_bytes, read_stream};
+use anyhow::{Context, Result, anyhow, bail};
 use std::io;
 use std::path::Path;
 
@@ -42,8 +42,23 @@ pub(super) fn scan(path: &Path, input: &InputArgs) -> Result<Scan> {
     parse_scan(path, &read(path, &input.limit)?, input)
 }
 
+/// The segmented volume in the bytes of a file, if it is one.
+pub(super) fn parse_labels(path: &Path, bytes: &[u8], input: &InputArgs) -> Result<Option<Volume>> {
+    Ok(parse_volume(called(path), bytes, input.limit.max_bytes)?)
+}
+
 /// The scan in the bytes of a file.
 pub(super) fn parse_scan(path: &Path, bytes: &[u8], input: &InputArgs) -> Result<Scan> {
+    if let Some(volume) = parse_labels(path, bytes, input)? {
+        let failed = || format!("cannot read a grain from {}", name(path));
+        return volume.scan(input.label).with_context(failed);
+    }
+    if input.label.is_some() {
+        bail!(
+            "{} is no segmented volume, and has no labels: leave --label out",
+            name(path)
+        );
+    }
     let format = input.format.map(|format| format.0);
     Ok(parse_file(called(path), bytes, format)?)
 }

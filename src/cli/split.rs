@@ -6,7 +6,7 @@ use super::{inputs, outputs, threads};
 use crate::export::{save_mesh, write_points_ply};
 use crate::mesh::Mesh;
 use crate::report::SplitReport;
-use crate::scan::{Scan, split};
+use crate::scan::{Scan, split, split_labels};
 use anyhow::{Context, Result};
 
 pub(super) fn run(args: SplitArgs, console: Console) -> Result<()> {
@@ -14,9 +14,19 @@ pub(super) fn run(args: SplitArgs, console: Console) -> Result<()> {
     let name = inputs::name(&args.scan);
     let progress = console.progress();
     progress.stage("Reading");
-    let scan = inputs::scan(&args.scan, &args.input)?;
-    progress.stage("Telling the grains apart");
-    let found = split(&scan).with_context(|| format!("cannot split {name}"))?;
+    let bytes = inputs::read(&args.scan, &args.input.limit)?;
+    let failed = || format!("cannot split {name}");
+    let found = match inputs::parse_labels(&args.scan, &bytes, &args.input)? {
+        Some(volume) if args.input.label.is_none() => {
+            progress.stage("Telling the grains apart");
+            split_labels(&volume).with_context(failed)?
+        }
+        _ => {
+            let scan = inputs::parse_scan(&args.scan, &bytes, &args.input)?;
+            progress.stage("Telling the grains apart");
+            split(&scan).with_context(failed)?
+        }
+    };
     progress.stage("Writing");
     outputs::make_folder(&args.output)?;
     let files: Vec<String> = (1..=found.grains.len())

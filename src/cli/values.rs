@@ -3,7 +3,7 @@
 use crate::engines::Engine;
 use crate::fit::{Form, Kind, MAX_UNION_PARTS, Seams, Tolerance};
 use crate::measure::Scheme;
-use crate::shapes::{Body, UnknownBody};
+use crate::shapes::{Body, Curled, UnknownBody};
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use std::str::FromStr;
 
@@ -168,10 +168,13 @@ impl FromStr for CloudFormat {
     }
 }
 
-/// A body, or `tray`.
+/// What a synthetic scan is of.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Subject {
     Body(Body),
+    Curled(Curled),
+    Superquadric,
+    Poly,
     Tray,
 }
 
@@ -179,12 +182,16 @@ impl FromStr for Subject {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, Self::Err> {
-        match text {
-            "tray" => Ok(Self::Tray),
-            name => name
-                .parse()
-                .map(Self::Body)
-                .map_err(|error: UnknownBody| format!("{error}, tray")),
+        let curled = Curled::ALL.into_iter().find(|body| body.name() == text);
+        match (text, curled) {
+            (_, Some(curled)) => Ok(Self::Curled(curled)),
+            ("tray", _) => Ok(Self::Tray),
+            ("superquadric", _) => Ok(Self::Superquadric),
+            ("poly", _) => Ok(Self::Poly),
+            (name, _) => name.parse().map(Self::Body).map_err(|error: UnknownBody| {
+                let curled = Curled::ALL.map(Curled::name).join(", ");
+                format!("{error}, superquadric, poly, {curled}, tray")
+            }),
         }
     }
 }
@@ -248,6 +255,36 @@ pub(super) fn vector(text: &str) -> Result<Vector3<f64>, String> {
         Ok(&[x, y, z]) => Ok(Vector3::new(x, y, z)),
         _ => Err("expected three numbers such as 10,0,-2.5".into()),
     }
+}
+
+/// Semi-axes, separated by commas: three, or those on the positive and on the negative side of x, y and z.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum SemiAxes {
+    Three([f64; 3]),
+    Six([[f64; 2]; 3]),
+}
+
+impl FromStr for SemiAxes {
+    type Err = &'static str;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        match numbers(text).as_deref() {
+            Some(&[x, y, z]) => Ok(Self::Three([x, y, z])),
+            Some(&[a, b, c, d, e, f]) => Ok(Self::Six([[a, b], [c, d], [e, f]])),
+            _ => Err("expected three numbers such as 2,2,1, or six of a poly"),
+        }
+    }
+}
+
+/// The exponents n1 and n2, separated by a comma.
+pub(super) fn exponents(text: &str) -> Result<[f64; 2], &'static str> {
+    let found = numbers(text).and_then(|numbers| numbers.try_into().ok());
+    found.ok_or("expected two numbers N1,N2 such as 4,2")
+}
+
+fn numbers(text: &str) -> Option<Vec<f64>> {
+    let numbers = text.split(',').map(|number| number.trim().parse().ok());
+    numbers.collect()
 }
 
 /// A share, as a percentage or not.

@@ -3,6 +3,7 @@
 use super::context::Cancelled;
 use super::position::map::MapError;
 use crate::model::InvalidGrain;
+use crate::scan::plural;
 use nalgebra::Vector3;
 
 /// Why a fit cannot be made.
@@ -201,11 +202,36 @@ pub enum FitError {
     /// What was fitted is no surface of a body.
     #[error("no position over the sphere can be fitted: {0}")]
     NoSurface(InvalidGrain),
-    /// A surface that no centre sees is fitted to faces, and there are none.
+    /// A surface that no centre sees is fitted to faces that are closed, or to points without any.
     #[error(
-        "the scan has no closed faces, which a fit of positions over the sphere needs: mesh the points, or fit a radius"
+        "the scan's faces are not closed, which a fit of positions over the sphere needs: close them, or fit a radius"
     )]
     NoFaces,
+    /// Points without faces do not enclose anything.
+    #[error(
+        "the points enclose no inside: there are too few for a surface as thin as theirs, or a part of it was not seen; \
+         scan it whole and more densely, or mesh the points"
+    )]
+    NoInside,
+    /// The surface of points without faces has handles.
+    #[error(
+        "the points enclose a body with {}, as a ring has one, and no surface over the sphere has any",
+        plural(*handles, "handle")
+    )]
+    Ring {
+        /// Their number.
+        handles: usize,
+    },
+    /// Points without faces do not tell what their surface is.
+    #[error(
+        "{:.1} % of the points, or of the surface found between them, lie off one another: walls are thinner than four \
+         spacings of the points, or a part was not seen; scan it more densely, or mesh the points",
+        100.0 * share
+    )]
+    OffCrust {
+        /// The larger one of the two shares.
+        share: f64,
+    },
     /// The faces have no map to the sphere.
     #[error("no position over the sphere can be fitted: {0}")]
     NotMapped(MapError),

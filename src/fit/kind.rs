@@ -8,7 +8,7 @@ use super::context::Context;
 use super::error::FitError;
 use super::options::{FitOptions, Kind, Seams};
 use super::outcome::{Fitted, KindChoice, Residuals, Rival};
-use super::position::{PositionFit, fit_position};
+use super::position::fit_position;
 use super::prepare::PreparedScan;
 use super::warning::FitWarning;
 use crate::measure::{Deviation, feet};
@@ -25,6 +25,12 @@ const STEEP_SHARE: f64 = 0.005;
 
 /// Cells along a cube's edge of the directions looked at.
 const LOOKED_AT: usize = 24;
+
+/// Share of the area that a radius may hide and still be kept without a look at positions, where it is within its limit.
+const HIDDEN: f64 = 0.001;
+
+/// Where a surface is folded it is fitted again with half as many cells, as long as there are more than these.
+const FEWEST_CELLS: usize = 6;
 
 /// Most vertices of a scan whose distances from a radius are compared with those from a position.
 const MOST_COMPARED: usize = 4000;
@@ -44,13 +50,15 @@ pub fn fit_scan(
         Kind::Star => star(),
         Kind::Position => positioned(scan, options, context, KindChoice::Asked),
         Kind::Auto => match star() {
-            Err(FitError::NotStarShaped { share }) => {
-                let choice = KindChoice::Hidden { share };
-                match positioned(scan, options, context, choice) {
-                    Err(FitError::NoFaces) => Err(FitError::NotStarShaped { share }),
+            Err(error) => match unseen(&error, options) {
+                None => Err(error),
+                Some(choice) => match positioned(scan, options, context, choice) {
+                    Err(FitError::NoFaces | FitError::NoInside | FitError::OffCrust { .. }) => {
+                        Err(error)
+                    }
                     found => found,
-                }
-            }
+                },
+            },
             Ok(fitted) if is_free(options) && is_doubtful(&fitted) => {
                 compared(scan, fitted, options, context)
             }
@@ -67,11 +75,24 @@ fn is_free(options: &FitOptions) -> bool {
         && options.segments.is_none()
 }
 
+/// Why positions may be fitted where no radius can.
+fn unseen(error: &FitError, options: &FitOptions) -> Option<KindChoice> {
+    match *error {
+        FitError::NotStarShaped { share } => Some(KindChoice::Hidden { share }),
+        FitError::Scattered { .. }
+        | FitError::Strays { .. }
+        | FitError::FarFromPoints { .. }
+        | FitError::FarBeyondPoints { .. }
+        | FitError::NotPositive { .. } => is_free(options).then_some(KindChoice::NoRadius),
+        _ => None,
+    }
+}
+
 /// Whether a radius hides area, ends above its limit, or is steep.
 fn is_doubtful(fitted: &Fitted) -> bool {
-    let warns = fitted.warnings.iter().any(|warning| {
-        let hides = matches!(warning, FitWarning::NotStarShaped { .. });
-        hides || matches!(warning, FitWarning::LimitNotMet { .. })
+    let warns = fitted.warnings.iter().any(|warning| match warning {
+        FitWarning::NotStarShaped { share } => *share > HIDDEN,
+        warning => matches!(warning, FitWarning::LimitNotMet { .. }),
     });
     let Some(star) = fitted.grain.star() else {
         return false;
@@ -95,7 +116,7 @@ fn compared(
     let limit = star.search.limit;
     let own = Rival {
         coefficients: star.grain.coefficient_count(),
-        rms: normal_distance(&star.grain, scan),
+        rms: normal_distance(&star.grain, scan) * held_out_over_fitted(&star),
     };
     let mut fitted = match positioned(scan, options, context, KindChoice::Asked) {
         Err(FitError::Cancelled) => return Err(FitError::Cancelled),
@@ -125,6 +146,17 @@ impl Rival {
     }
 }
 
+/// How many times farther points are from a fitted radius that are held out, by the radial distances of both.
+fn held_out_over_fitted(star: &Fitted) -> f64 {
+    let held_out = star.search.choice().heldout_rms;
+    let times = held_out.map_or(1.0, |rms| rms / star.residuals.rms);
+    if times.is_finite() {
+        times.max(1.0)
+    } else {
+        1.0
+    }
+}
+
 /// Root mean square of the distances of a scan's points from a surface, along its normals.
 fn normal_distance(grain: &Grain, scan: &Scan) -> f64 {
     let points = scan.points();
@@ -141,17 +173,20 @@ fn positioned(
     context: &Context<'_>,
     kind: KindChoice,
 ) -> Result<Fitted, FitError> {
-    let fit = fit_position(scan, options, context)?;
-    let PositionFit {
-        frame,
-        surface,
-        radius,
-        ..
-    } = fit;
-    let degree = surface.degree();
-    let cells = surface.coefficients().len();
-    let grain = PositionGrain::new(frame, surface).map_err(FitError::NoSurface)?;
-    grain.check().map_err(FitError::NoSurface)?;
+    let mut options = options.clone();
+    let (fit, grain, cells) = loop {
+        let fit = fit_position(scan, &options, context)?;
+        let cells = fit.surface.coefficients().len();
+        let grain = PositionGrain::new(fit.frame, fit.surface.clone());
+        match grain.and_then(|grain| grain.check().map(|()| grain)) {
+            Ok(grain) => break (fit, grain, cells),
+            Err(_) if options.segments.is_none() && cells > FEWEST_CELLS => {
+                options.max_segments = Some((cells / 2).max(FEWEST_CELLS));
+            }
+            Err(error) => return Err(FitError::NoSurface(error)),
+        }
+    };
+    let (degree, radius) = (fit.surface.degree(), fit.radius);
     let grain = Grain::from(grain);
     let candidate = Candidate {
         heldout_rms: Some(fit.held_out.rms),

@@ -12,6 +12,7 @@
 mod blended;
 mod candidate;
 mod context;
+mod crust;
 mod dispatch;
 mod error;
 mod estimate;

@@ -62,11 +62,12 @@ impl Default for FitOptions {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Kind {
-    /// A radius; where it hides area, ends above its limit or is steep, the better of it and of positions.
+    /// A radius; where it hides area, ends above its limit or is steep, the better of it and of positions, and where no
+    /// radius follows the points, positions.
     Auto,
     /// A radius in every direction from a centre.
     Star,
-    /// The position of points over the sphere: any one closed surface without handles, of a scan with faces.
+    /// The position of points over the sphere: any one closed surface without handles.
     Position,
 }
 

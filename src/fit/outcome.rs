@@ -56,6 +56,8 @@ pub enum KindChoice {
         /// The share.
         share: f64,
     },
+    /// No radius follows the points.
+    NoRadius,
     /// It is better than the other kind, which was fitted too.
     Compared {
         /// The one that was kept.
@@ -70,7 +72,7 @@ pub enum KindChoice {
 pub struct Rival {
     /// Coefficients.
     pub coefficients: usize,
-    /// Root mean square of the distances of the scan's points along its normals, in the scan's unit.
+    /// Root mean square of the distances of points that were held out, along the normals, in the scan's unit.
     pub rms: f64,
 }
 

@@ -7,6 +7,7 @@
 
 mod clump;
 mod contact;
+mod curled;
 mod escape;
 mod estimate;
 mod fit;
@@ -26,6 +27,7 @@ mod warning;
 
 pub use clump::{ClumpReport, ClumpSphere};
 pub use contact::{ContactReport, Load, TouchRecord};
+pub use curled::CurledReport;
 #[cfg(feature = "cli")]
 pub(crate) use escape::escaped;
 pub use estimate::{EstimateRecord, EvaluationRecord};

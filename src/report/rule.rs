@@ -105,6 +105,7 @@ pub(super) fn kind_rule(fitted: &Fitted, unit: Option<Unit>) -> Option<String> {
             "for {:.1} % of the area faces away from the best centre",
             100.0 * share
         )),
+        KindChoice::NoRadius => Some("for no radius follows the points".into()),
         KindChoice::Compared { kept, rival } => {
             let other = match fitted.grain.star() {
                 Some(_) => "the position of points takes",

@@ -51,6 +51,9 @@ pub struct PlaneRecord {
 pub struct SplitGrainRecord {
     /// Name of its file.
     pub file: String,
+    /// Its label in a segmented volume.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub label: Option<i64>,
     /// Number of points.
     pub points: usize,
     /// Whether it may be several that touch.
@@ -66,6 +69,7 @@ impl SplitReport {
             .zip(files)
             .map(|(grain, file)| SplitGrainRecord {
                 file,
+                label: grain.label,
                 points: grain.scan.points().len(),
                 may_touch: grain.may_touch,
             })

@@ -4,7 +4,7 @@ use super::escape::escaped;
 use super::measure::rows;
 use super::number::{round, short, triple};
 use crate::scan::plural;
-use crate::shapes::{SynthOptions, SyntheticScan};
+use crate::shapes::{Subject, SynthOptions, SyntheticScan};
 use serde::Serialize;
 use std::fmt;
 
@@ -14,8 +14,12 @@ use std::fmt;
 pub struct SynthReport {
     /// Name of the body.
     pub body: &'static str,
-    /// Semi-axes of a shape, or half its extents, in x, y and z.
-    pub axes: Option<[f64; 3]>,
+    /// Semi-axes of a shape, or half its extents, in x, y and z; those of either side, the positive one first, of a
+    /// superquadric whose octants differ.
+    pub axes: Option<Vec<f64>>,
+    /// Exponents n1 and n2 of a superquadric.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub exponents: Option<[f64; 2]>,
     /// Points actually made.
     pub points: usize,
     /// Layout of the directions.
@@ -52,7 +56,11 @@ impl SynthReport {
         let truth = &scan.truth;
         Self {
             body: options.body.name(),
-            axes: options.axes.or(options.body.native_axes()).map(Into::into),
+            axes: options.body.semi_axes(options.axes),
+            exponents: match options.body {
+                Subject::Superquadric(body) => Some([body.n1()[0], body.n2()[0][0]]),
+                _ => None,
+            },
             points: scan.points.len(),
             sampling: options.sampling.name(),
             noise: options.noise,
@@ -74,8 +82,12 @@ impl SynthReport {
 impl fmt::Display for SynthReport {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "body         {}", self.body)?;
-        if let Some(axes) = self.axes {
-            writeln!(f, "semi-axes    {}", triple(axes))?;
+        if let Some(axes) = &self.axes {
+            let axes: Vec<String> = axes.iter().map(|axis| short(*axis)).collect();
+            writeln!(f, "semi-axes    {}", axes.join("  "))?;
+        }
+        if let Some([n1, n2]) = self.exponents {
+            writeln!(f, "exponents    {} and {}", round(n1), round(n2))?;
         }
         writeln!(
             f,

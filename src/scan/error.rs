@@ -4,7 +4,7 @@ use std::fmt;
 use std::io;
 use std::path::PathBuf;
 
-use super::plural;
+use super::{VolumeError, plural};
 
 /// Why [`read_scan`](super::read_scan) failed; names the file.
 #[derive(Debug, thiserror::Error)]
@@ -33,6 +33,14 @@ pub enum ReadError {
         path: PathBuf,
         /// What is wrong with it.
         source: io::Error,
+    },
+    /// The file is an image, but no grain can be read from it.
+    #[error("cannot read a grain from {}", path.display())]
+    Volume {
+        /// The file asked for.
+        path: PathBuf,
+        /// What is wrong with the image.
+        source: VolumeError,
     },
     /// The file was read, but its bytes are not a usable scan.
     #[error("cannot read a scan from {}", path.display())]

@@ -1,4 +1,4 @@
-//! Reading scans: one reader per format into one [`Scan`].
+//! Reading scans: one reader per format into one [`Scan`]; label images are [volumes](Volume) of many.
 //!
 //! Any file may be hostile. No reader trusts a count before the bytes behind it were seen, none
 //! panics, and each error says what was wrong, where, and what to do.
@@ -16,6 +16,7 @@ mod split;
 mod stl;
 mod text;
 mod topology;
+mod volume;
 mod weld;
 mod xyz;
 
@@ -29,9 +30,10 @@ pub use error::{ParseError, Place, ReadError};
 use format::Format;
 pub use source::{MAX_BYTES, read_bytes, read_stream};
 pub(crate) use split::has_neck;
-pub use split::{Plane, Split, SplitGrain, split};
+pub use split::{Plane, Split, SplitGrain, split, split_labels};
 pub use topology::Topology;
 pub(crate) use topology::each_edge;
+pub use volume::{Volume, VolumeError, parse_volume};
 
 /// The points of a scan, in f64, in the file's own frame and unit, and the triangles between them.
 ///
@@ -41,6 +43,8 @@ pub struct Scan {
     pub(crate) points: Vec<Point3<f64>>,
     pub(crate) triangles: Vec<[u32; 3]>,
     pub(crate) topology: Option<Topology>,
+    /// See [`Self::scatter`].
+    pub(crate) scatter: f64,
     pub(crate) warnings: Vec<String>,
 }
 
@@ -122,6 +126,12 @@ impl Scan {
         self.topology.as_ref()
     }
 
+    /// Standard deviation of the points from the surface, along its normals, that is known before any fit: of voxels
+    /// that by which they are coarse; zero where nothing is known.
+    pub fn scatter(&self) -> f64 {
+        self.scatter
+    }
+
     /// What was odd, but did not stop the reader: whole sentences.
     pub fn warnings(&self) -> &[String] {
         &self.warnings
@@ -154,7 +164,8 @@ impl Scan {
     }
 }
 
-/// Reads a scan from a PLY, STL, OBJ or XYZ file of at most [`MAX_BYTES`], packed with gzip or not.
+/// Reads a scan from a PLY, STL, OBJ or XYZ file of at most [`MAX_BYTES`], packed with gzip or not, or the only label
+/// of an image that [`parse_volume`] reads.
 ///
 /// # Errors
 ///
@@ -165,13 +176,20 @@ pub fn read_scan(path: &Path) -> Result<Scan, ReadError> {
     parse_file(path, &bytes, None)
 }
 
-/// Reads a scan from the bytes of a file: [`parse_scan`] with the file's name in its errors. Where the content
+/// Reads a scan from the bytes of a file: [`parse_scan`], or the only label of an image ([`parse_volume`]), with the
+/// file's name in its errors. Where the content
 /// leaves the format open, `format` decides, such as `stl`, or else the extension, that before `.gz`.
 ///
 /// # Errors
 ///
-/// [`ReadError::Parse`].
+/// [`ReadError::Parse`] and [`ReadError::Volume`].
 pub fn parse_file(path: &Path, bytes: &[u8], format: Option<&str>) -> Result<Scan, ReadError> {
+    if let Some(volume) = parse_volume(path, bytes, MAX_BYTES)? {
+        return volume.scan(None).map_err(|source| ReadError::Volume {
+            path: path.into(),
+            source,
+        });
+    }
     let format = format.or_else(|| source::extension(path));
     parse_scan(bytes, format).map_err(|source| ReadError::Parse {
         path: path.into(),
@@ -186,6 +204,7 @@ pub fn parse_file(path: &Path, bytes: &[u8], format: Option<&str>) -> Result<Sca
 /// The `extension` only breaks ties. Coordinates keep all digits of the file, polygons become
 /// fans of triangles, and the repeated corners of STL become shared points.
 ///
+/// Points that are the centres of the outermost voxels of a grain become the boundary of these voxels, with a warning.
 /// Triangles with coinciding corners are dropped and a mesh wound inwards is turned outwards;
 /// these and whatever else is odd, such as holes or several bodies, leave a warning.
 ///
@@ -207,6 +226,11 @@ pub fn parse_scan(bytes: &[u8], extension: Option<&str>) -> Result<Scan, ParseEr
         return Err(ParseError::NoFacets);
     }
     scan.look_over(format == Format::Stl)?;
+    if scan.triangles.is_empty()
+        && let Some(filled) = volume::filled_lattice(&scan.points)
+    {
+        scan = filled;
+    }
     Ok(scan)
 }
 

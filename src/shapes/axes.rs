@@ -20,6 +20,9 @@ pub enum AxesError {
         /// The body.
         body: Body,
     },
+    /// A superquadric is made with its semi-axes.
+    #[error("a superquadric has its own semi-axes")]
+    Superquadric,
     /// Give every semi-axis as a length in millimetres, within [`MIN_AXIS`] and [`MAX_AXIS`].
     #[error("a semi-axis must be {MIN_AXIS} to {MAX_AXIS} mm long, not {length}")]
     Length {

@@ -12,6 +12,7 @@ pub(super) enum Stream {
     Outliers,
     Places,
     Order,
+    Shape,
 }
 
 /// The generator of one stream of a seed.

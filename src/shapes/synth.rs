@@ -1,7 +1,7 @@
 //! Synthetic scans: a closed-form body seen with the faults of a real scanner.
 
 use super::random::{Stream, random};
-use super::{AxesError, Body, MIN_POINTS, Sampling, SamplingError};
+use super::{AxesError, MIN_POINTS, Sampling, SamplingError, Subject};
 use crate::measure::{Integrals, MassProperties};
 use crate::scan::plural;
 use nalgebra::{Point3, Vector3};
@@ -27,8 +27,9 @@ const OUTLIER_STEP: f64 = 0.2;
 #[non_exhaustive]
 pub struct SynthOptions {
     /// The body.
-    pub body: Body,
-    /// Semi-axes of a shape, see [`Body::with_axes`]; `None` for the native ones, and of a grain.
+    pub body: Subject,
+    /// Semi-axes of a shape, see [`Body::with_axes`](super::Body::with_axes); `None` for the native ones, of a grain,
+    /// and of a superquadric, which has its own.
     pub axes: Option<Vector3<f64>>,
     /// Number of directions, see [`Sampling::directions`] for how far it is met.
     pub points: usize,
@@ -50,7 +51,8 @@ pub struct SynthOptions {
 
 impl SynthOptions {
     /// A clean scan of a whole body at its native number of points, with the cube's layout.
-    pub fn clean(body: Body) -> Self {
+    pub fn clean(body: impl Into<Subject>) -> Self {
+        let body = body.into();
         Self {
             body,
             axes: None,
@@ -161,13 +163,13 @@ pub struct SyntheticScan {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Truth {
     /// The body.
-    pub body: Body,
+    pub body: Subject,
     /// Mean radius over all directions from the body's origin.
     pub mean_radius: f64,
     /// Area, volume, centroid and inertia, in the scan's frame.
     pub properties: MassProperties,
-    /// Relative error of these figures: 1e-14 of a shape's closed forms; of a grain the estimate of
-    /// the quadrature, below 1e-10, see
+    /// Relative error of these figures: 1e-14 of a shape's closed forms; else the estimate of
+    /// the quadrature, of a grain below 1e-10, see
     /// [`Integrals::relative_error`](crate::measure::Integrals::relative_error).
     pub relative_error: f64,
 }
@@ -184,10 +186,7 @@ pub struct Truth {
 pub fn synthesize(options: &SynthOptions) -> Result<SyntheticScan, SynthError> {
     check(options)?;
     let directions = options.sampling.directions(options.points, options.seed)?;
-    let surface = match options.axes {
-        Some(axes) => options.body.with_axes(axes)?,
-        None => options.body.surface(),
-    };
+    let surface = options.body.surface(options.axes)?;
     let truth = truth(options, surface.integrals());
 
     let sigma = options.noise * truth.mean_radius;
@@ -252,6 +251,7 @@ fn truth(options: &SynthOptions, integrals: Integrals) -> Truth {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::shapes::Body;
     use approx::{assert_abs_diff_eq, assert_relative_eq};
 
     /// Radii over the clean ones, one point per direction.

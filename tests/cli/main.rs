@@ -23,6 +23,7 @@ mod symmetry;
 mod synth;
 mod told;
 mod units;
+mod volumes;
 mod whole;
 
 use serde_json::Value;

@@ -1,6 +1,6 @@
 //! Bodies that no centre sees whole.
 
-use super::{errors, folder, grainform, json, number};
+use super::{errors, folder, grainform, json, number, succeed};
 use grainform::Mesh;
 use grainform::export::save_mesh;
 use nalgebra::Point3;
@@ -69,4 +69,28 @@ fn a_banana_is_fitted_measured_and_touched() {
     ];
     let refused = errors(&grainform(&folder, &words));
     assert!(refused.contains("leave --harmonics out"), "{refused}");
+}
+
+#[test]
+fn points_of_a_banana_are_fitted_without_faces() {
+    let folder = folder();
+    let words = ["synth", "banana", "--points", "2500", "-o", "points.xyz"];
+    let truth = json(&folder, &words);
+    let words = [
+        "fit",
+        "points.xyz",
+        "--surface",
+        "position",
+        "--tolerance",
+        "1%",
+        "-o",
+        "b.json",
+    ];
+    let report = json(&folder, &words);
+    assert_eq!(report["reference"]["kind"], "crust");
+    for figure in ["area", "volume"] {
+        let share = number(&report, figure) / number(&truth, figure);
+        assert!((share - 1.0).abs() < 0.01, "{figure}: {share}");
+    }
+    succeed(&folder, &["measure", "b.json", "--only", "dimensions"]);
 }

@@ -1,4 +1,4 @@
-use super::{deviation, folder, grain, json, names, number, succeed};
+use super::{deviation, errors, folder, grain, grainform, json, names, number, succeed};
 
 #[test]
 fn the_grains_of_the_repository_are_regenerated_byte_for_byte() {
@@ -86,4 +86,54 @@ fn shapes_have_axes_of_their_own_and_grains_have_none() {
         "{text}"
     );
     assert!(text.contains("to 1e-14"), "{text}");
+}
+
+#[test]
+fn superquadrics_have_exponents_and_the_rest_have_none() {
+    let folder = folder();
+    let words = [
+        "synth",
+        "superquadric",
+        "--axes",
+        "1,2,3",
+        "--exponents",
+        "2,2",
+    ];
+    let report = json(&folder, &words);
+    let volume = 4.0 / 3.0 * std::f64::consts::PI * 6.0;
+    assert!((number(&report, "volume") / volume - 1.0).abs() < 1e-12);
+    let words = [
+        "synth",
+        "poly",
+        "--axes",
+        "1.4,.8,1.2,.8,.6,.9",
+        "-o",
+        "p.ply",
+    ];
+    let report = json(&folder, &words);
+    assert_eq!(report["axes"].as_array().unwrap().len(), 6);
+    assert_eq!(report["exponents"], serde_json::json!([4.0, 2.0]));
+    let refused = errors(&grainform(
+        &folder,
+        &["synth", "bean", "--exponents", "2,2"],
+    ));
+    assert!(refused.contains("leave them out"), "{refused}");
+}
+
+#[test]
+fn a_hook_is_a_mesh_or_as_many_points_as_asked_for() {
+    let folder = folder();
+    let report = json(&folder, &["synth", "hook", "-o", "hook.stl"]);
+    assert_eq!(report["triangles"], 27648);
+    let of_faces = json(&folder, &["measure", "hook.stl", "--only", "volume"]);
+    let share = number(&of_faces, "volume") / number(&report, "volume");
+    assert!(0.99 < share && share < 1.0, "{share}");
+    let report = json(
+        &folder,
+        &["synth", "hook", "--points", "500", "-o", "hook.xyz"],
+    );
+    assert_eq!(report["triangles"], 0);
+    let path = folder.path().join("hook.xyz");
+    let scan = grainform::scan::read_scan(&path).unwrap();
+    assert_eq!(scan.points().len(), 500);
 }

@@ -11,10 +11,11 @@ use std::path::PathBuf;
 ///
 /// Of a mesh, a grain is what shares no point with the rest. Of a cloud, the plane that grains lie on is left out, and
 /// a grain is what hangs together by the distances between its points; grains that touch are cut apart at their neck.
-/// What is too small for a grain is dust. Files are numbered by where the grains lie, and keep the frame of the scan.
+/// Of a segmented volume, a grain is what has a label. What is too small for a grain is dust. Files are numbered by where the grains lie, and keep the frame of the scan.
 #[derive(Args)]
 pub(in crate::cli) struct SplitArgs {
-    /// The scan: PLY, STL, OBJ or XYZ, packed with gzip or not (- for standard input)
+    /// The scan: PLY, STL, OBJ or XYZ, or a segmented volume: NRRD, MetaImage, NIfTI, a TIFF stack or .npy; packed with
+    /// gzip or not (- for standard input)
     #[arg(value_name = "SCAN")]
     pub(in crate::cli) scan: PathBuf,
 

@@ -8,7 +8,9 @@ pub(super) use engines::{ClumpArgs, ExportDemArgs, SpheresArgs};
 pub(super) use many::{BatchArgs, CompareArgs, ReportArgs, SplitArgs};
 pub(super) use shared::{FittingArgs, InputArgs, LimitArgs, MeshingArgs};
 
-use super::values::{CloudFormat, LawArg, PoseArg, SchemeArg, Subject, SurfaceArg, share, vector};
+use super::values::{
+    CloudFormat, LawArg, PoseArg, SchemeArg, SemiAxes, Subject, SurfaceArg, exponents, share, vector,
+};
 use crate::export::MeshFormat;
 use crate::report::{Measure, Unit};
 use crate::shapes::Sampling;
@@ -24,7 +26,8 @@ const RUN: &str = "Run";
 /// Fits a small analytic surface, segmented spherical harmonics, to the 3D scan of a grain, and tells
 /// how good it is.
 ///
-/// Scans are read from PLY, STL, OBJ and XYZ files, packed with gzip or not. The name - is standard input, or
+/// Scans are read from PLY, STL, OBJ and XYZ files and from segmented volumes (NRRD, MetaImage, NIfTI, TIFF stacks,
+/// .npy), packed with gzip or not. The name - is standard input, or
 /// standard output; what is said beside an output goes to standard error. Lengths are in the scan's unit. Exit
 /// codes: 0 all done; 1 done, but some inputs of a batch failed; 2 bad usage or
 /// unusable input.
@@ -83,7 +86,7 @@ pub(super) struct FitArgs {
     pub(super) fitting: FittingArgs,
 
     /// What is fitted: star (a radius in every direction from a centre), position (of points over the sphere, of any
-    /// closed faces without handles), or auto: a radius, and where that hides area, ends above its limit or is
+    /// closed faces without handles, or of dense points), or auto: a radius, and where that hides area, ends above its limit or is
     /// steep, the better of both. Or the few numbers of a superquadric (5), of one whose octants differ (poly, 8;
     /// poly12), or of a union of superquadrics (multi: as many as held-out points ask for, 4 or PARTS at most)
     #[arg(long, value_name = "auto|star|position|superquadric|poly|poly12|multi[:PARTS]", default_value = "auto",
@@ -270,8 +273,10 @@ pub(super) struct ContactArgs {
 /// Make a synthetic scan of a body whose area, volume and inertia are known, or of a tray of grains
 #[derive(Args)]
 pub(super) struct SynthArgs {
-    /// bean, chickpea or maize, or a shape: sphere, ellipsoid, cylinder, bicone, octahedron, cuboid or
-    /// cube; or tray: grains on a plane, one in ten touching another, with dust
+    /// bean, chickpea or maize; a shape: sphere, ellipsoid, cylinder, bicone, octahedron, cuboid or cube; a
+    /// superquadric, or poly, whose octants differ; what no centre sees whole: banana, cup, mushroom, hook or random,
+    /// another one for every seed, as a mesh or, with --points, as points; or tray: grains on a plane, one in ten
+    /// touching another, with dust
     pub(super) body: Subject,
 
     /// Number of grains on a tray
@@ -282,9 +287,14 @@ pub(super) struct SynthArgs {
     #[arg(long, value_name = "FILE.txt")]
     pub(super) labels: Option<PathBuf>,
 
-    /// Semi-axes of a shape, or half its extents, in x, y and z [default: the shape's own]
-    #[arg(long, value_name = "A,B,C", value_parser = vector, allow_hyphen_values = true)]
-    pub(super) axes: Option<Vector3<f64>>,
+    /// Semi-axes of a shape, or half its extents, in x, y and z; six of a poly, on the positive and on the negative
+    /// side of each [default: the shape's own]
+    #[arg(long, value_name = "A,B,C", allow_hyphen_values = true)]
+    pub(super) axes: Option<SemiAxes>,
+
+    /// Exponents of a superquadric or a poly: n1 of z, n2 of x and y [default: 4,2]
+    #[arg(long, value_name = "N1,N2", value_parser = exponents)]
+    pub(super) exponents: Option<[f64; 2]>,
 
     /// Number of points; met as nearly as the sampling can [default: the body's own]
     #[arg(long, value_name = "N")]
@@ -315,7 +325,7 @@ pub(super) struct SynthArgs {
     #[arg(long, value_name = "K", default_value_t = 0)]
     pub(super) seed: u64,
 
-    /// Write the points here: .ply or .xyz (- for standard output)
+    /// Write the points here: .ply or .xyz, a mesh .stl or .obj too (- for standard output)
     #[arg(short, long, value_name = "FILE")]
     pub(super) output: Option<PathBuf>,
 

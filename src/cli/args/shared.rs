@@ -23,6 +23,10 @@ pub(in crate::cli) struct LimitArgs {
 /// How scans are read.
 #[derive(Args)]
 pub(in crate::cli) struct InputArgs {
+    /// The label of the grain in a segmented volume that has several
+    #[arg(long, value_name = "K", help_heading = RUN, allow_negative_numbers = true)]
+    pub(in crate::cli) label: Option<i64>,
+
     /// Format of the scan, where neither its content nor its extension tells: ply, stl, obj or xyz
     #[arg(long, value_name = "FORMAT", help_heading = RUN)]
     pub(in crate::cli) format: Option<ScanFormat>,
@@ -34,7 +38,8 @@ pub(in crate::cli) struct InputArgs {
 /// What `fit` and `search` share.
 #[derive(Args)]
 pub(in crate::cli) struct FittingArgs {
-    /// The scan: PLY, STL, OBJ or XYZ, packed with gzip or not (- for standard input)
+    /// The scan: PLY, STL, OBJ or XYZ, or a segmented volume: NRRD, MetaImage, NIfTI, a TIFF stack or .npy; packed with
+    /// gzip or not (- for standard input)
     #[arg(value_name = "SCAN")]
     pub(in crate::cli) scan: PathBuf,
 

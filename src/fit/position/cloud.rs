@@ -1,7 +1,8 @@
-//! What a surface is fitted to: places of a mesh, each with its direction on the sphere.
+//! What a surface is fitted to: places of a mesh, or points near it, each with its direction on the sphere.
 
 use super::foot::foot_step;
 use super::map::is_upright;
+use super::on_mesh::OnMesh;
 use crate::mesh::Mesh;
 use crate::model::{Position, area_normal};
 use nalgebra::Vector3;
@@ -17,10 +18,14 @@ const SPHERE_SHARE: f64 = 0.2;
 /// Halvings of the steps of directions whose triangles would turn over, before they stay.
 const HALVINGS: usize = 12;
 
-/// One vertex in so many is held out.
+/// One vertex in so many is held out, or one point.
 const HELD_OUT: usize = 8;
 
-/// Samples of a mesh: its vertices first, then places inside large triangles.
+/// Share of the weight of the vertices of a mesh that is only near the points: enough that functions between points are
+/// told, and not so much that its errors are.
+const NEAR_SHARE: f64 = 0.005;
+
+/// Samples: the vertices of a mesh first, then places inside its large triangles, or the points that it is near.
 pub(super) struct Cloud<'a> {
     mesh: &'a Mesh,
     /// Places of the vertices on the sphere from which fits start.
@@ -31,16 +36,13 @@ pub(super) struct Cloud<'a> {
     pub(super) directions: Vec<Vector3<f64>>,
     /// They add up to 1.
     pub(super) weights: Vec<f64>,
-    /// Places inside triangles: the triangle.
-    inside: Vec<Inside>,
-    /// Every so many of the vertices, in order of height on the sphere, and the places in triangles that touch them.
+    /// The others, by their places in triangles.
+    inside: Vec<OnMesh>,
+    /// Whether they are the points of the scan, and the vertices are none.
+    is_of_points: bool,
+    /// Every so many of the vertices, in order of height on the sphere, and the places in triangles that touch them; or
+    /// of the points.
     pub(super) is_left_out: Vec<bool>,
-}
-
-/// A place inside a triangle.
-struct Inside {
-    triangle: usize,
-    barycentric: [f64; 3],
 }
 
 /// How far a surface is from the samples.
@@ -62,18 +64,14 @@ impl<'a> Cloud<'a> {
                 normals[corner as usize] += normal;
             }
         }
-        let mut order: Vec<usize> = (0..map.len()).collect();
-        order.sort_by(|&one, &other| map[one].z.total_cmp(&map[other].z));
-        let mut is_left_out = vec![false; map.len()];
-        for &vertex in order.iter().skip(HELD_OUT / 2).step_by(HELD_OUT) {
-            is_left_out[vertex] = true;
-        }
+        let is_left_out = left_out(&map);
         let unit = |normal: Vector3<f64>| normal.try_normalize(0.0).unwrap_or_default();
         let mut cloud = Self {
             points: mesh.vertices.iter().map(|vertex| vertex.coords).collect(),
             normals: normals.into_iter().map(unit).collect(),
             weights: Vec::new(),
             inside: Vec::new(),
+            is_of_points: false,
             mesh,
             directions: map.clone(),
             map,
@@ -83,9 +81,71 @@ impl<'a> Cloud<'a> {
         cloud
     }
 
-    /// Whether a sample judges fits that do without it: a vertex, for places in triangles are no points of the scan.
+    /// Points that a closed mesh is near, the vertices of which have places on the sphere.
+    pub(super) fn of_points(
+        mesh: &'a Mesh,
+        map: Vec<Vector3<f64>>,
+        points: Vec<Vector3<f64>>,
+    ) -> Self {
+        let mut cloud = Self::new(mesh, map);
+        cloud.is_of_points = true;
+        cloud.inside = OnMesh::nearest(mesh, &points);
+        let normals = cloud.inside.iter().map(|place| {
+            let [a, b, c] =
+                mesh.triangles[place.triangle].map(|corner| cloud.normals[corner as usize]);
+            place
+                .between([a, b, c])
+                .try_normalize(0.0)
+                .unwrap_or_default()
+        });
+        let normals: Vec<_> = normals.collect();
+        cloud.normals.extend(normals);
+        cloud.points.extend(points);
+        cloud.to_map();
+        let vertices = cloud.vertices();
+        let of_points = left_out(&cloud.directions[vertices..]);
+        cloud.is_left_out = vec![false; vertices];
+        cloud.is_left_out.extend(of_points);
+        cloud.weigh();
+        cloud
+    }
+
+    /// Starts anew from the map, with the same samples.
+    fn to_map(&mut self) {
+        self.directions.clone_from(&self.map);
+        for place in &self.inside {
+            let between = place.between(self.images(place.triangle));
+            self.directions.push(between.normalize());
+        }
+    }
+
+    /// Whether a sample is one of the scan: not if the mesh is only near it.
+    pub(super) fn is_scanned(&self, sample: usize) -> bool {
+        !self.is_of_points || sample >= self.vertices()
+    }
+
+    /// The number of samples of the scan, places inside large triangles included.
+    pub(super) fn scanned(&self) -> usize {
+        let all = self.points.len();
+        if self.is_of_points {
+            all - self.vertices()
+        } else {
+            all
+        }
+    }
+
+    /// The number of points of the scan.
+    pub(super) fn scan_points(&self) -> usize {
+        if self.is_of_points {
+            self.scanned()
+        } else {
+            self.vertices()
+        }
+    }
+
+    /// Whether a sample judges fits that do without it: a point of the scan, which places in triangles are not.
     pub(super) fn is_held_out(&self, sample: usize) -> bool {
-        sample < self.vertices() && self.is_left_out[sample]
+        self.is_left_out[sample] && (self.is_of_points || sample < self.vertices())
     }
 
     /// The number of vertices, the first of the samples.
@@ -97,9 +157,13 @@ impl<'a> Cloud<'a> {
         self.mesh.triangles[triangle].map(|corner| self.directions[corner as usize])
     }
 
-    /// Starts anew from the map: the vertices, and places inside triangles that are large on the sphere, until there is
+    /// Starts anew from the map: of faces the vertices, and places inside triangles that are large on the sphere, until there is
     /// one per `solid_angle`.
     pub(super) fn restart(&mut self, solid_angle: impl Fn(&Vector3<f64>) -> f64) {
+        if self.is_of_points {
+            self.to_map();
+            return;
+        }
         let vertices = self.vertices();
         self.inside.clear();
         self.points.truncate(vertices);
@@ -125,7 +189,7 @@ impl<'a> Cloud<'a> {
                 self.points.push(p * s + q * t + r * u);
                 self.normals.push(normal);
                 self.directions.push((a * s + b * t + c * u).normalize());
-                self.inside.push(Inside {
+                self.inside.push(OnMesh {
                     triangle,
                     barycentric,
                 });
@@ -145,7 +209,7 @@ impl<'a> Cloud<'a> {
     /// Weights by area and by solid angle: of a triangle with places inside half a place goes to its corners.
     fn weigh(&mut self) {
         let mut inside = vec![0_usize; self.mesh.triangles.len()];
-        for place in &self.inside {
+        for place in self.inside.iter().filter(|_| !self.is_of_points) {
             inside[place.triangle] += 1;
         }
         let areas: Vec<f64> = self
@@ -172,8 +236,17 @@ impl<'a> Cloud<'a> {
                 weights[corner as usize] += share(triangle) * at_corners / 3.0;
             }
         }
-        for (place, weight) in self.inside.iter().zip(&mut weights[self.vertices()..]) {
-            *weight = share(place.triangle) / (inside[place.triangle] as f64 + 0.5);
+        let (at_vertices, others) = weights.split_at_mut(self.mesh.vertices.len());
+        if self.is_of_points {
+            let each = (1.0 - NEAR_SHARE) / others.len() as f64;
+            others.fill(each);
+            at_vertices
+                .iter_mut()
+                .for_each(|weight| *weight *= NEAR_SHARE);
+        } else {
+            for (place, weight) in self.inside.iter().zip(others) {
+                *weight = share(place.triangle) / (inside[place.triangle] as f64 + 0.5);
+            }
         }
         self.weights = weights;
     }
@@ -226,9 +299,7 @@ impl<'a> Cloud<'a> {
         }
         for at in vertices..self.points.len() {
             let place = &self.inside[at - vertices];
-            let [a, b, c] = self.images(place.triangle);
-            let [s, t, u] = place.barycentric;
-            let between = (a * s + b * t + c * u).normalize();
+            let between = place.between(self.images(place.triangle)).normalize();
             let (point, slopes) = surface.point_and_tangents(&between);
             let step = foot_step(&between, &(self.points[at] - point), &slopes);
             self.directions[at] = (between + step).normalize();
@@ -285,6 +356,17 @@ impl<'a> Cloud<'a> {
             .filter(|(((_, slopes), n), normal)| area_normal(n, slopes).dot(normal) < 0.0)
             .count()
     }
+}
+
+/// Every so many of places on the sphere, in order of height.
+fn left_out(places: &[Vector3<f64>]) -> Vec<bool> {
+    let mut order: Vec<usize> = (0..places.len()).collect();
+    order.sort_by(|&one, &other| places[one].z.total_cmp(&places[other].z));
+    let mut is_left_out = vec![false; places.len()];
+    for &place in order.iter().skip(HELD_OUT / 2).step_by(HELD_OUT) {
+        is_left_out[place] = true;
+    }
+    is_left_out
 }
 
 /// Solid angle of a triangle on the sphere.

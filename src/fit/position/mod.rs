@@ -1,7 +1,7 @@
-//! The position of a surface's points over the sphere, fitted to the faces of a scan: for surfaces that no centre
-//! sees, and for those with steep sides.
+//! The position of a surface's points over the sphere, fitted to the faces of a scan, or to points that have none: for
+//! surfaces that no centre sees, and for those with steep sides.
 //!
-//! The faces are [mapped](map) to the sphere, one to one. Then coordinates are fitted as functions on the sphere, in
+//! The faces, or those of a [crust](super::crust) around points, are [mapped](map) to the sphere, one to one. Then coordinates are fitted as functions on the sphere, in
 //! [rounds](rounds) that also move the directions; cells are [split](search) where the distance asks for it.
 
 mod cloud;
@@ -9,13 +9,15 @@ mod foot;
 mod functions;
 mod least_squares;
 pub(crate) mod map;
+mod on_mesh;
 mod rounds;
 mod search;
 
 use super::context::Context;
+use super::crust::surface_of_points;
 use super::error::FitError;
 use super::options::{FitOptions, Tolerance};
-use super::prepare::{Reference, ReferenceKind, principal_axes, scanned_surface};
+use super::prepare::{Reference, ReferenceKind, principal_axes, scanned_surface, usable};
 use super::warning::FitWarning;
 use crate::measure::{Unit, mesh_properties};
 use crate::mesh::Mesh;
@@ -63,22 +65,22 @@ pub struct Distance {
     pub max: f64,
 }
 
-/// Fits positions over the sphere to the faces of a scan. Of the options, `segments`, `degree`, `max_segments` and
+/// Fits positions over the sphere to the faces of a scan, or to its points if it has none. Of the options, `segments`, `degree`, `max_segments` and
 /// `tolerance` count; the tolerance is one of held-out distance, relative to the radius of the ball of equal volume.
 ///
 /// # Errors
-/// [`FitError`] if the scan has no closed faces, if they have no map to the sphere, if they do not determine a surface,
+/// [`FitError`] if the scan's faces are not closed or its points enclose nothing, if they have no map to the sphere, if they do not determine a surface,
 /// or if the fit is cancelled.
 pub fn fit_position(
     scan: &Scan,
     options: &FitOptions,
     context: &Context<'_>,
 ) -> Result<PositionFit, FitError> {
-    let surface = scanned_surface(scan)?;
-    if surface.kind != ReferenceKind::Faces {
-        return Err(FitError::NoFaces);
-    }
-    let mesh = compact(&surface.mesh);
+    let Faces {
+        mesh,
+        kind,
+        warnings,
+    } = faces(scan)?;
     let points = mesh.vertices.len();
     let unit = Unit::of(&mesh);
     let at_unit = unit.mesh(&mesh);
@@ -101,8 +103,20 @@ pub fn fit_position(
         Tolerance::Length(length) => length / radius,
         tolerance => tolerance.length(1.0),
     };
+    let limit = limit.max(scan.scatter / radius);
     let directions = spherical_map(&local, context)?;
-    let mut cloud = Cloud::new(&local, directions);
+    let mut cloud = match kind {
+        ReferenceKind::Crust => {
+            let points = Mesh {
+                vertices: scan.points.clone(),
+                triangles: Vec::new(),
+            };
+            let points = unit.mesh(&points).vertices;
+            let points = points.iter().map(|point| place(point).coords);
+            Cloud::of_points(&local, directions, points.collect())
+        }
+        _ => Cloud::new(&local, directions),
+    };
     let found = context.run(|| search(&mut cloud, options, limit, context))?;
     let fitted = found.ok_or(FitError::NoEstimate)?;
     let distance = |found: cloud::Distances| Distance {
@@ -117,19 +131,47 @@ pub fn fit_position(
         },
         surface: fitted.surface.times(radius),
         reference: Reference {
-            kind: surface.kind,
+            kind,
             area: unit.area(properties.area),
             volume: unit.volume(properties.volume),
         },
         radius,
-        samples: cloud.points.len(),
+        samples: cloud.scanned(),
         distance: distance(fitted.distances),
         held_out: distance(fitted.held_out),
         roughness: fitted.roughness,
         turned_over,
         crossings,
-        warnings: surface.warnings,
+        warnings,
     })
+}
+
+/// The faces that are mapped to the sphere.
+struct Faces {
+    mesh: Mesh,
+    kind: ReferenceKind,
+    warnings: Vec<FitWarning>,
+}
+
+/// The scan's own faces, or of points without any those of their crust.
+fn faces(scan: &Scan) -> Result<Faces, FitError> {
+    if scan.topology.is_none() {
+        usable(scan)?;
+        return Ok(Faces {
+            mesh: surface_of_points(&scan.points)?,
+            kind: ReferenceKind::Crust,
+            warnings: Vec::new(),
+        });
+    }
+    let surface = scanned_surface(scan)?;
+    match surface.kind {
+        ReferenceKind::Faces => Ok(Faces {
+            mesh: compact(&surface.mesh),
+            kind: surface.kind,
+            warnings: surface.warnings,
+        }),
+        _ => Err(FitError::NoFaces),
+    }
 }
 
 /// The mesh without the vertices that no triangle names.

@@ -188,7 +188,7 @@ impl<'a> Problem<'a> {
         let (Some(surface), Some(other)) = (fit(Used::All), fit(Used::NotLeftOut)) else {
             return Ok(None);
         };
-        let (distances, _) = cloud.distances(&surface, |_| true);
+        let (distances, _) = cloud.distances(&surface, |at| cloud.is_scanned(at));
         let (held_out, _) = cloud.distances(&other, |at| cloud.is_held_out(at));
         Ok(Some(Fitted {
             faults: [cloud.turned_over(&surface), crossing_pairs(&surface)],

@@ -171,7 +171,7 @@ fn split(
     let most = match options.max_segments {
         Some(segments) => segments,
         None => {
-            let told = (cloud.vertices() as f64 / POINTS_PER_FUNCTION) as usize;
+            let told = (cloud.scan_points() as f64 / POINTS_PER_FUNCTION) as usize;
             MOST_FUNCTIONS.min(told) / functions.per_cell()
         }
     };

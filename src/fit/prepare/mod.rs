@@ -16,13 +16,14 @@ pub(crate) use axes::principal_axes;
 pub use largest::largest_body;
 pub use reference::{Reference, ReferenceKind};
 pub(crate) use samples::{CellGrid, Sample, Samples};
+pub(crate) use surface::usable;
 pub use surface::{ScannedSurface, scanned_surface};
 
 use super::error::FitError;
 use super::unseen::Unseen;
 use super::warning::FitWarning;
 use crate::measure::{MassProperties, Unit, mesh_properties};
-use crate::mesh::Mesh;
+use crate::mesh::{Mesh, relaxed};
 use crate::model::Frame;
 use crate::scan::Scan;
 use crate::sphere::Symmetry;
@@ -38,6 +39,9 @@ const LARGEST_SHARE_AWAY: f64 = 0.05;
 /// Share of the area that may face away from the centroid before another centre is looked for: a few
 /// slivers of a noisy mesh.
 const NEGLIGIBLE_SHARE: f64 = 1e-4;
+
+/// Rounds in which the surface between voxels loses its steps before a centre looks at it.
+const ROUNDS_OVER_STEPS: usize = 10;
 
 /// Least volume of a scan whose box is some two units long: points in one plane, rounded, have 1e-16.
 const LEAST_VOLUME: f64 = 1e-11;
@@ -77,7 +81,10 @@ impl<'a> PreparedScan<'a> {
             .ok_or(FitError::NoVolume {
                 points: scan.points.len(),
             })?;
-        let centre = star_centre(&mesh, properties.centroid, &mut surface.warnings)?;
+        // Steps of voxels face anywhere.
+        let without_steps = (scan.scatter > 0.0).then(|| relaxed(&mesh, ROUNDS_OVER_STEPS));
+        let seen = without_steps.as_ref().unwrap_or(&mesh);
+        let centre = star_centre(seen, properties.centroid, &mut surface.warnings)?;
         let frame = Frame {
             centre: unit.point(&centre),
             axes: match symmetry {

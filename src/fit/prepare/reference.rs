@@ -20,14 +20,17 @@ pub enum ReferenceKind {
     Faces,
     /// The spherical Delaunay triangulation of the points' directions.
     Directions,
+    /// The middle of a crust of voxels around the points.
+    Crust,
 }
 
 impl ReferenceKind {
-    /// The name used in reports: "faces" or "directions".
+    /// The name used in reports: "faces", "directions" or "crust".
     pub fn name(&self) -> &'static str {
         match self {
             Self::Faces => "faces",
             Self::Directions => "directions",
+            Self::Crust => "crust",
         }
     }
 }

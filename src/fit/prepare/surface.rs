@@ -56,7 +56,7 @@ impl ScannedSurface<'_> {
     pub(crate) fn seen_faces(&self) -> Option<&Mesh> {
         match self.kind {
             ReferenceKind::Faces => self.faces.as_ref().or(Some(&self.mesh)),
-            ReferenceKind::Directions => self.faces.as_ref(),
+            ReferenceKind::Directions | ReferenceKind::Crust => self.faces.as_ref(),
         }
     }
 }
@@ -68,6 +68,18 @@ impl ScannedSurface<'_> {
 /// [`FitError`] if a point is not finite, if the points enclose no volume, if there are several bodies, or if
 /// too many points do not lie on one surface round a centre.
 pub fn scanned_surface(scan: &Scan) -> Result<ScannedSurface<'_>, FitError> {
+    usable(scan)?;
+    match &scan.topology {
+        Some(topology) if topology.closed && topology.bodies == 1 => {
+            Ok(from_faces(scan, &topology.unreferenced))
+        }
+        Some(_) => from_parts(scan),
+        None => from_directions(Cow::Borrowed(&scan.points)),
+    }
+}
+
+/// Refuses points that can be those of no body: not finite, too far apart for numbers, or in a plane.
+pub(crate) fn usable(scan: &Scan) -> Result<(), FitError> {
     if let Some(index) = scan
         .points
         .iter()
@@ -87,13 +99,7 @@ pub fn scanned_surface(scan: &Scan) -> Result<ScannedSurface<'_>, FitError> {
         let points = scan.points.len();
         return Err(FitError::NoVolume { points });
     }
-    match &scan.topology {
-        Some(topology) if topology.closed && topology.bodies == 1 => {
-            Ok(from_faces(scan, &topology.unreferenced))
-        }
-        Some(_) => from_parts(scan),
-        None => from_directions(Cow::Borrowed(&scan.points)),
-    }
+    Ok(())
 }
 
 /// Of faces that are closed and of one piece.

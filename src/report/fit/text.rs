@@ -12,8 +12,11 @@ use std::fmt;
 impl ReferenceRecord {
     /// What it is, in words.
     fn description(&self) -> &'static str {
-        if self.kind == ReferenceKind::Faces.name() {
+        let is_of = |kind: ReferenceKind| self.kind == kind.name();
+        if is_of(ReferenceKind::Faces) {
             "the scan's own faces"
+        } else if is_of(ReferenceKind::Crust) {
+            "the middle of a crust of voxels around the points"
         } else {
             "the points, triangulated by direction"
         }

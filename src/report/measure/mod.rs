@@ -37,7 +37,7 @@ impl From<ReferenceKind> for Measured {
     fn from(kind: ReferenceKind) -> Self {
         match kind {
             ReferenceKind::Faces => Self::Faces,
-            ReferenceKind::Directions => Self::Directions,
+            ReferenceKind::Directions | ReferenceKind::Crust => Self::Directions,
         }
     }
 }

@@ -11,7 +11,7 @@ mod plane;
 pub use plane::Plane;
 
 use super::drawn::{by_coordinates, drawn};
-use super::{ParseError, Scan};
+use super::{ParseError, Scan, Volume, VolumeError};
 use crate::mesh::{Mesh, part, parts};
 use links::Links;
 use nalgebra::Point3;
@@ -32,7 +32,8 @@ const MOST_CUTS: usize = 12;
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Split {
-    /// The grains, by the middles of their boxes: ascending in x, of equal x in y, then in z.
+    /// The grains, by the middles of their boxes: ascending in x, of equal x in y, then in z; those of a segmented
+    /// volume by their labels.
     pub grains: Vec<SplitGrain>,
     /// How far neighbours of one surface are apart at most, in the scan's unit; none of a mesh.
     pub distance: Option<f64>,
@@ -56,6 +57,8 @@ pub struct SplitGrain {
     pub scan: Scan,
     /// Positions of its points among those of that scan, ascending; of a mesh, none.
     pub indices: Vec<u32>,
+    /// Its label in a segmented volume.
+    pub label: Option<i64>,
     /// Whether it may be several that touch: it has a waist, but no neck.
     pub may_touch: bool,
 }
@@ -87,6 +90,28 @@ pub(crate) fn has_neck(points: &[Point3<f64>]) -> bool {
     neck.is_some_and(|neck| neck.is_cut())
 }
 
+/// The grains of a segmented volume, one for each label, in the order of the labels.
+///
+/// # Errors
+/// [`VolumeError`] where there is no label, or the values are none.
+pub fn split_labels(volume: &Volume) -> Result<Split, VolumeError> {
+    let grain = |(label, scan)| SplitGrain {
+        scan,
+        indices: Vec::new(),
+        label: Some(label),
+        may_touch: false,
+    };
+    Ok(Split {
+        grains: volume.scans()?.into_iter().map(grain).collect(),
+        distance: None,
+        plane: None,
+        plane_points: 0,
+        dust: 0,
+        dust_points: 0,
+        cuts: 0,
+    })
+}
+
 fn split_faces(scan: &Scan) -> Split {
     let mesh = scan.welded();
     let (grains, dust): (Vec<Mesh>, Vec<Mesh>) = without_dust(
@@ -105,6 +130,7 @@ fn split_faces(scan: &Scan) -> Split {
             .map(|mesh| SplitGrain {
                 scan: Scan::from_part(mesh),
                 indices: Vec::new(),
+                label: None,
                 may_touch: false,
             })
             .collect(),
@@ -186,6 +212,7 @@ fn split_points(all: &[Point3<f64>]) -> Split {
                 SplitGrain {
                     scan: Scan::from_points(points),
                     indices,
+                    label: None,
                     may_touch: clump.may_touch,
                 }
             })

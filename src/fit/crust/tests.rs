@@ -1,0 +1,45 @@
+use super::*;
+use crate::measure::mesh_properties;
+use crate::shapes::{Curled, CurledOptions, synthesize_curled};
+use approx::assert_relative_eq;
+
+fn points(body: Curled, count: usize, noise: f64) -> (Vec<Point3<f64>>, f64) {
+    let options = CurledOptions::clean(body)
+        .with_points(count)
+        .with_noise(noise);
+    let scan = synthesize_curled(&options).unwrap();
+    (scan.mesh.vertices, scan.truth.properties.volume)
+}
+
+#[test]
+fn points_of_bodies_that_no_centre_sees_have_a_surface_of_nearly_their_volume() {
+    for (body, count, noise) in [
+        (Curled::Banana, 3000, 0.0),
+        (Curled::Hook, 4000, 0.01),
+        (Curled::Mushroom, 6000, 0.0),
+    ] {
+        let (points, volume) = points(body, count, noise);
+        let mesh = surface_of_points(&points).unwrap();
+        mesh.check_closed().unwrap();
+        let found = mesh_properties(&mesh).unwrap().volume;
+        assert_relative_eq!(found, volume, max_relative = 0.1);
+    }
+}
+
+#[test]
+fn rings_and_open_bowls_are_refused() {
+    let turn = |i: usize, step: f64| (i as f64 * step).sin_cos();
+    let ring = (0..6000).map(|i| {
+        let ([a, b], [c, d]) = (turn(i, 2.399_963).into(), turn(i, 0.017).into());
+        let radius = 2.0 + 0.6 * a;
+        Point3::new(radius * c, radius * d, 0.6 * b)
+    });
+    let found = surface_of_points(&ring.collect::<Vec<_>>());
+    assert!(matches!(
+        found,
+        Err(FitError::Ring { handles: 1 } | FitError::OffCrust { .. })
+    ));
+    let (ball, _) = points(Curled::Random, 4000, 0.0);
+    let bowl: Vec<_> = ball.into_iter().filter(|p| p.z < 0.3).collect();
+    assert!(surface_of_points(&bowl).is_err());
+}

@@ -1,0 +1,124 @@
+//! Why an image holds no grain that can be read.
+
+use crate::scan::plural;
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+/// Labels that an error lists.
+const MOST_LISTED: usize = 12;
+
+/// Why an image holds no grain that can be read.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum VolumeError {
+    /// The header is not one of the format.
+    #[error("the header has no usable {what}; export the image again")]
+    Header {
+        /// What is missing, or wrong.
+        what: &'static str,
+    },
+    /// The format allows it, but it is not read here.
+    #[error(
+        "{what} is not read here; save the image raw or packed with gzip, with three axes and one number per voxel"
+    )]
+    Unsupported {
+        /// What.
+        what: String,
+    },
+    /// The voxels are in a file of another folder.
+    #[error("the header names the voxels' file {name:?}, which is not beside it; move it there")]
+    Elsewhere {
+        /// The file that is named.
+        name: String,
+    },
+    /// The file with the voxels cannot be read.
+    #[error("the voxels in {name} cannot be read: {reason}")]
+    Voxels {
+        /// The file.
+        name: String,
+        /// Why.
+        reason: String,
+    },
+    /// No image has this size.
+    #[error("an image of {} x {} x {} voxels cannot be read", size[0], size[1], size[2])]
+    Size {
+        /// Numbers of voxels.
+        size: [usize; 3],
+    },
+    /// There are fewer voxels than the header counts.
+    #[error(
+        "the header promises {voxels} voxels, but there are {found}; the file is cut short, copy it again"
+    )]
+    CutShort {
+        /// Voxels promised.
+        voxels: usize,
+        /// Voxels there.
+        found: usize,
+    },
+    /// The axes of the image lie in a plane, or are not finite.
+    #[error("the spacing and directions in the header are not those of a lattice in space")]
+    NoLattice,
+    /// A value is no whole number.
+    #[error(
+        "voxel {index} has the value {value}: these are grey values, not labels; segment the image first"
+    )]
+    GreyValues {
+        /// The voxel, counted from 0.
+        index: usize,
+        /// Its value.
+        value: f64,
+    },
+    /// There are too many labels.
+    #[error("there are more than {most} labels: these are grey values; segment the image first")]
+    TooManyLabels {
+        /// The most that are read.
+        most: usize,
+    },
+    /// The labels lie all over each other.
+    #[error(
+        "the boxes around the labels fill the image {times:.0} times: these are grey values; segment the image first"
+    )]
+    Interleaved {
+        /// Volume of the boxes over that of the image.
+        times: f64,
+    },
+    /// All voxels are zero.
+    #[error("all voxels are zero: the image has no label")]
+    NoLabels,
+    /// The label asked for is not there.
+    #[error("no voxel has the label {label}; {}", listed(labels))]
+    NoSuchLabel {
+        /// The label asked for.
+        label: i64,
+        /// Those that are there, with their numbers of voxels.
+        labels: BTreeMap<i64, usize>,
+    },
+    /// There are several labels.
+    #[error(
+        "the image has several grains, and one can be read: ask for one with --label, or split it (grainform split); {}",
+        listed(labels)
+    )]
+    SeveralLabels {
+        /// They, with their numbers of voxels.
+        labels: BTreeMap<i64, usize>,
+    },
+    /// The voxels enclose nothing.
+    #[error("the voxels of the label enclose no volume")]
+    NoBody,
+}
+
+/// `labels: 1 (20 voxels), 2 (1 voxel)`
+fn listed(labels: &BTreeMap<i64, usize>) -> String {
+    let mut text = String::from("labels: ");
+    for (at, (label, voxels)) in labels.iter().take(MOST_LISTED).enumerate() {
+        let comma = if at == 0 { "" } else { ", " };
+        let _ = write!(text, "{comma}{label} ({})", plural(*voxels, "voxel"));
+    }
+    match labels.len().saturating_sub(MOST_LISTED) {
+        0 => {}
+        more => {
+            let _ = write!(text, " and {more} more");
+        }
+    }
+    text
+}

@@ -1,0 +1,310 @@
+//! Segmented volumes: images of labels, a grain for each label, as computed tomography gives them.
+//!
+//! NRRD, MetaImage, NIfTI, TIFF stacks and `.npy` are read, with their spacing, origin and directions. The headers are
+//! a few lines each and are read here, for the crates that know them bring whole array libraries along; TIFF has a
+//! crate of its own.
+
+mod error;
+mod lattice;
+mod metaimage;
+mod nifti;
+mod npy;
+mod nrrd;
+mod samples;
+mod tiff;
+
+pub use error::VolumeError;
+pub(super) use lattice::filled as filled_lattice;
+
+use super::check::check;
+use super::{ReadError, Scan, inspect, source};
+use crate::mesh::{Grid, Mesh, contour};
+use nalgebra::{Matrix3, Point3, Vector3};
+use samples::Samples;
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// More labels than any scan has grains: it is an image of grey values.
+const MOST_LABELS: usize = 100_000;
+
+/// Volume of the boxes round all labels, over that of the image, at most: grains that are packed overlap a few times.
+const MOST_BOXES: f64 = 100.0;
+
+/// Standard deviation of a point in the middle between two voxels from the surface that parts them, along its normal
+/// and on average over all normals, in voxels: it may be anywhere between them, along an axis.
+const SCATTER: f64 = 0.204;
+
+/// An image of labels; zero is what is around the grains.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Volume {
+    /// Numbers of voxels along the axes of the image, that which runs fastest first.
+    size: [usize; 3],
+    samples: Samples,
+    /// The middle of the first voxel.
+    origin: Point3<f64>,
+    /// From one voxel to the next along each axis of the image, in columns.
+    steps: Matrix3<f64>,
+    /// What the file does not tell.
+    warnings: Vec<String>,
+}
+
+/// Reads a label image from the bytes of a file; `None` where they are no image. At most `limit` bytes are unpacked.
+/// Headers that name a file for the voxels are followed to one beside them.
+///
+/// # Errors
+/// [`ReadError::Volume`] with what is wrong.
+pub fn parse_volume(path: &Path, bytes: &[u8], limit: u64) -> Result<Option<Volume>, ReadError> {
+    let folder = path.parent().unwrap_or(Path::new("."));
+    let beside = Beside { folder, limit };
+    let extension = source::extension(path).map(str::to_ascii_lowercase);
+    let found = if bytes.starts_with(b"NRRD") {
+        nrrd::parse(bytes, &beside)
+    } else if bytes.starts_with(b"\x93NUMPY") {
+        npy::parse(bytes)
+    } else if bytes.starts_with(b"II*\0") || bytes.starts_with(b"MM\0*") {
+        tiff::parse(bytes, limit)
+    } else if nifti::is_it(bytes) {
+        nifti::parse(bytes)
+    } else if matches!(extension.as_deref(), Some("mhd" | "mha")) {
+        metaimage::parse(bytes, &beside)
+    } else {
+        return Ok(None);
+    };
+    found.map(Some).map_err(|source| ReadError::Volume {
+        path: path.into(),
+        source,
+    })
+}
+
+/// Where a header finds the voxels that it names, and how much may be read of them.
+struct Beside<'a> {
+    folder: &'a Path,
+    limit: u64,
+}
+
+impl Beside<'_> {
+    /// The bytes of a file in the same folder, unpacked.
+    fn read(&self, name: &str) -> Result<Vec<u8>, VolumeError> {
+        let is_plain = Path::new(name).file_name().is_some_and(|own| own == name);
+        if !is_plain {
+            return Err(VolumeError::Elsewhere { name: name.into() });
+        }
+        source::read_bytes(&self.folder.join(name), self.limit).map_err(|error| {
+            VolumeError::Voxels {
+                name: name.into(),
+                reason: error.to_string(),
+            }
+        })
+    }
+
+    /// What is packed with gzip within a file.
+    fn unpack(&self, packed: &[u8]) -> Result<Vec<u8>, VolumeError> {
+        source::read_stream(packed, Path::new("its voxels"), self.limit).map_err(|error| {
+            VolumeError::Voxels {
+                name: "it".into(),
+                reason: error.to_string(),
+            }
+        })
+    }
+}
+
+impl Volume {
+    /// An image with axes along x, y and z.
+    ///
+    /// # Errors
+    /// [`VolumeError`] if there are too few samples, or the steps are not those of a lattice.
+    fn new(
+        size: [usize; 3],
+        samples: Samples,
+        origin: Point3<f64>,
+        steps: Matrix3<f64>,
+    ) -> Result<Self, VolumeError> {
+        let voxels = size
+            .iter()
+            .try_fold(1_usize, |all, side| all.checked_mul(*side));
+        let voxels = voxels
+            .filter(|voxels| *voxels > 0)
+            .ok_or(VolumeError::Size { size })?;
+        if samples.count() < voxels {
+            let found = samples.count();
+            return Err(VolumeError::CutShort { voxels, found });
+        }
+        let lengths: f64 = steps.column_iter().map(|step| step.norm()).product();
+        let is_lattice = steps.determinant().abs() > 1e-6 * lengths;
+        if !is_lattice || !steps.iter().chain(origin.iter()).all(|x| x.is_finite()) {
+            return Err(VolumeError::NoLattice);
+        }
+        Ok(Self {
+            size,
+            samples,
+            origin,
+            steps,
+            warnings: Vec::new(),
+        })
+    }
+
+    fn with_warning(mut self, warning: &str) -> Self {
+        self.warnings.push(warning.into());
+        self
+    }
+
+    /// The labels but zero, and their numbers of voxels.
+    ///
+    /// # Errors
+    /// [`VolumeError::GreyValues`] if the image is none of labels.
+    pub fn labels(&self) -> Result<BTreeMap<i64, usize>, VolumeError> {
+        let extents = self.extents()?.into_iter();
+        Ok(extents
+            .map(|(label, extent)| (label, extent.voxels))
+            .collect())
+    }
+
+    /// The labels but zero, and where they are.
+    fn extents(&self) -> Result<BTreeMap<i64, Extent>, VolumeError> {
+        let mut found = BTreeMap::new();
+        let [width, height, depth] = self.size;
+        for (z, y) in (0..depth).flat_map(|z| (0..height).map(move |y| (z, y))) {
+            let row = width * (y + height * z);
+            let mut x = 0;
+            while x < width {
+                let (from, label) = (x, self.samples.label(row + x)?);
+                while x < width && self.samples.label(row + x)? == label {
+                    x += 1;
+                }
+                if label != 0 {
+                    let extent: &mut Extent = found.entry(label).or_default();
+                    extent.add([from, y, z], [x - 1, y, z]);
+                }
+                if found.len() > MOST_LABELS {
+                    return Err(VolumeError::TooManyLabels { most: MOST_LABELS });
+                }
+            }
+        }
+        Ok(found)
+    }
+
+    /// The boundary of what has a label; where none is given, of the only one.
+    ///
+    /// Its points are the middles between the centres of voxels inside and outside. On the whole these are off the true
+    /// surface neither inwards nor outwards, and so no volume is lost; each may be half a voxel off, which the scan
+    /// knows ([`Scan::scatter`]).
+    ///
+    /// # Errors
+    /// [`VolumeError`] if there is no such label, or several and none was asked for.
+    pub fn scan(&self, label: Option<i64>) -> Result<Scan, VolumeError> {
+        let extents = self.extents()?;
+        let labels = || -> BTreeMap<i64, usize> {
+            let labels = extents.iter();
+            labels
+                .map(|(label, extent)| (*label, extent.voxels))
+                .collect()
+        };
+        let mut only = extents.iter().next().filter(|_| extents.len() == 1);
+        if let Some(label) = label {
+            let missing = || VolumeError::NoSuchLabel {
+                label,
+                labels: labels(),
+            };
+            only = Some(extents.get_key_value(&label).ok_or_else(missing)?);
+        }
+        match only {
+            Some((label, extent)) => self.grain(*label, extent),
+            None if extents.is_empty() => Err(VolumeError::NoLabels),
+            None => Err(VolumeError::SeveralLabels { labels: labels() }),
+        }
+    }
+
+    /// The boundary of every label, see [`Self::scan`].
+    ///
+    /// # Errors
+    /// [`VolumeError`] if there is no label.
+    pub fn scans(&self) -> Result<Vec<(i64, Scan)>, VolumeError> {
+        let extents = self.extents()?;
+        if extents.is_empty() {
+            return Err(VolumeError::NoLabels);
+        }
+        let boxes: f64 = extents.values().map(Extent::volume).sum();
+        let image: f64 = self.size.iter().map(|side| *side as f64).product();
+        if boxes > MOST_BOXES * image {
+            let times = boxes / image;
+            return Err(VolumeError::Interleaved { times });
+        }
+        let grain = |(label, extent): (&i64, &Extent)| Ok((*label, self.grain(*label, extent)?));
+        extents.iter().map(grain).collect()
+    }
+
+    /// The boundary of a label within its extent.
+    fn grain(&self, label: i64, Extent { low, high, .. }: &Extent) -> Result<Scan, VolumeError> {
+        let mut grid = Grid::new(std::array::from_fn(|axis| high[axis] - low[axis] + 1));
+        let [width, height, _] = self.size;
+        for z in low[2]..=high[2] {
+            for y in low[1]..=high[1] {
+                for x in low[0]..=high[0] {
+                    if self.samples.label(x + width * (y + height * z))? == label {
+                        grid.fill([x - low[0], y - low[1], z - low[2]]);
+                    }
+                }
+            }
+        }
+        let first = self.origin + self.steps * Vector3::from(low.map(|i| i as f64));
+        let mut scan = voxel_scan(&grid, first, &self.steps)?;
+        scan.warnings.splice(0..0, self.warnings.iter().cloned());
+        Ok(scan)
+    }
+}
+
+/// Where the voxels of a label are.
+#[derive(Debug, Clone, Copy)]
+struct Extent {
+    voxels: usize,
+    low: [usize; 3],
+    high: [usize; 3],
+}
+
+impl Default for Extent {
+    fn default() -> Self {
+        Self {
+            voxels: 0,
+            low: [usize::MAX; 3],
+            high: [0; 3],
+        }
+    }
+}
+
+impl Extent {
+    /// Voxels of the box.
+    fn volume(&self) -> f64 {
+        let sides = (0..3).map(|axis| (self.high[axis] - self.low[axis] + 1) as f64);
+        sides.product()
+    }
+
+    /// Adds a run of voxels along the first axis.
+    fn add(&mut self, from: [usize; 3], to: [usize; 3]) {
+        self.voxels += to[0] - from[0] + 1;
+        for axis in 0..3 {
+            self.low[axis] = self.low[axis].min(from[axis]);
+            self.high[axis] = self.high[axis].max(to[axis]);
+        }
+    }
+}
+
+/// The boundary of the voxels of a grid as a scan.
+fn voxel_scan(grid: &Grid, first: Point3<f64>, steps: &Matrix3<f64>) -> Result<Scan, VolumeError> {
+    let mut mesh: Mesh = contour(grid, |_, _| 0.5);
+    for vertex in &mut mesh.vertices {
+        *vertex = first + steps * vertex.coords;
+    }
+    if steps.determinant() < 0.0 {
+        for [_, b, c] in &mut mesh.triangles {
+            std::mem::swap(b, c);
+        }
+    }
+    check(&mesh.vertices).map_err(|_| VolumeError::NoBody)?;
+    let mut scan = Scan::of_mesh(mesh);
+    inspect::inspect(&mut scan);
+    scan.scatter = SCATTER * steps.determinant().abs().cbrt();
+    Ok(scan)
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,63 @@
+//! Segmented volumes from the command line.
+
+use super::{errors, folder, grainform, json, names, number, succeed};
+use std::path::Path;
+
+/// Two balls of radii 8 and 5 with the labels 4 and 9, in voxels of sides .5, .5 and 1, as NRRD.
+fn balls(path: &Path) {
+    let [width, height, depth] = [80_u32, 40, 20];
+    let balls = [([10.2, 10.1, 9.8], 8.0, 4_u8), ([28.1, 9.9, 10.1], 5.0, 9)];
+    let label = |x: u32, y: u32, z: u32| {
+        let at = [0.5 * f64::from(x), 0.5 * f64::from(y), f64::from(z)];
+        let holds = |middle: &[f64; 3], radius: f64| {
+            let squares = at.iter().zip(middle).map(|(x, c)| (x - c).powi(2));
+            squares.sum::<f64>() < radius * radius
+        };
+        let found = balls
+            .iter()
+            .find(|(middle, radius, _)| holds(middle, *radius));
+        found.map_or(0, |(_, _, label)| *label)
+    };
+    let voxels = (0..depth)
+        .flat_map(|z| (0..height).flat_map(move |y| (0..width).map(move |x| label(x, y, z))));
+    let mut bytes = format!(
+        "NRRD0004\ntype: uchar\ndimension: 3\nsizes: {width} {height} {depth}\nencoding: raw\n\
+         spacings: 0.5 0.5 1\n\n"
+    )
+    .into_bytes();
+    bytes.extend(voxels);
+    std::fs::write(path, bytes).unwrap();
+}
+
+#[test]
+fn a_label_is_fitted_with_its_volume_and_split_writes_all() {
+    let folder = folder();
+    balls(&folder.path().join("ct.nrrd"));
+    let refused = errors(&grainform(&folder, &["fit", "ct.nrrd"]));
+    assert!(
+        refused.contains("--label") && refused.contains("labels: 4 ("),
+        "{refused}"
+    );
+    let refused = errors(&grainform(&folder, &["fit", "ct.nrrd", "--label", "7"]));
+    assert!(refused.contains("no voxel has the label 7"), "{refused}");
+    let ball = 4.0 / 3.0 * std::f64::consts::PI;
+    for (label, radius) in [("4", 8.0_f64), ("9", 5.0)] {
+        let words = ["fit", "ct.nrrd", "--label", label, "--surface", "star"];
+        let report = json(&folder, &words);
+        let share = number(&report, "volume") / (ball * radius.powi(3));
+        assert!((share - 1.0).abs() < 5e-3, "{label}: {share}");
+    }
+    succeed(&folder, &["split", "ct.nrrd", "-o", "grains"]);
+    assert_eq!(names(&folder.path().join("grains")).len(), 2);
+    let measured = json(
+        &folder,
+        &["measure", "grains/grain_0002.ply", "--only", "volume"],
+    );
+    let share = number(&measured, "volume") / (ball * 125.0);
+    assert!((share - 1.0).abs() < 0.02, "{share}");
+    let refused = errors(&grainform(
+        &folder,
+        &["fit", "grains/grain_0001.ply", "--label", "4"],
+    ));
+    assert!(refused.contains("leave --label out"), "{refused}");
+}
