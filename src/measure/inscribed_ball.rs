@@ -1,9 +1,9 @@
 //! The largest ball inside a closed surface.
 
 use super::Ball;
-use super::clearance::{self, Obstacles};
-use super::medial::{deepest, medial_ball};
-use super::triangle_tree::{TriangleTree, nearest_in_triangle};
+use super::clearance;
+use super::medial::{deepest, free_radius, medial_ball};
+use super::triangle_tree::{TriangleTree, normal};
 use super::winding::winding_number;
 use crate::Mesh;
 use nalgebra::Vector3;
@@ -76,14 +76,18 @@ pub fn inscribed_ball(mesh: &Mesh) -> Result<Ball, InscribedBallError> {
         |[low, high], place| [low.inf(&place.coords), high.sup(&place.coords)],
     );
     let largest = (high - low).norm();
-    let medial: Vec<Ball> = feet(mesh)
+    let feet = feet(mesh);
+    let medial: Vec<Ball> = feet
         .par_iter()
-        .map(|(foot, inward)| medial_ball(foot, inward, largest, |place| tree.nearest(place)))
+        .map(|(foot, inward)| {
+            let free = free_radius(foot, inward, largest, feet.iter().map(|(other, _)| other));
+            medial_ball(foot, inward, free, |place| tree.nearest(place))
+        })
         .collect();
     let is_inside = |ball: &Ball| winding_number(mesh, &ball.centre) > 0.5;
     deepest(medial, is_inside)
         .iter()
-        .filter_map(|start| clearance::largest(mesh, &start.centre))
+        .filter_map(|start| clearance::largest(&tree, &start.centre))
         .filter(is_inside)
         .max_by(|one, other| one.radius.total_cmp(&other.radius))
         .ok_or(InscribedBallError::NoInside)
@@ -91,14 +95,14 @@ pub fn inscribed_ball(mesh: &Mesh) -> Result<Ball, InscribedBallError> {
 
 /// Places of the surface, equal areas apart, and the inward unit normals there.
 fn feet(mesh: &Mesh) -> Vec<(Vector3<f64>, Vector3<f64>)> {
-    let doubles: Vec<f64> = (0..mesh.count()).map(|i| mesh.normal(i).norm()).collect();
+    let normals: Vec<Vector3<f64>> = (0..mesh.triangles.len())
+        .map(|index| normal(&corners(mesh, index)))
+        .collect();
+    let doubles: Vec<f64> = normals.iter().map(|normal| normal.norm()).collect();
     let step = doubles.iter().sum::<f64>() / FEET as f64;
     let (mut passed, mut feet) = (0.0, Vec::with_capacity(FEET));
     for (index, double) in doubles.iter().enumerate() {
-        let inward = mesh
-            .normal(index)
-            .try_normalize(0.0)
-            .map(|outward| -outward);
+        let inward = normals[index].try_normalize(0.0).map(|outward| -outward);
         while let Some(inward) = inward
             && let along = ((feet.len() as f64 + 0.5) * step - passed) / double
             && along < 1.0
@@ -115,28 +119,13 @@ fn feet(mesh: &Mesh) -> Vec<(Vector3<f64>, Vector3<f64>)> {
     feet
 }
 
-/// Every triangle must name vertices that exist.
-impl Obstacles for Mesh {
-    fn count(&self) -> usize {
-        self.triangles.len()
-    }
-
-    fn nearest(&self, index: usize, place: &Vector3<f64>) -> Vector3<f64> {
-        nearest_in_triangle(&corners(self, index), place)
-    }
-
-    fn normal(&self, index: usize) -> Vector3<f64> {
-        let [a, b, c] = corners(self, index);
-        (b - a).cross(&(c - a))
-    }
-}
-
 fn corners(mesh: &Mesh, triangle: usize) -> [Vector3<f64>; 3] {
     mesh.triangles[triangle].map(|corner| mesh.vertices[corner as usize].coords)
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::triangle_tree::nearest_in_triangle;
     use super::*;
     use crate::measure::{convex_hull, mesh_properties};
     use crate::shapes::{Body, Sampling};

@@ -51,6 +51,25 @@ pub(super) fn medial_ball(
     }
 }
 
+/// The radius of the largest ball that touches a surface at `foot`, as in [`medial_ball`], and holds none of some other
+/// points of the surface; at most `largest`.
+pub(super) fn free_radius<'a>(
+    foot: &Vector3<f64>,
+    inward: &Vector3<f64>,
+    largest: f64,
+    others: impl Iterator<Item = &'a Vector3<f64>>,
+) -> f64 {
+    let radii = others.map(|other| {
+        let across = other - foot;
+        let along = across.dot(inward);
+        match along > 0.0 {
+            true => across.norm_squared() / (2.0 * along),
+            false => f64::INFINITY,
+        }
+    });
+    radii.fold(largest, f64::min)
+}
+
 /// The deepest of some balls, so many of them that are apart and `inside`: where to look for the largest.
 pub(super) fn deepest(mut balls: Vec<Ball>, inside: impl Fn(&Ball) -> bool) -> Vec<Ball> {
     balls.retain(|ball| ball.radius.is_finite() && ball.radius > 0.0);
