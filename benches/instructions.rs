@@ -88,25 +88,24 @@ fn count(stage: &str) -> Result<f64, Box<dyn Error>> {
 }
 
 fn run(stage: &str) -> Result<(), Box<dyn Error>> {
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build()?;
-    pool.install(|| {
-        let (points, noise) = match stage {
-            "fit 1538 noisy" => (1538, 0.01),
-            _ => (6146, 0.0),
-        };
-        let options = SynthOptions {
-            noise,
-            ..SynthOptions::clean(Body::Maize).with_points(points)
-        };
-        let scan = Scan::from_points(synthesize(&options)?.points);
-        let prepared = PreparedScan::new(&scan, Symmetry::NONE)?;
-        if stage == "prepare" {
-            black_box(prepared);
-            return Ok(());
-        }
-        let fitted = prepared.fit(&FitOptions::default(), &Context::default())?;
-        of_fit(stage, &fitted)
-    })
+    rayon::ThreadPoolBuilder::new()
+        .num_threads(1)
+        .build_global()?;
+    let (points, noise) = match stage {
+        "fit 1538 noisy" => (1538, 0.01),
+        _ => (6146, 0.0),
+    };
+    let options = SynthOptions::clean(Body::Maize)
+        .with_points(points)
+        .with_noise(noise);
+    let scan = Scan::from_points(synthesize(&options)?.points);
+    let prepared = PreparedScan::new(&scan, Symmetry::NONE)?;
+    if stage == "prepare" {
+        black_box(prepared);
+        return Ok(());
+    }
+    let fitted = prepared.fit(&FitOptions::default(), &Context::default())?;
+    of_fit(stage, &fitted)
 }
 
 /// What is done with a fit.

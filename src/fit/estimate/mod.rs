@@ -20,6 +20,7 @@ mod draws;
 mod errors;
 mod figures;
 mod functionals;
+mod information;
 mod likelihood;
 mod local;
 mod map;

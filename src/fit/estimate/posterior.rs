@@ -8,13 +8,11 @@
 
 use super::cloud::Cloud;
 use super::dense::Factor;
-use super::functionals::dot;
 use super::spectrum::Spectrum;
 use super::stopping::{Enough, SHARE};
 use super::sums::Sums;
 use crate::sphere::coefficient_count;
 use faer::{Mat, MatMut};
-use nalgebra::Matrix4;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use std::f64::consts::PI;
@@ -129,7 +127,7 @@ impl<'a> Posterior<'a> {
 pub(crate) struct Conditioned<'a> {
     pub(super) posterior: &'a Posterior<'a>,
     /// v_l per degree, and of every coefficient.
-    degrees: Vec<f64>,
+    pub(super) degrees: Vec<f64>,
     pub(super) variances: Vec<f64>,
     /// s^2.
     pub(super) noise: f64,
@@ -178,44 +176,6 @@ impl Conditioned<'_> {
         )
     }
 
-    /// The average information of the spectrum's logarithms, where the matrix is factored: the mean of the second
-    /// derivatives of [`Self::cost`] and of what is expected of them (Gilmour, Thompson, Cullis 1995).
-    pub(super) fn information(&self, spectrum: &Spectrum, mean: &[f64]) -> Option<Matrix4<f64>> {
-        let factor = self.factor.as_ref()?;
-        let by_noise = 3;
-        // The derivatives of the mean by the logarithms, were nothing learnt; and these over the variances.
-        let mut moved = vec![vec![0.0; mean.len()]; 4];
-        for l in 0..self.degrees.len() {
-            let slopes = spectrum.slopes(l);
-            for j in l * l..(l + 1) * (l + 1) {
-                for (i, slope) in slopes.into_iter().enumerate() {
-                    moved[i][j] = slope * mean[j];
-                }
-                moved[by_noise][j] = mean[j];
-            }
-        }
-        let over = |moved: &Vec<f64>| -> Vec<f64> {
-            moved
-                .iter()
-                .zip(&self.variances)
-                .map(|(x, v)| x / v)
-                .collect()
-        };
-        let rights: Vec<Vec<f64>> = moved.iter().map(over).collect();
-        let solved = self.solve_factored(factor, &rights);
-        let residuals = self.posterior.residuals(mean);
-        let weighted = residuals.iter().zip(&self.posterior.cloud.weights);
-        let squared: f64 = weighted.map(|(e, w)| w * e * e).sum();
-        Some(Matrix4::from_fn(|i, j| {
-            let left = dot(&rights[i], &solved[j]);
-            match (i == by_noise, j == by_noise) {
-                (false, false) => 0.5 * (dot(&moved[i], &rights[j]) - left),
-                (true, true) => 2.0 * (squared / self.noise - left),
-                _ => left,
-            }
-        }))
-    }
-
     /// C g: the covariances of linear functionals g with every coefficient, good to a few percent of the variances.
     pub(crate) fn covariances(&self, functionals: &[Vec<f64>]) -> Vec<Vec<f64>> {
         match &self.factor {
@@ -235,7 +195,11 @@ impl Conditioned<'_> {
         (found.into_iter().next().unwrap_or_default(), 0)
     }
 
-    fn solve_factored(&self, factor: &Factor, rights: &[impl AsRef<[f64]>]) -> Vec<Vec<f64>> {
+    pub(super) fn solve_factored(
+        &self,
+        factor: &Factor,
+        rights: &[impl AsRef<[f64]>],
+    ) -> Vec<Vec<f64>> {
         let count = self.variances.len();
         let roots: Vec<f64> = self.variances.iter().map(|v| v.sqrt()).collect();
         let mut all: Vec<f64> = rights
