@@ -34,6 +34,10 @@ pub(super) trait Obstacles {
     fn nearest(&self, index: usize, place: &Vector3<f64>) -> Vector3<f64>;
     /// Normal of the plane of an obstacle, of any length.
     fn normal(&self, index: usize) -> Vector3<f64>;
+    /// Obstacles among which are all those that are not farther than `radius` from a place.
+    fn within(&self, _place: &Vector3<f64>, _radius: f64) -> Vec<usize> {
+        (0..self.count()).collect()
+    }
 }
 
 /// A ball that touches obstacles at most, from `start` on, and cannot grow by a small shift.
@@ -54,7 +58,11 @@ pub(super) fn largest(obstacles: &impl Obstacles, start: &Point3<f64>) -> Option
     let mut radius = least(count, &centre, &distance)?;
     let mut reach = FIRST_REACH * radius;
     let mut by_planes = true;
-    let mut near = Near::within(radius + 4.0 * reach, &centre, 0..count, &distance);
+    let around = |radius: f64, centre: &Vector3<f64>| {
+        let within = obstacles.within(centre, radius).into_iter();
+        Near::within(radius, centre, within, &distance)
+    };
+    let mut near = around(radius + 4.0 * reach, &centre);
     for _ in 0..SHIFTS {
         if reach <= LAST_REACH * radius {
             break;
@@ -62,7 +70,7 @@ pub(super) fn largest(obstacles: &impl Obstacles, start: &Point3<f64>) -> Option
         // The ball grows by less than the reach, and an obstacle comes nearer by less.
         let limit = radius + 2.0 * reach;
         if !near.covers(&centre, limit) {
-            near = Near::within(radius + 4.0 * reach, &centre, 0..count, &distance);
+            near = around(radius + 4.0 * reach, &centre);
         } else if near.radius > radius + 16.0 * reach {
             let nearer = near.within_bound(f64::INFINITY);
             near = Near::within(radius + 4.0 * reach, &centre, nearer, &distance);

@@ -1,10 +1,10 @@
 //! The largest ball inside a closed surface.
 
 use super::Ball;
-use super::clearance::{self, Obstacles};
+use super::clearance;
 use super::even_places::even_places;
-use super::medial::{deepest, medial_balls};
-use super::triangle_tree::nearest_in_triangle;
+use super::medial::{deepest, medial_balls_of};
+use super::triangle_tree::TriangleTree;
 use super::winding::winding_number;
 use crate::Mesh;
 use nalgebra::Vector3;
@@ -63,30 +63,17 @@ pub fn inscribed_ball(mesh: &Mesh) -> Result<Ball, InscribedBallError> {
     if mesh.triangles.is_empty() || !mesh.triangles.iter().flatten().all(is_finite) {
         return Err(InscribedBallError::NoSurface);
     }
-    let medial = medial_balls(mesh, &even_places(mesh, FEET));
+    let tree = TriangleTree::new(mesh);
+    let medial = medial_balls_of(&tree, &even_places(mesh, FEET));
     let is_inside = |ball: &Ball| winding_number(mesh, &ball.centre) > 0.5;
     deepest(medial, is_inside)
         .iter()
-        .filter_map(|start| clearance::largest(mesh, &start.centre))
+        .filter_map(|start| clearance::largest(&tree, &start.centre))
         .filter(is_inside)
         .max_by(|one, other| one.radius.total_cmp(&other.radius))
         .ok_or(InscribedBallError::NoInside)
 }
 
-/// Every triangle must name vertices that exist.
-impl Obstacles for Mesh {
-    fn count(&self) -> usize {
-        self.triangles.len()
-    }
-
-    fn nearest(&self, index: usize, place: &Vector3<f64>) -> Vector3<f64> {
-        nearest_in_triangle(&corners(self, index), place)
-    }
-
-    fn normal(&self, index: usize) -> Vector3<f64> {
-        let [a, b, c] = corners(self, index);
-        (b - a).cross(&(c - a))
-    }
 }
 
 fn corners(mesh: &Mesh, triangle: usize) -> [Vector3<f64>; 3] {
@@ -95,6 +82,7 @@ fn corners(mesh: &Mesh, triangle: usize) -> [Vector3<f64>; 3] {
 
 #[cfg(test)]
 mod tests {
+    use super::super::triangle_tree::nearest_in_triangle;
     use super::*;
     use crate::measure::{convex_hull, mesh_properties};
     use crate::shapes::{Body, Sampling};

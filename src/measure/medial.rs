@@ -24,19 +24,18 @@ const SHALLOW: f64 = 0.8;
 /// The ball inside a closed mesh that touches it at each of some places, and somewhere else. Every triangle must name
 /// vertices that exist.
 pub(crate) fn medial_balls(mesh: &Mesh, places: &[EvenPlace]) -> Vec<Ball> {
-    let tree = TriangleTree::new(mesh);
-    let mut low = Vector3::repeat(f64::INFINITY);
-    let mut high = -low;
-    for corners in &mesh.triangles {
-        let place = &mesh.vertices[corners[0] as usize].coords;
-        (low, high) = (low.inf(place), high.sup(place));
-    }
-    let largest = (high - low).norm();
-    let nearest = |place: &Vector3<f64>| tree.nearest(place);
-    places
-        .par_iter()
-        .map(|at| medial_ball(&at.place, &-at.outward, largest, nearest))
-        .collect()
+    medial_balls_of(&TriangleTree::new(mesh), places)
+}
+
+/// The same, of the triangles of a tree.
+pub(super) fn medial_balls_of(tree: &TriangleTree, places: &[EvenPlace]) -> Vec<Ball> {
+    let ball = |at: &EvenPlace| {
+        let inward = -at.outward;
+        let others = places.iter().map(|other| &other.place);
+        let free = free_radius(&at.place, &inward, tree.size(), others);
+        medial_ball(&at.place, &inward, free, |place| tree.nearest(place))
+    };
+    places.par_iter().map(ball).collect()
 }
 
 /// The ball that touches a surface at `foot` from the side to which the unit vector `inward` points, and
@@ -71,6 +70,25 @@ pub(super) fn medial_ball(
         centre: centre.into(),
         radius: (nearest(&centre) - centre).norm(),
     }
+}
+
+/// The radius of the largest ball that touches a surface at `foot`, as in [`medial_ball`], and holds none of some other
+/// points of the surface; at most `largest`.
+pub(super) fn free_radius<'a>(
+    foot: &Vector3<f64>,
+    inward: &Vector3<f64>,
+    largest: f64,
+    others: impl Iterator<Item = &'a Vector3<f64>>,
+) -> f64 {
+    let radii = others.map(|other| {
+        let across = other - foot;
+        let along = across.dot(inward);
+        match along > 0.0 {
+            true => across.norm_squared() / (2.0 * along),
+            false => f64::INFINITY,
+        }
+    });
+    radii.fold(largest, f64::min)
 }
 
 /// The deepest of some balls, so many of them that are apart and `inside`: where to look for the largest.

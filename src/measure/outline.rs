@@ -3,7 +3,7 @@
 use super::bounds::{OutOfBounds, ratio};
 use super::clearance::{self, Obstacles};
 use super::convex_polygon::ConvexPolygon;
-use super::medial::{deepest, medial_ball};
+use super::medial::{deepest, free_radius, medial_ball};
 use super::roundness::roundness;
 use super::winding::polygon_winding_number;
 use super::{Ball, enclosing_ball};
@@ -155,11 +155,13 @@ fn inscribed_circle(points: &[Vector2<f64>], largest: f64) -> Option<Ball> {
         .unwrap_or(*place)
     };
     let step = points.len().div_ceil(FEET);
+    let corners: Vec<Vector3<f64>> = points.iter().map(|p| in_space(p).coords).collect();
     let medial = (0..points.len()).step_by(step).filter_map(|index| {
         let [start, along] = walls.edge(index);
         let inward = Vector3::new(-along.y, along.x, 0.0).try_normalize(0.0)?;
         let foot = Vector3::new(start.x + along.x / 2.0, start.y + along.y / 2.0, 0.0);
-        Some(medial_ball(&foot, &inward, largest, nearest))
+        let free = free_radius(&foot, &inward, largest, corners.iter());
+        Some(medial_ball(&foot, &inward, free, nearest))
     });
     let is_inside = |ball: &Ball| polygon_winding_number(points, &ball.centre.coords.xy()) > 0.5;
     deepest(medial.collect(), is_inside)

@@ -1,5 +1,6 @@
 //! A tree of boxes over the triangles of a mesh, to find the point nearest to a place.
 
+use super::clearance::Obstacles;
 use crate::Mesh;
 use nalgebra::Vector3;
 
@@ -65,6 +66,27 @@ impl TriangleTree {
         self.build(middle..range.end);
     }
 
+    /// Triangles whose boxes are not farther than `radius` from a place.
+    fn in_reach(&self, place: &Vector3<f64>, radius: f64) -> Vec<usize> {
+        let mut found = Vec::new();
+        let mut open: Vec<usize> = (0..self.nodes.len().min(1)).collect();
+        while let Some(index) = open.pop() {
+            let node = &self.nodes[index];
+            if node.squared_distance(place) <= radius * radius {
+                found.extend(node.triangles.clone());
+                if node.second > 0 {
+                    open.extend([index + 1, node.second]);
+                }
+            }
+        }
+        found
+    }
+
+    /// The diagonal of the box of the mesh.
+    pub(super) fn size(&self) -> f64 {
+        self.nodes.first().map_or(0.0, |root| (root.high - root.low).norm())
+    }
+
     /// The point of the mesh nearest to a place; infinitely far off if there are no triangles.
     pub(super) fn nearest(&self, place: &Vector3<f64>) -> Vector3<f64> {
         let mut best = (f64::INFINITY, Vector3::repeat(f64::INFINITY));
@@ -95,6 +117,30 @@ impl TriangleTree {
         }
         best.1
     }
+}
+
+/// Numbered in an order of the tree's own.
+impl Obstacles for TriangleTree {
+    fn count(&self) -> usize {
+        self.triangles.len()
+    }
+
+    fn nearest(&self, index: usize, place: &Vector3<f64>) -> Vector3<f64> {
+        nearest_in_triangle(&self.triangles[index], place)
+    }
+
+    fn normal(&self, index: usize) -> Vector3<f64> {
+        normal(&self.triangles[index])
+    }
+
+    fn within(&self, place: &Vector3<f64>, radius: f64) -> Vec<usize> {
+        self.in_reach(place, radius)
+    }
+}
+
+/// The normal of a triangle, twice as long as its area is large.
+pub(super) fn normal([a, b, c]: &[Vector3<f64>; 3]) -> Vector3<f64> {
+    (b - a).cross(&(c - a))
 }
 
 impl Node {

@@ -87,8 +87,35 @@ impl<const K: usize> Blend<K> {
         })
     }
 
+    /// Values in a direction.
+    pub(super) fn values(&self, n: &Vector3<f64>) -> [f64; K] {
+        let near = self.cover.near(self.cover.bucket(n));
+        self.blend(near, &[[n.x], [n.y], [n.z]])
+            .0
+            .map(|[value]| value)
+    }
+
+    /// Values in many directions, in their order.
+    pub(super) fn many_values(&self, directions: &[Vector3<f64>]) -> Vec<[f64; K]> {
+        self.many(directions, [0.0; K], |values, _| values)
+    }
+
     /// Values and surface gradients in many directions, in their order.
     pub(super) fn many_values_and_gradients(&self, directions: &[Vector3<f64>]) -> Vec<Blends<K>> {
+        let none = [(0.0, Vector3::zeros()); K];
+        self.many(directions, none, |values, gradients| {
+            std::array::from_fn(|k| (values[k], gradients[k]))
+        })
+    }
+
+    /// What `of` takes of values and surface gradients in many directions, in their order: what it does not take is not
+    /// computed.
+    fn many<T: Copy + Send + Sync>(
+        &self,
+        directions: &[Vector3<f64>],
+        none: T,
+        of: impl Fn([f64; K], [Vector3<f64>; K]) -> T + Copy + Sync,
+    ) -> Vec<T> {
         // Sorted by bucket, so that each bucket looks up once what is near.
         let buckets: Vec<u32> = directions
             .iter()
@@ -107,28 +134,29 @@ impl<const K: usize> Blend<K> {
             sorted[next[bucket as usize]] = index as u32;
             next[bucket as usize] += 1;
         }
-        let parts: Vec<Vec<Blends<K>>> = (0..self.cover.buckets())
+        let parts: Vec<Vec<T>> = (0..self.cover.buckets())
             .into_par_iter()
             .with_min_len(16)
             .map(|bucket| {
                 let members = &sorted[starts[bucket]..starts[bucket + 1]];
-                self.blend_near(self.cover.near(bucket), members, directions)
+                self.blend_near(self.cover.near(bucket), members, directions, of)
             })
             .collect();
-        let mut out = vec![[(0.0, Vector3::zeros()); K]; directions.len()];
+        let mut out = vec![none; directions.len()];
         for (&index, value) in sorted.iter().zip(parts.into_iter().flatten()) {
             out[index as usize] = value;
         }
         out
     }
 
-    /// Values and surface gradients in some of many directions, all near the same cells.
-    fn blend_near(
+    /// The same in some of the directions, all near the same cells.
+    fn blend_near<T>(
         &self,
         near: &[u16],
         members: &[u32],
         directions: &[Vector3<f64>],
-    ) -> Vec<Blends<K>> {
+        of: impl Fn([f64; K], [Vector3<f64>; K]) -> T + Copy,
+    ) -> Vec<T> {
         let mut out = Vec::with_capacity(members.len());
         vectorize(
             #[inline(always)]
@@ -143,11 +171,12 @@ impl<const K: usize> Blend<K> {
                     }
                     let (values, gradients) = self.blend(near, &n);
                     for lane in 0..block.len() {
-                        out.push(std::array::from_fn(|k| {
-                            let [x, y, z] = &gradients[k];
-                            let gradient = Vector3::new(x[lane], y[lane], z[lane]);
-                            (values[k][lane], gradient)
-                        }));
+                        let gradient =
+                            |[x, y, z]: &[[f64; LANES]; 3]| Vector3::new(x[lane], y[lane], z[lane]);
+                        out.push(of(
+                            std::array::from_fn(|k| values[k][lane]),
+                            std::array::from_fn(|k| gradient(&gradients[k])),
+                        ));
                     }
                 }
             },

@@ -73,13 +73,19 @@ impl Blended {
 
     /// Radius in a direction of the grain's own frame.
     pub(crate) fn radius(&self, n: &Vector3<f64>) -> f64 {
-        self.radius_and_gradient(n).0
+        let [radius] = self.radius.values(n);
+        radius
     }
 
     /// Radius and surface gradient in a direction of the grain's own frame.
     pub(crate) fn radius_and_gradient(&self, n: &Vector3<f64>) -> (f64, Vector3<f64>) {
         let [found] = self.radius.values_and_gradients(n);
         found
+    }
+
+    /// Radii in many directions, in their order.
+    pub(crate) fn radii(&self, directions: &[Vector3<f64>]) -> Vec<f64> {
+        self.radius.many_values(directions).into_flattened()
     }
 
     /// Radii and surface gradients in many directions, in their order.

@@ -86,11 +86,7 @@ impl Family {
     /// Radii in many directions, likewise.
     pub(super) fn radii(&self, directions: &[Vector3<f64>]) -> Vec<f64> {
         match self {
-            Self::Blended(surface) => surface
-                .radii_and_gradients(directions)
-                .into_iter()
-                .map(|(radius, _)| radius)
-                .collect(),
+            Self::Blended(surface) => surface.radii(directions),
             Self::Whole(surface) => surface.radii(directions),
             Self::Segmented(_) | Self::Mirrored(_) => {
                 let tasks = directions.par_iter().with_min_len(1024);

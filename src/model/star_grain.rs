@@ -10,6 +10,9 @@ use crate::sphere::cube_grid;
 use nalgebra::{Matrix3, Point3, Vector3};
 use rayon::prelude::*;
 
+/// Directions whose radii are found at once: what is made of them on the way stays near the processor.
+const CHUNK: usize = 1 << 15;
+
 /// A star-shaped surface whose radius is made of expansions in spherical harmonics.
 ///
 /// Directions and positions are those of the scan. The radius is measured from [`Frame::centre`]. The
@@ -126,8 +129,12 @@ impl StarGrain {
     /// [`StarSurface::radius`], and faster.
     pub fn radii(&self, directions: &[Vector3<f64>]) -> Vec<f64> {
         let axes = self.frame.axes;
-        let local: Vec<_> = directions.par_iter().map(|n| axes.tr_mul(n)).collect();
-        self.local_radii(&local)
+        let of_chunk = |directions: &[Vector3<f64>]| {
+            let local: Vec<_> = directions.iter().map(|n| axes.tr_mul(n)).collect();
+            self.local_radii(&local)
+        };
+        let chunks = directions.par_chunks(CHUNK);
+        chunks.flat_map_iter(of_chunk).collect()
     }
 
     /// Radii in many directions of the grain's own frame.

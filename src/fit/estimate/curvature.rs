@@ -44,7 +44,11 @@ impl Estimate {
         let neighbours = Neighbours::new(&self.cloud.directions);
         let misfits = self.misfits();
         let bending = bending_variance(&self.spectrum, &self.unlearnt);
-        let square = |n: &Vector3<f64>| {
+        let misfit = |n: &Vector3<f64>| {
+            let near = neighbours.nearest(&self.stretched(n).normalize(), VICINITY);
+            near.iter().map(|&i| misfits[i]).sum::<f64>() / near.len().max(1) as f64
+        };
+        let square = |n: &Vector3<f64>, misfit: f64| {
             let towards = frame.axes * n;
             let at = |grain: &StarGrain| Curvature::new(&towards, &grain.jet(&towards));
             let curvature = at(&best);
@@ -53,15 +57,14 @@ impl Estimate {
             let rounding = FLOOR * FLOOR * exact.norm_squared();
             let local = [0, 1].map(|i| frame.axes.tr_mul(&curvature.directions[i]));
             let normal = frame.axes.tr_mul(&curvature.normal);
-            let near = neighbours.nearest(&self.stretched(n).normalize(), VICINITY);
-            let misfit = near.iter().map(|&i| misfits[i]).sum::<f64>() / near.len().max(1) as f64;
             let radius = best.radius(&towards);
             difference + rounding + misfit * bending * self.bend(n, radius, &normal, local)
         };
         let places = || (0..PLACES).map(|i| (i as f64 + 0.5) / PLACES as f64);
         let of_cell = |cell: CubeCell| {
             let squares = places().flat_map(|s| places().map(move |t| (s, t)));
-            let sum: f64 = squares.map(|(s, t)| square(&cell.at(s, t))).sum();
+            let misfit = misfit(&cell.at(0.5, 0.5));
+            let sum: f64 = squares.map(|(s, t)| square(&cell.at(s, t), misfit)).sum();
             round((sum / (PLACES * PLACES) as f64).sqrt())
         };
         let cells = CubeCell::uniform(CurvatureErrors::PARTS).into_iter();

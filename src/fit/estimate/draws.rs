@@ -87,7 +87,7 @@ impl Conditioned<'_> {
                 }
             }
             let matrix = MatMut::from_column_major_slice_mut(columns, count, block.len());
-            solve_lower_triangular_in_place(factor.L(), matrix, Par::Seq);
+            solve_lower_triangular_in_place(factor.lower(), matrix, Par::Seq);
             let squares = |column: &[f64]| column.iter().map(|x| x * x).sum::<f64>();
             found.extend(columns.chunks_exact(count).map(squares));
         }

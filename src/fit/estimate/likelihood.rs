@@ -53,6 +53,27 @@ pub(crate) fn hyperprior(points: f64, spectrum: &Spectrum) -> (f64, [f64; 4]) {
     (value, gradient)
 }
 
+/// Second derivatives of the negative logarithm of the hyperprior.
+pub(super) fn hyperprior_curvature(points: f64, spectrum: &Spectrum) -> Matrix4<f64> {
+    if points > FEW_POINTS {
+        return Matrix4::zeros();
+    }
+    let precisions = HYPERPRIOR.map(|[_, sd]| 1.0 / (sd * sd));
+    let by_amplitude = Vector4::from(spectrum.amplitude().1);
+    let own = Vector4::from(precisions).component_mul(&Vector4::new(0.0, 1.0, 1.0, 1.0));
+    by_amplitude * by_amplitude.transpose() * precisions[0] + Matrix4::from_diagonal(&own)
+}
+
+/// The symmetric part of a matrix, with eigenvalues made positive.
+pub(super) fn positive(matrix: &Matrix4<f64>) -> Matrix4<f64> {
+    let eigen = (0.5 * (matrix + matrix.transpose())).symmetric_eigen();
+    let largest = eigen.eigenvalues.amax().max(f64::MIN_POSITIVE);
+    let positive = eigen
+        .eigenvalues
+        .map(|k| k.abs().max(LEAST_CURVATURE * largest));
+    eigen.eigenvectors * Matrix4::from_diagonal(&positive) * eigen.eigenvectors.transpose()
+}
+
 impl Evidence {
     /// F and its gradient.
     pub(crate) fn value(&self, spectrum: &Spectrum) -> (f64, [f64; 4]) {
@@ -129,12 +150,7 @@ impl Evidence {
             let column = (moved(DIFFERENCE) - moved(-DIFFERENCE)) / (2.0 * DIFFERENCE);
             hessian.set_column(i, &column);
         }
-        let eigen = (0.5 * (hessian + hessian.transpose())).symmetric_eigen();
-        let largest = eigen.eigenvalues.amax().max(f64::MIN_POSITIVE);
-        let positive = eigen
-            .eigenvalues
-            .map(|k| k.abs().max(LEAST_CURVATURE * largest));
-        eigen.eigenvectors * Matrix4::from_diagonal(&positive) * eigen.eigenvectors.transpose()
+        positive(&hessian)
     }
 }
 

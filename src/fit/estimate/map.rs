@@ -69,7 +69,8 @@ pub(super) fn rounder(
             let cloud = Cloud::new(&samples, counts, stretch(strength));
             let every = cloud.len().div_ceil(COMPARED_POINTS);
             let part = (compared < first).then(|| cloud.every(every));
-            let fit = fitted(part.as_ref().unwrap_or(&cloud), compared, Spectrum::start());
+            let part = part.as_ref().unwrap_or(&cloud);
+            let fit = fitted(part, compared, Spectrum::start(), None);
             Mapped {
                 strength,
                 cloud,
@@ -97,14 +98,23 @@ pub(super) fn rounder(
     let close = best(&maps).fit.cost + CLOSE * samples.len().min(COMPARED_POINTS) as f64;
     maps.retain(|map| map.fit.cost <= close);
     if maps.len() > 1 && compared < first {
+        // The likeliest first, so that the others need not be followed to their end.
+        maps.sort_by(|a, b| a.fit.cost.total_cmp(&b.fit.cost));
+        let mut least: Option<f64> = None;
         for map in &mut maps {
             context.check()?;
-            map.fit = fitted(&map.cloud, first, map.fit.spectrum);
+            map.fit = fitted(&map.cloud, first, map.fit.spectrum, least);
+            least = Some(least.map_or(map.fit.cost, |least| least.min(map.fit.cost)));
         }
     }
     let strength = best(&maps).strength;
     let found = maps.into_iter().find(|map| map.strength == strength);
-    let Mapped { cloud, fit, .. } = found.expect("one of them is the best");
+    let Mapped { cloud, mut fit, .. } = found.expect("one of them is the best");
+    if let Some(factor) = &fit.factor {
+        let posterior = Posterior::with(&cloud, Arc::clone(&fit.sums));
+        let given = posterior.given_factored(&fit.spectrum, Some(Arc::clone(factor)));
+        fit.unlearnt = given.unlearnt();
+    }
     Ok(Rounder {
         cloud,
         fit,
@@ -112,9 +122,9 @@ pub(super) fn rounder(
     })
 }
 
-fn fitted(cloud: &Cloud, degree: usize, start: Spectrum) -> SpectrumFit {
+fn fitted(cloud: &Cloud, degree: usize, start: Spectrum, beat: Option<f64>) -> SpectrumFit {
     let posterior = Posterior::new(cloud, degree, is_factored(cloud.len(), degree));
-    fit_spectrum(&posterior, start, None, Count::Even)
+    fit_spectrum(&posterior, start, None, Count::Even, beat)
 }
 
 /// The first of those under which the points are most likely.

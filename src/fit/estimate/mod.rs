@@ -13,12 +13,14 @@
 mod cloud;
 mod conjugate_gradients;
 mod curvature;
+mod dense;
 mod dimension_errors;
 mod dimensions;
 mod draws;
 mod errors;
 mod figures;
 mod functionals;
+mod information;
 mod likelihood;
 mod local;
 mod map;
@@ -106,7 +108,13 @@ pub(crate) fn estimate(
         if !std::mem::take(&mut is_found) {
             let mut coefficients = std::mem::take(&mut fit.coefficients);
             coefficients.resize(coefficient_count(degree), 0.0);
-            fit = fit_spectrum(&posterior, fit.spectrum, Some(coefficients), Count::Probed);
+            fit = fit_spectrum(
+                &posterior,
+                fit.spectrum,
+                Some(coefficients),
+                Count::Probed,
+                None,
+            );
         }
         let alone = match rounds < ROUNDS && patches.is_none() {
             true => alone(&posterior, &fit),

@@ -3,8 +3,8 @@
 //! At first each step leads to where the likelihood would be largest if the points said the same of each degree
 //! under every spectrum. Where such a step fails or brings less than half of what it promised (uneven clouds), Newton
 //! steps take over, whose second derivatives learn from the gradients on the way (the update of Broyden, Fletcher,
-//! Goldfarb and Shanno). A step fails that does not lower the cost; where no cost is known, one after which the
-//! gradient points back.
+//! Goldfarb and Shanno). Where second derivatives are known, all steps are Newton's. A step fails that does not lower
+//! the cost; where no cost is known, one after which the gradient points back.
 
 use super::spectrum::Spectrum;
 use super::spectrum::{BOUNDS, STEPS};
@@ -27,6 +27,8 @@ pub(crate) struct Place {
     /// Negative log likelihood, where it is known exactly.
     pub(crate) cost: Option<f64>,
     pub(crate) gradient: Vector4<f64>,
+    /// Its second derivatives, where they are known and tell where the search should lead.
+    pub(crate) information: Option<Matrix4<f64>>,
     /// Where the cost would be least if the evidence stayed as it is here, and by how much it would fall.
     pub(crate) proposal: (Spectrum, f64),
 }
@@ -71,7 +73,7 @@ impl Newton {
         if let Some(best) = self.best {
             self.learn(&best, &place);
             if !is_better(&place, &best) {
-                match self.trusts {
+                match self.trusts && best.information.is_none() {
                     true => self.trusts = false,
                     false => self.share *= 0.5,
                 }
@@ -88,7 +90,7 @@ impl Newton {
             self.trusts &= before - now > KEPT * self.promise;
         }
         self.share = (2.0 * self.share).min(1.0);
-        let (next, promise) = match self.trusts {
+        let (next, promise) = match self.trusts && place.information.is_none() {
             true => place.proposal,
             false => {
                 let next = self.step(&place);
@@ -103,10 +105,15 @@ impl Newton {
         }
     }
 
+    /// By how much the step to the last place that [`Self::next`] told should lower the cost.
+    pub(crate) fn promise(&self) -> f64 {
+        self.promise
+    }
+
     /// The spectrum that a step from a place leads to.
     fn step(&self, place: &Place) -> Spectrum {
         let at = &place.spectrum.0;
-        let mut matrix = self.curvature;
+        let mut matrix = place.information.unwrap_or(self.curvature);
         let mut right = place.gradient;
         for i in 0..4 {
             let [low, high] = BOUNDS[i];

@@ -1,10 +1,10 @@
 //! What an estimate is.
 
 use super::cloud::Cloud;
+use super::dense::Factor;
 use super::posterior::{Conditioned, Posterior};
 use super::spectrum::Spectrum;
 use super::sums::Sums;
-use faer::linalg::solvers::Llt;
 use std::sync::Arc;
 
 /// The estimate of a grain's radius.
@@ -25,7 +25,7 @@ pub(crate) struct Estimate {
     /// Sums over the harmonics in the directions of the cloud.
     pub(super) sums: Arc<Sums>,
     /// The factored matrix of the problem, where it is small enough: 15 MB at degree 36.
-    pub(crate) factor: Option<Arc<Llt<f64>>>,
+    pub(crate) factor: Option<Arc<Factor>>,
 }
 
 impl Estimate {

@@ -7,16 +7,15 @@
 //! gradients, preconditioned by the matrix of an even cloud.
 
 use super::cloud::Cloud;
+use super::dense::Factor;
 use super::spectrum::Spectrum;
 use super::stopping::{Enough, SHARE};
 use super::sums::Sums;
-use crate::sphere::{HarmonicBasis, coefficient_count};
-use faer::linalg::matmul::triangular::{self, BlockStructure};
-use faer::linalg::solvers::{Llt, Solve};
-use faer::linalg::triangular_inverse::invert_lower_triangular;
-use faer::{Accum, Mat, MatMut, MatRef, Par, Side};
+use crate::sphere::coefficient_count;
+use faer::{Mat, MatMut};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
+use std::f64::consts::PI;
 use std::sync::{Arc, OnceLock};
 
 /// A cloud ready to be conditioned on.
@@ -41,17 +40,12 @@ pub(super) fn is_factored(points: usize, degree: usize) -> bool {
     points <= MOST_FACTORED && coefficient_count(degree) as f64 > FACTORED * points as f64
 }
 
-/// Points whose part of the design matrix is formed at once.
-const BLOCK: usize = 512;
-
 impl<'a> Posterior<'a> {
     /// Prepares a cloud for harmonics up to `degree`; `factored` says whether to form and factor the matrix.
     pub(crate) fn new(cloud: &'a Cloud, degree: usize, factored: bool) -> Self {
-        let gram = factored.then(|| gram(cloud, degree));
-        Self {
-            gram,
-            ..Self::with(cloud, Arc::new(Sums::new(degree)))
-        }
+        let posterior = Self::with(cloud, Arc::new(Sums::new(degree)));
+        let gram = factored.then(|| posterior.sums.gram(cloud).matrix());
+        Self { gram, ..posterior }
     }
 
     /// The same of a cloud whose sums are at hand; nothing is factored.
@@ -70,7 +64,7 @@ impl<'a> Posterior<'a> {
         given.factor = self
             .gram
             .as_ref()
-            .and_then(|gram| factor(gram, &given.variances, given.noise))
+            .and_then(|gram| Factor::new(gram, &given.variances, given.noise))
             .map(Arc::new);
         given
     }
@@ -79,7 +73,7 @@ impl<'a> Posterior<'a> {
     pub(crate) fn given_factored(
         &self,
         spectrum: &Spectrum,
-        factor: Option<Arc<Llt<f64>>>,
+        factor: Option<Arc<Factor>>,
     ) -> Conditioned<'_> {
         let degrees = spectrum.variances(self.degree());
         let variances = degrees
@@ -129,74 +123,26 @@ impl<'a> Posterior<'a> {
     }
 }
 
-/// The Cholesky factor of I + V^1/2 Y'WY V^1/2 / s^2.
-fn factor(gram: &Mat<f64>, variances: &[f64], noise: f64) -> Option<Llt<f64>> {
-    let root: Vec<f64> = variances.iter().map(|v| v.sqrt()).collect();
-    let count = root.len();
-    let mut matrix = Mat::zeros(count, count);
-    for j in 0..count {
-        let (from, to) = (gram.col_as_slice(j), matrix.col_as_slice_mut(j));
-        let scale = root[j] / noise;
-        for i in j..count {
-            to[i] = from[i] * root[i] * scale;
-        }
-        to[j] += 1.0;
-    }
-    matrix.llt(Side::Lower).ok()
-}
-
-/// Y'WY, lower triangle.
-fn gram(cloud: &Cloud, degree: usize) -> Mat<f64> {
-    let basis = HarmonicBasis::new(degree);
-    let count = coefficient_count(degree);
-    let mut gram = Mat::zeros(count, count);
-    let mut rows = vec![0.0; BLOCK * count];
-    let points = cloud
-        .directions
-        .chunks(BLOCK)
-        .zip(cloud.weights.chunks(BLOCK));
-    for (directions, weights) in points {
-        let block = directions.len();
-        for ((n, weight), row) in directions
-            .iter()
-            .zip(weights)
-            .zip(rows.chunks_exact_mut(count))
-        {
-            basis.evaluate(n, row);
-            let root = weight.sqrt();
-            row.iter_mut().for_each(|value| *value *= root);
-        }
-        // One column per point.
-        let design = MatRef::from_column_major_slice(&rows[..block * count], count, block);
-        triangular::matmul(
-            gram.as_mut(),
-            BlockStructure::TriangularLower,
-            Accum::Add,
-            design,
-            BlockStructure::Rectangular,
-            design.transpose(),
-            BlockStructure::Rectangular,
-            1.0,
-            Par::Seq,
-        );
-    }
-    gram
-}
-
 /// The posterior for a spectrum.
 pub(crate) struct Conditioned<'a> {
     pub(super) posterior: &'a Posterior<'a>,
     /// v_l per degree, and of every coefficient.
-    degrees: Vec<f64>,
+    pub(super) degrees: Vec<f64>,
     pub(super) variances: Vec<f64>,
     /// s^2.
     pub(super) noise: f64,
     /// The Cholesky factor of I + V^1/2 Y'WY V^1/2 / s^2.
-    pub(super) factor: Option<Arc<Llt<f64>>>,
+    pub(super) factor: Option<Arc<Factor>>,
 }
 
 /// Random vectors by which traces are estimated.
 const PROBES: usize = 4;
+
+/// The same where the matrix is factored, and each costs little.
+const FACTORED_PROBES: usize = 16;
+
+/// Shares that the points leave are kept within these bounds, whatever the probes say.
+const SHARES: [f64; 2] = [1e-15, 1.0 - 1e-9];
 
 /// They are solved for until so much of the squared error per coefficient is left: the traces are then good to a
 /// percent, far less than by what four vectors scatter.
@@ -216,9 +162,8 @@ impl Conditioned<'_> {
     /// The exact negative logarithm of the likelihood, where the matrix is factored:
     /// 1/2 [n log s^2 + log det(I + V^1/2 Y'WY V^1/2 / s^2) + (y'Wy - y'WY x) / s^2].
     pub(crate) fn cost(&self, mean: &[f64]) -> Option<f64> {
-        let factor = self.factor.as_ref()?.L();
+        let log_determinant = self.factor.as_ref()?.log_root_determinant();
         let cloud = self.posterior.cloud;
-        let log_determinant: f64 = (0..factor.nrows()).map(|j| factor[(j, j)].ln()).sum();
         // y'Wy - y'WY x without cancellation: the weighted squares of the residuals and x'V^-1 x s^2.
         let residuals = self.posterior.residuals(mean);
         let squared = residuals.iter().zip(&cloud.weights);
@@ -250,14 +195,18 @@ impl Conditioned<'_> {
         (found.into_iter().next().unwrap_or_default(), 0)
     }
 
-    fn solve_factored(&self, factor: &Llt<f64>, rights: &[impl AsRef<[f64]>]) -> Vec<Vec<f64>> {
+    pub(super) fn solve_factored(
+        &self,
+        factor: &Factor,
+        rights: &[impl AsRef<[f64]>],
+    ) -> Vec<Vec<f64>> {
         let count = self.variances.len();
         let roots: Vec<f64> = self.variances.iter().map(|v| v.sqrt()).collect();
         let mut all: Vec<f64> = rights
             .iter()
             .flat_map(|right| right.as_ref().iter().zip(&roots).map(|(b, root)| b * root))
             .collect();
-        factor.solve_in_place(MatMut::from_column_major_slice_mut(
+        factor.solve(MatMut::from_column_major_slice_mut(
             &mut all,
             count,
             rights.len(),
@@ -267,16 +216,34 @@ impl Conditioned<'_> {
             .collect()
     }
 
-    /// Per degree, the share of the prior variance that the points leave: the mean of C_mm / v_l.
+    /// Per degree, the share of the prior variance that the points leave: the mean of C_mm / v_l. Exact where the matrix
+    /// is factored.
     pub(crate) fn unlearnt(&self) -> Vec<f64> {
-        let diagonal = match &self.factor {
-            Some(factor) => inverse_diagonal(factor),
-            None => self.probed_diagonal(),
-        };
+        match &self.factor {
+            Some(factor) => self.per_degree(&factor.inverse_diagonal()),
+            None => self.probed_unlearnt(),
+        }
+    }
+
+    /// The same, good to what random probes scatter: enough for a step of a search.
+    pub(super) fn probed_unlearnt(&self) -> Vec<f64> {
+        self.per_degree(&self.probed_diagonal())
+    }
+
+    /// The same, as of an even cloud.
+    pub(super) fn even_unlearnt(&self) -> Vec<f64> {
+        let even = self.posterior.cloud.len() as f64 / (4.0 * PI);
+        let share = |v: &f64| self.noise / (even * v + self.noise);
+        let shares = self.degrees.iter().map(share);
+        shares.map(|q| q.clamp(SHARES[0], SHARES[1])).collect()
+    }
+
+    fn per_degree(&self, diagonal: &[f64]) -> Vec<f64> {
         (0..self.degrees.len())
             .map(|l| {
                 let own = &diagonal[l * l..(l + 1) * (l + 1)];
-                own.iter().sum::<f64>() / own.len() as f64
+                let mean = own.iter().sum::<f64>() / own.len() as f64;
+                mean.clamp(SHARES[0], SHARES[1])
             })
             .collect()
     }
@@ -284,30 +251,38 @@ impl Conditioned<'_> {
     /// Estimates of C_jj / v_j whose means are right: h'C h of random signs h over the roots of v.
     fn probed_diagonal(&self) -> Vec<f64> {
         let mut random = ChaCha8Rng::seed_from_u64(0);
-        let mut diagonal = vec![0.0; self.variances.len()];
-        let settled = PROBES_SETTLED * diagonal.len() as f64;
-        for _ in 0..PROBES {
-            let probe: Vec<f64> = self
-                .variances
+        let count = self.variances.len();
+        let probes = match self.factor {
+            Some(_) => FACTORED_PROBES,
+            None => PROBES,
+        };
+        let probes: Vec<Vec<f64>> = (0..probes)
+            .map(|_| {
+                let roots = self.variances.iter().map(|v| v.sqrt());
+                let mut sign = || {
+                    if random.next_u32() & 1 == 0 {
+                        1.0
+                    } else {
+                        -1.0
+                    }
+                };
+                roots.map(|root| sign() / root).collect()
+            })
+            .collect();
+        let settled = Enough::Energy(PROBES_SETTLED * count as f64);
+        let solved = match &self.factor {
+            Some(factor) => self.solve_factored(factor, &probes),
+            None => probes
                 .iter()
-                .map(|v| if random.next_u32() & 1 == 0 { 1.0 } else { -1.0 } / v.sqrt())
-                .collect();
-            let (solution, _) = self.solve(&probe, None, settled);
-            for ((diagonal, h), z) in diagonal.iter_mut().zip(&probe).zip(&solution) {
-                *diagonal += h * z / PROBES as f64;
+                .map(|probe| self.conjugate_gradients(probe, None, settled).0)
+                .collect(),
+        };
+        let mut diagonal = vec![0.0; count];
+        for (probe, solution) in probes.iter().zip(&solved) {
+            for ((diagonal, h), z) in diagonal.iter_mut().zip(probe).zip(solution) {
+                *diagonal += h * z / probes.len() as f64;
             }
         }
         diagonal
     }
-}
-
-/// The diagonal of the inverse of a factored matrix.
-fn inverse_diagonal(factor: &Llt<f64>) -> Vec<f64> {
-    let l = factor.L();
-    let count = l.nrows();
-    let mut inverse = Mat::zeros(count, count);
-    invert_lower_triangular(inverse.as_mut(), l, Par::Seq);
-    (0..count)
-        .map(|j| inverse.col_as_slice(j)[j..].iter().map(|x| x * x).sum())
-        .collect()
 }

@@ -4,18 +4,23 @@
 //! most likely spectrum. Of a cloud whose matrix is not factored, the first rounds take it as even
 //! (N_l = n / 4 pi); then random probes tell N_l.
 
-use super::likelihood::{Evidence, hyperprior};
+use super::dense::Factor;
+use super::likelihood::{Evidence, hyperprior, hyperprior_curvature, positive};
 use super::newton::{Newton, Next, Place};
 use super::posterior::{Conditioned, Posterior};
 use super::spectrum::Spectrum;
 use super::stopping::SETTLED as MEAN_SETTLED;
 use super::sums::Sums;
-use faer::linalg::solvers::Llt;
-use std::f64::consts::PI;
 use std::sync::Arc;
 
-/// Rounds at most; three to ten are usual.
+/// Rounds at most; three to six are usual.
 const MOST_ROUNDS: usize = 40;
+
+/// Where the cost may fall by more than this per point, second derivatives say little.
+const FAR: f64 = 0.3;
+
+/// A search brings at most so many times what its next step promises.
+const SURELY: f64 = 3.0;
 
 /// A spectrum and the coefficients under it.
 #[derive(Debug, Clone)]
@@ -30,7 +35,7 @@ pub(crate) struct SpectrumFit {
     /// Sums over the harmonics in the directions of its cloud.
     pub(crate) sums: Arc<Sums>,
     /// The factored matrix, where it is factored.
-    pub(crate) factor: Option<Arc<Llt<f64>>>,
+    pub(crate) factor: Option<Arc<Factor>>,
 }
 
 /// How the number of measurements per degree is told where no matrix is factored.
@@ -42,13 +47,16 @@ pub(crate) enum Count {
     Probed,
 }
 
-/// Finds the most likely spectrum from `start`.
+/// Finds the most likely spectrum from `start`. The search ends early where the exact cost will hardly be as low as
+/// `beat`.
 pub(crate) fn fit_spectrum(
     posterior: &Posterior<'_>,
     start: Spectrum,
     coefficients: Option<Vec<f64>>,
     count: Count,
+    beat: Option<f64>,
 ) -> SpectrumFit {
+    let points = posterior.cloud.len() as f64;
     let mut spectrum = start;
     let is_warm = coefficients.is_some();
     let mut coefficients = coefficients;
@@ -68,30 +76,43 @@ pub(crate) fn fit_spectrum(
             gradient,
         } = told(posterior, &given, &spectrum, &mean, counted);
         let value = evidence.value(&spectrum).0;
-        let prior = hyperprior(posterior.cloud.len() as f64, &spectrum).0;
+        let prior = hyperprior(points, &spectrum).0;
         let cost = given.cost(&mean).map(|cost| cost + prior);
+        let proposal = evidence.most_likely(&spectrum);
+        let is_near = proposal.1 < FAR * points;
+        let information = is_near
+            .then(|| given.information(&spectrum, &mean))
+            .flatten();
         let place = Place {
             spectrum,
             cost,
             gradient: gradient.into(),
-            proposal: evidence.most_likely(&spectrum),
+            information: information
+                .map(|known| positive(&(known + hyperprior_curvature(points, &spectrum)))),
+            proposal,
         };
         let search = newton.get_or_insert_with(|| Newton::new(evidence.curvature(&spectrum)));
         let next = match is_last || round >= MOST_ROUNDS {
             true => Next::Here,
             false => search.next(place),
         };
+        let told_cost = cost.unwrap_or(value) - posterior.cloud.compression;
+        let is_beaten =
+            cost.is_some() && beat.is_some_and(|beat| told_cost - SURELY * search.promise() > beat);
+        if is_beaten || (counted == count && matches!(next, Next::Here)) {
+            return SpectrumFit {
+                cost: told_cost,
+                spectrum,
+                coefficients: mean,
+                unlearnt: match count {
+                    Count::Probed if given.factor.is_some() => given.unlearnt(),
+                    _ => unlearnt,
+                },
+                sums: Arc::clone(&posterior.sums),
+                factor: given.factor,
+            };
+        }
         match next {
-            Next::Here if counted == count => {
-                return SpectrumFit {
-                    cost: cost.unwrap_or(value) - posterior.cloud.compression,
-                    spectrum,
-                    coefficients: mean,
-                    unlearnt,
-                    sums: Arc::clone(&posterior.sums),
-                    factor: given.factor,
-                };
-            }
             Next::Here => {
                 counted = count;
                 newton = None;
@@ -120,9 +141,6 @@ struct Told {
 /// Squared residuals of the unshrunk coefficients are at least this share of those of the shrunk ones.
 const LEAST_RESIDUALS: f64 = 1e-3;
 
-/// Shares that the points leave are kept within these bounds, whatever the probes say.
-const SHARES: [f64; 2] = [1e-15, 1.0 - 1e-9];
-
 fn told(
     posterior: &Posterior<'_>,
     given: &Conditioned<'_>,
@@ -134,18 +152,10 @@ fn told(
     let points = cloud.len() as f64;
     let noise = spectrum.noise().powi(2);
     let variances = spectrum.variances(posterior.degree());
-    let mut unlearnt = if posterior.is_factored() || count == Count::Probed {
-        given.unlearnt()
-    } else {
-        let even = points / (4.0 * PI);
-        variances
-            .iter()
-            .map(|v| noise / (even * v + noise))
-            .collect()
+    let unlearnt = match posterior.is_factored() || count == Count::Probed {
+        true => given.probed_unlearnt(),
+        false => given.even_unlearnt(),
     };
-    for share in &mut unlearnt {
-        *share = share.clamp(SHARES[0], SHARES[1]);
-    }
     let residuals = posterior.residuals(mean);
     let squares = residuals.iter().zip(&cloud.weights);
     let squared: f64 = squares.map(|(e, w)| w * e * e).sum();

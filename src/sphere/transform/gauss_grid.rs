@@ -71,6 +71,31 @@ impl GaussGrid {
             .flat_map(move |&weight| std::iter::repeat_n(weight, azimuths))
     }
 
+    /// The polar parts of the harmonics.
+    pub(super) fn polar(&self) -> &PolarTable {
+        &self.polar
+    }
+
+    /// The terms of the azimuth, of orders 0 to `order`, of values at the nodes: of each order a column like those of
+    /// [`Self::polar`]. First the sums of a ring's and its mirror image's, then their differences.
+    pub(super) fn folded_terms(&self, values: &[f64], order: usize) -> [Vec<Vec<Complex<f64>>>; 2] {
+        let column = vec![Complex::ZERO; self.polar.column_length()];
+        let mut folded = [(); 2].map(|()| vec![column.clone(); order + 1]);
+        let mut terms = vec![Complex::ZERO; order + 1];
+        let mut workspace = self.fft.workspace();
+        let rings = self.weights.len();
+        for (ring, values) in values.chunks_exact(self.fft.points()).enumerate() {
+            self.fft
+                .adjoint(&mut values.to_vec(), &mut terms, &mut workspace);
+            let mirrored = rings - 1 - ring;
+            for (k, term) in terms.iter().enumerate() {
+                folded[0][k][ring.min(mirrored)] += term;
+                folded[1][k][ring.min(mirrored)] += if ring <= mirrored { *term } else { -term };
+            }
+        }
+        folded
+    }
+
     /// Values of an expansion at the nodes.
     pub(super) fn synthesis(&self, coefficients: &[f64], values: &mut [f64]) {
         let mut terms = vec![Complex::ZERO; self.weights.len() * self.orders];

@@ -53,6 +53,17 @@ impl PolarTable {
         rings.div_ceil(2).next_multiple_of(LANES)
     }
 
+    /// Length of a column of this table.
+    pub(super) fn column_length(&self) -> usize {
+        self.rows
+    }
+
+    /// The columns of an order, one after the other by degree.
+    pub(super) fn columns(&self, m: usize) -> &[f64] {
+        let before = m * (2 * self.degree + 3 - m) / 2;
+        &self.columns[before * self.rows..(before + self.degree + 1 - m) * self.rows]
+    }
+
     /// Number of rings.
     pub(super) fn rings(&self) -> usize {
         self.rings

@@ -113,7 +113,8 @@ fn the_gram_matrix_is_the_direct_sum() {
         let mut found = vec![f64::NAN; x.len()];
         let mut moments = vec![0.0; (2 * degree + 1).pow(2)];
         AccurateHarmonics::new(2 * degree, &directions).adjoint(&weights, &mut moments);
-        HarmonicGram::new(degree, &moments).apply(&x, &mut found);
+        let gram = HarmonicGram::new(degree, &moments);
+        gram.apply(&x, &mut found);
         let values = rows.iter().zip(&weights).map(|(row, w)| w * dot(row, &x));
         let values: Vec<f64> = values.collect();
         let error = |(j, have): (usize, &f64)| {
@@ -123,6 +124,16 @@ fn the_gram_matrix_is_the_direct_sum() {
         let error = found.iter().enumerate().map(error).fold(0.0, f64::max);
         let error = error / (total * norm(&x));
         assert!(error < 1e-13, "L = {degree}: {error:e}");
+
+        let matrix = gram.matrix();
+        for j in [0, x.len() / 3, x.len() / 2, x.len() - 1] {
+            for i in j..x.len() {
+                let products = rows.iter().map(|row| row[i] * row[j]).zip(&weights);
+                let want: f64 = products.map(|(product, w)| product * w).sum();
+                let error = (matrix[(i, j)] - want).abs() / total;
+                assert!(error < 1e-12, "L = {degree}, {i}, {j}: {error:e}");
+            }
+        }
     }
 }
 
