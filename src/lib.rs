@@ -4,7 +4,7 @@
 //!
 //! ```text
 //! scan -> fit -> model -> measure -> export / report
-//!                  \-> contact
+//!                  \-> contact -> bed
 //! ```
 //!
 //! A scan of many grains is first [split](scan::split), and many scans are gone through in a `batch`.
@@ -19,6 +19,7 @@
 
 #[cfg(feature = "cli")]
 pub mod batch;
+pub mod bed;
 #[cfg(feature = "cli")]
 pub mod bench;
 #[cfg(feature = "cli")]

@@ -2,6 +2,7 @@
 
 mod args;
 mod batch;
+mod bed;
 mod bench;
 mod candidates;
 mod compare;
@@ -58,6 +59,7 @@ pub fn run() -> ExitCode {
         Command::Split(args) => split::run(args, console),
         Command::Batch(args) => batch::run(args, console),
         Command::Compare(args) => compare::run(args, console),
+        Command::Bed(args) => bed::run(args, console),
         Command::Bench(args) => bench::run(args, console),
         Command::Completions(args) => shell::completions(&args),
         Command::Man(args) => shell::man(&args),

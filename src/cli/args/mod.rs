@@ -1,8 +1,10 @@
 //! The arguments as they are typed.
 
+mod bed;
 mod many;
 mod shared;
 
+pub(super) use bed::BedArgs;
 pub(super) use many::{BatchArgs, CompareArgs, SplitArgs};
 pub(super) use shared::{FittingArgs, InputArgs, LimitArgs, MeshingArgs};
 
@@ -52,6 +54,7 @@ pub(super) enum Command {
     Split(SplitArgs),
     Batch(BatchArgs),
     Compare(CompareArgs),
+    Bed(BedArgs),
     Bench(BenchArgs),
     Completions(CompletionsArgs),
     Man(ManArgs),
