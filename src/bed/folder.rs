@@ -1,6 +1,7 @@
 //! A bed settles, and a folder keeps what it needs to go on after it was stopped at any moment.
 
 use super::grain::GrainKind;
+use super::rest::Rest;
 use super::settings::{BedError, BedSettings};
 use super::settle::{Bed, State};
 use super::write::{write_dump, write_vtk};
@@ -11,12 +12,6 @@ use std::fs;
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
-
-/// Steps between two looks at the bed.
-const LOOK: u64 = 50;
-
-/// Looks in a row at which a bed must be at rest.
-const QUIET: u32 = 5;
 
 /// How often the state is saved.
 const SAVED: Duration = Duration::from_secs(10);
@@ -34,15 +29,6 @@ pub struct Folder<'a> {
     pub path: &'a Path,
     /// Metres of the unit of lengths in frames and `bed.vtk`; the state is in SI units.
     pub unit: f64,
-}
-
-/// Why a bed ended.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Rest {
-    /// It is at rest.
-    AtRest,
-    /// It is not, but its time is up.
-    TimeIsUp,
 }
 
 /// Why a bed has not settled.
@@ -140,10 +126,7 @@ impl Folder<'_> {
                 break rest;
             }
             let before = frame(bed);
-            for _ in 0..LOOK {
-                bed.advance();
-            }
-            bed.look()?;
+            bed.go_on()?;
             if frame(bed) > before {
                 write_frame(bed)?;
             }
@@ -171,31 +154,6 @@ impl Folder<'_> {
             serde_json::to_writer(&mut *writer, &saved)
                 .map_err(|error| WriteError::Io(error.into()))
         })
-    }
-}
-
-impl Bed {
-    /// Looks whether the bed is at rest.
-    fn look(&mut self) -> Result<(), BedError> {
-        let liveliness = self.liveliness();
-        if !liveliness.is_finite() {
-            return Err(BedError::Unstable {
-                seconds: self.seconds(),
-            });
-        }
-        self.state.quiet = match liveliness < self.settings.rest {
-            true => self.state.quiet + 1,
-            false => 0,
-        };
-        Ok(())
-    }
-
-    /// Whether the bed has come to its end.
-    fn rest(&self) -> Option<Rest> {
-        if self.state.quiet >= QUIET {
-            return Some(Rest::AtRest);
-        }
-        (self.seconds() >= self.settings.most_seconds).then_some(Rest::TimeIsUp)
     }
 }
 

@@ -5,6 +5,7 @@
 
 mod body;
 mod fabric;
+mod field;
 mod folder;
 mod grain;
 mod link;
@@ -12,6 +13,7 @@ mod neighbours;
 mod packing;
 mod paint;
 mod record;
+mod rest;
 mod settings;
 mod settle;
 mod start;
@@ -22,10 +24,11 @@ mod write;
 
 pub use body::Body;
 pub use fabric::{Fabric, Forces, Order, fabric};
-pub use folder::{Folder, FolderError, Rest};
+pub use folder::{Folder, FolderError};
 pub use grain::{GrainError, GrainKind};
 pub use packing::{Fraction, Layer, Packing, packing};
 pub use paint::{PaintedGrain, painted};
+pub use rest::Rest;
 pub use settings::{BED_GRAINS, BedError, BedSettings, Container};
 pub use settle::Bed;
 pub use wall::Wall;

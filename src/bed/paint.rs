@@ -3,7 +3,6 @@
 use super::settle::Bed;
 use crate::mesh::Mesh;
 use crate::model::StarSurface;
-use nalgebra::Point3;
 
 /// Colours that grains next to each other can be told apart by: red, green and blue, 0 to 255.
 const COLOURS: [[u8; 3]; 6] = [
@@ -55,7 +54,7 @@ pub fn painted(bed: &Bed, resolution: usize) -> impl Iterator<Item = PaintedGrai
         PaintedGrain {
             number,
             mesh: Mesh {
-                vertices: placed.map(Point3::from).collect(),
+                vertices: placed.collect(),
                 triangles: own.triangles.clone(),
             },
             colour: COLOURS[number % COLOURS.len()],

@@ -170,8 +170,7 @@ fn to_surface(shape: &Superquadric, from: &Vector3<f64>, along: &Vector3<f64>) -
         let (gauge, slope) = shape.gauge_and_slope(&(from + along * way));
         let step = (1.0 - gauge) / slope.dot(along);
         way += step;
-        // Written so that NaN ends.
-        if !(step.abs() > 1e-12 * way.abs()) {
+        if step.abs() <= 1e-12 * way.abs() || step.is_nan() {
             break;
         }
     }

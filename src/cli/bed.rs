@@ -143,7 +143,7 @@ impl Watch {
     fn new(console: Console) -> Self {
         let now = Instant::now();
         Self {
-            bar: stderr().is_terminal().then(|| console.progress()),
+            bar: (stderr().is_terminal() && !console.is_verbose()).then(|| console.progress()),
             is_quiet: console.is_quiet(),
             told: now,
             before: (now, f64::NAN),

@@ -163,27 +163,33 @@ impl fmt::Display for BedReport {
             settings.friction, settings.rolling_friction, settings.damping[0], settings.damping[1]
         )?;
         if let [run] = self.runs.as_slice() {
+            let way = match run.is_at_rest {
+                true => "in",
+                false => "not, in",
+            };
             writeln!(
                 f,
-                "settled       in {} s, {}",
+                "settled       {way} {} s, {}",
                 short(run.seconds),
                 plural(run.steps as usize, "step")
             )?;
         } else {
             writeln!(f, "runs          {}", self.runs.len())?;
         }
-        let none = || "not told: see the warning".to_owned();
+        let none = || "not told: the bed is too low or too narrow".to_owned();
         let fraction = |figure: Option<crate::bed::Fraction>| {
             figure.map(|fraction| (fraction.value, Some(fraction.error)))
         };
         let core = self.mean(|run| fraction(run.packing.core));
         let whole = self.mean(|run| fraction(run.packing.whole));
-        writeln!(f, "packing       {} in the core", core.unwrap_or_else(none))?;
-        writeln!(
-            f,
-            "              {} from wall to wall",
-            whole.unwrap_or_else(none)
-        )?;
+        let core = core.map_or_else(none, |core| {
+            format!("packing fraction {core}, two diameters off the walls")
+        });
+        let whole = whole.map_or_else(none, |whole| {
+            format!("packing fraction {whole}, from wall to wall")
+        });
+        writeln!(f, "core          {core}")?;
+        writeln!(f, "whole         {whole}")?;
         let per_grain = |figure: &dyn Fn(&Fabric) -> f64| {
             self.mean(|run| Some((figure(&run.fabric), None)))
                 .unwrap_or_else(none)
