@@ -18,8 +18,9 @@ const LAYER: f64 = 0.5;
 /// Strata along a mean diameter.
 const STRATA: f64 = 10.0;
 
-/// Most strata along a side, and in all: the strata of wide beds are larger.
+/// Most strata of a layer and along one of its sides: those of wide beds are larger.
 const MOST_STRATA: f64 = 4e6;
+const MOST_ALONG: f64 = 1e4;
 
 /// How far the core keeps from side walls and from the floor, in mean diameters.
 const FROM_SIDES: f64 = 2.0;
@@ -227,7 +228,7 @@ impl<'a> Grid<'a> {
         let finest = diameter / STRATA;
         let coarsest = (sides[0] * sides[1] * levels / MOST_STRATA).sqrt();
         let width = finest.max(coarsest);
-        let counts = [0, 1].map(|axis| (sides[axis] / width).ceil().max(1.0));
+        let counts = [0, 1].map(|axis| (sides[axis] / width).ceil().clamp(1.0, MOST_ALONG));
         let [columns, rows] = counts.map(|count| count as usize);
         let size = Vector3::new(
             sides[0] / counts[0],

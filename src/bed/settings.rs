@@ -110,6 +110,12 @@ pub enum BedError {
         /// The most allowed.
         most: usize,
     },
+    /// A wall that names a vertex that does not exist.
+    #[error("a triangle of the wall names vertex {vertex}, which it does not have")]
+    NoSuchVertex {
+        /// The number of the vertex, from zero.
+        vertex: u32,
+    },
     /// No shapes, or none that has a share.
     #[error("a bed needs a grain whose share is above zero")]
     NoKinds,
@@ -202,10 +208,16 @@ impl BedSettings {
                     most: MOST_TRIANGLES,
                 });
             }
-            let triangles = mesh.triangles.iter();
-            walls.extend(triangles.map(|corners| Wall::Triangle {
-                corners: corners.map(|corner| mesh.vertices[corner as usize]),
-            }));
+            for corners in &mesh.triangles {
+                let vertex = |vertex: u32| {
+                    let found = mesh.vertices.get(vertex as usize);
+                    found.copied().ok_or(BedError::NoSuchVertex { vertex })
+                };
+                let [a, b, c] = *corners;
+                walls.push(Wall::Triangle {
+                    corners: [vertex(a)?, vertex(b)?, vertex(c)?],
+                });
+            }
         }
         Ok(walls)
     }

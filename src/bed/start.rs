@@ -11,6 +11,9 @@ use rand_distr::{Distribution, StandardNormal, StandardUniform};
 /// How much wider than the widest grain a place of the grid is.
 const ROOM: f64 = 1.02;
 
+/// Most places along a side of the grid: in wide containers grains begin farther apart.
+const MOST_ALONG: f64 = 2000.0;
+
 /// Sideways velocity at the start, as a share of sqrt(g d).
 const SIDEWAYS: f64 = 0.5;
 
@@ -85,7 +88,7 @@ fn in_any_order(counts: Vec<usize>, random: &mut ChaCha8Rng) -> Vec<usize> {
 fn level(container: Container, reach: f64) -> Vec<[f64; 2]> {
     let pitch = 2.0 * ROOM * reach;
     let along = |from: f64, length: f64| {
-        let count = (length / pitch).floor() as usize;
+        let count = (length / pitch).floor().min(MOST_ALONG) as usize;
         let step = length / count.max(1) as f64;
         (0..count).map(move |at| from + step * (at as f64 + 0.5))
     };

@@ -10,8 +10,8 @@ use std::io::Write;
 const RESOLUTION: usize = 6;
 
 /// Writes all parts of the grains as a frame of a LAMMPS dump, lengths divided by `unit` metres: a row for each part,
-/// `mol` being its grain, shapes as diameters, quaternions as LAMMPS has them. OVITO draws ellipsoids of these; the
-/// exponents of superquadrics (those of the positive side) are in the columns roundness1, 2/n1, and roundness2, 2/n2.
+/// `mol` being its grain, shapes as diameters, quaternions as LAMMPS has them. OVITO draws ellipsoids of these, and
+/// superquadrics once the last two columns, 2/n2 and 2/n1 of the positive sides, are mapped to its roundness.
 ///
 /// # Errors
 /// [`WriteError::Io`].
@@ -30,7 +30,7 @@ pub fn write_dump(bed: &Bed, unit: f64, writer: &mut dyn Write) -> Result<(), Wr
     }
     writeln!(
         writer,
-        "ITEM: ATOMS id type mol x y z vx vy vz quati quatj quatk quatw shapex shapey shapez roundness1 roundness2"
+        "ITEM: ATOMS id type mol x y z vx vy vz quati quatj quatk quatw shapex shapey shapez phi theta"
     )?;
     let mut id = 0;
     for (number, body) in bed.bodies().iter().enumerate() {
@@ -50,7 +50,7 @@ pub fn write_dump(bed: &Bed, unit: f64, writer: &mut dyn Write) -> Result<(), Wr
                 centre.x, centre.y, centre.z, velocity.x, velocity.y, velocity.z,
             ];
             let turn = [turn.i, turn.j, turn.k, turn.w];
-            let round = [2.0 / shape.n1()[0], 2.0 / shape.n2()[0][0]];
+            let round = [2.0 / shape.n2()[0][0], 2.0 / shape.n1()[0]];
             for value in numbers.iter().chain(&turn).chain(&diameters).chain(&round) {
                 write!(writer, " {value:.9e}")?;
             }
