@@ -26,6 +26,9 @@ const DIAMETER: f64 = 5e-3;
 const SIDE: f64 = 0.06;
 const GRAINS: usize = 1500;
 
+/// Simulated time after which a bed without friction, which never quite comes to rest, is told all the same.
+const SECONDS: f64 = 1.5;
+
 /// The figures of one bed.
 struct Figures {
     packing: f64,
@@ -77,6 +80,7 @@ fn bed(shape: &Shape, seed: u64, grains: usize) -> Result<Figures, Box<dyn Error
         grains,
         container: Container::Box([SIDE * (grains as f64 / GRAINS as f64).cbrt(); 2]),
         friction: shape.friction,
+        most_seconds: SECONDS,
         seed,
         ..BedSettings::default()
     };

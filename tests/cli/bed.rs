@@ -3,16 +3,20 @@
 use super::{errors, folder, grainform, json, names, succeed};
 use std::fs;
 
-/// A folder with two models of convex parts and one of harmonics.
+/// A folder with a scan and a model of it that is convex.
 fn models() -> tempfile::TempDir {
     let folder = folder();
-    succeed(
-        &folder,
-        &["synth", "ellipsoid", "--points", "600", "-o", "s.ply"],
-    );
-    for (surface, file) in [("superquadric", "lens.json"), ("star", "star.json")] {
-        succeed(&folder, &["fit", "s.ply", "--surface", surface, "-o", file]);
-    }
+    let scan = ["synth", "ellipsoid", "--points", "400", "-o", "s.ply"];
+    succeed(&folder, &scan);
+    let fit = [
+        "fit",
+        "s.ply",
+        "--surface",
+        "superquadric",
+        "-o",
+        "lens.json",
+    ];
+    succeed(&folder, &fit);
     folder
 }
 
@@ -108,6 +112,8 @@ fn seeds_tell_errors_and_a_cylinder_and_a_mesh_hold() {
 #[test]
 fn what_makes_no_bed_is_refused() {
     let folder = models();
+    let star = ["fit", "s.ply", "--segments", "1", "-o", "star.json"];
+    succeed(&folder, &star);
     for (words, reason) in [
         (
             &["star.json", "--box", "9,9"][..],
