@@ -4,7 +4,7 @@
 //!
 //! ```text
 //! scan -> fit -> model -> measure -> export / report
-//!                  \-> contact
+//!                  \-> contact -> bed
 //!                  \-> clump -> engines
 //! ```
 //!
@@ -21,6 +21,7 @@
 pub mod annotate;
 #[cfg(feature = "cli")]
 pub mod batch;
+pub mod bed;
 #[cfg(feature = "cli")]
 pub mod bench;
 #[cfg(feature = "cli")]

@@ -2,6 +2,7 @@
 
 mod args;
 mod batch;
+mod bed;
 mod bench;
 mod candidates;
 mod clump;
@@ -64,6 +65,7 @@ pub fn run() -> ExitCode {
         Command::Split(args) => split::run(args, console),
         Command::Batch(args) => batch::run(args, console),
         Command::Compare(args) => compare::run(args, console),
+        Command::Bed(args) => bed::run(args, console),
         Command::Bench(args) => bench::run(args, console),
         Command::Report(args) => report::run(args, console),
         Command::Completions(args) => shell::completions(&args),

@@ -5,6 +5,7 @@ use crate::fit::{Form, Kind, MAX_UNION_PARTS, Seams, Tolerance};
 use crate::measure::Scheme;
 use crate::shapes::{Body, Curled, UnknownBody};
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
+use std::path::PathBuf;
 use std::str::FromStr;
 
 /// `exact` or `four-triangles`.
@@ -276,6 +277,41 @@ impl FromStr for SemiAxes {
     }
 }
 
+/// Two numbers, separated by a comma.
+pub(super) fn pair(text: &str) -> Result<[f64; 2], String> {
+    let numbers: Result<Vec<f64>, _> = text.split(',').map(|part| part.trim().parse()).collect();
+    match numbers.as_deref() {
+        Ok(&[x, y]) => Ok([x, y]),
+        _ => Err("expected two numbers such as 60,40".into()),
+    }
+}
+
+/// A file and its share of something; 1 where it is not told.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct ShareArg {
+    pub(super) path: PathBuf,
+    pub(super) share: f64,
+}
+
+impl FromStr for ShareArg {
+    type Err = &'static str;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let told = text.rsplit_once(':');
+        let (path, share) = match told.and_then(|(path, end)| Some((path, share(end).ok()?))) {
+            Some((path, share)) => (path, share),
+            None => (text, 1.0),
+        };
+        match share > 0.0 && share.is_finite() && !path.is_empty() {
+            true => Ok(Self {
+                path: path.into(),
+                share,
+            }),
+            false => Err("expected a file, or a file and a share above zero such as lens.json:0.7"),
+        }
+    }
+}
+
 /// The exponents n1 and n2, separated by a comma.
 pub(super) fn exponents(text: &str) -> Result<[f64; 2], &'static str> {
     let found = numbers(text).and_then(|numbers| numbers.try_into().ok());
@@ -323,6 +359,17 @@ mod tests {
         assert_eq!(share("0.5 %"), Ok(0.005));
         assert_eq!(share("0.005"), Ok(0.005));
         assert!(share("%").is_err());
+    }
+
+    #[test]
+    fn a_file_may_have_a_share() {
+        let read = |text: &str| text.parse().map(|ShareArg { path, share }| (path, share));
+        assert_eq!(read("a.json:0.7"), Ok(("a.json".into(), 0.7)));
+        assert_eq!(read("a.json:30%"), Ok(("a.json".into(), 0.3)));
+        assert_eq!(read("C:a.json"), Ok(("C:a.json".into(), 1.0)));
+        for text in [":1", "a:0", "a:-1", "a:inf", ""] {
+            assert!(read(text).is_err(), "{text}");
+        }
     }
 
     #[test]

@@ -60,6 +60,12 @@ impl Material {
     fn compliance_per_pa(&self) -> f64 {
         (1.0 - self.poissons_ratio * self.poissons_ratio) / self.youngs_modulus_pa
     }
+
+    /// How much it gives sideways: (2 - nu) / G with the shear modulus G = E / (2 (1 + nu)), in 1/Pa.
+    pub(super) fn shear_compliance_per_pa(&self) -> f64 {
+        let nu = self.poissons_ratio;
+        2.0 * (2.0 - nu) * (1.0 + nu) / self.youngs_modulus_pa
+    }
 }
 
 /// The effective modulus E* of two bodies in contact, in pascals:

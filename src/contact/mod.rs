@@ -1,5 +1,6 @@
 //! Normal contact of two surfaces, or of a surface and a plane, by the theory of Hertz; contacts of convex bodies and of
-//! unions of them, which are found however they lie; and all regions in which surfaces of any kind overlap.
+//! unions of them, which are found however they lie, and the [law] of their forces while they move; and all regions in
+//! which surfaces of any kind overlap.
 //!
 //! ```
 //! use grainform::contact::{ContactBody, contact_regions};
@@ -19,12 +20,14 @@
 mod convex;
 mod edge;
 mod force_error;
+pub mod law;
 mod material;
 mod regions;
 mod relative;
 mod touch;
 mod volume_law;
 
+pub(crate) use convex::same_touch;
 pub use convex::{
     ConvexContact, ConvexPair, ConvexStatus, Method, UnionContact, Warm, union_contacts,
 };

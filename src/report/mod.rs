@@ -5,6 +5,7 @@
 //! is what `--json` prints. Numbers that are not known are `null`. Their `Display` is the summary for
 //! a person. Errors of area and volume are signed and relative; lengths are in the scan's unit.
 
+mod bed;
 mod clump;
 mod contact;
 mod curled;
@@ -25,6 +26,7 @@ mod tray;
 mod unit;
 mod warning;
 
+pub use bed::{BedKindRecord, BedReport, BedRunRecord};
 pub use clump::{ClumpReport, ClumpSphere};
 pub use contact::{ContactReport, Load, TouchRecord};
 pub use curled::CurledReport;

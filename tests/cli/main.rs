@@ -1,6 +1,7 @@
 //! The command line from end to end, through the built binary.
 
 mod batch;
+mod bed;
 mod bench;
 mod clump;
 mod contact;

@@ -1,9 +1,11 @@
 //! The arguments as they are typed.
 
+mod bed;
 mod engines;
 mod many;
 mod shared;
 
+pub(super) use bed::BedArgs;
 pub(super) use engines::{ClumpArgs, ExportDemArgs, SpheresArgs};
 pub(super) use many::{BatchArgs, CompareArgs, ReportArgs, SplitArgs};
 pub(super) use shared::{FittingArgs, InputArgs, LimitArgs, MeshingArgs};
@@ -59,6 +61,7 @@ pub(super) enum Command {
     Split(SplitArgs),
     Batch(BatchArgs),
     Compare(CompareArgs),
+    Bed(BedArgs),
     Bench(BenchArgs),
     Report(ReportArgs),
     Completions(CompletionsArgs),

@@ -54,14 +54,25 @@ pub fn union_contacts(
     let mut kept: Vec<UnionContact> = Vec::new();
     for (touch, radius) in touches {
         let is_same = |deeper: &UnionContact| {
-            let apart = (deeper.point - touch.point).norm_squared();
-            deeper.normal.dot(&touch.normal) > SAME_NORMAL && apart < radius * deeper.overlap
+            let places = [(deeper.point, deeper.normal), (touch.point, touch.normal)];
+            same_touch(places, radius, deeper.overlap)
         };
         if !kept.iter().any(is_same) {
             kept.push(touch);
         }
     }
     kept
+}
+
+/// Whether contacts of parts of the same bodies, each a point and a unit normal, are one touch: the patch is that of a
+/// sphere of this radius at the deeper one's overlap.
+pub(crate) fn same_touch(
+    [deeper, other]: [(Point3<f64>, Vector3<f64>); 2],
+    radius: f64,
+    overlap: f64,
+) -> bool {
+    let apart = (deeper.0 - other.0).norm_squared();
+    deeper.1.dot(&other.1) > SAME_NORMAL && apart < radius * overlap
 }
 
 /// The parts where the body is.

@@ -1,0 +1,130 @@
+//! How a bed carries: contacts, their forces, and how grains lie.
+
+use super::settle::Bed;
+use nalgebra::{Matrix3, SymmetricEigen};
+use serde::Serialize;
+use std::collections::BTreeSet;
+
+/// Shares of the contacts whose forces are told.
+const QUANTILES: [f64; 5] = [0.05, 0.25, 0.5, 0.75, 0.95];
+
+/// Iterations allowed for the eigenvalues of a 3 x 3 matrix, which takes fewer than ten.
+const MAX_EIGEN_ITERATIONS: usize = 100;
+
+/// Contacts between grains, and how grains lie.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct Fabric {
+    /// Contacts with other grains per grain.
+    pub contacts: f64,
+    /// Grains that a grain touches.
+    pub neighbours: f64,
+    /// Grains that touch no other and no wall.
+    pub loose: usize,
+    /// The largest overlap, as a share of the mean radius of the grains.
+    pub largest_overlap: f64,
+    /// The normal forces between grains; `None` if none touch.
+    pub forces: Option<Forces>,
+    /// How the long axes lie; `None` if there are none.
+    pub order: Option<Order>,
+}
+
+/// Normal forces of contacts between grains.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct Forces {
+    /// Their mean, in newtons.
+    pub mean: f64,
+    /// 5, 25, 50, 75 and 95 % quantiles, as shares of the mean.
+    pub quantiles: [f64; 5],
+    /// The largest, as a share of the mean.
+    pub largest: f64,
+}
+
+/// The order of long axes u, those of the least moment of inertia: of the mean of (3 u uᵀ - 1)/2.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct Order {
+    /// Grains that have a long axis.
+    pub grains: usize,
+    /// Its components, row by row.
+    pub tensor: [[f64; 3]; 3],
+    /// Eigenvalues, the largest first: 1, -1/2, -1/2 if all lie alike, zero if in all directions.
+    pub eigenvalues: [f64; 3],
+    /// The component along the vertical: -1/2 if all lie flat.
+    pub vertical: f64,
+}
+
+/// How a bed carries.
+pub fn fabric(bed: &Bed) -> Fabric {
+    let grains = bed.bodies().len();
+    let (links, walls) = (&bed.state.links, &bed.state.wall_links);
+    let touches = || {
+        let links = links.iter();
+        links.filter_map(|link| Some((link.key, link.touch?)))
+    };
+    let pairs: BTreeSet<(u32, u32)> = touches().map(|(key, _)| (key.first, key.other)).collect();
+    let mut is_loose = vec![true; grains];
+    for &(first, other) in &pairs {
+        is_loose[first as usize] = false;
+        is_loose[other as usize] = false;
+    }
+    for link in walls.iter().filter(|link| link.touch.is_some()) {
+        is_loose[link.key.first as usize] = false;
+    }
+    let on_walls = walls.iter().filter_map(|link| link.touch);
+    let overlaps = touches().map(|(_, touch)| touch).chain(on_walls);
+    let largest = overlaps.map(|touch| touch.overlap).fold(0.0, f64::max);
+    let radii = bed
+        .bodies()
+        .iter()
+        .map(|body| bed.kinds()[body.kind].radius);
+    let mut forces: Vec<f64> = touches()
+        .map(|(_, touch)| -touch.force.dot(&touch.normal))
+        .collect();
+    forces.sort_by(f64::total_cmp);
+    Fabric {
+        contacts: 2.0 * forces.len() as f64 / grains as f64,
+        neighbours: 2.0 * pairs.len() as f64 / grains as f64,
+        loose: is_loose.iter().filter(|loose| **loose).count(),
+        largest_overlap: largest * grains as f64 / radii.sum::<f64>(),
+        forces: Forces::of(&forces),
+        order: order(bed),
+    }
+}
+
+impl Forces {
+    /// Those of forces in order.
+    fn of(forces: &[f64]) -> Option<Self> {
+        let last = *forces.last()?;
+        let mean = forces.iter().sum::<f64>() / forces.len() as f64;
+        let at = |share: f64| forces[(share * (forces.len() - 1) as f64).round() as usize];
+        (mean > 0.0).then(|| Self {
+            mean,
+            quantiles: QUANTILES.map(|share| at(share) / mean),
+            largest: last / mean,
+        })
+    }
+}
+
+fn order(bed: &Bed) -> Option<Order> {
+    let long = bed.bodies().iter();
+    let long = long.filter(|body| bed.kinds()[body.kind].has_long_axis());
+    let axes: Vec<_> = long
+        .map(|body| body.axes().column(0).into_owned())
+        .collect();
+    if axes.is_empty() {
+        return None;
+    }
+    let sum: Matrix3<f64> = axes.iter().map(|u| u * u.transpose()).sum();
+    let tensor = sum * (1.5 / axes.len() as f64) - Matrix3::identity() * 0.5;
+    let eigen = SymmetricEigen::try_new(tensor, f64::EPSILON, MAX_EIGEN_ITERATIONS)?;
+    let mut eigenvalues: [f64; 3] = eigen.eigenvalues.into();
+    eigenvalues.sort_by(|a, b| b.total_cmp(a));
+    Some(Order {
+        grains: axes.len(),
+        tensor: [0, 1, 2].map(|i| [0, 1, 2].map(|j| tensor[(i, j)])),
+        eigenvalues,
+        vertical: tensor[(2, 2)],
+    })
+}

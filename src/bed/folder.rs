@@ -1,0 +1,169 @@
+//! A bed settles, and a folder keeps what it needs to go on after it was stopped at any moment.
+
+use super::grain::GrainKind;
+use super::rest::Rest;
+use super::settings::{BedError, BedSettings};
+use super::settle::{Bed, State};
+use super::write::{write_dump, write_vtk};
+use crate::export::{SaveError, WriteError, write_atomically};
+use crate::mesh::Mesh;
+use serde::{Deserialize, Serialize};
+use std::fs;
+use std::io::{self, ErrorKind};
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+/// How often the state is saved.
+const SAVED: Duration = Duration::from_secs(10);
+
+/// Simulated seconds between two frames.
+const FRAME: f64 = 0.05;
+
+/// A folder of a bed: `state.json`, which is how it is now and all that it needs to go on; `frames`, a LAMMPS dump for
+/// each twentieth of a second; and at the end `bed.vtk`.
+///
+/// Files appear whole or not at all. A bed that was stopped goes on from the last state, and ends with the same bytes.
+#[derive(Debug, Clone, Copy)]
+pub struct Folder<'a> {
+    /// Where it is; it must exist.
+    pub path: &'a Path,
+    /// Metres of the unit of lengths in frames and `bed.vtk`; the state is in SI units.
+    pub unit: f64,
+}
+
+/// Why a bed has not settled.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum FolderError {
+    /// The bed itself.
+    #[error(transparent)]
+    Bed(#[from] BedError),
+    /// A file could not be written.
+    #[error(transparent)]
+    Save(#[from] SaveError),
+    /// The folder or the state in it could not be made or read.
+    #[error("cannot use {}: {source}", path.display())]
+    Use {
+        /// The file.
+        path: PathBuf,
+        /// What failed.
+        source: io::Error,
+    },
+    /// The state is that of another bed.
+    #[error("{} is the state of another bed: choose another folder, or remove it", path.display())]
+    Other {
+        /// The file.
+        path: PathBuf,
+    },
+}
+
+/// The state of a bed with what it belongs to.
+#[derive(Serialize, Deserialize)]
+struct Saved<S> {
+    /// Version of the library, for steps are the same in one version only.
+    version: String,
+    /// Tells grains and walls from others.
+    digest: String,
+    settings: BedSettings,
+    state: S,
+}
+
+impl Folder<'_> {
+    /// The bed that the folder has a state of, or a new one: see [`Bed::new`].
+    ///
+    /// # Errors
+    /// [`FolderError`].
+    pub fn open(
+        &self,
+        settings: BedSettings,
+        kinds: Vec<GrainKind>,
+        shares: &[f64],
+        mesh: Option<&Mesh>,
+    ) -> Result<Bed, FolderError> {
+        let path = self.path.join("state.json");
+        let failed = |source| FolderError::Use {
+            path: path.clone(),
+            source,
+        };
+        let bytes = match fs::read(&path) {
+            Err(error) if error.kind() == ErrorKind::NotFound => {
+                return Ok(Bed::new(settings, kinds, shares, mesh)?);
+            }
+            bytes => bytes.map_err(failed)?,
+        };
+        let found: Saved<State> = serde_json::from_slice(&bytes).map_err(|e| failed(e.into()))?;
+        let expected = Bed::new(settings, kinds, shares, mesh)?;
+        let is_own = found.version == env!("CARGO_PKG_VERSION")
+            && found.digest == digest(&expected)
+            && found.settings == expected.settings;
+        match expected.resumed(found.state) {
+            Some(bed) if is_own => Ok(bed),
+            _ => Err(FolderError::Other { path }),
+        }
+    }
+
+    /// Goes on until the bed is at rest or its time is up. `told` hears of each look at it.
+    ///
+    /// # Errors
+    /// [`FolderError`].
+    pub fn settle(&self, bed: &mut Bed, mut told: impl FnMut(&Bed)) -> Result<Rest, FolderError> {
+        let frames = self.path.join("frames");
+        fs::create_dir_all(&frames).map_err(|source| FolderError::Use {
+            path: frames.clone(),
+            source,
+        })?;
+        let frame = |bed: &Bed| (bed.seconds() / FRAME).floor() as u64;
+        let write_frame = |bed: &Bed| {
+            let path = frames.join(format!("bed.{:05}.dump", frame(bed)));
+            write_atomically(&path, |writer| write_dump(bed, self.unit, writer))
+        };
+        if bed.steps() == 0 {
+            write_frame(bed)?;
+        }
+        let mut saved = Instant::now();
+        let rest = loop {
+            if let Some(rest) = bed.rest() {
+                break rest;
+            }
+            let before = frame(bed);
+            bed.go_on()?;
+            if frame(bed) > before {
+                write_frame(bed)?;
+            }
+            if saved.elapsed() > SAVED {
+                self.keep(bed)?;
+                saved = Instant::now();
+            }
+            told(bed);
+        };
+        self.keep(bed)?;
+        let path = self.path.join("bed.vtk");
+        write_atomically(&path, |writer| write_vtk(bed, self.unit, writer))?;
+        Ok(rest)
+    }
+
+    /// Saves the state.
+    pub(super) fn keep(&self, bed: &Bed) -> Result<(), SaveError> {
+        let saved = Saved {
+            version: env!("CARGO_PKG_VERSION").into(),
+            digest: digest(bed),
+            settings: bed.settings.clone(),
+            state: &bed.state,
+        };
+        write_atomically(&self.path.join("state.json"), |writer| {
+            serde_json::to_writer(&mut *writer, &saved)
+                .map_err(|error| WriteError::Io(error.into()))
+        })
+    }
+}
+
+/// Tells grains and walls from others: the FNV-1a hash of their numbers, each written in full.
+fn digest(bed: &Bed) -> String {
+    let kinds = bed.bodies().iter().map(|body| body.kind);
+    let order: Vec<usize> = kinds.collect();
+    let text = format!("{:?} {:?} {order:?}", bed.kinds, bed.walls);
+    let hash = text.bytes().fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
+    });
+    format!("{hash:016x}")
+}

@@ -1,0 +1,151 @@
+//! A kind of grain as it moves: convex parts about its centre of mass, along its principal axes.
+
+use crate::measure::{superquadric_properties, union_properties};
+use crate::model::{Frame, MultiSuperquadric, Part};
+use nalgebra::{Matrix3, Point3, Vector3};
+use std::f64::consts::PI;
+
+/// Relative error of the volume and inertia of unions.
+const TOLERANCE: f64 = 1e-3;
+
+/// Moments that differ by less than this share are those of a grain without a long axis.
+const ROUND: f64 = 1e-2;
+
+/// A kind of grain, in SI units.
+#[derive(Debug, Clone, PartialEq)]
+pub struct GrainKind {
+    pub(super) parts: Vec<KindPart>,
+    pub(super) mass: f64,
+    /// Principal moments of inertia, ascending, in kg m².
+    pub(super) inertia: Vector3<f64>,
+    /// Radius of the sphere of equal volume.
+    pub(super) radius: f64,
+    /// The largest distance of a point of the grain from its centre of mass.
+    pub(super) reach: f64,
+    /// The largest distance of a part's centre from it.
+    pub(super) arm: f64,
+}
+
+/// A convex part.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct KindPart {
+    pub(super) part: Part,
+    /// The largest distance of its points from its own centre.
+    pub(super) reach: f64,
+    pub(super) is_sphere: bool,
+}
+
+/// Why a body is no grain of a bed.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum GrainError {
+    /// The density is not above zero.
+    #[error("the density must be above zero, not {value} kg/m³")]
+    Density {
+        /// The value given.
+        value: f64,
+    },
+    /// Lengths that are not above zero, or volume or inertia that are not finite.
+    #[error("the size of a grain is not a length above zero")]
+    Size,
+}
+
+impl GrainKind {
+    /// A grain of a union whose lengths are so many metres, of a density in kg/m³. Mass and inertia are those of the
+    /// union: what parts share counts once.
+    ///
+    /// # Errors
+    /// [`GrainError`].
+    pub fn new(body: &MultiSuperquadric, metres: f64, density: f64) -> Result<Self, GrainError> {
+        if !(density > 0.0 && density.is_finite()) {
+            return Err(GrainError::Density { value: density });
+        }
+        let body = body.times(metres);
+        let solid = match body.parts() {
+            [part] => {
+                let own = superquadric_properties(&part.shape).properties;
+                let axes = part.frame.axes;
+                crate::measure::MassProperties {
+                    centroid: part.frame.to_scan(&own.centroid.coords),
+                    inertia: axes * own.inertia * axes.transpose(),
+                    ..own
+                }
+            }
+            _ => union_properties(&body, TOLERANCE).properties,
+        };
+        let principal = solid.principal().ok_or(GrainError::Size)?;
+        if !(solid.volume > 0.0 && principal.moments.min() > 0.0) {
+            return Err(GrainError::Size);
+        }
+        let parts = body.parts().iter().map(|part| {
+            let [sides, depths, heights] = part.shape.semi_axes();
+            let axes = [sides, depths, heights].concat();
+            let is_round = part.shape.is_single() && part.shape.n1() == [2.0; 2];
+            KindPart {
+                part: Part {
+                    shape: part.shape,
+                    frame: Frame {
+                        centre: Point3::from(
+                            principal.axes.tr_mul(&(part.frame.centre - solid.centroid)),
+                        ),
+                        axes: principal.axes.tr_mul(&part.frame.axes),
+                    },
+                },
+                reach: part.shape.bounding_radius(),
+                is_sphere: is_round
+                    && part.shape.n2() == [[2.0; 2]; 2]
+                    && axes.iter().all(|axis| *axis == axes[0]),
+            }
+        });
+        let parts: Vec<KindPart> = parts.collect();
+        let distance = |part: &KindPart| part.part.frame.centre.coords.norm();
+        let largest = |of: &dyn Fn(&KindPart) -> f64| parts.iter().map(of).fold(0.0, f64::max);
+        Ok(Self {
+            mass: density * solid.volume,
+            inertia: principal.moments * density,
+            radius: (solid.volume * 0.75 / PI).cbrt(),
+            reach: largest(&|part| distance(part) + part.reach),
+            arm: largest(&distance),
+            parts,
+        })
+    }
+
+    /// Mass, in kilograms.
+    pub fn mass(&self) -> f64 {
+        self.mass
+    }
+
+    /// Volume, in m³.
+    pub fn volume(&self) -> f64 {
+        4.0 / 3.0 * PI * self.radius.powi(3)
+    }
+
+    /// Radius of the sphere of equal volume, in metres.
+    pub fn radius(&self) -> f64 {
+        self.radius
+    }
+
+    /// Whether one of the principal moments is smaller than the others, so that there is a long axis: the first.
+    pub fn has_long_axis(&self) -> bool {
+        self.inertia[1] > (1.0 + ROUND) * self.inertia[0]
+    }
+
+    /// Whether a point, relative to the centre of mass and along the principal axes, lies inside.
+    pub(super) fn holds(&self, x: &Vector3<f64>) -> bool {
+        self.parts.iter().any(|KindPart { part, reach, .. }| {
+            (x - part.frame.centre.coords).norm_squared() < reach * reach && part.gauge(x) < 1.0
+        })
+    }
+
+    /// The frames of the parts, the grain being placed.
+    pub(super) fn placed(
+        &self,
+        centre: Point3<f64>,
+        axes: Matrix3<f64>,
+    ) -> impl Iterator<Item = Frame> {
+        self.parts.iter().map(move |KindPart { part, .. }| Frame {
+            centre: centre + axes * part.frame.centre.coords,
+            axes: axes * part.frame.axes,
+        })
+    }
+}

@@ -1,0 +1,35 @@
+//! Grains under gravity: dropped, they settle to a bed, of which it is told how densely it is packed and how it carries.
+//!
+//! All is in SI units. Grains are made of convex parts, superquadrics; where two of them touch is found with proof by
+//! [`contact`](crate::contact), and what that does is its [law](crate::contact::law).
+
+mod body;
+mod fabric;
+mod field;
+mod folder;
+mod grain;
+mod link;
+mod neighbours;
+mod packing;
+mod paint;
+mod record;
+mod rest;
+mod settings;
+mod settle;
+mod start;
+#[cfg(test)]
+mod tests;
+mod wall;
+mod write;
+
+pub use body::Body;
+pub use fabric::{Fabric, Forces, Order, fabric};
+pub use folder::{Folder, FolderError};
+pub use grain::{GrainError, GrainKind};
+pub use packing::{Fraction, Layer, Packing, packing};
+pub use paint::{PaintedGrain, painted};
+pub use rest::Rest;
+pub use settings::{BED_GRAINS, BedError, BedSettings, Container};
+pub use settle::Bed;
+pub use wall::Wall;
+pub use write::{write_dump, write_vtk};

@@ -1,0 +1,266 @@
+//! How much of a bed is filled: points in strata, two in each, of which it is told whether they lie in a grain.
+
+use super::body::Body;
+use super::grain::GrainKind;
+use super::settings::Container;
+use super::settle::Bed;
+use nalgebra::{Matrix3, Point3, Vector3};
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng;
+use rand_distr::{Distribution, StandardUniform};
+use rayon::prelude::*;
+use serde::Serialize;
+use std::collections::HashMap;
+
+/// Height of a layer, in mean diameters.
+const LAYER: f64 = 0.5;
+
+/// Strata along a mean diameter.
+const STRATA: f64 = 10.0;
+
+/// Most strata of a layer and along one of its sides: those of wide beds are larger.
+const MOST_STRATA: f64 = 4e6;
+const MOST_ALONG: f64 = 1e4;
+
+/// How far the core keeps from side walls and from the floor, in mean diameters.
+const FROM_SIDES: f64 = 2.0;
+const FROM_FLOOR: f64 = 1.5;
+
+/// Share of the centres that lie below the surface of the bed; what is told of a bed keeps a diameter below it.
+const BELOW_SURFACE: f64 = 0.85;
+
+/// A share and its standard error, that of where the points are.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct Fraction {
+    /// The share that is filled.
+    pub value: f64,
+    /// Its standard error.
+    pub error: f64,
+}
+
+/// How densely a bed is packed.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct Packing {
+    /// Two diameters off the side walls, 1.5 off the floor, one below the surface; `None` if nothing is left.
+    pub core: Option<Fraction>,
+    /// From wall to wall, from the floor to one diameter below the surface.
+    pub whole: Option<Fraction>,
+    /// The height below which 85 % of the centres lie, in metres.
+    pub surface: f64,
+    /// Layers of half a diameter, from the floor to the surface.
+    pub layers: Vec<Layer>,
+}
+
+/// A layer of a bed.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct Layer {
+    /// From this height, in metres.
+    pub from: f64,
+    /// To this height, in metres.
+    pub to: f64,
+    /// Two diameters off the side walls.
+    pub core: Option<Fraction>,
+    /// From wall to wall.
+    pub whole: Option<Fraction>,
+}
+
+/// Sums over strata of what was hit there (h) and what was asked (m), two points each; the error of h/m is that of the
+/// differences within strata.
+#[derive(Debug, Clone, Copy, Default)]
+struct Tally {
+    hits: f64,
+    points: f64,
+    /// Sums of the differences' squares and product.
+    hits_squared: f64,
+    points_squared: f64,
+    product: f64,
+}
+
+impl Tally {
+    fn add(&mut self, pair: [Option<bool>; 2]) {
+        let hit = |point: Option<bool>| f64::from(u8::from(point == Some(true)));
+        let asked = |point: Option<bool>| f64::from(u8::from(point.is_some()));
+        let [h, other_h] = pair.map(hit);
+        let [m, other_m] = pair.map(asked);
+        self.hits += h + other_h;
+        self.points += m + other_m;
+        self.hits_squared += (h - other_h).powi(2);
+        self.points_squared += (m - other_m).powi(2);
+        self.product += (h - other_h) * (m - other_m);
+    }
+
+    fn with(self, other: Self) -> Self {
+        Self {
+            hits: self.hits + other.hits,
+            points: self.points + other.points,
+            hits_squared: self.hits_squared + other.hits_squared,
+            points_squared: self.points_squared + other.points_squared,
+            product: self.product + other.product,
+        }
+    }
+
+    fn fraction(&self) -> Option<Fraction> {
+        let value = self.hits / self.points;
+        let squared =
+            self.hits_squared - 2.0 * value * self.product + value * value * self.points_squared;
+        (self.points > 0.0).then(|| Fraction {
+            value,
+            error: squared.max(0.0).sqrt() / self.points,
+        })
+    }
+}
+
+/// How densely a bed is packed.
+pub fn packing(bed: &Bed) -> Packing {
+    let grid = Grid::new(bed);
+    let surface = surface(bed.bodies());
+    let diameter = 2.0 * mean_radius(bed);
+    let thickness = LAYER * diameter;
+    let count = (surface / thickness).floor().max(0.0) as usize;
+    let tallies: Vec<[Tally; 2]> = (0..count)
+        .into_par_iter()
+        .map(|layer| grid.layer(bed.settings().container, layer, thickness, diameter))
+        .collect();
+    let below = surface - diameter;
+    let over = |at: usize, floor: f64| {
+        let layers = tallies.iter().enumerate().filter(|(layer, _)| {
+            let from = *layer as f64 * thickness;
+            from >= floor - 1e-9 * diameter && from + thickness <= below
+        });
+        let sum = layers.fold(Tally::default(), |sum, (_, tally)| sum.with(tally[at]));
+        sum.fraction()
+    };
+    let layers = tallies.iter().enumerate().map(|(layer, tally)| Layer {
+        from: layer as f64 * thickness,
+        to: (layer + 1) as f64 * thickness,
+        core: tally[0].fraction(),
+        whole: tally[1].fraction(),
+    });
+    Packing {
+        core: over(0, FROM_FLOOR * diameter),
+        whole: over(1, 0.0),
+        surface,
+        layers: layers.collect(),
+    }
+}
+
+fn mean_radius(bed: &Bed) -> f64 {
+    let radii = bed
+        .bodies()
+        .iter()
+        .map(|body| bed.kinds()[body.kind].radius);
+    radii.sum::<f64>() / bed.bodies().len() as f64
+}
+
+fn surface(bodies: &[Body]) -> f64 {
+    let mut heights: Vec<f64> = bodies.iter().map(|body| body.position.z).collect();
+    heights.sort_by(f64::total_cmp);
+    heights[((heights.len() as f64 * BELOW_SURFACE) as usize).min(heights.len() - 1)]
+}
+
+/// The grains by where they are.
+struct Grid<'a> {
+    kinds: &'a [GrainKind],
+    bodies: Vec<(&'a Body, Matrix3<f64>)>,
+    /// The width of a cell: no grain reaches farther than to the next.
+    width: f64,
+    cells: HashMap<[i64; 3], Vec<usize>>,
+}
+
+impl<'a> Grid<'a> {
+    fn new(bed: &'a Bed) -> Self {
+        let bodies = bed.bodies().iter().map(|body| (body, body.axes()));
+        let reach = bed.kinds().iter().map(|kind| kind.reach);
+        let mut grid = Self {
+            kinds: bed.kinds(),
+            bodies: bodies.collect(),
+            width: reach.fold(0.0, f64::max),
+            cells: HashMap::new(),
+        };
+        for (number, body) in bed.bodies().iter().enumerate() {
+            let cell = grid.cell(&body.position);
+            grid.cells.entry(cell).or_default().push(number);
+        }
+        grid
+    }
+
+    fn cell(&self, point: &Point3<f64>) -> [i64; 3] {
+        [0, 1, 2].map(|axis| (point[axis] / self.width).floor() as i64)
+    }
+
+    /// Whether a grain holds a point.
+    fn is_filled(&self, point: &Point3<f64>) -> bool {
+        let own = self.cell(point);
+        (0..27_i64).any(|at| {
+            let beside = [at % 3 - 1, at / 3 % 3 - 1, at / 9 - 1];
+            let near = [0, 1, 2].map(|axis| own[axis].saturating_add(beside[axis]));
+            let numbers = self.cells.get(&near).into_iter().flatten();
+            numbers.into_iter().any(|&number| {
+                let (body, axes) = &self.bodies[number];
+                let kind = &self.kinds[body.kind];
+                let aside: Vector3<f64> = point - body.position;
+                aside.norm_squared() < kind.reach * kind.reach && kind.holds(&axes.tr_mul(&aside))
+            })
+        })
+    }
+
+    /// The core's and the whole's part of a layer.
+    fn layer(
+        &self,
+        container: Container,
+        layer: usize,
+        thickness: f64,
+        diameter: f64,
+    ) -> [Tally; 2] {
+        let (from, sides) = match container {
+            Container::Box(sides) => ([0.0; 2], sides),
+            Container::Cylinder(radius) => ([-radius; 2], [2.0 * radius; 2]),
+        };
+        // How far a place is from the side walls.
+        let inwards = |x: f64, y: f64| match container {
+            Container::Box([width, depth]) => x.min(width - x).min(y).min(depth - y),
+            Container::Cylinder(radius) => radius - x.hypot(y),
+        };
+        let levels = (LAYER * STRATA).round();
+        let finest = diameter / STRATA;
+        let coarsest = (sides[0] * sides[1] * levels / MOST_STRATA).sqrt();
+        let width = finest.max(coarsest);
+        let counts = [0, 1].map(|axis| (sides[axis] / width).ceil().clamp(1.0, MOST_ALONG));
+        let [columns, rows] = counts.map(|count| count as usize);
+        let size = Vector3::new(
+            sides[0] / counts[0],
+            sides[1] / counts[1],
+            thickness / levels,
+        );
+        let mut random = ChaCha8Rng::seed_from_u64(0);
+        random.set_stream(layer as u64);
+        let mut tallies = [Tally::default(); 2];
+        for stratum in 0..columns * rows * levels as usize {
+            let (x, y, z) = (
+                stratum % columns,
+                stratum / columns % rows,
+                stratum / (columns * rows),
+            );
+            let corner = Vector3::new(x as f64, y as f64, z as f64);
+            let found = [(); 2].map(|()| {
+                let lot: [f64; 3] = StandardUniform.sample(&mut random);
+                let place = (corner + Vector3::from(lot)).component_mul(&size);
+                let base = Point3::new(from[0], from[1], layer as f64 * thickness);
+                let point = base + place;
+                let inwards = inwards(point.x, point.y);
+                let is_filled = (inwards >= 0.0).then(|| self.is_filled(&point));
+                [
+                    is_filled.filter(|_| inwards >= FROM_SIDES * diameter),
+                    is_filled,
+                ]
+            });
+            for (at, tally) in tallies.iter_mut().enumerate() {
+                tally.add(found.map(|point| point[at]));
+            }
+        }
+        tallies
+    }
+}

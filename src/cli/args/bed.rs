@@ -1,0 +1,102 @@
+//! The arguments of `grainform bed`.
+
+use super::{LimitArgs, OUTPUT, RUN};
+use crate::cli::values::{ShareArg, pair};
+use crate::report::Unit;
+use clap::{Args, value_parser};
+use std::path::PathBuf;
+
+const MATERIAL: &str = "Material, of grains and walls";
+
+/// Drop grains into a box, let them settle, and tell how densely they are packed and how they carry
+///
+/// Grains are models of convex parts, as `fit --surface superquadric`, poly, poly12 or multi makes. They fall from a
+/// loose column, each turned at random. What is not asked for of the material is assumed, and told. The folder holds
+/// state.json, from which a bed that was stopped goes on when it is started again; frames, LAMMPS dumps that OVITO
+/// opens; and bed.vtk, the grains as polygons for ParaView.
+#[derive(Args)]
+pub(in crate::cli) struct BedArgs {
+    /// Models, each with its share of the grains if not all are as many: lens.json:0.7
+    #[arg(value_name = "GRAIN[:SHARE]", required = true)]
+    pub(in crate::cli) grains: Vec<ShareArg>,
+
+    /// Number of grains
+    #[arg(long = "grains", value_name = "N", default_value_t = 1500)]
+    pub(in crate::cli) count: usize,
+
+    /// Width and depth of the box, from the origin on, whose walls have no end
+    #[arg(long = "box", value_name = "X,Y", value_parser = pair, required_unless_present = "cylinder",
+          conflicts_with = "cylinder")]
+    pub(in crate::cli) sides: Option<[f64; 2]>,
+
+    /// Diameter of an upright cylinder about the z axis, in place of a box
+    #[arg(long, value_name = "D")]
+    pub(in crate::cli) cylinder: Option<f64>,
+
+    /// A mesh whose faces are walls too; grains fall from above it
+    #[arg(long, value_name = "MESH")]
+    pub(in crate::cli) walls: Option<PathBuf>,
+
+    /// Unit of all lengths here and in the models: um, mm, cm or m
+    #[arg(long, value_name = "UNIT")]
+    pub(in crate::cli) unit: Unit,
+
+    /// Give all grains the volume of a sphere of this diameter [default: as they are]
+    #[arg(long, value_name = "D")]
+    pub(in crate::cli) diameter: Option<f64>,
+
+    /// Write the bed into this folder
+    #[arg(short, long, value_name = "DIR", help_heading = OUTPUT)]
+    pub(in crate::cli) output: PathBuf,
+
+    /// Seed of places, headings and order
+    #[arg(long, value_name = "K", default_value_t = 0)]
+    pub(in crate::cli) seed: u64,
+
+    /// Make so many beds, of this seed and those after it, in folders seed_K, and tell standard errors over them
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = value_parser!(u64).range(1..=1000))]
+    pub(in crate::cli) seeds: u64,
+
+    /// End after so many simulated seconds, at rest or not
+    #[arg(long, value_name = "S", default_value_t = 5.0)]
+    pub(in crate::cli) seconds: f64,
+
+    /// Kinetic energy per grain at which the bed is at rest, as a share of m g d
+    #[arg(long, value_name = "S", default_value_t = 1e-5)]
+    pub(in crate::cli) rest: f64,
+
+    /// Density, in kg/m³
+    #[arg(long, value_name = "RHO", default_value_t = 2500.0, help_heading = MATERIAL)]
+    pub(in crate::cli) density: f64,
+
+    /// Young's modulus; steps are as long as softness allows
+    #[arg(long, value_name = "E", default_value_t = 10.0, help_heading = MATERIAL)]
+    pub(in crate::cli) youngs_modulus_mpa: f64,
+
+    /// Poisson's ratio
+    #[arg(long, value_name = "NU", default_value_t = 0.3, help_heading = MATERIAL)]
+    pub(in crate::cli) poissons_ratio: f64,
+
+    /// Coefficient of friction
+    #[arg(long, value_name = "MU", default_value_t = 0.3, help_heading = MATERIAL)]
+    pub(in crate::cli) friction: f64,
+
+    /// Coefficient of rolling friction
+    #[arg(long, value_name = "MU_R", default_value_t = 0.0, help_heading = MATERIAL)]
+    pub(in crate::cli) rolling_friction: f64,
+
+    /// Coefficients of damping, along the normal and across it
+    #[arg(long, value_name = "C_N,C_T", value_parser = pair, default_value = "0.2,0.2", help_heading = MATERIAL)]
+    pub(in crate::cli) damping: [f64; 2],
+
+    /// Threads, 0 for all cores; the bed does not depend on it
+    #[arg(long, value_name = "N", default_value_t = 0, help_heading = RUN)]
+    pub(in crate::cli) threads: usize,
+
+    /// Print one JSON object
+    #[arg(long, help_heading = OUTPUT)]
+    pub(in crate::cli) json: bool,
+
+    #[command(flatten)]
+    pub(in crate::cli) limit: LimitArgs,
+}

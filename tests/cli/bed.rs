@@ -1,0 +1,136 @@
+//! Beds from the command line: a mixture falls, is told, and goes on where it was.
+
+use super::{errors, folder, grainform, json, names, succeed};
+use std::fs;
+
+/// A folder with a scan and a model of it that is convex.
+fn models() -> tempfile::TempDir {
+    let folder = folder();
+    let scan = ["synth", "ellipsoid", "--points", "400", "-o", "s.ply"];
+    succeed(&folder, &scan);
+    let fit = [
+        "fit",
+        "s.ply",
+        "--surface",
+        "superquadric",
+        "-o",
+        "lens.json",
+    ];
+    succeed(&folder, &fit);
+    folder
+}
+
+const BED: [&str; 13] = [
+    "bed",
+    "lens.json:1",
+    "--grains",
+    "30",
+    "--box",
+    "12,12",
+    "--unit",
+    "mm",
+    "--diameter",
+    "3",
+    "--seconds",
+    "0.3",
+    "-o",
+];
+
+#[test]
+fn a_bed_settles_and_is_told() {
+    let folder = models();
+    let report = json(&folder, &[&BED[..], &["bed"]].concat());
+    let run = &report["runs"][0];
+    assert_eq!(report["kinds"][0]["grains"], 30);
+    assert!((report["kinds"][0]["diameter_m"].as_f64().unwrap() - 3e-3).abs() < 1e-9);
+    assert!(run["fabric"]["neighbours"].as_f64().unwrap() > 2.0);
+    let whole = run["packing"]["whole"]["value"].as_f64().unwrap();
+    assert!((0.4..0.75).contains(&whole), "{whole}");
+    let files = names(&folder.path().join("bed"));
+    assert_eq!(files, ["bed.vtk", "frames", "state.json"]);
+    let dump = fs::read_to_string(folder.path().join("bed/frames/bed.00000.dump")).unwrap();
+    assert!(dump.starts_with("ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n30\n"));
+    assert_eq!(dump.lines().count(), 39);
+    let vtk = fs::read(folder.path().join("bed/bed.vtk")).unwrap();
+    assert!(vtk.starts_with(b"# vtk DataFile Version 3.0\n"));
+
+    // Started again it is at its end, and with one thread it is the same bed.
+    let again = json(&folder, &[&BED[..], &["bed"]].concat());
+    assert_eq!(again, report);
+    succeed(&folder, &[&BED[..], &["one", "--threads", "1"]].concat());
+    let [state, other] =
+        ["bed", "one"].map(|name| fs::read(folder.path().join(name).join("state.json")).unwrap());
+    assert!(state == other);
+    let refused = grainform(&folder, &[&BED[..], &["bed", "--friction", "0.5"]].concat());
+    assert!(
+        errors(&refused).contains("state of another bed"),
+        "{}",
+        errors(&refused)
+    );
+}
+
+#[test]
+fn seeds_tell_errors_and_a_cylinder_and_a_mesh_hold() {
+    let folder = models();
+    // A plate across the cylinder, on which all grains come to lie.
+    let plate = "v -9 -9 5\nv 9 -9 5\nv 9 9 5\nv -9 9 5\nf 1 2 3\nf 1 3 4\n";
+    fs::write(folder.path().join("plate.obj"), plate).unwrap();
+    let words = [
+        "bed",
+        "lens.json",
+        "--grains",
+        "8",
+        "--cylinder",
+        "12",
+        "--walls",
+        "plate.obj",
+        "--unit",
+        "mm",
+        "--diameter",
+        "3",
+        "--seconds",
+        "0.2",
+        "--seeds",
+        "2",
+        "-o",
+        "bed",
+    ];
+    let text = succeed(&folder, &words);
+    assert!(
+        text.contains("runs          2") && text.contains("cylinder of diameter 12"),
+        "{text}"
+    );
+    for seed in ["seed_0", "seed_1"] {
+        let state = fs::read(folder.path().join("bed").join(seed).join("state.json")).unwrap();
+        let state: serde_json::Value = serde_json::from_slice(&state).unwrap();
+        for body in state["state"]["bodies"].as_array().unwrap() {
+            assert!(body["position"][2].as_f64().unwrap() > 5e-3);
+        }
+    }
+}
+
+#[test]
+fn what_makes_no_bed_is_refused() {
+    let folder = models();
+    let star = ["fit", "s.ply", "--segments", "1", "-o", "star.json"];
+    succeed(&folder, &star);
+    for (words, reason) in [
+        (
+            &["star.json", "--box", "9,9"][..],
+            "fit --surface poly12 or multi",
+        ),
+        (&["lens.json", "--box", "1,1"], "too narrow"),
+        (&["lens.json:0", "--box", "9,9"], "share above zero"),
+        (
+            &["lens.json", "--box", "9,9", "--grains", "0"],
+            "from 1 to 1000000",
+        ),
+        (&["lens.json", "--box", "9,9", "--density", "-1"], "density"),
+        (&["lens.json", "--box", "9,nan"], "above zero"),
+    ] {
+        let all = [&["bed"], words, &["--unit", "mm", "-o", "bed"]].concat();
+        let output = grainform(&folder, &all);
+        assert_eq!(output.status.code(), Some(2));
+        assert!(errors(&output).contains(reason), "{}", errors(&output));
+    }
+}
