@@ -17,7 +17,7 @@ pub(super) fn run(args: ClumpArgs, console: Console) -> Result<()> {
     let console = console.beside(outputs::check(Some(&args.path), &[output], args.json)?);
     let progress = console.progress();
     progress.stage("Reading");
-    let solid = solid::read(&args.path, &args.input)?;
+    let solid = solid::read(&args.path, &args.input, args.unit)?;
     progress.stage("Finding spheres");
     let name = inputs::name(&args.path);
     let found = clump(&solid.mesh, &solid.properties, args.spheres.target())

@@ -62,7 +62,7 @@ fn read(args: &ExportDemArgs) -> Result<Vec<Subject>> {
             twins => format!("{stem}_{}", twins + 1),
         };
         subjects.push(Subject {
-            solid: solid::read(path, &args.input)?,
+            solid: solid::read(path, &args.input, Some(args.unit))?,
             input: inputs::name(path),
             name,
         });

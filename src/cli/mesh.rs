@@ -72,6 +72,7 @@ fn annotated(args: &MeshArgs, grain: &Grain) -> Result<Annotated> {
     };
     let input = InputArgs {
         format: None,
+        label: None,
         limit: LimitArgs {
             max_bytes: args.limit.max_bytes,
         },

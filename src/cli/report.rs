@@ -103,7 +103,7 @@ fn grain_part(path: &Path, args: &ReportArgs) -> Result<GrainPart> {
         false => None,
     };
     let told = FitReport::new(name.clone(), args.unit, &fitted, &options, &[]);
-    let mut warnings = sentences(scan.warnings(), &fitted.warnings);
+    let mut warnings = sentences(scan.warnings(), &fitted.warnings, args.unit);
     let measures =
         match fitted.unseen {
             Some(_) => {

@@ -6,7 +6,7 @@ use crate::fit::scanned_surface;
 use crate::measure::{MassProperties, Scheme, Survey, scanned_body};
 use crate::mesh::Mesh;
 use crate::model::{Grain, Surface};
-use crate::report::sentences;
+use crate::report::{Unit, sentences};
 use anyhow::{Context, Result, bail};
 use std::path::Path;
 
@@ -26,7 +26,7 @@ pub(super) struct Solid {
 }
 
 /// Reads a model or a scan; the content decides.
-pub(super) fn read(path: &Path, input: &InputArgs) -> Result<Solid> {
+pub(super) fn read(path: &Path, input: &InputArgs, unit: Option<Unit>) -> Result<Solid> {
     let name = inputs::name(path);
     let unusable = || format!("{name} encloses no grain");
     let bytes = inputs::read(path, &input.limit)?;
@@ -60,7 +60,7 @@ pub(super) fn read(path: &Path, input: &InputArgs) -> Result<Solid> {
     let survey = Survey::of_mesh(&surface.mesh).with_context(unusable)?;
     let properties = survey.properties()?;
     Ok(Solid {
-        warnings: sentences(&scan.warnings, &surface.warnings),
+        warnings: sentences(&scan.warnings, &surface.warnings, unit),
         mesh: surface.mesh.clone(),
         properties,
         grain: None,

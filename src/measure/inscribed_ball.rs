@@ -74,12 +74,6 @@ pub fn inscribed_ball(mesh: &Mesh) -> Result<Ball, InscribedBallError> {
         .ok_or(InscribedBallError::NoInside)
 }
 
-}
-
-fn corners(mesh: &Mesh, triangle: usize) -> [Vector3<f64>; 3] {
-    mesh.triangles[triangle].map(|corner| mesh.vertices[corner as usize].coords)
-}
-
 #[cfg(test)]
 mod tests {
     use super::super::triangle_tree::nearest_in_triangle;
