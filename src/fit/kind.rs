@@ -26,9 +26,6 @@ const STEEP_SHARE: f64 = 0.005;
 /// Cells along a cube's edge of the directions looked at.
 const LOOKED_AT: usize = 24;
 
-/// Share of the area that a radius may hide and still be kept without a look at positions, where it is within its limit.
-const HIDDEN: f64 = 0.001;
-
 /// Where a surface is folded it is fitted again with half as many cells, as long as there are more than these.
 const FEWEST_CELLS: usize = 6;
 
@@ -90,9 +87,9 @@ fn unseen(error: &FitError, options: &FitOptions) -> Option<KindChoice> {
 
 /// Whether a radius hides area, ends above its limit, or is steep.
 fn is_doubtful(fitted: &Fitted) -> bool {
-    let warns = fitted.warnings.iter().any(|warning| match warning {
-        FitWarning::NotStarShaped { share } => *share > HIDDEN,
-        warning => matches!(warning, FitWarning::LimitNotMet { .. }),
+    let warns = fitted.warnings.iter().any(|warning| {
+        let hides = matches!(warning, FitWarning::NotStarShaped { .. });
+        hides || matches!(warning, FitWarning::LimitNotMet { .. })
     });
     let Some(star) = fitted.grain.star() else {
         return false;

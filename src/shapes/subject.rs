@@ -122,7 +122,7 @@ mod tests {
         let volume = scan.truth.properties.volume;
         assert_relative_eq!(
             volume,
-            8.0 * PI * 0.874_019_184_764_039_9,
+            8.0 * PI * 0.874_019_184_764_04,
             max_relative = 1e-12
         );
     }

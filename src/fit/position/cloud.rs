@@ -101,7 +101,7 @@ impl<'a> Cloud<'a> {
         let normals: Vec<_> = normals.collect();
         cloud.normals.extend(normals);
         cloud.points.extend(points);
-        cloud.to_map();
+        cloud.restart_from_map();
         let vertices = cloud.vertices();
         let of_points = left_out(&cloud.directions[vertices..]);
         cloud.is_left_out = vec![false; vertices];
@@ -111,7 +111,7 @@ impl<'a> Cloud<'a> {
     }
 
     /// Starts anew from the map, with the same samples.
-    fn to_map(&mut self) {
+    fn restart_from_map(&mut self) {
         self.directions.clone_from(&self.map);
         for place in &self.inside {
             let between = place.between(self.images(place.triangle));
@@ -161,7 +161,7 @@ impl<'a> Cloud<'a> {
     /// one per `solid_angle`.
     pub(super) fn restart(&mut self, solid_angle: impl Fn(&Vector3<f64>) -> f64) {
         if self.is_of_points {
-            self.to_map();
+            self.restart_from_map();
             return;
         }
         let vertices = self.vertices();
