@@ -7,7 +7,6 @@ use super::medial::{deepest, medial_balls_of};
 use super::triangle_tree::TriangleTree;
 use super::winding::winding_number;
 use crate::Mesh;
-use nalgebra::Vector3;
 use thiserror::Error;
 
 /// Places of the surface from which balls of the medial axis are found. A pocket that holds a larger ball than
