@@ -12,6 +12,8 @@ mod link;
 mod neighbours;
 mod packing;
 mod paint;
+#[cfg(feature = "cli")]
+mod picture;
 mod record;
 mod rest;
 mod settings;
@@ -28,6 +30,8 @@ pub use folder::{Folder, FolderError};
 pub use grain::{GrainError, GrainKind};
 pub use packing::{Fraction, Layer, Packing, packing};
 pub use paint::{PaintedGrain, painted};
+#[cfg(feature = "cli")]
+pub use picture::picture;
 pub use rest::Rest;
 pub use settings::{BED_GRAINS, BedError, BedSettings, Container};
 pub use settle::Bed;

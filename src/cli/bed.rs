@@ -4,7 +4,7 @@ use super::args::BedArgs;
 use super::console::{Console, put_json, say};
 use super::progress::Progress;
 use super::{inputs, outputs, threads};
-use crate::bed::{Bed, BedSettings, Container, Folder, GrainKind, Rest};
+use crate::bed::{Bed, BedSettings, Container, Folder, GrainKind, Rest, picture};
 use crate::mesh::Mesh;
 use crate::report::{BedReport, BedRunRecord, short};
 use anyhow::{Context, Result, anyhow};
@@ -55,6 +55,7 @@ pub(super) fn run(args: BedArgs, console: Console) -> Result<()> {
         // The loop runs in a thread of the pool, so that its parts need not be handed there one by one.
         let rest = rayon::scope(|_| folder.settle(&mut bed, |bed| watch.tell(bed)))?;
         drop(watch);
+        outputs::write_image(&path.join("bed.png"), &picture(&bed))?;
         runs.push(BedRunRecord::new(&bed, rest == Rest::AtRest));
         last = Some(bed);
     }

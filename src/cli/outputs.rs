@@ -4,7 +4,7 @@ use super::args::FitArgs;
 use super::inputs::is_stream;
 use crate::export::{MeshFormat, WriteError, sweep, write_atomically};
 use crate::model::{Grain, Surface, grain_to_json};
-use crate::picture::Ground;
+use crate::picture::{Ground, Image};
 use crate::portrait::{Caption, portrait};
 use crate::report::Unit;
 use crate::scan::Scan;
@@ -122,7 +122,11 @@ pub(super) fn write_picture(
         title,
         unit: unit.map_or(String::new(), |unit| unit.to_string()),
     };
-    let image = portrait(grain, scan, &caption, Ground::Light);
+    write_image(path, &portrait(grain, scan, &caption, Ground::Light))
+}
+
+/// Writes a picture as PNG.
+pub(super) fn write_image(path: &Path, image: &Image) -> Result<()> {
     write(path, |file| {
         let written = image.write_png(file);
         written.map_err(|error| WriteError::Io(io::Error::other(error)))

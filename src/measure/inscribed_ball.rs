@@ -80,7 +80,7 @@ mod tests {
     use crate::measure::{convex_hull, mesh_properties};
     use crate::shapes::{Body, Sampling};
     use approx::assert_relative_eq;
-    use nalgebra::{Point3, Rotation3};
+    use nalgebra::{Point3, Rotation3, Vector3};
     use proptest::prelude::*;
 
     #[test]

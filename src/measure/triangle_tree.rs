@@ -84,7 +84,9 @@ impl TriangleTree {
 
     /// The diagonal of the box of the mesh.
     pub(super) fn size(&self) -> f64 {
-        self.nodes.first().map_or(0.0, |root| (root.high - root.low).norm())
+        self.nodes
+            .first()
+            .map_or(0.0, |root| (root.high - root.low).norm())
     }
 
     /// The point of the mesh nearest to a place; infinitely far off if there are no triangles.

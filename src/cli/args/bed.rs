@@ -13,7 +13,7 @@ const MATERIAL: &str = "Material, of grains and walls";
 /// Grains are models of convex parts, as `fit --surface superquadric`, poly, poly12 or multi makes. They fall from a
 /// loose column, each turned at random. What is not asked for of the material is assumed, and told. The folder holds
 /// state.json, from which a bed that was stopped goes on when it is started again; frames, LAMMPS dumps that OVITO
-/// opens; and bed.vtk, the grains as polygons for ParaView.
+/// opens; bed.vtk, the grains as polygons for ParaView; and a picture, bed.png.
 #[derive(Args)]
 pub(in crate::cli) struct BedArgs {
     /// Models, each with its share of the grains if not all are as many: lens.json:0.7

@@ -11,7 +11,8 @@ pub(super) use many::{BatchArgs, CompareArgs, ReportArgs, SplitArgs};
 pub(super) use shared::{FittingArgs, InputArgs, LimitArgs, MeshingArgs};
 
 use super::values::{
-    CloudFormat, LawArg, PoseArg, SchemeArg, SemiAxes, Subject, SurfaceArg, exponents, share, vector,
+    CloudFormat, LawArg, PoseArg, SchemeArg, SemiAxes, Subject, SurfaceArg, exponents, share,
+    vector,
 };
 use crate::export::MeshFormat;
 use crate::report::{Measure, Unit};
