@@ -9,7 +9,7 @@
 //! where it says so), no rolling friction, and damping 0.2, of walls too. Errors are standard errors over the seeds.
 //!
 //! Without friction the beds are compared with published random close packings: 0.64 of spheres, 0.74 of ellipsoids
-//! 1.25 : 1 : 0.8 (Donev and others 2004), 0.71 of dimers.
+//! 1.25 : 1 : 0.8 (Donev and others 2004), 0.71 of dimers 1.4 times as long as wide (Faure and others 2009).
 
 mod plot;
 mod shapes;

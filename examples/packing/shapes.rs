@@ -19,9 +19,9 @@ pub(crate) fn shapes() -> Result<Vec<Shape>, InvalidSuperquadric> {
     let rod = |axes| Ok((Superquadric::single(axes, 2.0, 2.0)?, middle));
     let sphere = || single([1.0; 3], 2.0, 2.0);
     let ellipsoid = || single([1.25, 1.0, 0.8], 2.0, 2.0);
-    let dimer = || {
+    let dimer = |half: f64| {
         let ball = Superquadric::single([1.0; 3], 2.0, 2.0)?;
-        union(&[(ball, [-0.7, 0.0, 0.0]), (ball, [0.7, 0.0, 0.0])])
+        union(&[(ball, [-half, 0.0, 0.0]), (ball, [half, 0.0, 0.0])])
     };
     let lopsided = [[1.4, 0.8], [1.2, 0.8], [0.6, 0.9]];
     let poly = Superquadric::poly8(lopsided, 2.0, 2.0)?;
@@ -40,14 +40,14 @@ pub(crate) fn shapes() -> Result<Vec<Shape>, InvalidSuperquadric> {
             single([1.1, 1.0, 0.75], 2.0, 2.0)?,
         ),
         ("poly of the same mean axes", union(&[(poly, middle)])?),
-        ("dimer, centres 1.4 R apart", dimer()?),
+        ("dimer, centres 1.4 R apart", dimer(0.7)?),
         ("two crossed rods 2 : 0.6", union(&cross[..2])?),
         ("three crossed rods 2 : 0.6", union(&cross)?),
     ];
     let smooth = [
         ("sphere", sphere()?, 0.64),
         ("ellipsoid 1.25 : 1 : 0.8", ellipsoid()?, 0.74),
-        ("dimer, centres 1.4 R apart", dimer()?, 0.71),
+        ("dimer, centres 0.8 R apart", dimer(0.4)?, 0.71),
     ];
     let rubbing = rubbing.into_iter().map(|(name, body)| Shape {
         name,

@@ -125,7 +125,7 @@ fn what_makes_no_bed_is_refused() {
             &["lens.json", "--box", "9,9", "--grains", "0"],
             "from 1 to 1000000",
         ),
-        (&["lens.json", "--box", "9,9", "--density", "-1"], "density"),
+        (&["lens.json", "--box", "9,9", "--density", "0"], "density"),
         (&["lens.json", "--box", "9,nan"], "above zero"),
     ] {
         let all = [&["bed"], words, &["--unit", "mm", "-o", "bed"]].concat();
