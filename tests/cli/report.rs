@@ -179,7 +179,10 @@ fn a_browser_shows_it_all_without_an_error() {
         let changes = [&view["toggles"], &view["colours"]].map(|list| list.as_array().unwrap());
         assert!(changes[0].len() >= 3 && changes[1].len() >= 2, "{found}");
         assert!(
-            changes.into_iter().flatten().all(|change| change[1] == true),
+            changes
+                .into_iter()
+                .flatten()
+                .all(|change| change[1] == true),
             "{found}"
         );
     }
