@@ -246,8 +246,10 @@ mod tests {
             colour: [255, 0, 0],
             width: 2.0,
         };
-        let mut scene = Scene::default();
-        scene.lines = vec![line(1e3), line(f64::NAN)];
+        let scene = Scene {
+            lines: vec![line(1e3), line(f64::NAN)],
+            ..Scene::default()
+        };
         let image = render(&scene, &camera(), [40, 30], Ground::Light);
         assert_eq!(image.pixel(0, 15), [255, 0, 0]);
         assert_eq!(image.pixel(0, 2), [255; 3]);

@@ -3,8 +3,6 @@
 mod range;
 mod views;
 
-pub use range::Range;
-
 use crate::annotate::{Annotated, ScanDeviation};
 use crate::model::{Grain, Surface};
 use crate::picture::{
@@ -12,6 +10,7 @@ use crate::picture::{
 };
 use crate::scan::Scan;
 use nalgebra::{Point3, Vector3};
+use range::Range;
 use views::Views;
 
 /// Cells along an edge of the cube of directions of the surface that is drawn.

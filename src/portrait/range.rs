@@ -5,16 +5,16 @@ const HELD: f64 = 0.99;
 
 /// From which number to which colours go.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Range {
+pub(super) struct Range {
     /// The lower end.
-    pub low: f64,
+    pub(super) low: f64,
     /// The upper end.
-    pub high: f64,
+    pub(super) high: f64,
 }
 
 impl Range {
     /// As far below zero as above, to a round number: of numbers with a sign. Not finite ones do not count.
-    pub fn signed(values: &[f64]) -> Self {
+    pub(super) fn signed(values: &[f64]) -> Self {
         let sizes = sorted(values.iter().map(|value| value.abs()));
         let held = sizes
             .get((HELD * sizes.len() as f64) as usize)
@@ -24,7 +24,7 @@ impl Range {
     }
 
     /// From about the least to about the largest number. Not finite ones do not count.
-    pub fn of(values: &[f64]) -> Self {
+    pub(super) fn of(values: &[f64]) -> Self {
         let sorted = sorted(values.iter().copied());
         let at = |share: f64| sorted.get((share * (sorted.len() as f64 - 1.0)).round() as usize);
         let ends = at(0.5 - 0.5 * HELD).zip(at(0.5 + 0.5 * HELD));
@@ -40,7 +40,7 @@ impl Range {
     }
 
     /// Where a number lies: 0 at the lower end, 1 at the upper one, no further.
-    pub fn share(&self, value: f64) -> f64 {
+    pub(super) fn share(&self, value: f64) -> f64 {
         match value.is_nan() {
             true => f64::NAN,
             false => ((value - self.low) / (self.high - self.low)).clamp(0.0, 1.0),
@@ -48,7 +48,7 @@ impl Range {
     }
 
     /// Round numbers within the range, five to eleven of them.
-    pub fn marks(&self) -> Vec<f64> {
+    pub(super) fn marks(&self) -> Vec<f64> {
         let step = round_up((self.high - self.low) / 10.0);
         let first = (self.low / step - 1e-6).ceil() as i64;
         let last = (self.high / step + 1e-6).floor() as i64;
