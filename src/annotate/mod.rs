@@ -1,8 +1,10 @@
 //! Meshes of grains with what is known at each of their vertices: curvature, segment, and how far a scan is off.
 
 mod deviation;
+mod placed;
 
 pub use deviation::ScanDeviation;
+pub use placed::{ContactFrame, placed};
 
 use crate::measure::Curvature;
 use crate::mesh::Mesh;
@@ -29,7 +31,7 @@ pub struct Annotated {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Field {
     /// What: `mean_curvature` (one over length, positive where convex), `gaussian_curvature` (one over area), `segment`
-    /// (a number from zero), or `deviation` (of the scan from the surface, a length, positive outside).
+    /// (a number from zero), `body` (likewise), or `deviation` (of the scan from the surface, a length, positive outside).
     pub name: &'static str,
     /// A number for each vertex; not a number where it is not known.
     pub values: Vec<f64>,

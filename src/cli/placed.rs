@@ -2,17 +2,22 @@
 
 use super::args::ContactArgs;
 use super::console::{Console, put_json};
-use super::inputs;
 use super::values::{LawArg, PoseArg};
+use super::{inputs, outputs};
+use crate::annotate::{self, ContactFrame};
 use crate::contact::{
     ContactBody, VolumeLaw, contact_regions, effective_modulus_pa, union_contacts,
 };
+use crate::export::{Detail, MeshFormat};
 use crate::measure::grain_properties;
 use crate::model::{Frame, Grain, Surface};
 use crate::report::{NormalLaw, PlacedReport, RegionsReport};
 use anyhow::{Context, Result, anyhow, bail};
 use nalgebra::{Isometry3, Translation3};
 use std::path::Path;
+
+/// Cells along each edge of the cube of directions of a mesh of both bodies.
+const RESOLUTION: usize = 64;
 
 /// Tells where two bodies touch, the second moved: of unions of superquadrics by proof, of all others by region.
 pub(super) fn run(args: &ContactArgs, pose: &PoseArg, console: Console) -> Result<()> {
@@ -21,29 +26,69 @@ pub(super) fn run(args: &ContactArgs, pose: &PoseArg, console: Console) -> Resul
     let read = |path: &Path| -> Result<Grain> {
         inputs::parse_model(path, &inputs::read(path, &args.limit)?)
     };
+    let output = (args.mesh.as_deref(), outputs::MESH);
+    let console = console.beside(outputs::check(Some(&args.model), &[output], args.json)?);
     let grains = [read(&args.model)?, read(other)?];
     let names = [inputs::name(&args.model), inputs::name(other)];
     let law = law(args, &grains)?;
     if law.is_none()
         && let Some(report) = of_unions(&grains, &names, pose)
     {
+        let touches = report.touches.iter();
+        let frames = touches.map(|touch| frame(touch.point, touch.normal));
+        draw(args, &grains, pose, &frames.collect::<Vec<_>>())?;
         return match args.json {
             true => put_json(&report),
             false => console.print(&report),
         };
     }
     let [one, two] = &grains;
-    let moved = Isometry3::from_parts(Translation3::from(pose.aside), pose.turn);
-    let found = contact_regions(&ContactBody::new(one), &ContactBody::new(two), &moved)
+    let found = contact_regions(&ContactBody::new(one), &ContactBody::new(two), &moved(pose))
         .with_context(|| format!("cannot tell the contact of {} and {}", names[0], names[1]))?;
     let [one, two] = names;
     let report = RegionsReport::new(one, two, args.unit, &found, law.as_ref());
+    let frames = report
+        .regions
+        .iter()
+        .map(|region| frame(region.point, region.normal));
+    draw(args, &grains, pose, &frames.collect::<Vec<_>>())?;
     if args.json {
         return put_json(&report);
     }
     console.print(&report)?;
     console.warn(&report.warnings);
     Ok(())
+}
+
+fn moved(pose: &PoseArg) -> Isometry3<f64> {
+    Isometry3::from_parts(Translation3::from(pose.aside), pose.turn)
+}
+
+fn frame(point: [f64; 3], normal: [f64; 3]) -> ContactFrame {
+    ContactFrame {
+        point: point.into(),
+        normal: normal.into(),
+    }
+}
+
+/// Writes the mesh of both bodies and their contacts, if it is asked for.
+fn draw(
+    args: &ContactArgs,
+    grains: &[Grain; 2],
+    pose: &PoseArg,
+    contacts: &[ContactFrame],
+) -> Result<()> {
+    let Some(path) = &args.mesh else {
+        return Ok(());
+    };
+    let [one, two] = grains;
+    let (mesh, body) = annotate::placed([one, two], &moved(pose), contacts, RESOLUTION);
+    let detail = Detail {
+        fields: &[body],
+        ..Detail::default()
+    };
+    let format = MeshFormat::of(path).unwrap_or(MeshFormat::Ply);
+    outputs::write(path, |file| format.write_detailed(&mesh, &detail, file))
 }
 
 /// The touches of two unions of superquadrics, if they are that.

@@ -228,6 +228,10 @@ pub(super) struct ContactArgs {
           conflicts_with_all = ["indentation_um", "edge_radius"])]
     pub(super) pose_b: Option<PoseArg>,
 
+    /// Write both bodies and the frames of their contacts as one mesh, with the number of the body at every vertex
+    #[arg(long, value_name = "MESH", requires = "pose_b")]
+    pub(super) mesh: Option<PathBuf>,
+
     /// The law of these forces: hertz, of the depth and the curvatures, or volume, of the volume that both bodies share,
     /// which keeps energy [default: hertz]
     #[arg(long, value_name = "LAW", requires = "pose_b")]
