@@ -45,7 +45,8 @@ pub fn placed(
     };
     add(&first, 0.0, &|vertex| *vertex);
     add(&second, 1.0, &|vertex| pose * vertex);
-    let bar = Mesh::radial(1, |n| 1.0 / n.lp_norm(1));
+    // The cube from -1 to 1.
+    let bar = Mesh::radial(1, |_| 3_f64.sqrt());
     for contact in contacts {
         let [s, t] = tangents(&contact.normal);
         for (along, half) in [(contact.normal, NORMAL), (s, ACROSS), (t, ACROSS)] {
