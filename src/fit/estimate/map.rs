@@ -70,7 +70,7 @@ pub(super) fn rounder(
             let every = cloud.len().div_ceil(COMPARED_POINTS);
             let part = (compared < first).then(|| cloud.every(every));
             let part = part.as_ref().unwrap_or(&cloud);
-            let fit = fitted(part, compared, Spectrum::start(), None);
+            let fit = fitted(part, compared, Spectrum::start());
             Mapped {
                 strength,
                 cloud,
@@ -98,13 +98,9 @@ pub(super) fn rounder(
     let close = best(&maps).fit.cost + CLOSE * samples.len().min(COMPARED_POINTS) as f64;
     maps.retain(|map| map.fit.cost <= close);
     if maps.len() > 1 && compared < first {
-        // The likeliest first, so that the others need not be followed to their end.
-        maps.sort_by(|a, b| a.fit.cost.total_cmp(&b.fit.cost));
-        let mut least: Option<f64> = None;
         for map in &mut maps {
             context.check()?;
-            map.fit = fitted(&map.cloud, first, map.fit.spectrum, least);
-            least = Some(least.map_or(map.fit.cost, |least| least.min(map.fit.cost)));
+            map.fit = fitted(&map.cloud, first, map.fit.spectrum);
         }
     }
     let strength = best(&maps).strength;
@@ -122,9 +118,9 @@ pub(super) fn rounder(
     })
 }
 
-fn fitted(cloud: &Cloud, degree: usize, start: Spectrum, beat: Option<f64>) -> SpectrumFit {
+fn fitted(cloud: &Cloud, degree: usize, start: Spectrum) -> SpectrumFit {
     let posterior = Posterior::new(cloud, degree, is_factored(cloud.len(), degree));
-    fit_spectrum(&posterior, start, None, Count::Even, beat)
+    fit_spectrum(&posterior, start, None, Count::Even)
 }
 
 /// The first of those under which the points are most likely.

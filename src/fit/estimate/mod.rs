@@ -108,13 +108,7 @@ pub(crate) fn estimate(
         if !std::mem::take(&mut is_found) {
             let mut coefficients = std::mem::take(&mut fit.coefficients);
             coefficients.resize(coefficient_count(degree), 0.0);
-            fit = fit_spectrum(
-                &posterior,
-                fit.spectrum,
-                Some(coefficients),
-                Count::Probed,
-                None,
-            );
+            fit = fit_spectrum(&posterior, fit.spectrum, Some(coefficients), Count::Probed);
         }
         let alone = match rounds < ROUNDS && patches.is_none() {
             true => alone(&posterior, &fit),

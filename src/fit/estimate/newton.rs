@@ -105,11 +105,6 @@ impl Newton {
         }
     }
 
-    /// By how much the step to the last place that [`Self::next`] told should lower the cost.
-    pub(crate) fn promise(&self) -> f64 {
-        self.promise
-    }
-
     /// The spectrum that a step from a place leads to.
     fn step(&self, place: &Place) -> Spectrum {
         let at = &place.spectrum.0;

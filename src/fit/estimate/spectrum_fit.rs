@@ -17,10 +17,7 @@ use std::sync::Arc;
 const MOST_ROUNDS: usize = 40;
 
 /// Where the cost may fall by more than this per point, second derivatives say little.
-const FAR: f64 = 0.3;
-
-/// A search brings at most so many times what its next step promises.
-const SURELY: f64 = 3.0;
+const FAR: f64 = 0.2;
 
 /// A spectrum and the coefficients under it.
 #[derive(Debug, Clone)]
@@ -47,14 +44,12 @@ pub(crate) enum Count {
     Probed,
 }
 
-/// Finds the most likely spectrum from `start`. The search ends early where the exact cost will hardly be as low as
-/// `beat`.
+/// Finds the most likely spectrum from `start`.
 pub(crate) fn fit_spectrum(
     posterior: &Posterior<'_>,
     start: Spectrum,
     coefficients: Option<Vec<f64>>,
     count: Count,
-    beat: Option<f64>,
 ) -> SpectrumFit {
     let points = posterior.cloud.len() as f64;
     let mut spectrum = start;
@@ -96,12 +91,9 @@ pub(crate) fn fit_spectrum(
             true => Next::Here,
             false => search.next(place),
         };
-        let told_cost = cost.unwrap_or(value) - posterior.cloud.compression;
-        let is_beaten =
-            cost.is_some() && beat.is_some_and(|beat| told_cost - SURELY * search.promise() > beat);
-        if is_beaten || (counted == count && matches!(next, Next::Here)) {
+        if counted == count && matches!(next, Next::Here) {
             return SpectrumFit {
-                cost: told_cost,
+                cost: cost.unwrap_or(value) - posterior.cloud.compression,
                 spectrum,
                 coefficients: mean,
                 unlearnt: match count {
