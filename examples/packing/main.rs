@@ -4,7 +4,7 @@
 //! hour; the letter's figures ask for 5 seeds)
 //!
 //! All grains have the volume of a sphere of 5 mm and fall into a box of 60 mm x 60 mm, or as much of it as fewer grains
-//! fill as high. Of the letter these figures, the number of grains and the diameter are known; its shapes and its table
+//! fill as high; fewer than some 300 have no core. Of the letter these figures, the number of grains and the diameter are known; its shapes and its table
 //! of materials are lost. Assumed are density 2500 kg/m³, Young's modulus 10 MPa, Poisson's ratio 0.3, friction 0.3 (0
 //! where it says so), no rolling friction, and damping 0.2, of walls too. Errors are standard errors over the seeds.
 //!
