@@ -64,9 +64,12 @@ pub fn fit_scan(
     }
 }
 
-/// Whether nothing was asked for that only a radius has.
+/// Whether nothing was asked for that only a radius has, or that bounds its search.
 fn is_free(options: &FitOptions) -> bool {
+    let usual = FitOptions::default();
     options.seams == Seams::Blended
+        && options.max_degree == usual.max_degree
+        && options.max_segments == usual.max_segments
         && options.symmetry == Symmetry::NONE
         && options.degree.is_none()
         && options.segments.is_none()

@@ -47,7 +47,7 @@ fn a_bed_settles_and_is_told() {
     let whole = run["packing"]["whole"]["value"].as_f64().unwrap();
     assert!((0.4..0.75).contains(&whole), "{whole}");
     let files = names(&folder.path().join("bed"));
-    assert_eq!(files, ["bed.vtk", "frames", "state.json"]);
+    assert_eq!(files, ["bed.png", "bed.vtk", "frames", "state.json"]);
     let dump = fs::read_to_string(folder.path().join("bed/frames/bed.00000.dump")).unwrap();
     assert!(dump.starts_with("ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n30\n"));
     assert_eq!(dump.lines().count(), 39);
