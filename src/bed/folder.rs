@@ -1,12 +1,10 @@
 //! A bed settles, and a folder keeps what it needs to go on after it was stopped at any moment.
 
-use super::grain::GrainKind;
 use super::rest::Rest;
 use super::settings::{BedError, BedSettings};
 use super::settle::{Bed, State};
 use super::write::{write_dump, write_vtk};
 use crate::export::{SaveError, WriteError, write_atomically};
-use crate::mesh::Mesh;
 use serde::{Deserialize, Serialize};
 use std::fs;
 use std::io::{self, ErrorKind};
@@ -69,34 +67,25 @@ struct Saved<S> {
 }
 
 impl Folder<'_> {
-    /// The bed that the folder has a state of, or a new one: see [`Bed::new`].
+    /// The bed that the folder has a state of, if that is of the same grains, walls and settings; a new one as it is.
     ///
     /// # Errors
     /// [`FolderError`].
-    pub fn open(
-        &self,
-        settings: BedSettings,
-        kinds: Vec<GrainKind>,
-        shares: &[f64],
-        mesh: Option<&Mesh>,
-    ) -> Result<Bed, FolderError> {
+    pub fn open(&self, bed: Bed) -> Result<Bed, FolderError> {
         let path = self.path.join("state.json");
         let failed = |source| FolderError::Use {
             path: path.clone(),
             source,
         };
         let bytes = match fs::read(&path) {
-            Err(error) if error.kind() == ErrorKind::NotFound => {
-                return Ok(Bed::new(settings, kinds, shares, mesh)?);
-            }
+            Err(error) if error.kind() == ErrorKind::NotFound => return Ok(bed),
             bytes => bytes.map_err(failed)?,
         };
         let found: Saved<State> = serde_json::from_slice(&bytes).map_err(|e| failed(e.into()))?;
-        let expected = Bed::new(settings, kinds, shares, mesh)?;
         let is_own = found.version == env!("CARGO_PKG_VERSION")
-            && found.digest == digest(&expected)
-            && found.settings == expected.settings;
-        match expected.resumed(found.state) {
+            && found.digest == digest(&bed)
+            && found.settings == bed.settings;
+        match bed.resumed(found.state) {
             Some(bed) if is_own => Ok(bed),
             _ => Err(FolderError::Other { path }),
         }

@@ -97,7 +97,7 @@ pub enum BedError {
         value: f64,
     },
     /// No grain fits.
-    #[error("the container is too narrow: a grain is up to {widest} m wide")]
+    #[error("the container is too narrow: a grain is up to {widest:.3e} m wide")]
     Narrow {
         /// Twice the largest reach of a grain, in metres.
         widest: f64,

@@ -219,10 +219,12 @@ fn a_bed_goes_on_from_its_file_as_if_it_had_not_been_stopped() {
         most_seconds: 0.1,
         ..BedSettings::default()
     });
+    let new = |settings: &BedSettings| {
+        Bed::new(settings.clone(), kinds.clone(), &[1.0, 1.0], None).unwrap()
+    };
     let settled = |path: &std::path::Path| {
         let folder = Folder { path, unit: 1e-3 };
-        let open = || folder.open(settings.clone(), kinds.clone(), &[1.0, 1.0], None);
-        let mut bed = open().unwrap();
+        let mut bed = folder.open(new(&settings)).unwrap();
         let rest = folder.settle(&mut bed, |_| {}).unwrap();
         assert_eq!(rest, Rest::TimeIsUp);
         bed
@@ -234,9 +236,7 @@ fn a_bed_goes_on_from_its_file_as_if_it_had_not_been_stopped() {
         path: halves.path(),
         unit: 1e-3,
     };
-    let mut bed = folder
-        .open(settings.clone(), kinds.clone(), &[1.0, 1.0], None)
-        .unwrap();
+    let mut bed = folder.open(new(&settings)).unwrap();
     on(2, || {
         for _ in 0..1250 {
             bed.advance();
@@ -250,9 +250,9 @@ fn a_bed_goes_on_from_its_file_as_if_it_had_not_been_stopped() {
     }
     let other = BedSettings {
         seed: 1,
-        ..settings
+        ..settings.clone()
     };
-    let refused = folder.open(other, kinds, &[1.0, 1.0], None);
+    let refused = folder.open(new(&other));
     assert!(matches!(refused, Err(FolderError::Other { .. })));
 }
 

@@ -37,13 +37,14 @@ pub(super) fn run(args: BedArgs, console: Console) -> Result<()> {
             1 => args.output.clone(),
             _ => args.output.join(format!("seed_{seed}")),
         };
-        outputs::make_folder(&path)?;
         let folder = Folder {
             path: &path,
             unit: metres,
         };
         let settings = settings(&args, seed, metres);
-        let mut bed = folder.open(settings, kinds.clone(), &shares, mesh.as_ref())?;
+        let bed = Bed::new(settings, kinds.clone(), &shares, mesh.as_ref())?;
+        outputs::make_folder(&path)?;
+        let mut bed = folder.open(bed)?;
         if bed.steps() > 0 {
             let seconds = short(bed.seconds());
             console.note(

@@ -94,7 +94,7 @@ pub enum RegionError {
     #[error("one body lies wholly inside the other")]
     Inside,
     /// Its triangles have no inside.
-    #[error("a surface goes through itself where the bodies touch")]
+    #[error("the surfaces share no inside there: one goes through itself, or both coincide")]
     Crossing,
 }
 
