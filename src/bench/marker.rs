@@ -45,6 +45,7 @@ pub(super) fn legend(family: Family) -> &'static str {
         Family::Blended => "blended cells",
         Family::Adaptive => "adaptive",
         Family::Estimate => "estimate",
+        Family::Superquadric => "superquadric",
     }
 }
 
@@ -55,6 +56,7 @@ fn colour(family: Family) -> RGBColor {
         Family::Blended => RGBColor(74, 154, 118),
         Family::Adaptive => RGBColor(178, 57, 62),
         Family::Estimate => RGBColor(118, 80, 150),
+        Family::Superquadric => RGBColor(90, 90, 90),
     }
 }
 
@@ -67,6 +69,7 @@ fn corners(family: Family) -> (usize, f64) {
         Family::Blended => (3, 0.5),
         Family::Adaptive => (24, 0.0),
         Family::Estimate => (3, 0.0),
+        Family::Superquadric => (6, 0.0),
     }
 }
 

@@ -19,7 +19,7 @@ pub use csv::write_csv;
 pub use front::{Cost, front};
 pub use plot::{PlotError, plot};
 pub use run::{measure, run};
-pub use setting::{Family, Setting, options};
+pub use setting::{Asked, Family, Setting, asked};
 pub use subject::{NOISE, Subject, Truth, synthetic};
 
 use crate::report::{Unit, escaped};
@@ -91,7 +91,8 @@ pub struct BenchRow {
     pub seconds: f64,
     /// Seconds of preparing the scan for it.
     pub seconds_prepare: f64,
-    /// Root mean square of the radial leave-one-out errors, in the scan's unit.
+    /// Root mean square of the radial leave-one-out errors, in the scan's unit; of superquadrics what generalised
+    /// cross-validation says of it.
     pub heldout_rms: Option<f64>,
     /// `heldout_rms` as a share.
     pub heldout_share: Option<f64>,

@@ -1,6 +1,6 @@
 //! What is compared: families of models and their settings.
 
-use crate::fit::{FitOptions, Seams, Tolerance};
+use crate::fit::{FitOptions, Form, Seams, Tolerance};
 use crate::sphere::coefficient_count;
 use serde::Serialize;
 use std::fmt;
@@ -38,6 +38,8 @@ pub enum Family {
     Adaptive,
     /// The estimate itself, cut at the lowest degree that is near enough to it.
     Estimate,
+    /// One superquadric: few numbers and fast contacts, at the price of a rough surface.
+    Superquadric,
 }
 
 /// One model of a family.
@@ -72,10 +74,24 @@ pub enum Setting {
         /// RMS error that is good enough, as a share of the mean radius.
         tolerance: f64,
     },
+    /// Of [`Family::Superquadric`].
+    Superquadric {
+        /// How many numbers it is given.
+        form: Form,
+    },
 }
 
-/// The options by which a setting is fitted.
-pub fn options(setting: &Setting) -> FitOptions {
+/// By what a setting is fitted.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Asked {
+    /// Harmonics, by these options.
+    Harmonics(FitOptions),
+    /// A superquadric of so many numbers.
+    Superquadric(Form),
+}
+
+/// By what a setting is fitted.
+pub fn asked(setting: &Setting) -> Asked {
     let uniform = |seams, segments, degree| FitOptions {
         seams,
         degree: Some(degree),
@@ -88,23 +104,25 @@ pub fn options(setting: &Setting) -> FitOptions {
         segments,
         ..FitOptions::default()
     };
-    match *setting {
+    Asked::Harmonics(match *setting {
         Setting::Whole { degree } => uniform(Seams::None, 1, degree),
         Setting::Uniform { parts, degree } => uniform(Seams::None, parts * parts, degree),
         Setting::Blended { parts, degree } => uniform(Seams::Blended, 6 * parts * parts, degree),
         Setting::Adaptive { tolerance } => adaptive(tolerance, None),
         Setting::Estimate { tolerance } => adaptive(tolerance, Some(1)),
-    }
+        Setting::Superquadric { form } => return Asked::Superquadric(form),
+    })
 }
 
 impl Family {
     /// All families.
-    pub const ALL: [Self; 5] = [
+    pub const ALL: [Self; 6] = [
         Self::Whole,
         Self::Uniform,
         Self::Blended,
         Self::Adaptive,
         Self::Estimate,
+        Self::Superquadric,
     ];
 
     /// The name, in lower case.
@@ -115,6 +133,7 @@ impl Family {
             Self::Blended => "blended",
             Self::Adaptive => "adaptive",
             Self::Estimate => "estimate",
+            Self::Superquadric => "superquadric",
         }
     }
 
@@ -135,6 +154,9 @@ impl Family {
                 .into(),
             Self::Estimate => TOLERANCES
                 .map(|tolerance| Setting::Estimate { tolerance })
+                .into(),
+            Self::Superquadric => [Form::Single, Form::Poly8, Form::Poly12]
+                .map(|form| Setting::Superquadric { form })
                 .into(),
         }
     }
@@ -157,6 +179,7 @@ impl Setting {
             Self::Blended { .. } => Family::Blended,
             Self::Adaptive { .. } => Family::Adaptive,
             Self::Estimate { .. } => Family::Estimate,
+            Self::Superquadric { .. } => Family::Superquadric,
         }
     }
 
@@ -166,26 +189,30 @@ impl Setting {
             Self::Whole { degree }
             | Self::Uniform { degree, .. }
             | Self::Blended { degree, .. } => Some(degree),
-            Self::Adaptive { .. } | Self::Estimate { .. } => None,
+            Self::Adaptive { .. } | Self::Estimate { .. } | Self::Superquadric { .. } => None,
         }
     }
 
     /// The RMS error asked for, as a share of the mean radius, where the setting asks for one.
     pub fn tolerance(&self) -> Option<f64> {
         match *self {
-            Self::Whole { .. } | Self::Uniform { .. } | Self::Blended { .. } => None,
+            Self::Whole { .. }
+            | Self::Uniform { .. }
+            | Self::Blended { .. }
+            | Self::Superquadric { .. } => None,
             Self::Adaptive { tolerance } | Self::Estimate { tolerance } => Some(tolerance),
         }
     }
 
-    /// Whether so many points can bear it: at least two for each coefficient. Adaptive fits see to
-    /// that themselves.
+    /// Whether so many points can bear it: at least two for each coefficient, and three for each number of a
+    /// superquadric and its pose. Adaptive fits see to that themselves.
     pub fn is_supported_by(&self, points: usize) -> bool {
         let coefficients = match *self {
             Self::Whole { degree } => coefficient_count(degree),
             Self::Uniform { parts, degree } => parts * parts * coefficient_count(degree),
             Self::Blended { parts, degree } => 6 * parts * parts * coefficient_count(degree),
             Self::Adaptive { .. } | Self::Estimate { .. } => 0,
+            Self::Superquadric { form } => return 3 * form.parameters() <= points,
         };
         2 * coefficients <= points
     }
@@ -207,6 +234,9 @@ impl fmt::Display for Setting {
             Self::Estimate { tolerance } => {
                 write!(f, "estimate within {} %", 100.0 * tolerance)
             }
+            Self::Superquadric { form } => {
+                write!(f, "superquadric of {} numbers", form.numbers())
+            }
         }
     }
 }
@@ -218,11 +248,14 @@ mod tests {
     #[test]
     fn every_setting_asks_for_one_fit() {
         let count = |family: Family| family.settings().len();
-        assert_eq!(Family::ALL.map(count), [20, 16 * 7, 5 * 5, 7, 7]);
+        assert_eq!(Family::ALL.map(count), [20, 16 * 7, 5 * 5, 7, 7, 3]);
         for family in Family::ALL {
             for setting in family.settings() {
                 assert_eq!(setting.family(), family);
-                let options = options(&setting);
+                let Asked::Harmonics(options) = asked(&setting) else {
+                    assert_eq!(family, Family::Superquadric);
+                    continue;
+                };
                 options.check().expect("in range");
                 assert_eq!(options.degree, setting.degree(), "{setting}");
                 match setting.tolerance() {
