@@ -100,7 +100,8 @@ pub enum RegionError {
 
 /// Finds where two bodies overlap, of which the second is moved by `pose`.
 ///
-/// Volumes are known to some 1e-5 of themselves. A depth below 1e-7 of the bodies' size may pass unseen.
+/// Volumes of smooth bodies are known to some 1e-6 of themselves, and told to be known less well. A depth below 1e-7 of the
+/// bodies' size may pass unseen.
 ///
 /// # Errors
 ///
