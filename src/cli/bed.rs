@@ -16,6 +16,9 @@ use std::time::{Duration, Instant};
 /// How often a line is told where there is no terminal.
 const EVERY: Duration = Duration::from_secs(10);
 
+/// Share of the most liveliness below which grains have fallen, and the time that is left can be told.
+const FALLEN: f64 = 0.03;
+
 /// How often the time that is left is thought over.
 const FORETOLD: Duration = Duration::from_secs(2);
 
@@ -138,6 +141,8 @@ struct Watch {
     told: Instant,
     /// When, and how lively the bed was then.
     before: (Instant, f64),
+    /// How lively it was at most.
+    liveliest: f64,
     left: Option<Duration>,
 }
 
@@ -149,6 +154,7 @@ impl Watch {
             is_quiet: console.is_quiet(),
             told: now,
             before: (now, f64::NAN),
+            liveliest: 0.0,
             left: None,
         }
     }
@@ -157,12 +163,13 @@ impl Watch {
         let (since, before) = self.before;
         if since.elapsed() > FORETOLD {
             let now = bed.liveliness();
+            self.liveliest = self.liveliest.max(now);
             // Liveliness falls by about the same share in each second, once all grains have fallen.
             let rate = (before / now).ln() / since.elapsed().as_secs_f64();
             let left = (now / bed.settings().rest).ln() / rate;
             self.left = Duration::try_from_secs_f64(left)
                 .ok()
-                .filter(|_| rate > 0.0);
+                .filter(|_| rate > 0.0 && now < FALLEN * self.liveliest);
             self.before = (Instant::now(), now);
         }
         let is_due = self.told.elapsed() > EVERY && !self.is_quiet;
