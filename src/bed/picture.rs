@@ -14,8 +14,11 @@ const SIZE: [usize; 2] = [1200, 900];
 /// Share of the picture that is left free.
 const MARGIN: f64 = 0.04;
 
-/// Cells along each edge of a cube of directions, of each part of a grain.
-const RESOLUTION: usize = 10;
+/// Cells along each edge of a cube of directions, of each part of a grain: the fewest and the most, ...
+const CELLS: [f64; 2] = [4.0, 10.0];
+
+/// ... and so many that all parts have about this number of triangles.
+const TRIANGLES: f64 = 2e6;
 
 /// Where the eye is, seen from the bed.
 const EYE: [f64; 3] = [0.55, -1.0, 0.6];
@@ -29,7 +32,7 @@ const OUTLINE: [u8; 3] = [120, 120, 120];
 /// The grains of a bed in their container, seen aslant from above, without perspective.
 pub fn picture(bed: &Bed) -> Image {
     let mut scene = Scene::default();
-    for grain in painted(bed, RESOLUTION) {
+    for grain in painted(bed, cells(bed)) {
         let colours = vec![grain.colour; grain.mesh.vertices.len()];
         scene.add_mesh(&grain.mesh, &normals(&grain.mesh), &colours);
     }
@@ -44,6 +47,15 @@ pub fn picture(bed: &Bed) -> Image {
         width: 1.5,
     }));
     render(&scene, &camera(&scene), SIZE, Ground::Light)
+}
+
+fn cells(bed: &Bed) -> usize {
+    let bodies = bed.bodies().iter();
+    let parts: usize = bodies.map(|body| bed.kinds()[body.kind].parts.len()).sum();
+    let [fewest, most] = CELLS;
+    (TRIANGLES / (12.0 * parts as f64))
+        .sqrt()
+        .clamp(fewest, most) as usize
 }
 
 /// Unit normals at the vertices: of the triangles round each, by their areas.
