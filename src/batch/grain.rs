@@ -3,13 +3,12 @@
 use super::columns::{Figure, figures};
 use super::journal::Row;
 use crate::export::{SaveError, save_grain, save_mesh};
-use crate::fit::{Context, FitOptions, Fitted, fit_scan, largest_body};
+use crate::fit::{Context, FitOptions, Fitted, fit_scan, whole_or_largest};
 use crate::measure::{Scheme, Survey};
 use crate::model::Surface;
 use crate::report::{FitReport, Measure, MeasureReport, Measured, Unit, sentences};
 use crate::scan::{parse_file, read_stream};
 use serde_json::Value;
-use std::borrow::Cow;
 use std::error::Error;
 use std::path::{Path, PathBuf};
 
@@ -98,10 +97,7 @@ pub(super) fn grain(
 fn fit(path: &Path, bytes: &[u8], settings: &Settings) -> Result<(Fitted, Vec<String>), String> {
     let bytes = read_stream(bytes, path, settings.max_bytes).map_err(|error| told(&error))?;
     let scan = parse_file(path, &bytes, None).map_err(|error| told(&error))?;
-    let (scan, left_out) = match settings.largest {
-        true => largest_body(&scan),
-        false => (Cow::Borrowed(&scan), None),
-    };
+    let (scan, left_out) = whole_or_largest(scan, settings.largest);
     let context = Context::default();
     let mut fitted = fit_scan(&scan, &settings.fit, &context).map_err(|error| told(&error))?;
     fitted.warnings.extend(left_out);

@@ -4,7 +4,7 @@ use super::args::FittingArgs;
 use super::console::{Console, say};
 use super::progress::Progress;
 use super::{inputs, threads};
-use crate::fit::{self, FitOptions, Fitted, Kind, Stage, Work, largest_body};
+use crate::fit::{self, FitOptions, Fitted, Kind, Stage, Work, whole_or_largest};
 use crate::report::{Seconds, escaped};
 use crate::scan::Scan;
 use anyhow::{Context, Result};
@@ -53,13 +53,7 @@ pub(super) fn fit_scan(
     let name = args.name();
     progress.stage(format_args!("Reading {}", escaped(&name)));
     let scan = inputs::scan(&args.scan, &args.input)?;
-    let (scan, others_left_out) = match args.largest {
-        true => {
-            let (largest, left_out) = largest_body(&scan);
-            (largest.into_owned(), left_out)
-        }
-        false => (scan, None),
-    };
+    let (scan, others_left_out) = whole_or_largest(scan, args.largest);
     let read = started.elapsed().as_secs_f64();
 
     progress.stage("Finding the surface, the centre and the axes");

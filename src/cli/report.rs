@@ -3,7 +3,9 @@
 use super::args::ReportArgs;
 use super::console::Console;
 use super::{inputs, outputs, threads};
-use crate::fit::{Context as FitContext, FitOptions, Fitted, Kind, Seams, fit_scan, largest_body};
+use crate::fit::{
+    Context as FitContext, FitOptions, Fitted, Kind, Seams, fit_scan, whole_or_largest,
+};
 use crate::measure::{Scheme, Survey};
 use crate::model::Grain;
 use crate::page::{GrainPart, LotPart, MeasureRow, Page, SearchPart, Subject, write_page};
@@ -87,13 +89,7 @@ fn grain_part(path: &Path, args: &ReportArgs) -> Result<GrainPart> {
         }));
     }
     let scan = inputs::parse_scan(path, &bytes, &args.input)?;
-    let (scan, left_out) = match args.largest {
-        true => {
-            let (largest, left_out) = largest_body(&scan);
-            (largest.into_owned(), left_out)
-        }
-        false => (scan, None),
-    };
+    let (scan, left_out) = whole_or_largest(scan, args.largest);
     let options = FitOptions::default();
     let failed = || format!("cannot fit {name}");
     let mut fitted = fit_scan(&scan, &options, &FitContext::default()).with_context(failed)?;

@@ -6,13 +6,12 @@ use super::values::SuperquadricArg;
 use super::{inputs, outputs};
 use crate::fit::{
     Context as FitContext, FitOptions, FitWarning, PreparedScan, fit_multi_superquadric,
-    fit_superquadric, largest_body,
+    fit_superquadric, whole_or_largest,
 };
 use crate::model::Grain;
 use crate::report::{SuperquadricReport, sentences};
 use crate::scan::Scan;
 use anyhow::{Context, Result, bail};
-use std::borrow::Cow;
 
 /// Fits superquadrics and tells of them.
 pub(super) fn run(
@@ -51,10 +50,7 @@ pub(super) fn run(
 fn fitted(args: &FitArgs, form: SuperquadricArg) -> Result<(Grain, Scan, SuperquadricReport)> {
     let (name, unit) = (args.fitting.name(), args.fitting.unit);
     let scan = inputs::scan(&args.fitting.scan, &args.fitting.input)?;
-    let (scan, others_left_out) = match args.fitting.largest {
-        true => largest_body(&scan),
-        false => (Cow::Borrowed(&scan), None),
-    };
+    let (scan, others_left_out) = whole_or_largest(scan, args.fitting.largest);
     let failed = || format!("cannot fit {name}");
     let options = FitOptions::default();
     let prepared = PreparedScan::new(&scan, options.symmetry).with_context(failed)?;
@@ -71,12 +67,12 @@ fn fitted(args: &FitArgs, form: SuperquadricArg) -> Result<(Grain, Scan, Superqu
         SuperquadricArg::Single(form) => {
             let found = fit_superquadric(points, form, &context).with_context(failed)?;
             let report = SuperquadricReport::of_single(name.clone(), unit, count, &found, warnings);
-            Ok((found.grain()?, scan.into_owned(), report))
+            Ok((found.grain()?, scan, report))
         }
         SuperquadricArg::Multi(most) => {
             let found = fit_multi_superquadric(points, most, &context).with_context(failed)?;
             let report = SuperquadricReport::of_multi(name.clone(), unit, count, &found, warnings);
-            Ok((found.grain()?, scan.into_owned(), report))
+            Ok((found.grain()?, scan, report))
         }
     }
 }

@@ -43,6 +43,8 @@ pub use options::{
 };
 pub use outcome::{EstimateSummary, Fitted, KindChoice, Residuals, Rival};
 pub use position::{Distance, PositionFit, fit_position, map::MapError};
+#[cfg(feature = "cli")]
+pub(crate) use prepare::whole_or_largest;
 pub use prepare::{
     PreparedScan, Reference, ReferenceKind, ScannedSurface, largest_body, scanned_surface,
 };

@@ -80,6 +80,17 @@ const HERTZIAN: f64 = 0.1;
 /// A force that is known less well than to this share is told of.
 const UNCERTAIN: f64 = 0.1;
 
+/// What to know of a depth that is such a share of the smaller radius of curvature, if it is too deep for Hertz.
+pub(super) fn beyond_hertz(depth: &str, share: f64) -> Option<String> {
+    (share > HERTZIAN).then(|| {
+        format!(
+            "{depth} is {:.0} % of the smaller radius of curvature; Hertz's theory is for less than {:.0} %",
+            100.0 * share,
+            100.0 * HERTZIAN
+        )
+    })
+}
+
 impl TouchRecord {
     /// The record of a grain that is touched.
     pub fn new(input: String, grain: &Grain, normal: &Vector3<f64>, touch: &Touch) -> Self {
@@ -132,13 +143,8 @@ impl ContactReport {
             .zip(other)
             .map(|(one, other)| force_error(&one, &other, angle_rad));
         let mut warnings = Vec::new();
-        if indentation_m > HERTZIAN * relative.smaller_radius() * metres {
-            warnings.push(format!(
-                "the indentation is {:.0} % of the smaller radius of curvature; Hertz's theory is for less than {:.0} %",
-                100.0 * indentation_m / (relative.smaller_radius() * metres),
-                100.0 * HERTZIAN
-            ));
-        }
+        let share_of_radius = indentation_m / (relative.smaller_radius() * metres);
+        warnings.extend(beyond_hertz("the indentation", share_of_radius));
         match share {
             None => warnings.push(
                 "how certain the curvature is there is not known, so the force has no standard error: fit the scan \

@@ -1,5 +1,6 @@
 //! Where two surfaces of any kind overlap that are placed beside each other, and the forces there.
 
+use super::contact::beyond_hertz;
 use super::escape::escaped;
 use super::number::{short, triple, with_error};
 use super::unit::{Labels, Unit};
@@ -7,9 +8,6 @@ use crate::contact::{ContactRegion, ContactRegions, RelativeCurvature, VolumeLaw
 use crate::scan::plural;
 use serde::Serialize;
 use std::fmt;
-
-/// Share of the smaller radius up to which Hertz's theory holds.
-const HERTZIAN: f64 = 0.1;
 
 /// By which law a normal force is told.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -123,13 +121,7 @@ impl NormalLaw {
         match RelativeCurvature::new(one.principal, two.principal, angle) {
             Ok(relative) => {
                 let share = region.depth / relative.smaller_radius();
-                if share > HERTZIAN {
-                    warnings.push(format!(
-                        "The depth is {:.0} % of the smaller radius of curvature; Hertz's theory is for less than {:.0} %.",
-                        100.0 * share,
-                        100.0 * HERTZIAN
-                    ));
-                }
+                warnings.extend(beyond_hertz("The depth", share).map(|told| told + "."));
                 Some(relative.normal_force_n(metres, region.depth * metres, modulus))
             }
             Err(error) => {

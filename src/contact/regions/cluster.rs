@@ -92,6 +92,9 @@ impl Cluster {
         if self.is_whole {
             work.skipped = work.triangles - kept.count();
         }
+        let known = [0, 1].map(|side| kept.known(side, &self.patches[side], &crossing));
+        let sags = self.patches.iter().map(Patch::largest_sag);
+        let sag = sags.fold(0.0, f64::max);
         let (mut finer, mut found) = (Vec::new(), Vec::new());
         for part in kept.parts(self, &near) {
             let regions = self.regions(&part, &crossing);
@@ -119,17 +122,12 @@ impl Cluster {
                 }
                 continue;
             }
-            let sag = self
-                .patches
-                .iter()
-                .map(Patch::largest_sag)
-                .fold(0.0, f64::max);
             if regions.is_empty() && sag < APART * self.size {
                 continue;
             }
             let patches = [0, 1].map(|side| {
-                let patch = kept.known(side, &self.patches[side], &crossing);
-                let finer = patch.part(&part[side]).finer(surfaces[side]);
+                let finer = self.patches[side].part(&part[side], &known[side]);
+                let finer = finer.finer(surfaces[side]);
                 work.evaluated += finer.vertices.len();
                 finer
             });
@@ -316,9 +314,9 @@ impl Kept {
             .collect()
     }
 
-    /// The patch, with what is known of its vertices for sure: those of what is left out lie outside, and those far from
+    /// What is known of the vertices of a patch for sure: those of what is left out lie outside, and those far from
     /// the other surface where they are.
-    fn known(&self, side: usize, patch: &Patch, crossing: &Crossing) -> Patch {
+    fn known(&self, side: usize, patch: &Patch, crossing: &Crossing) -> Vec<Option<bool>> {
         let mut known: Vec<Option<bool>> = crossing.inside[side]
             .iter()
             .map(|is_inside| Some(*is_inside))
@@ -337,7 +335,7 @@ impl Kept {
                     .for_each(|&corner| known[corner as usize] = Some(false));
             }
         }
-        patch.knowing(known)
+        known
     }
 }
 

@@ -105,8 +105,9 @@ impl Patch {
         }
     }
 
-    /// Some of the triangles, by their numbers in ascending order, and the vertices that they have.
-    pub(super) fn part(&self, kept: &[u32]) -> Self {
+    /// Some of the triangles, by their numbers in ascending order, and the vertices that they have, of each of which it is
+    /// `known` whether it lies in the other body.
+    pub(super) fn part(&self, kept: &[u32], known: &[Option<bool>]) -> Self {
         let mut numbers = HashMap::new();
         let mut part = Self::default();
         for &triangle in kept {
@@ -114,7 +115,7 @@ impl Patch {
                 *numbers.entry(old).or_insert_with(|| {
                     part.directions.push(self.directions[old as usize]);
                     part.vertices.push(self.vertices[old as usize]);
-                    part.known.push(self.known[old as usize]);
+                    part.known.push(known[old as usize]);
                     part.vertices.len() as u32 - 1
                 })
             });
@@ -122,14 +123,6 @@ impl Patch {
             part.sags.push(self.sags[triangle as usize]);
         }
         part
-    }
-
-    /// The same, with what is known of its vertices.
-    pub(super) fn knowing(&self, known: Vec<Option<bool>>) -> Self {
-        Self {
-            known,
-            ..self.clone()
-        }
     }
 
     /// The area of all triangles along their normals.

@@ -23,6 +23,15 @@ pub fn largest_body(scan: &Scan) -> (Cow<'_, Scan>, Option<FitWarning>) {
     }
 }
 
+/// The scan or, where that is asked for, its [largest body](largest_body).
+#[cfg(feature = "cli")]
+pub(crate) fn whole_or_largest(scan: Scan, is_largest: bool) -> (Scan, Option<FitWarning>) {
+    match is_largest.then(|| largest_body(&scan)) {
+        Some((Cow::Owned(body), others)) => (body, others),
+        _ => (scan, None),
+    }
+}
+
 fn largest_piece(scan: &Scan) -> Option<(Scan, usize)> {
     let pieces = Pieces::new(&scan.points);
     let others = pieces.bodies - 1;

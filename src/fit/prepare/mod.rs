@@ -14,6 +14,8 @@ mod thin;
 
 pub(crate) use axes::principal_axes;
 pub use largest::largest_body;
+#[cfg(feature = "cli")]
+pub(crate) use largest::whole_or_largest;
 pub use reference::{Reference, ReferenceKind};
 pub(crate) use samples::{CellGrid, Sample, Samples};
 pub(crate) use surface::usable;
