@@ -18,10 +18,12 @@ pub enum BatchError {
         source: glob::PatternError,
     },
     /// Nothing matches a pattern, or a folder holds no scans.
-    #[error("{} names no scans: none of its files ends in .ply, .stl, .obj or .xyz", path.display())]
+    #[error("{} names no scans: no file that ends in .{}, packed (.gz) or not", path.display(), endings.join(", ."))]
     Empty {
         /// The pattern or folder.
         path: PathBuf,
+        /// How the names of scans end.
+        endings: &'static [&'static str],
     },
     /// A folder or list cannot be read.
     #[error("cannot read {}: {source}", path.display())]
@@ -50,6 +52,15 @@ pub enum BatchError {
         folder: PathBuf,
         /// Why.
         source: io::Error,
+    },
+    /// The folder for results is not there any more.
+    #[error(
+        "the folder {} was removed while the batch wrote into it; the same command begins anew",
+        folder.display()
+    )]
+    Removed {
+        /// The folder.
+        folder: PathBuf,
     },
     /// A result cannot be saved.
     #[error(transparent)]

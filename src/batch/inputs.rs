@@ -50,7 +50,10 @@ fn named(path: &Path) -> Result<Vec<PathBuf>, BatchError> {
         pattern.flatten().filter(|path| path.is_file()).collect()
     };
     match found.is_empty() {
-        true => Err(BatchError::Empty { path: path.into() }),
+        true => Err(BatchError::Empty {
+            path: path.into(),
+            endings: &EXTENSIONS,
+        }),
         false => Ok(found),
     }
 }

@@ -63,15 +63,29 @@ pub struct Done {
 /// `progress` is told after every grain.
 ///
 /// # Errors
-/// [`BatchError`] if another batch works on the folder, or it cannot be written to. What is wrong with a scan is told
+/// [`BatchError`] if another batch works on the folder, it cannot be written to, or is removed. What is wrong with a scan is told
 /// in its row.
 pub fn run(batch: &Batch, progress: &(dyn Fn(Progress) + Sync)) -> Result<Done, BatchError> {
+    let folder = &batch.folder;
+    std::fs::create_dir_all(folder).map_err(|source| BatchError::Write {
+        folder: folder.clone(),
+        source,
+    })?;
+    let done = work(batch, progress);
+    match folder.is_dir() {
+        true => done,
+        false => Err(BatchError::Removed {
+            folder: folder.clone(),
+        }),
+    }
+}
+
+fn work(batch: &Batch, progress: &(dyn Fn(Progress) + Sync)) -> Result<Done, BatchError> {
     let folder = &batch.folder;
     let failed = |source| BatchError::Write {
         folder: folder.clone(),
         source,
     };
-    std::fs::create_dir_all(folder).map_err(failed)?;
     let _lock = lock(folder)?;
     sweep(folder);
     for (is_asked, name) in [
@@ -272,7 +286,7 @@ impl Work<'_> {
             kept: state.kept,
             all: self.batch.inputs.len(),
         };
-        let goes_on = state.error.is_none();
+        let goes_on = state.error.is_none() && self.batch.folder.is_dir();
         drop(state);
         (self.progress)(told);
         goes_on

@@ -1,7 +1,8 @@
 use super::{errors, folder, grainform, json, names, succeed};
 use std::collections::BTreeMap;
 use std::path::Path;
-use std::process::{Command, Stdio};
+use std::process::{Child, Command, Stdio};
+use std::time::Instant;
 use tempfile::TempDir;
 
 /// What is measured: little, so that it takes no time.
@@ -104,26 +105,40 @@ fn rows_are_the_same_bytes_with_any_number_of_threads_and_bad_files_are_told() {
     assert_eq!(area["counts"], serde_json::json!([3, 3]));
 }
 
+/// A command that is begun, and not waited for.
+fn begin(folder: &TempDir, words: &[&str]) -> Child {
+    Command::new(assert_cmd::cargo::cargo_bin!("grainform"))
+        .args(words)
+        .current_dir(folder.path())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the binary is built")
+}
+
+/// The lines of a journal.
+fn lines(journal: &Path) -> usize {
+    std::fs::read_to_string(journal).map_or(0, |text| text.lines().count())
+}
+
 #[test]
-fn a_batch_that_is_killed_goes_on_without_loss() {
+fn a_batch_that_is_killed_at_any_moment_goes_on_without_loss() {
     let folder = lot(6);
-    succeed(&folder, &batch(&["lot", "-o", "whole"]));
+    let started = Instant::now();
+    succeed(&folder, &batch(&["lot", "-o", "whole", "--models"]));
+    let whole = started.elapsed();
     let words = ["lot", "-o", "killed", "--models", "--jobs", "2"];
-    let journal = folder.path().join("killed/journal.jsonl");
-    let lines = || std::fs::read_to_string(&journal).map_or(0, |text| text.lines().count());
-    for moment in [1, 3] {
-        let mut child = Command::new(assert_cmd::cargo::cargo_bin!("grainform"))
-            .args(batch(&words))
-            .current_dir(folder.path())
-            .stderr(Stdio::null())
-            .spawn()
-            .expect("the binary is built");
-        while lines() < moment && child.try_wait().unwrap().is_none() {
-            std::thread::yield_now();
+    for moment in 0..50 {
+        // Later runs go on from what is there, and so would soon be done.
+        if moment % 5 == 0 {
+            let _ = std::fs::remove_dir_all(folder.path().join("killed"));
         }
+        let mut child = begin(&folder, &batch(&words));
+        // The golden ratio spreads the moments.
+        std::thread::sleep(whole.mul_f64((0.618034 * f64::from(moment)).fract()));
         child.kill().unwrap();
         child.wait().unwrap();
     }
+    let journal = folder.path().join("killed/journal.jsonl");
     // What a power cut may leave.
     let mut text = std::fs::read(&journal).unwrap();
     text.extend(b"0123456789abcdef {\"path\":\"lot/1");
@@ -131,7 +146,50 @@ fn a_batch_that_is_killed_goes_on_without_loss() {
     succeed(&folder, &batch(&words));
     assert_eq!(bytes(&folder, "killed"), bytes(&folder, "whole"));
     assert_eq!(names(&folder.path().join("killed/models")).len(), 6);
-    assert_eq!(lines(), 6, "every grain once");
+    assert_eq!(lines(&journal), 6, "every grain once");
+}
+
+#[test]
+fn a_batch_on_a_full_disk_keeps_what_was_done_and_goes_on() {
+    let folder = lot(3);
+    let words = batch(&["lot", "-o", "full", "--jobs", "1"]);
+    // Files of at most 1024 bytes: the first row has no room, or the second.
+    let script = "trap '' XFSZ; ulimit -f 1; exec \"$@\"";
+    let stopped = Command::new("bash")
+        .args(["-c", script, "bash"])
+        .arg(assert_cmd::cargo::cargo_bin!("grainform"))
+        .args(&words)
+        .current_dir(folder.path())
+        .output()
+        .expect("bash is there");
+    assert_eq!(stopped.status.code(), Some(2));
+    let told = errors(&stopped);
+    assert!(
+        told.contains("cannot write into full") && told.contains("goes on from there"),
+        "{told}"
+    );
+    assert!(!folder.path().join("full/results.csv").exists());
+    succeed(&folder, &words);
+    succeed(&folder, &batch(&["lot", "-o", "whole"]));
+    assert_eq!(bytes(&folder, "full"), bytes(&folder, "whole"));
+}
+
+#[test]
+fn a_batch_whose_folder_is_removed_stops_and_says_so() {
+    let folder = lot(6);
+    let child = begin(&folder, &batch(&["lot", "-o", "gone", "--jobs", "1"]));
+    while lines(&folder.path().join("gone/journal.jsonl")) == 0 {
+        std::thread::yield_now();
+    }
+    std::fs::remove_dir_all(folder.path().join("gone")).unwrap();
+    let ended = child.wait_with_output().unwrap();
+    assert_eq!(ended.status.code(), Some(2));
+    let told = errors(&ended);
+    assert!(
+        told.starts_with("error: the folder gone was removed"),
+        "{told}"
+    );
+    assert_eq!(names(folder.path()), ["lot"]);
 }
 
 #[test]
