@@ -1,8 +1,8 @@
 //! What `grainform synth` tells of a body that no centre sees whole.
 
 use super::escape::escaped;
-use super::measure::rows;
-use super::number::{round, short, triple};
+use super::number::round;
+use super::truth::TruthRecord;
 use crate::scan::plural;
 use crate::shapes::{CurledOptions, CurledScan};
 use serde::Serialize;
@@ -24,16 +24,9 @@ pub struct CurledReport {
     pub offset: [f64; 3],
     /// Seed of everything random.
     pub seed: u64,
-    /// Area of the body.
-    pub area: f64,
-    /// Volume of the body.
-    pub volume: f64,
-    /// Centroid of the body, with the offset.
-    pub centroid: [f64; 3],
-    /// Inertia of the body about its centroid.
-    pub inertia: [[f64; 3]; 3],
-    /// Relative error of area and volume.
-    pub relative_error: f64,
+    /// The figures of the body.
+    #[serde(flatten)]
+    pub truth: TruthRecord,
     /// The file written, if any.
     pub output: Option<String>,
 }
@@ -41,7 +34,7 @@ pub struct CurledReport {
 impl CurledReport {
     /// The report of a scan made with these options.
     pub fn new(options: &CurledOptions, scan: &CurledScan, output: Option<String>) -> Self {
-        let truth = &scan.truth.properties;
+        let truth = &scan.truth;
         Self {
             body: options.body.name(),
             points: scan.mesh.vertices.len(),
@@ -49,11 +42,7 @@ impl CurledReport {
             noise: options.noise,
             offset: options.offset.into(),
             seed: options.seed,
-            area: truth.area,
-            volume: truth.volume,
-            centroid: truth.centroid.coords.into(),
-            inertia: rows(&truth.inertia),
-            relative_error: scan.truth.relative_error,
+            truth: TruthRecord::new(&truth.properties, truth.relative_error),
             output,
         }
     }
@@ -73,20 +62,14 @@ impl fmt::Display for CurledReport {
             round(100.0 * self.noise),
             self.seed
         )?;
-        writeln!(f, "area         {}", short(self.area))?;
-        writeln!(f, "volume       {}", short(self.volume))?;
-        writeln!(f, "centroid     {}", triple(self.centroid))?;
-        for (i, row) in self.inertia.into_iter().enumerate() {
-            let name = if i == 0 { "inertia" } else { "" };
-            writeln!(f, "{name:<13}{}", triple(row))?;
-        }
+        write!(f, "{}", self.truth)?;
         if let Some(output) = &self.output {
             writeln!(f, "wrote        {}", escaped(output))?;
         }
         write!(
             f,
             "Figures of the body in mm; area and volume to {:.0e}.",
-            self.relative_error
+            self.truth.relative_error
         )
     }
 }

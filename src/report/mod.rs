@@ -23,6 +23,7 @@ mod split;
 mod superquadric;
 mod synth;
 mod tray;
+mod truth;
 mod unit;
 mod warning;
 
@@ -48,6 +49,7 @@ pub use split::{PlaneRecord, SplitGrainRecord, SplitReport};
 pub use superquadric::{SuperquadricRecord, SuperquadricReport};
 pub use synth::SynthReport;
 pub use tray::TrayReport;
+pub use truth::TruthRecord;
 pub use unit::Unit;
 #[cfg(feature = "cli")]
 pub(crate) use warning::sentences;

@@ -1,8 +1,8 @@
 //! What `grainform synth` tells: the scan it made and the truth behind it.
 
 use super::escape::escaped;
-use super::measure::rows;
-use super::number::{round, short, triple};
+use super::number::{round, short};
+use super::truth::TruthRecord;
 use crate::scan::plural;
 use crate::shapes::{Subject, SynthOptions, SyntheticScan};
 use serde::Serialize;
@@ -36,16 +36,9 @@ pub struct SynthReport {
     pub seed: u64,
     /// Mean radius over all directions from the body's origin.
     pub mean_radius: f64,
-    /// Area of the closed form.
-    pub area: f64,
-    /// Volume of the closed form.
-    pub volume: f64,
-    /// Centroid of the closed form, with the offset.
-    pub centroid: [f64; 3],
-    /// Inertia of the closed form about its centroid.
-    pub inertia: [[f64; 3]; 3],
-    /// Relative error of these figures: estimated where they come from quadrature.
-    pub relative_error: f64,
+    /// The figures of the closed form.
+    #[serde(flatten)]
+    pub truth: TruthRecord,
     /// The file written, if any.
     pub output: Option<String>,
 }
@@ -69,11 +62,7 @@ impl SynthReport {
             offset: options.offset.into(),
             seed: options.seed,
             mean_radius: truth.mean_radius,
-            area: truth.properties.area,
-            volume: truth.properties.volume,
-            centroid: truth.properties.centroid.coords.into(),
-            inertia: rows(&truth.properties.inertia),
-            relative_error: truth.relative_error,
+            truth: TruthRecord::new(&truth.properties, truth.relative_error),
             output,
         }
     }
@@ -98,20 +87,14 @@ impl fmt::Display for SynthReport {
             self.seed
         )?;
         writeln!(f, "mean radius  {}", short(self.mean_radius))?;
-        writeln!(f, "area         {}", short(self.area))?;
-        writeln!(f, "volume       {}", short(self.volume))?;
-        writeln!(f, "centroid     {}", triple(self.centroid))?;
-        for (i, row) in self.inertia.into_iter().enumerate() {
-            let name = if i == 0 { "inertia" } else { "" };
-            writeln!(f, "{name:<13}{}", triple(row))?;
-        }
+        write!(f, "{}", self.truth)?;
         if let Some(output) = &self.output {
             writeln!(f, "wrote        {}", escaped(output))?;
         }
         write!(
             f,
             "Exact figures of the body in mm, to {:.0e}.",
-            self.relative_error
+            self.truth.relative_error
         )
     }
 }
