@@ -6,6 +6,7 @@
 
 mod links;
 mod neck;
+mod outline;
 mod plane;
 
 pub use plane::Plane;
@@ -87,7 +88,7 @@ pub(crate) fn has_neck(points: &[Point3<f64>]) -> bool {
     let drawn = drawn(points, NECK_POINTS);
     let distance = Links::new(&drawn).map(|links| links.distance);
     let neck = distance.and_then(|distance| Neck::find(&drawn, distance));
-    neck.is_some_and(|neck| neck.is_cut())
+    neck.is_some_and(|neck| neck.is_narrow())
 }
 
 /// The grains of a segmented volume, one for each label, in the order of the labels.
@@ -236,8 +237,9 @@ fn cut(places: &[Point3<f64>], clump: Vec<u32>, distance: f64) -> Vec<Clump> {
         let may_touch = neck.is_some();
         let is_last = whole.len() + left.len() >= MOST_CUTS;
         let sides = neck
-            .filter(|neck| neck.is_cut() && !is_last)
-            .map(|neck| sides(&points, &neck.beyond(&own, distance)))
+            .filter(|_| !is_last)
+            .and_then(|neck| neck.cut(&own))
+            .map(|beyond| sides(&points, &beyond))
             .filter(|sides| sides.iter().all(|side| side.len() >= LEAST_POINTS));
         match sides {
             Some(sides) => left.extend(sides),

@@ -1,0 +1,117 @@
+//! The surface of a grain that touches another: smooth, and known at some of its points.
+
+use crate::sphere::{HarmonicBasis, coefficient_count};
+use faer::Mat;
+use faer::linalg::solvers::SolveLstsq;
+use nalgebra::{Matrix3, Point3, SymmetricEigen, Vector3};
+
+/// Degree of the radius.
+const DEGREE: usize = 8;
+
+/// Points that it is fitted to, at most.
+const MOST_POINTS: usize = 1000;
+
+/// Weight of the Laplacian of the radius beside a residual, so that it is smooth where no points are.
+const STIFFNESS: f64 = 3e-4;
+
+/// Least over largest variance along the axes of a body.
+const FLAT: f64 = 1e-9;
+
+/// A radius in harmonics about the middle of the points, in a space in which they spread alike in all directions.
+pub(super) struct Outline {
+    middle: Point3<f64>,
+    unstretch: Matrix3<f64>,
+    basis: HarmonicBasis,
+    coefficients: Vec<f64>,
+}
+
+impl Outline {
+    /// The outline through points, by least squares; none through too few, or through those of a plane.
+    pub(super) fn through(points: &[Point3<f64>]) -> Option<Self> {
+        let terms = coefficient_count(DEGREE);
+        let step = points.len().div_ceil(MOST_POINTS).max(1);
+        let taken: Vec<Point3<f64>> = points.iter().copied().step_by(step).collect();
+        if taken.len() < terms {
+            return None;
+        }
+        let count = taken.len() as f64;
+        let sum: Vector3<f64> = taken.iter().map(|point| point.coords).sum();
+        let middle = Point3::from(sum / count);
+        let rays = taken.iter().map(|point| point - middle);
+        let spread: Matrix3<f64> = rays.map(|ray| ray * ray.transpose() / count).sum();
+        let SymmetricEigen {
+            eigenvalues,
+            eigenvectors,
+        } = SymmetricEigen::new(spread);
+        if eigenvalues.min() <= FLAT * eigenvalues.max() {
+            return None;
+        }
+        let scales = Matrix3::from_diagonal(&eigenvalues.map(|variance| variance.sqrt().recip()));
+        let mut outline = Self {
+            middle,
+            unstretch: eigenvectors * scales * eigenvectors.transpose(),
+            basis: HarmonicBasis::new(DEGREE),
+            coefficients: vec![0.0; terms],
+        };
+        let rays: Vec<Vector3<f64>> = taken.iter().map(|point| outline.ray(point)).collect();
+        let mut rows = Mat::zeros(taken.len() + terms, terms);
+        let mut values = vec![0.0; terms];
+        for (row, ray) in rays.iter().enumerate() {
+            outline.basis.evaluate(&ray.normalize(), &mut values);
+            for (term, value) in values.iter().enumerate() {
+                rows[(row, term)] = *value;
+            }
+        }
+        for degree in 0..=DEGREE {
+            for term in degree * degree..(degree + 1) * (degree + 1) {
+                let laplacian = (degree * (degree + 1)) as f64;
+                rows[(taken.len() + term, term)] = STIFFNESS * count.sqrt() * laplacian;
+            }
+        }
+        let right = Mat::from_fn(rows.nrows(), 1, |row, _| {
+            rays.get(row).map_or(0.0, |ray| ray.norm())
+        });
+        let solution = rows.qr().solve_lstsq(right);
+        for (term, coefficient) in outline.coefficients.iter_mut().enumerate() {
+            *coefficient = solution[(term, 0)];
+        }
+        Some(outline)
+    }
+
+    /// The radial distance of a point.
+    pub(super) fn distance(&self, point: &Point3<f64>) -> f64 {
+        let ray = self.ray(point);
+        let mut values = vec![0.0; self.coefficients.len()];
+        self.basis.evaluate(&ray.normalize(), &mut values);
+        let terms = values.iter().zip(&self.coefficients);
+        let radius: f64 = terms.map(|(value, coefficient)| value * coefficient).sum();
+        (1.0 - radius / ray.norm()).abs() * (point - self.middle).norm()
+    }
+
+    fn ray(&self, point: &Point3<f64>) -> Vector3<f64> {
+        self.unstretch * (point - self.middle)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shapes::{Body, SynthOptions, synthesize};
+
+    #[test]
+    fn an_outline_goes_on_where_a_tenth_of_the_points_is_missing() {
+        let points = synthesize(&SynthOptions::clean(Body::Bean)).unwrap().points;
+        let known: Vec<Point3<f64>> = points.iter().copied().filter(|p| p.x < 5.5).collect();
+        assert!(known.len() * 10 < points.len() * 9);
+        let outline = Outline::through(&known).unwrap();
+        for point in &points {
+            let (most, off) = (
+                if point.x < 5.5 { 0.05 } else { 0.25 },
+                outline.distance(point),
+            );
+            assert!(off < most, "{point}: {off}");
+        }
+        let flat: Vec<Point3<f64>> = points.iter().map(|p| Point3::new(p.x, p.y, 1.0)).collect();
+        assert!(Outline::through(&flat).is_none() && Outline::through(&points[..50]).is_none());
+    }
+}
