@@ -45,7 +45,7 @@ def build(mutants):
     """The copy with all mutants in it, and the test program of the library."""
     shutil.rmtree(COPY, ignore_errors=True)
     COPY.mkdir(parents=True)
-    for name in ["Cargo.toml", "README.md", "build.rs", "src", "benches", "grains"]:
+    for name in ["Cargo.toml", "README.md", "build.rs", "src", "benches", "docs", "grains"]:
         source = ROOT / name
         (shutil.copytree if source.is_dir() else shutil.copy)(source, COPY / name)
     switches = []
@@ -62,7 +62,7 @@ def build(mutants):
         text = (COPY / file).read_text()
         (COPY / file).write_text(text[:start] + switched + text[end:])
     library = COPY / "src" / "lib.rs"
-    library.write_text(library.read_text() + SWITCH)
+    library.write_text("#![allow(unused_parens)]\n" + library.read_text() + SWITCH)
     shutil.copy(ROOT / "Cargo.lock", WORKSPACE)
     manifest = (ROOT / "Cargo.toml").read_text()
     profile = re.search(r"\[profile.test\]\n(.+\n)*", manifest)[0]
