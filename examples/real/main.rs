@@ -1,15 +1,17 @@
 //! How good default fits are on real shapes: against exact truth, and by points that the fit has not seen.
 //!
-//! `cargo run --release --example real` prints three tables. The first is of particles whose radius is known as an
+//! `cargo run --release --example real` prints five tables. The first is of particles whose radius is known as an
 //! expansion (cement, aggregate, boxes), sampled clean and with noise: the model's radial distance to the truth, and
 //! its area and volume. The second is of scans, of whose points a tenth is hidden from the fit; the third of a
 //! batch of kernels, likewise. Their rival is the least-squares expansion of the whole sphere of the degree that suits
-//! the hidden points best. The shapes are read from `../shared/scans`; without that folder there is nothing to print.
+//! the hidden points best. The last two are of kernels and particles of which volume, area and sizes were published. The
+//! shapes are read from `../shared/scans`; without that folder there is nothing to print.
 //!
-//! Arguments: `truth`, `hidden` or `batch` for one table, and a number to take every so many particles only.
+//! Arguments: `truth`, `hidden`, `batch`, `kernels` or `particles` for one table, and a number to take every so many particles only.
 
 mod hidden;
 mod particle;
+mod published;
 mod rival;
 mod stats;
 mod truth;
@@ -40,6 +42,12 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
     if wants("batch") {
         hidden::print_batch(Path::new(SCANS))?;
+    }
+    if wants("kernels") {
+        published::print_kernels(Path::new(SCANS))?;
+    }
+    if wants("particles") {
+        published::print_particles(Path::new(SCANS))?;
     }
     Ok(())
 }

@@ -1,4 +1,4 @@
-//! Quantiles, and how often intervals cover.
+//! Quantiles, means and deviations.
 
 /// The value below which a share of the values lies.
 pub(crate) fn quantile(values: &[f64], share: f64) -> f64 {
@@ -11,4 +11,12 @@ pub(crate) fn quantile(values: &[f64], share: f64) -> f64 {
 /// The median.
 pub(crate) fn median(values: &[f64]) -> f64 {
     quantile(values, 0.5)
+}
+
+/// The mean and the standard deviation.
+pub(crate) fn mean_and_deviation(values: &[f64]) -> (f64, f64) {
+    let count = values.len() as f64;
+    let mean = values.iter().sum::<f64>() / count;
+    let squares = values.iter().map(|value| (value - mean) * (value - mean));
+    (mean, (squares.sum::<f64>() / (count - 1.0)).sqrt())
 }
