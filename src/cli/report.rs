@@ -3,12 +3,15 @@
 use super::args::ReportArgs;
 use super::console::Console;
 use super::{inputs, outputs, threads};
+use crate::bench;
 use crate::fit::{
     Context as FitContext, FitOptions, Fitted, Kind, Seams, fit_scan, whole_or_largest,
 };
 use crate::measure::{Scheme, Survey};
 use crate::model::Grain;
-use crate::page::{GrainPart, LotPart, MeasureRow, Page, SearchPart, Subject, write_page};
+use crate::page::{
+    BenchPart, GrainPart, LotPart, MeasureRow, Page, SearchPart, Subject, write_page,
+};
 use crate::report::{
     FitReport, Measure, MeasureReport, Measured, SearchReport, escaped, sentences, short,
 };
@@ -86,6 +89,7 @@ fn grain_part(path: &Path, args: &ReportArgs) -> Result<GrainPart> {
             measures: MeasureRow::of(&measures.measures, None, args.unit),
             warnings,
             search: None,
+            bench: None,
         }));
     }
     let scan = inputs::parse_scan(path, &bytes, &args.input)?;
@@ -96,6 +100,10 @@ fn grain_part(path: &Path, args: &ReportArgs) -> Result<GrainPart> {
     fitted.warnings.extend(left_out);
     let search = match args.search {
         true => Some(search(&scan, &name).with_context(failed)?),
+        false => None,
+    };
+    let bench = match args.bench {
+        true => Some(costs(&scan, &name).with_context(failed)?),
         false => None,
     };
     let told = FitReport::new(name.clone(), args.unit, &fitted, &options, &[]);
@@ -127,6 +135,7 @@ fn grain_part(path: &Path, args: &ReportArgs) -> Result<GrainPart> {
         measures,
         warnings,
         search,
+        bench,
     }))
 }
 
@@ -157,6 +166,19 @@ fn search(scan: &Scan, name: &str) -> Result<SearchPart> {
     };
     let fitted = fit_scan(scan, &options, &FitContext::default())?;
     Ok((&SearchReport::new(name.into(), None, &fitted, &options, &[])).into())
+}
+
+/// Fits all families of models on one thread.
+fn costs(scan: &Scan, name: &str) -> Result<BenchPart> {
+    let subject = bench::Subject {
+        name: name.into(),
+        scan: scan.clone(),
+        truth: None,
+    };
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build();
+    let run = || bench::run(&subject, &|_, _, _| ());
+    let scan = pool.context("cannot start a thread")?.install(run)?;
+    Ok((&scan).into())
 }
 
 fn draw(args: &ReportArgs, name: &str, grain: &Grain, scan: Option<&Scan>) -> Result<()> {

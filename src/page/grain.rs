@@ -1,7 +1,7 @@
 //! The part of a page about one grain.
 
 use super::packed::Packed;
-use super::{MeasureRow, SearchPart};
+use super::{BenchPart, MeasureRow, SearchPart};
 use crate::annotate::{Annotated, ScanDeviation};
 use crate::measure::{
     Curvature, OrientedBox, box_along, convex_hull, mesh_properties, minimum_box,
@@ -43,6 +43,8 @@ pub struct Subject<'a> {
     pub warnings: Vec<String>,
     /// All candidates of a search, where one was asked for.
     pub search: Option<SearchPart>,
+    /// Run time and error of all families of models, where they were asked for.
+    pub bench: Option<BenchPart>,
 }
 
 /// What a page shows of a grain. Places are seen from the middle of the grain.
@@ -54,6 +56,7 @@ pub struct GrainPart {
     measures: Vec<MeasureRow>,
     warnings: Vec<String>,
     search: Option<SearchPart>,
+    bench: Option<BenchPart>,
     triangles: Packed,
     vertices: Packed,
     normals: Packed,
@@ -108,6 +111,7 @@ impl GrainPart {
             measures: subject.measures,
             warnings: subject.warnings,
             search: subject.search,
+            bench: subject.bench,
             triangles: Packed::counts(triangles.copied()),
             vertices: Packed::vectors(surface.mesh.vertices.iter().map(seen)),
             normals: Packed::units(surface.normals.iter().copied()),

@@ -4,6 +4,7 @@
 //! page in any other way, so that nothing in a scan can run there.
 
 mod assemble;
+mod bench;
 mod definitions;
 mod grain;
 mod lot;
@@ -12,6 +13,7 @@ mod packed;
 mod search;
 
 pub use assemble::write_page;
+pub use bench::BenchPart;
 pub use grain::{GrainPart, Subject};
 pub use lot::{LotError, LotPart};
 pub use measures::MeasureRow;

@@ -60,6 +60,13 @@ fn page() -> (TempDir, String) {
     (folder, text)
 }
 
+/// What a page shows.
+fn record(text: &str) -> Value {
+    let start = text.find("application/json\">").unwrap() + "application/json\">".len();
+    let record = text[start..].split("</script>").next().unwrap();
+    serde_json::from_str(record).unwrap()
+}
+
 #[test]
 fn a_page_needs_nothing_else_and_no_name_runs_in_it() {
     let (folder, text) = page();
@@ -68,9 +75,7 @@ fn a_page_needs_nothing_else_and_no_name_runs_in_it() {
     for outside in ["src=", "@import", "fetch(", "XMLHttpRequest", "<link"] {
         assert!(!text.contains(outside), "{outside}");
     }
-    let start = text.find("application/json\">").unwrap() + "application/json\">".len();
-    let record = text[start..].split("</script>").next().unwrap();
-    let record: Value = serde_json::from_str(record).unwrap();
+    let record = record(&text);
     let grains = record["page"]["grains"].as_array().unwrap();
     assert_eq!((grains.len(), grains[0]["unit"].as_str()), (2, Some("mm")));
     let rows = grains[0]["measures"].as_array().unwrap();
@@ -84,6 +89,33 @@ fn a_page_needs_nothing_else_and_no_name_runs_in_it() {
 
     succeed(&folder, &REPORT);
     assert!(fs::read_to_string(folder.path().join("a.html")).unwrap() == text);
+}
+
+#[test]
+fn a_page_shows_what_families_of_models_cost_and_how_far_off_they_are() {
+    let folder = folder();
+    succeed(
+        &folder,
+        &["synth", "bean", "--points", "98", "-o", "small.ply"],
+    );
+    succeed(&folder, &["report", "small.ply", "--bench", "-o", "a.html"]);
+    let shown = record(&fs::read_to_string(folder.path().join("a.html")).unwrap());
+    let shown = &shown["page"]["grains"][0]["bench"];
+    let rows = shown["families"].as_array().unwrap();
+    for family in [
+        "whole",
+        "uniform",
+        "blended",
+        "adaptive",
+        "estimate",
+        "superquadric",
+    ] {
+        assert!(rows.iter().any(|row| row == family), "{family}");
+    }
+    let errors = shown["heldout_shares"].as_array().unwrap();
+    assert!(errors.iter().any(|share| share.as_f64() < Some(0.01)));
+    let seconds = shown["seconds"].as_array().unwrap();
+    assert!(seconds.len() == rows.len() && seconds.iter().all(|time| time.as_f64() > Some(0.0)));
 }
 
 #[test]

@@ -135,6 +135,11 @@ pub(in crate::cli) struct ReportArgs {
     #[arg(long, help_heading = SEARCH)]
     pub(in crate::cli) search: bool,
 
+    /// Show run time and coefficients of every family of models against their errors too, as `bench` takes them; times
+    /// are of this run
+    #[arg(long, help_heading = SEARCH)]
+    pub(in crate::cli) bench: bool,
+
     /// Of several bodies in a scan, fit the largest
     #[arg(long, help_heading = SEARCH)]
     pub(in crate::cli) largest: bool,

@@ -106,6 +106,18 @@ function searchPlots(search) {
       plot(title, values, search.coefficients, 'coefficients', factor)]);
 }
 
+// Held-out errors of all families against run time and coefficients.
+function benchPlots(bench) {
+  const families = [...new Set(bench.families)];
+  return [['seconds of the fit, one thread', bench.seconds], ['coefficients', bench.coefficients]].map(([title, values]) => scatter({
+    title: 'held-out RMS, % of the mean radius', xTitle: title, yTitle: 'held-out RMS, %', isLogX: true, isLogY: true, series: families,
+    points: values.map((value, at) => ({
+      x: value, y: bench.heldout_shares[at] === null ? NaN : 100 * bench.heldout_shares[at], series: families.indexOf(bench.families[at]),
+      label: `${bench.families[at]}, ${bench.segments[at]} segments, ${bench.coefficients[at]} coefficients:`,
+    })),
+  }));
+}
+
 function grainPart(grain) {
   const view = grainView(grain);
   const rows = grain.measures.map(({ name, value, error, unit, definition }) => el('tr', {},
@@ -118,6 +130,7 @@ function grainPart(grain) {
     view.shown,
     el('h3', {}, 'Maps over the angles of the grain’s own axes'), el('div', { class: 'row' }, mapsOf(grain)),
     grain.search ? [el('h3', {}, 'Independent segments: error against size'), el('div', { class: 'row' }, searchPlots(grain.search))] : [],
+    grain.bench ? [el('h3', {}, 'Families of models: error against cost'), el('div', { class: 'row' }, benchPlots(grain.bench))] : [],
     rows.length ? [el('h3', {}, 'Measures'), el('div', {}, el('table', {}, el('thead', {}, el('tr', {}, heads)), el('tbody', {}, rows)))] : []);
   return { part, view };
 }
