@@ -35,7 +35,8 @@ pub use edge::{EdgeError, TangentCap};
 pub use force_error::{Curved, force_error};
 pub use material::{Material, MaterialError, effective_modulus_pa};
 pub use regions::{
-    ContactBody, ContactRegion, ContactRegions, RegionError, RegionWork, contact_regions,
+    ContactBody, ContactPair, ContactPlace, ContactRegion, ContactRegions, RegionError, RegionWork,
+    contact_regions,
 };
 pub use relative::{ContactError, Correction, LARGEST_RATIO, RelativeCurvature};
 pub use touch::{Touch, TouchError, touch};
