@@ -131,7 +131,7 @@ fn with_parts(
 ) -> Result<Minimum, SuperquadricFitError> {
     let few = cloud.thinned();
     let mut tried = Vec::new();
-    for seeding in 0..SEEDINGS {
+    for seeding in SEEDINGS {
         if let Some(start) = ellipsoids(cloud, &few, parts, seeding) {
             tried.push(sharpened(start, &few, like, context)?);
         }

@@ -4,7 +4,7 @@ use super::bodies::Body;
 use super::cloud::Cloud;
 use super::error::SuperquadricFitError;
 use super::form::Form;
-use super::least_squares::{Minimum, deviation, least, minimised};
+use super::least_squares::{Minimum, descended, deviation, least, minimised, weighed};
 use super::normal_equations::{Reach, Weighing, distances};
 use super::standard_errors::{ParameterErrors, standard_errors};
 use crate::fit::context::Context;
@@ -106,13 +106,8 @@ pub(super) fn best(
             }
         }
     };
-    let mut found = minimised(
-        start.bodies,
-        &cloud.points,
-        &start.weighing,
-        STEPS[1],
-        context,
-    )?;
+    let weighing = weighed(&start.bodies, &cloud.points, &start.weighing);
+    let mut found = descended(start.bodies, &cloud.points, weighing, STEPS[1], context)?;
     found.iterations += start.iterations;
     Ok(found)
 }
