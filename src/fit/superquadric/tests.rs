@@ -128,7 +128,7 @@ fn grains_are_fitted_as_well_as_so_few_numbers_can() {
 
 #[test]
 fn a_dent_asks_for_four_parts() {
-    let points = synthesize(&SynthOptions::clean(Body::Bean)).unwrap().points;
+    let points = grain(Body::Bean);
     let cloud = cloud::Cloud::new(&points, 1).unwrap();
     let dent = -cloud.axes.column(1);
     let dented = cloud.points.iter().map(|p| {
