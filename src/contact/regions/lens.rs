@@ -1,9 +1,9 @@
 //! What two bodies share round the points where they are deepest in each other, where both are smooth.
 //!
 //! Seen along the normal, each surface is a height over a plane, and shared is what lies between them within a rim. The
-//! volume is a sum over rays from the deepest points, evenly spread, of Gauss's rule along each, which for smooth
-//! surfaces converges faster than any power of the number of nodes. What is an integral over the first surface is one
-//! over its rim, by Stokes's theorem.
+//! volume is a sum over rays from the deepest points, evenly spread where the plane is stretched until the rim is nearly
+//! a circle, of Gauss's rule along each, which for smooth surfaces converges faster than any power of the number of nodes.
+//! What is an integral over the first surface is one over its rim, by Stokes's theorem.
 
 use super::deepest::{DeepestPair, Placed};
 use super::sums::Sums;
@@ -12,7 +12,7 @@ use nalgebra::{Matrix2, Matrix3, Point3, Vector2, Vector3};
 use std::f64::consts::TAU;
 
 /// Rays, and nodes along each, until two in turn agree.
-const RULES: [[usize; 2]; 4] = [[8, 3], [16, 5], [32, 8], [64, 12]];
+const RULES: [[usize; 2]; 4] = [[6, 3], [12, 5], [24, 8], [48, 12]];
 
 /// Share of the volume by which they may differ, and by which the last two may: of surfaces that are not smooth all over.
 const AGREED: f64 = 1e-6;
@@ -31,13 +31,16 @@ const BESIDE: f64 = 1e-6;
 /// Gap at the rim, as a share of the depth.
 const RIM: f64 = 1e-10;
 
+/// How many times less the gap may be bent one way than the other before it is taken to be bent by as much as that.
+const FLAT: f64 = 1e-3;
+
 /// Least cosine of the angle between a surface and the plane.
 const STEEPEST: f64 = 0.1;
 
 /// Volume, area, moment and middle of what is shared, and how far the volume may be off; `None` where the surfaces are no
 /// heights over the plane, where the rim is not met once by each ray, and where two rules do not agree.
 pub(super) fn lens(bodies: &[Placed<'_>; 2], pair: &DeepestPair) -> Option<(Sums, f64)> {
-    let plane = Plane::new(pair);
+    let plane = Plane::new(pair)?;
     let charts = [(0, 1.0), (1, -1.0)].map(|(i, up)| Chart::new(&bodies[i], &plane, up));
     let [one, two] = &charts;
     let centre = [
@@ -66,17 +69,31 @@ struct Plane {
     origin: Point3<f64>,
     /// Two unit vectors in the plane, and its normal.
     axes: Matrix3<f64>,
+    /// From a plane in which the gap closes as the square of the distance, halved, to this one.
+    stretch: Matrix2<f64>,
     depth: f64,
 }
 
 impl Plane {
-    fn new(pair: &DeepestPair) -> Self {
+    /// `None` where the gap opens all round.
+    fn new(pair: &DeepestPair) -> Option<Self> {
         let [s, t] = tangents(&pair.normal);
-        Self {
+        let mut bend = Matrix2::zeros();
+        for curvature in &pair.curvatures {
+            for (along, bent) in curvature.directions.iter().zip(curvature.principal) {
+                let along = Vector2::new(along.dot(&s), along.dot(&t));
+                bend += along * along.transpose() * bent;
+            }
+        }
+        let bend = bend.symmetric_eigen();
+        let most = bend.eigenvalues.max();
+        let lengths = bend.eigenvalues.map(|bent| bent.max(FLAT * most).sqrt());
+        (most > 0.0).then(|| Self {
             origin: nalgebra::center(&pair.points[0], &pair.points[1]),
             axes: Matrix3::from_columns(&[s, t, pair.normal]),
+            stretch: bend.eigenvectors * Matrix2::from_diagonal(&lengths.map(f64::recip)),
             depth: pair.depth(),
-        }
+        })
     }
 
     /// Sums over what is shared by one rule, along the plane's axes and about its origin.
@@ -88,69 +105,69 @@ impl Plane {
         rule: &GaussLegendre,
     ) -> Option<Sums> {
         let mut sums = Sums::default();
-        let mut reach = None;
         let turn = TAU / rays as f64;
+        let share_of_plane = self.stretch.determinant().abs() * turn;
         for ray in 0..rays {
             let (sin, cos) = (turn * ray as f64).sin_cos();
             let (along, across) = (Vector2::new(cos, sin), Vector2::new(-sin, cos));
-            let rim = self.rim(charts, centre, &along, reach)?;
+            let rim = self.rim(charts, centre, &along)?;
             let [first, second] = &rim.feet;
-            let apart = first.slope - second.slope;
-            let fall = apart.dot(&along);
-            let growth = -rim.reach * apart.dot(&across) / fall;
-            let step = along * growth + across * rim.reach;
-            let place = along * rim.reach;
+            let slope = self.stretch.tr_mul(&(first.slope - second.slope));
+            let growth = -rim.reach * slope.dot(&across) / slope.dot(&along);
+            let step = self.stretch * (along * growth + across * rim.reach);
+            let place = self.stretch * along * rim.reach;
             let place = Vector3::new(place.x, place.y, first.height_at(&place));
-            let way = Vector3::new(step.x, step.y, first.slope.dot(&step)) * turn;
+            let way = Vector3::new(step.x, step.y, first.slope.dot(&step)) * (turn * self.sense());
             sums.area += place.cross(&way) * 0.5;
             sums.moment -= way * (0.5 * place.norm_squared());
             let mut from = *centre;
             for (share, weight) in rule.on(0.0, 1.0) {
-                let place = along * (rim.reach * share);
-                let feet = reached(charts, &from, &place, rim.reach)?;
+                let place = self.stretch * along * (rim.reach * share);
+                let feet = reached(charts, &from, &place)?;
                 let [high, low] = feet.each_ref().map(|foot| foot.height_at(&place));
                 let gap = high - low;
                 if gap <= 0.0 {
                     return None;
                 }
-                let volume = gap * weight * share * rim.reach * rim.reach * turn;
+                let volume = gap * weight * share * rim.reach * rim.reach * share_of_plane;
                 sums.volume += volume;
                 sums.first += Vector3::new(place.x, place.y, 0.5 * (high + low)) * volume;
                 from = feet;
             }
-            reach = Some(rim.reach);
         }
         Some(sums)
     }
 
-    /// Where the gap closes along a ray, from a guess if there is one.
+    /// One if the stretch keeps the sense of a turn, minus one if not.
+    fn sense(&self) -> f64 {
+        self.stretch.determinant().signum()
+    }
+
+    /// Where the gap closes along a ray, by Newton's method for the square of the distance, of which the gap is nearly a
+    /// linear function: from half of what it would be then, where no surface has turned away yet.
     fn rim(
         &self,
         charts: &[Chart<'_>; 2],
         centre: &[Foot; 2],
         along: &Vector2<f64>,
-        guess: Option<f64>,
     ) -> Option<Rim> {
-        let mut reach = guess.unwrap_or_else(|| (self.depth * charts[0].size).sqrt());
+        let mut reach = self.depth.sqrt();
         let mut feet = *centre;
-        for step in 0..STEPS {
-            let place = along * reach;
-            feet = reached(charts, &feet, &place, reach)?;
+        for _ in 0..STEPS {
+            let place = self.stretch * along * reach;
+            feet = reached(charts, &feet, &place)?;
             let [first, second] = &feet;
             let gap = first.height_at(&place) - second.height_at(&place);
-            let fall = (first.slope - second.slope).dot(along);
+            let fall = (first.slope - second.slope).dot(&(self.stretch * along));
             if gap.abs() <= RIM * self.depth {
                 return (fall < 0.0).then_some(Rim { reach, feet });
             }
-            reach = match guess.is_none() && step == 0 {
-                // The gap of a paraboloid.
-                true => reach * (self.depth / (self.depth - gap)).sqrt(),
-                false => reach - gap / fall,
-            };
+            let square = reach * reach - 2.0 * reach * gap / fall;
             // Written so that NaN fails.
-            if !(reach > 0.0) {
+            if !(square > 0.0) {
                 return None;
             }
+            reach = square.sqrt();
         }
         None
     }
@@ -255,15 +272,11 @@ impl Foot {
 }
 
 /// Both surfaces at a place.
-fn reached(
-    charts: &[Chart<'_>; 2],
-    from: &[Foot; 2],
-    place: &Vector2<f64>,
-    reach: f64,
-) -> Option<[Foot; 2]> {
+fn reached(charts: &[Chart<'_>; 2], from: &[Foot; 2], place: &Vector2<f64>) -> Option<[Foot; 2]> {
     let [one, two] = charts;
+    let beside = BESIDE * place.norm();
     Some([
-        one.reached(&from[0], place, BESIDE * reach)?,
-        two.reached(&from[1], place, BESIDE * reach)?,
+        one.reached(&from[0], place, beside)?,
+        two.reached(&from[1], place, beside)?,
     ])
 }

@@ -159,6 +159,12 @@ impl Common {
             pose: &self.poses[side],
         })
     }
+
+    /// How far apart the spheres are that the bodies lie in; below zero where they overlap.
+    fn clearance(&self, bodies: [&ContactBody<'_>; 2]) -> f64 {
+        let [one, two] = [0, 1].map(|side| self.poses[side] * bodies[side].surface.frame().centre);
+        (two - one).norm() - bodies[0].radius - bodies[1].radius
+    }
 }
 
 /// All regions, in no order.
@@ -170,6 +176,10 @@ fn found_regions(
         triangles: bodies.iter().map(|body| body.whole.triangles.len()).sum(),
         ..RegionWork::default()
     };
+    if common.clearance(bodies) > 0.0 {
+        work.skipped = work.triangles;
+        return Ok((Vec::new(), work));
+    }
     let placed = common.placed(bodies);
     let wholes = bodies.map(|body| &body.whole);
     let mut left = vec![Cluster::whole(wholes, &common.poses)];

@@ -3,7 +3,8 @@
 //! All regions are looked for once, and with them all places where the bodies come nearer to each other than a margin.
 //! From pose to pose these are followed by Newton's method, from their last directions, until some point of the bodies
 //! has moved by more than the margin: until then what was farther apart cannot touch, nor is a place looked at that is
-//! still too far. Regions that part or join meanwhile are told by their deepest points: as one, or as two.
+//! still too far. Regions that part or join meanwhile are told by their deepest points: as one, or as two. Places nearer to
+//! each other than the triangles of [`ContactBody`] are large may be taken for one.
 
 use super::cluster::Found;
 use super::deepest::DeepestPair;
@@ -43,8 +44,8 @@ pub struct ContactPair<'a> {
     bodies: [&'a ContactBody<'a>; 2],
     margin: f64,
     pose: Isometry3<f64>,
-    /// The pose in which the regions were last looked for, if they can be followed from there.
-    searched: Option<Isometry3<f64>>,
+    /// The pose in which the regions were last looked for, if they can be followed from there, and how far.
+    searched: Option<(Isometry3<f64>, f64)>,
     followed: Vec<Followed>,
     places: Vec<ContactPlace>,
     searches: usize,
@@ -166,8 +167,9 @@ impl<'a> ContactPair<'a> {
 
     /// Follows all places from the last pose; `None` if that proves nothing.
     fn follow(&mut self) -> Option<()> {
-        let motion = self.bodies[1].motion(&self.searched?, &self.pose);
-        if motion > self.margin {
+        let (from, reach) = self.searched?;
+        let motion = self.bodies[1].motion(&from, &self.pose);
+        if motion > reach {
             return None;
         }
         let common = Common::new(self.bodies, &self.pose);
@@ -194,6 +196,12 @@ impl<'a> ContactPair<'a> {
         self.places.clear();
         let common = Common::new(self.bodies, &self.pose);
         let placed = common.placed(self.bodies);
+        let clearance = common.clearance(self.bodies);
+        if clearance > self.margin {
+            self.followed.clear();
+            self.searched = Some((self.pose, clearance));
+            return Ok(());
+        }
         let (regions, _) = found_regions(self.bodies, &common)?;
         let touching = regions.iter().filter_map(|found| found.deepest);
         let near = near_places(&placed, self.bodies.map(|body| &body.whole), self.margin);
@@ -203,7 +211,7 @@ impl<'a> ContactPair<'a> {
         });
         self.followed = followed.collect();
         let is_followed = regions.iter().all(|found| found.deepest.is_some());
-        self.searched = is_followed.then_some(self.pose);
+        self.searched = is_followed.then_some((self.pose, self.margin));
         let places = regions.iter();
         self.places
             .extend(places.map(|found| ContactPlace::of_region(found, &common.centre)));
