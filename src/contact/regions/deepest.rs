@@ -10,7 +10,7 @@ use nalgebra::{Isometry3, Matrix2, Matrix4, Point3, Vector2, Vector3, Vector4};
 const STEPS: usize = 20;
 
 /// The last step, in radians: what it leaves is of the order of its square.
-const LAST: f64 = 1e-8;
+const LAST: f64 = 1e-7;
 
 /// The largest step, in radians.
 const LARGEST: f64 = 0.2;

@@ -3,8 +3,11 @@
 //! Both are triangulated coarsely; triangles that may be near the other body (by a tree of boxes, each as much larger as
 //! the surface may be off its triangle) or inside it are cut in four, again and again, and the others are left out. So
 //! only the parts that face each other are evaluated. What the polyhedra share is known to rounding, and by how much it
-//! changes with the last cut, extrapolated, is the error of what the surfaces share. No centre and no star shape is made
-//! use of: a body's centre may lie inside the other.
+//! changes with the last cut, extrapolated, is the error of what the surfaces share. Where that is a lens between smooth
+//! surfaces, it is summed as such, far closer, as soon as the polyhedra agree. No centre and no star shape is made use of:
+//! a body's centre may lie inside the other.
+//!
+//! Of bodies that move, a [`ContactPair`] follows the deepest points from pose to pose.
 
 mod clip;
 mod cluster;
@@ -115,8 +118,8 @@ pub enum RegionError {
 
 /// Finds where two bodies overlap, of which the second is moved by `pose`.
 ///
-/// Volumes of smooth bodies are known to some 1e-6 of themselves, and told to be known less well. A depth below 1e-7 of the
-/// bodies' size may pass unseen.
+/// Volumes shared by smooth bodies are known to 1e-6 of themselves or closer where they are lenses, less well of cells
+/// that meet there and of deep overlaps, as the error of each tells. A depth below 1e-7 of the bodies' size may pass unseen.
 ///
 /// # Errors
 ///

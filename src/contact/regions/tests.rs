@@ -38,7 +38,7 @@ fn balls_share_a_lens() {
             "{depth}"
         );
         assert!(region.volume_error < 1e-4 * volume, "{depth}");
-        assert_relative_eq!(region.volume, volume, max_relative = 1e-5);
+        assert_relative_eq!(region.volume, volume, max_relative = epsilon);
         assert_relative_eq!(region.depth, depth, max_relative = 1e-9);
         assert_relative_eq!(region.normal, towards, epsilon = epsilon);
         // Its rim's radius squared, times pi: the vector area of a cap is that of its rim.
