@@ -8,7 +8,7 @@ use super::least_squares::{Minimum, descended, deviation, least, minimised, weig
 use super::normal_equations::{Reach, Weighing, distances};
 use super::standard_errors::{ParameterErrors, standard_errors};
 use crate::fit::Residuals;
-use crate::fit::context::{Cancelled, Context};
+use crate::fit::context::Context;
 use crate::model::{Frame, Grain, InvalidGrain, Superquadric, SuperquadricGrain};
 use nalgebra::{Matrix3, Point3, Vector3};
 
@@ -91,21 +91,14 @@ pub(super) fn best(
     } else {
         &few
     };
-    let wide = like(form, Reach::Wide);
-    let wide = best_within(cloud, few, |start| {
-        minimised(vec![start], few, &wide, STEPS[0], context)
-    })?;
+    let wide = best_within(cloud, few, form, Reach::Wide, context)?;
     let nearness = deviation(&wide.bodies, few);
     let start = match nearness < NEAR {
         true => wide,
         false => {
-            let like = like(form, Reach::Narrow);
-            let narrow = best_within(cloud, few, |start| {
-                let weighing = weighed(&[start], few, &like);
-                descended(vec![start], few, weighing, STEPS[0], context)
-            })?;
+            let narrow = best_within(cloud, few, form, Reach::Narrow, context)?;
             match deviation(&narrow.bodies, few) < MUCH_NEARER * nearness {
-                true => minimised(narrow.bodies, few, &like, STEPS[0], context)?,
+                true => narrow,
                 false => wide,
             }
         }
@@ -116,24 +109,24 @@ pub(super) fn best(
     Ok(found)
 }
 
-/// A weighing whose scale and prior are not yet known.
-fn like(form: Form, reach: Reach) -> Weighing {
-    Weighing {
+/// The best of all starts with one reach of the loss.
+fn best_within(
+    cloud: &Cloud,
+    points: &[Vector3<f64>],
+    form: Form,
+    reach: Reach,
+    context: &Context<'_>,
+) -> Result<Minimum, SuperquadricFitError> {
+    let like = Weighing {
         form,
         reach,
         scale: 1.0,
         prior: 0.0,
         sharpness: 1.0,
-    }
-}
-
-/// The best of all starts, each fitted.
-fn best_within(
-    cloud: &Cloud,
-    points: &[Vector3<f64>],
-    fitted: impl Fn(Body) -> Result<Minimum, Cancelled>,
-) -> Result<Minimum, SuperquadricFitError> {
-    let tried = starts(cloud).map(fitted).collect::<Result<Vec<_>, _>>()?;
+    };
+    let tried = starts(cloud)
+        .map(|start| minimised(vec![start], points, &like, STEPS[0], context))
+        .collect::<Result<Vec<_>, _>>()?;
     let iterations = tried.iter().map(|found| found.iterations).sum();
     let best = least(tried, points).ok_or(SuperquadricFitError::NoVolume)?;
     Ok(Minimum { iterations, ..best })
