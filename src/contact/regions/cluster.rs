@@ -2,6 +2,7 @@
 
 use super::clip::{Crossing, Side, is_inside};
 use super::deepest::{DeepestPair, Placed};
+use super::kept::Kept;
 use super::lens::lens;
 use super::patch::Patch;
 use super::sums::Sums;
@@ -113,7 +114,7 @@ impl Cluster {
         if self.is_whole && near.is_empty() && crossing.inside.iter().flatten().any(|is| *is) {
             return Err(RegionError::Inside);
         }
-        let kept = Kept::new(self, &near, &crossing);
+        let kept = Kept::new(&self.patches, &near, &crossing);
         if self.is_whole {
             work.skipped = work.triangles - kept.count();
         }
@@ -121,7 +122,7 @@ impl Cluster {
         let sags = self.patches.iter().map(Patch::largest_sag);
         let sag = sags.fold(0.0, f64::max);
         let (mut finer, mut found) = (Vec::new(), Vec::new());
-        for part in kept.parts(self, &near) {
+        for part in kept.parts(&self.patches, &near) {
             let regions = self.regions(&part, &crossing);
             let sums: Vec<Sums> = regions
                 .iter()
@@ -299,97 +300,6 @@ impl Region {
         self.triangles
             .iter()
             .all(|triangles| triangles.len() >= count)
-    }
-}
-
-/// What is kept for the next cut: what is near the other surface, or in it.
-struct Kept {
-    is_near: [Vec<bool>; 2],
-    is_kept: [Vec<bool>; 2],
-}
-
-impl Kept {
-    fn new(cluster: &Cluster, near: &[[u32; 2]], crossing: &Crossing) -> Self {
-        let mut is_near = [0, 1].map(|side| vec![false; cluster.patches[side].triangles.len()]);
-        for pair in near {
-            for side in 0..2 {
-                is_near[side][pair[side] as usize] = true;
-            }
-        }
-        let is_kept = [0, 1].map(|side| {
-            let inside = |corner: &u32| crossing.inside[side][*corner as usize];
-            let all = cluster.patches[side].triangles.iter().zip(&is_near[side]);
-            all.map(|(corners, is_near)| *is_near || corners.iter().any(inside))
-                .collect()
-        });
-        Self { is_near, is_kept }
-    }
-
-    fn count(&self) -> usize {
-        self.is_kept
-            .iter()
-            .flatten()
-            .filter(|is_kept| **is_kept)
-            .count()
-    }
-
-    /// The triangles of both surfaces, by the parts that hang together.
-    fn parts(&self, cluster: &Cluster, near: &[[u32; 2]]) -> Vec<[Vec<u32>; 2]> {
-        let offset = self.is_kept[0].len() as u32;
-        let mut sets = DisjointSets::new(self.is_kept.iter().map(Vec::len).sum());
-        for &[one, two] in near {
-            sets.join(one, offset + two);
-        }
-        let kept = |side: usize| {
-            let all = (0..)
-                .zip(&self.is_kept[side])
-                .filter(|(_, is_kept)| **is_kept);
-            all.map(|(triangle, _)| triangle)
-        };
-        for side in 0..2 {
-            let mut first = vec![None; cluster.patches[side].vertices.len()];
-            for triangle in kept(side) {
-                let own = triangle + offset * side as u32;
-                for corner in cluster.patches[side].triangles[triangle as usize] {
-                    sets.join(*first[corner as usize].get_or_insert(own), own);
-                }
-            }
-        }
-        let mut parts: BTreeMap<u32, [Vec<u32>; 2]> = BTreeMap::new();
-        for side in 0..2 {
-            for triangle in kept(side) {
-                let set = sets.of(triangle + offset * side as u32);
-                parts.entry(set).or_default()[side].push(triangle);
-            }
-        }
-        parts
-            .into_values()
-            .filter(|part| part.iter().all(|side| !side.is_empty()))
-            .collect()
-    }
-
-    /// What is known of the vertices of a patch for sure: those of what is left out lie outside, and those far from
-    /// the other surface where they are.
-    fn known(&self, side: usize, patch: &Patch, crossing: &Crossing) -> Vec<Option<bool>> {
-        let mut known: Vec<Option<bool>> = crossing.inside[side]
-            .iter()
-            .map(|is_inside| Some(*is_inside))
-            .collect();
-        for (triangle, corners) in patch.triangles.iter().enumerate() {
-            if self.is_near[side][triangle] {
-                corners
-                    .iter()
-                    .for_each(|&corner| known[corner as usize] = None);
-            }
-        }
-        for (triangle, corners) in patch.triangles.iter().enumerate() {
-            if !self.is_kept[side][triangle] {
-                corners
-                    .iter()
-                    .for_each(|&corner| known[corner as usize] = Some(false));
-            }
-        }
-        known
     }
 }
 

@@ -87,11 +87,15 @@ impl Plane {
         }
         let bend = bend.symmetric_eigen();
         let most = bend.eigenvalues.max();
-        let lengths = bend.eigenvalues.map(|bent| bent.max(FLAT * most).sqrt());
+        let lengths = bend
+            .eigenvalues
+            .map(|bent| bent.max(FLAT * most).sqrt().recip());
         (most > 0.0).then(|| Self {
             origin: nalgebra::center(&pair.points[0], &pair.points[1]),
             axes: Matrix3::from_columns(&[s, t, pair.normal]),
-            stretch: bend.eigenvectors * Matrix2::from_diagonal(&lengths.map(f64::recip)),
+            stretch: bend.eigenvectors
+                * Matrix2::from_diagonal(&lengths)
+                * bend.eigenvectors.transpose(),
             depth: pair.depth(),
         })
     }
@@ -106,7 +110,7 @@ impl Plane {
     ) -> Option<Sums> {
         let mut sums = Sums::default();
         let turn = TAU / rays as f64;
-        let share_of_plane = self.stretch.determinant().abs() * turn;
+        let share_of_plane = self.stretch.determinant() * turn;
         for ray in 0..rays {
             let (sin, cos) = (turn * ray as f64).sin_cos();
             let (along, across) = (Vector2::new(cos, sin), Vector2::new(-sin, cos));
@@ -117,7 +121,7 @@ impl Plane {
             let step = self.stretch * (along * growth + across * rim.reach);
             let place = self.stretch * along * rim.reach;
             let place = Vector3::new(place.x, place.y, first.height_at(&place));
-            let way = Vector3::new(step.x, step.y, first.slope.dot(&step)) * (turn * self.sense());
+            let way = Vector3::new(step.x, step.y, first.slope.dot(&step)) * turn;
             sums.area += place.cross(&way) * 0.5;
             sums.moment -= way * (0.5 * place.norm_squared());
             let mut from = *centre;
@@ -136,11 +140,6 @@ impl Plane {
             }
         }
         Some(sums)
-    }
-
-    /// One if the stretch keeps the sense of a turn, minus one if not.
-    fn sense(&self) -> f64 {
-        self.stretch.determinant().signum()
     }
 
     /// Where the gap closes along a ray, by Newton's method for the square of the distance, of which the gap is nearly a

@@ -12,6 +12,7 @@
 mod clip;
 mod cluster;
 mod deepest;
+mod kept;
 mod lens;
 mod near;
 mod pair;
