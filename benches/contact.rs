@@ -1,8 +1,9 @@
 //! Contacts of random superquadrics by every method: how many stay unresolved, iterations, and time as a ratio to the
-//! floor, evaluating both gauges with their derivatives once and both support functions once, on one thread:
-//! `cargo bench --bench contact`. A number after `--` is that of the pairs (100 000).
+//! floor, evaluating both gauges with their derivatives once and both support functions once, on one thread; then
+//! contacts of grains of any shape: `cargo bench --bench contact`. A number after `--` is that of the pairs (100 000).
 
 mod pairs;
+mod regions;
 mod timing;
 
 use grainform::contact::{ConvexContact, ConvexStatus, Method, Warm};
@@ -19,7 +20,7 @@ const WARM: f64 = 1e-3;
 /// Gap at which a contact is found.
 const GAP: f64 = 1e-6;
 
-fn main() {
+fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut count = std::env::args().filter_map(|argument| argument.parse().ok());
     let count = count.next_back().unwrap_or(100_000);
     println!(
@@ -43,6 +44,7 @@ fn main() {
     );
     println!("|---|---|---|---|---|---|---|---|");
     timed.iter().for_each(|row| println!("{row}"));
+    regions::print()
 }
 
 /// What a method makes of pairs.

@@ -135,7 +135,7 @@ impl Found {
         Some(Self {
             grain: fitted.grain().ok()?,
             segments: 1,
-            heldout_rms: Some(fitted.rms / (1.0 - share)),
+            heldout_rms: Some(fitted.residuals.rms / (1.0 - share)),
             mean_radius: fitted.mean_radius,
             rejected: None,
         })

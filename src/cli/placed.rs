@@ -14,6 +14,8 @@ use crate::model::{Frame, Grain, Surface};
 use crate::report::{NormalLaw, PlacedReport, RegionsReport};
 use anyhow::{Context, Result, anyhow, bail};
 use nalgebra::{Isometry3, Translation3};
+use serde::Serialize;
+use std::fmt::Display;
 use std::path::Path;
 
 /// Cells along each edge of the cube of directions of a mesh of both bodies.
@@ -37,10 +39,7 @@ pub(super) fn run(args: &ContactArgs, pose: &PoseArg, console: Console) -> Resul
         let touches = report.touches.iter();
         let frames = touches.map(|touch| frame(touch.point, touch.normal));
         draw(args, &grains, pose, &frames.collect::<Vec<_>>())?;
-        return match args.json {
-            true => put_json(&report),
-            false => console.print(&report),
-        };
+        return tell(args, &report, &[], console);
     }
     let [one, two] = &grains;
     let found = contact_regions(&ContactBody::new(one), &ContactBody::new(two), &moved(pose))
@@ -52,11 +51,24 @@ pub(super) fn run(args: &ContactArgs, pose: &PoseArg, console: Console) -> Resul
         .iter()
         .map(|region| frame(region.point, region.normal));
     draw(args, &grains, pose, &frames.collect::<Vec<_>>())?;
+    tell(args, &report, &report.warnings, console)
+}
+
+/// Tells a report, and that the mesh was written if it was asked for.
+fn tell(
+    args: &ContactArgs,
+    report: &(impl Serialize + Display),
+    warnings: &[String],
+    console: Console,
+) -> Result<()> {
     if args.json {
-        return put_json(&report);
+        return put_json(report);
     }
-    console.print(&report)?;
-    console.warn(&report.warnings);
+    console.print(report)?;
+    if let Some(path) = &args.mesh {
+        console.wrote(&outputs::name(path))?;
+    }
+    console.warn(warnings);
     Ok(())
 }
 

@@ -9,7 +9,7 @@ use crate::fit::{
     fit_superquadric, whole_or_largest,
 };
 use crate::model::Grain;
-use crate::report::{SuperquadricReport, sentences};
+use crate::report::{FittedScan, SuperquadricReport, sentences};
 use crate::scan::Scan;
 use anyhow::{Context, Result, bail};
 
@@ -61,17 +61,22 @@ fn fitted(args: &FitArgs, form: SuperquadricArg) -> Result<(Grain, Scan, Superqu
         .copied()
         .chain(others_left_out)
         .collect();
-    let (warnings, count) = (sentences(&scan.warnings, &of_fit, unit), points.len());
+    let fitted = FittedScan {
+        input: name.clone(),
+        unit,
+        points: points.len(),
+        warnings: sentences(&scan.warnings, &of_fit, unit),
+    };
     let context = FitContext::default();
     match form {
         SuperquadricArg::Single(form) => {
             let found = fit_superquadric(points, form, &context).with_context(failed)?;
-            let report = SuperquadricReport::of_single(name.clone(), unit, count, &found, warnings);
+            let report = SuperquadricReport::of_single(fitted, &found);
             Ok((found.grain()?, scan, report))
         }
         SuperquadricArg::Multi(most) => {
             let found = fit_multi_superquadric(points, most, &context).with_context(failed)?;
-            let report = SuperquadricReport::of_multi(name.clone(), unit, count, &found, warnings);
+            let report = SuperquadricReport::of_multi(fitted, &found);
             Ok((found.grain()?, scan, report))
         }
     }

@@ -1,6 +1,6 @@
 //! Normal contact of two surfaces, or of a surface and a plane, by the theory of Hertz; contacts of convex bodies and of
 //! unions of them, which are found however they lie, and the [law] of their forces while they move; and all regions in
-//! which surfaces of any kind overlap.
+//! which surfaces of any kind overlap, followed while they move.
 //!
 //! ```
 //! use grainform::contact::{ContactBody, contact_regions};
@@ -35,7 +35,8 @@ pub use edge::{EdgeError, TangentCap};
 pub use force_error::{Curved, force_error};
 pub use material::{Material, MaterialError, effective_modulus_pa};
 pub use regions::{
-    ContactBody, ContactRegion, ContactRegions, RegionError, RegionWork, contact_regions,
+    ContactBody, ContactPair, ContactPlace, ContactRegion, ContactRegions, RegionError, RegionWork,
+    contact_regions,
 };
 pub use relative::{ContactError, Correction, LARGEST_RATIO, RelativeCurvature};
 pub use touch::{Touch, TouchError, touch};

@@ -267,14 +267,10 @@ fn residuals(grain: &StarGrain, samples: &[Sample]) -> Residuals {
         .map(|&[x, y, z, _]| Vector3::new(x, y, z))
         .collect();
     let fitted = grain.local_radii(&directions);
-    let (mut squared, mut max) = (0.0, 0.0_f64);
-    for (sample, radius) in samples.iter().zip(fitted) {
-        let residual = sample[3] - radius;
-        squared += residual * residual;
-        max = max.max(residual.abs());
-    }
-    Residuals {
-        rms: (squared / samples.len() as f64).sqrt(),
-        max,
-    }
+    Residuals::of(
+        samples
+            .iter()
+            .zip(fitted)
+            .map(|(sample, radius)| sample[3] - radius),
+    )
 }

@@ -107,6 +107,22 @@ pub struct Residuals {
     pub max: f64,
 }
 
+impl Residuals {
+    /// Those of points, each by its distance.
+    pub(crate) fn of(distances: impl IntoIterator<Item = f64>) -> Self {
+        let (mut squares, mut max, mut count) = (0.0, 0.0_f64, 0);
+        for distance in distances {
+            squares += distance * distance;
+            max = max.max(distance.abs());
+            count += 1;
+        }
+        Self {
+            rms: (squares / f64::from(count)).sqrt(),
+            max,
+        }
+    }
+}
+
 impl Fitted {
     /// Standard errors of figures that are told of the grain: its mass properties and its length, width and
     /// thickness, all in the scan's frame. Where much of the surface was not seen, they allow for what holes are known

@@ -46,7 +46,7 @@ pub use placed::{PlacedReport, PlacedTouch};
 pub use regions::{NormalLaw, RegionRecord, RegionsReport};
 pub use search::{CandidateRecord, SearchReport};
 pub use split::{PlaneRecord, SplitGrainRecord, SplitReport};
-pub use superquadric::{SuperquadricRecord, SuperquadricReport};
+pub use superquadric::{FittedScan, SuperquadricRecord, SuperquadricReport};
 pub use synth::SynthReport;
 pub use tray::TrayReport;
 pub use truth::TruthRecord;

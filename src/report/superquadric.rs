@@ -3,7 +3,7 @@
 use super::escape::escaped;
 use super::number::{short, triple, with_error};
 use super::unit::{Labels, Unit};
-use crate::fit::{MultiFit, ParameterErrors, SuperquadricFit};
+use crate::fit::{MultiFit, ParameterErrors, Residuals, SuperquadricFit};
 use crate::measure::{SolidProperties, superquadric_properties, union_properties};
 use crate::model::{Frame, Superquadric};
 use crate::scan::plural;
@@ -40,6 +40,19 @@ pub struct SuperquadricReport {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub held_out: Option<Vec<f64>>,
     /// What to know of the scan.
+    pub warnings: Vec<String>,
+}
+
+/// A scan that was fitted.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FittedScan {
+    /// Its name.
+    pub input: String,
+    /// Unit of its lengths, if it was told.
+    pub unit: Option<Unit>,
+    /// Points of it that were fitted.
+    pub points: usize,
+    /// What to know of it.
     pub warnings: Vec<String>,
 }
 
@@ -117,37 +130,20 @@ impl SuperquadricRecord {
 
 impl SuperquadricReport {
     /// The report of one superquadric.
-    pub fn of_single(
-        input: String,
-        unit: Option<Unit>,
-        points: usize,
-        fitted: &SuperquadricFit,
-        warnings: Vec<String>,
-    ) -> Self {
-        let record = SuperquadricRecord::new(&fitted.shape, &fitted.frame, &fitted.errors);
-        Self {
-            input,
-            unit,
-            points,
-            rms: fitted.rms,
-            largest: fitted.largest,
-            mean_radius: fitted.mean_radius,
-            held_out: None,
-            warnings,
-            ..Self::solid(vec![record], &superquadric_properties(&fitted.shape))
-        }
+    pub fn of_single(scan: FittedScan, fitted: &SuperquadricFit) -> Self {
+        let parts = vec![SuperquadricRecord::new(
+            &fitted.shape,
+            &fitted.frame,
+            &fitted.errors,
+        )];
+        let solid = superquadric_properties(&fitted.shape);
+        Self::new(scan, parts, &solid, &fitted.residuals, fitted.mean_radius)
     }
 
     /// The report of a union, whose area and volume are integrated to a relative tolerance.
-    pub fn of_multi(
-        input: String,
-        unit: Option<Unit>,
-        points: usize,
-        fitted: &MultiFit,
-        warnings: Vec<String>,
-    ) -> Self {
+    pub fn of_multi(scan: FittedScan, fitted: &MultiFit) -> Self {
         let parts = fitted.union.parts().iter().zip(&fitted.errors);
-        let records = parts.map(|(part, errors)| {
+        let parts = parts.map(|(part, errors)| {
             let frame = Frame {
                 centre: fitted.frame.to_scan(&part.frame.centre.coords),
                 axes: fitted.frame.axes * part.frame.axes,
@@ -156,34 +152,38 @@ impl SuperquadricReport {
         });
         let solid = union_properties(&fitted.union, UNION_TOLERANCE);
         Self {
-            input,
-            unit,
-            points,
-            rms: fitted.rms,
-            largest: fitted.largest,
-            mean_radius: fitted.mean_radius,
             held_out: Some(fitted.held_out.clone()),
-            warnings,
-            ..Self::solid(records.collect(), &solid)
+            ..Self::new(
+                scan,
+                parts.collect(),
+                &solid,
+                &fitted.residuals,
+                fitted.mean_radius,
+            )
         }
     }
 
-    /// Parts, and what they come to.
-    fn solid(parts: Vec<SuperquadricRecord>, solid: &SolidProperties) -> Self {
+    fn new(
+        scan: FittedScan,
+        parts: Vec<SuperquadricRecord>,
+        solid: &SolidProperties,
+        residuals: &Residuals,
+        mean_radius: f64,
+    ) -> Self {
         Self {
-            input: String::new(),
-            unit: None,
-            points: 0,
+            input: scan.input,
+            unit: scan.unit,
+            points: scan.points,
             parts,
-            rms: 0.0,
-            largest: 0.0,
-            mean_radius: 0.0,
+            rms: residuals.rms,
+            largest: residuals.max,
+            mean_radius,
             area: solid.properties.area,
             area_error: solid.area_error,
             volume: solid.properties.volume,
             volume_error: solid.volume_error,
             held_out: None,
-            warnings: Vec::new(),
+            warnings: scan.warnings,
         }
     }
 }

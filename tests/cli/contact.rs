@@ -26,7 +26,9 @@ fn two_placed_surfaces_overlap_where_their_poles_meet_and_both_laws_agree_there(
     let load = ["--unit", "mm", "--youngs-modulus-mpa", "91"];
     let by = |law| placed("0,0,1.98,1,0,0,0", &[&load[..], &["--law", law]].concat());
     let [hertz, volume] = ["hertz", "volume"].map(by);
-    placed("0,0,1.98,1,0,0,0", &["--mesh", "both.vtp"]);
+    let words = "contact m.json m.json --pose-b 0,0,1.98,1,0,0,0 --mesh both.vtp";
+    let told = succeed(&folder, &words.split(' ').collect::<Vec<_>>());
+    assert!(told.ends_with("wrote both.vtp\n"), "{told}");
     let both = std::fs::read(folder.path().join("both.vtp")).unwrap();
     let head = String::from_utf8_lossy(&both[..500]);
     // Two bodies of 24578 vertices, and three bars of eight.

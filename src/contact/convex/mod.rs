@@ -11,6 +11,7 @@
 //!
 //! Whatever method finds a point and a normal, the difference of these two, the *gap*, tells how good they are.
 
+mod ellipsoids;
 mod midway;
 mod minimax;
 mod overlap;

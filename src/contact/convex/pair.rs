@@ -1,5 +1,6 @@
 //! Two superquadrics, and how their contact is found.
 
+use super::ellipsoids::Ellipsoids;
 use super::{midway, minimax, overlap, portal};
 use crate::model::{Frame, Superquadric};
 use crate::sphere::Jet;
@@ -11,8 +12,8 @@ const GAP: f64 = 1e-6;
 /// How a contact is looked for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Method {
-    /// Sequential quadratic programming on the gauges, and where that stalls portal refinement on the support
-    /// functions: it does not fail.
+    /// Sequential quadratic programming on the gauges, which of two ellipsoids leaves one unknown, and where that stalls
+    /// portal refinement on the support functions: it does not fail.
     #[default]
     Minimax,
     /// Portal refinement alone (Snethen 2008).
@@ -233,7 +234,10 @@ impl<'a> ConvexPair<'a> {
             Method::Midway => midway::solve(self, start),
             Method::Minimax => {
                 let start = start.unwrap_or_else(|| self.between_centres());
-                let found = minimax::solve(self, start, goal);
+                let found = match Ellipsoids::new(self) {
+                    Some(ellipsoids) => ellipsoids.solve(self, &start, goal),
+                    None => minimax::solve(self, start, goal),
+                };
                 match found.is_settled {
                     true => found,
                     false => self.better_of(&found, &portal::solve(self, goal), goal),

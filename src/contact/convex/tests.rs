@@ -126,3 +126,32 @@ fn the_contact_turns_and_moves_with_the_bodies() {
     assert_relative_eq!(swapped.ratio, found.ratio, max_relative = 2e-6);
     assert_relative_eq!(swapped.normal, -found.normal, epsilon = 1e-2);
 }
+
+#[test]
+fn ellipsoids_have_the_contact_that_portal_refinement_finds() {
+    let slender = Superquadric::single([5.0, 1.0, 0.2], 2.0, 2.0).unwrap();
+    let round = Superquadric::single([1.0, 1.5, 0.7], 2.0, 2.0).unwrap();
+    for i in 0..40 {
+        let angle = 0.7 * f64::from(i);
+        let towards = Rotation3::from_euler_angles(angle, 2.0 * angle, 0.3) * Vector3::x();
+        let turned = Frame {
+            axes: Rotation3::from_euler_angles(0.4, angle, -angle).into_inner(),
+            ..at(towards * (0.5 + 0.05 * f64::from(i)))
+        };
+        let here = at(Vector3::zeros());
+        let pair = ConvexPair::new((&slender, &here), (&round, &turned));
+        let found = pair.resolved(Method::Minimax, 1e-10);
+        let portal = pair.resolved(Method::Portal, 1e-8);
+        assert!(found.gap <= 1e-10, "{i}: {found:?}");
+        assert_relative_eq!(found.ratio, portal.ratio, max_relative = 1e-8);
+        assert_relative_eq!(found.normal, portal.normal, epsilon = 1e-2);
+        // The planes that touch both grown by the ratio, normal to it, are one.
+        let [first, second] = pair.supports(&found.normal);
+        let reach = found.normal.dot(&turned.centre.coords);
+        assert_relative_eq!(
+            found.ratio * (first.0 + second.0),
+            reach,
+            max_relative = 1e-8
+        );
+    }
+}

@@ -1,16 +1,20 @@
 //! Parts of two surfaces that are near each other, cut finer until what they share is known.
 
 use super::clip::{Crossing, Side, is_inside};
+use super::deepest::{DeepestPair, Placed};
+use super::kept::Kept;
+use super::lens::lens;
 use super::patch::Patch;
 use super::sums::Sums;
 use super::tree::{Bounds, BoundsTree};
-use super::{RegionError, RegionWork};
+use super::{ContactRegion, RegionError, RegionWork};
 use crate::disjoint_sets::DisjointSets;
-use crate::model::Surface;
 use nalgebra::{Isometry3, Point3, UnitQuaternion, Vector3};
 use std::collections::BTreeMap;
 
-/// Triangles of each surface round what is shared, from which on they are small enough.
+/// Triangles of each surface round what is shared, from which on it is known well enough to be compared with a lens, and
+/// from which on they are small enough by themselves.
+const FEW: usize = 60;
 const ENOUGH: usize = 1500;
 
 /// Triangles of a part, at most.
@@ -33,9 +37,29 @@ pub(super) struct Found {
     pub(super) sums: Sums,
     pub(super) volume_error: f64,
     /// Its extent along its normal.
-    pub(super) depth: f64,
-    /// Directions of a point of each surface deep in the other.
-    pub(super) starts: [Vector3<f64>; 2],
+    pub(super) extent: f64,
+    pub(super) deepest: Option<DeepestPair>,
+}
+
+impl Found {
+    /// The region in a frame in which the origin of the common one is `centre`.
+    pub(super) fn told(&self, centre: &Point3<f64>) -> ContactRegion {
+        let sums = &self.sums;
+        let middle = sums.first / sums.volume;
+        ContactRegion {
+            depth: self
+                .deepest
+                .as_ref()
+                .map_or(self.extent, DeepestPair::depth),
+            curvatures: self.deepest.map(|pair| pair.curvatures),
+            point: centre + middle,
+            normal: sums.area.normalize(),
+            volume: sums.volume,
+            volume_error: self.volume_error,
+            area: sums.area,
+            moment: sums.moment - middle.cross(&sums.area),
+        }
+    }
 }
 
 impl Cluster {
@@ -67,16 +91,18 @@ impl Cluster {
     /// What is shared, as far as the triangles are small enough for that; and, cut finer, what is not.
     pub(super) fn cut(
         &self,
-        surfaces: [&dyn Surface; 2],
-        poses: &[Isometry3<f64>; 2],
+        bodies: &[Placed<'_>; 2],
         work: &mut RegionWork,
     ) -> Result<(Vec<Self>, Vec<Found>), RegionError> {
         // With the surface along two axes, boxes are no thicker than it is bent.
-        let turn =
-            UnitQuaternion::rotation_between(&(poses[0] * self.patches[0].area()), &Vector3::z())
-                .unwrap_or_default();
-        let placed = [0, 1].map(|side| self.patches[side].placed(&(turn * poses[side])));
-        let trees = [0, 1].map(|side| BoundsTree::new(self.patches[side].bounds(&placed[side])));
+        let turn = UnitQuaternion::rotation_between(
+            &(bodies[0].pose * self.patches[0].area()),
+            &Vector3::z(),
+        )
+        .unwrap_or_default();
+        let placed = [0, 1].map(|side| self.patches[side].placed(&(turn * bodies[side].pose)));
+        let trees =
+            [0, 1].map(|side| BoundsTree::new(self.patches[side].bounds(&placed[side], 0.0)));
         let (near, compared) = trees[0].pairs(&trees[1]);
         work.compared += compared;
         let sides = [0, 1].map(|side| Side {
@@ -88,7 +114,7 @@ impl Cluster {
         if self.is_whole && near.is_empty() && crossing.inside.iter().flatten().any(|is| *is) {
             return Err(RegionError::Inside);
         }
-        let kept = Kept::new(self, &near, &crossing);
+        let kept = Kept::new(&self.patches, &near, &crossing);
         if self.is_whole {
             work.skipped = work.triangles - kept.count();
         }
@@ -96,38 +122,35 @@ impl Cluster {
         let sags = self.patches.iter().map(Patch::largest_sag);
         let sag = sags.fold(0.0, f64::max);
         let (mut finer, mut found) = (Vec::new(), Vec::new());
-        for part in kept.parts(self, &near) {
+        for part in kept.parts(&self.patches, &near) {
             let regions = self.regions(&part, &crossing);
             let sums: Vec<Sums> = regions
                 .iter()
                 .map(|region| region.sums.turned(&turn.inverse()))
                 .collect();
-            let triangles = part.iter().map(Vec::len).max().unwrap_or(0);
+            let is_last = part.iter().any(|triangles| triangles.len() > MOST);
             let is_known = self.coarse.iter().all(|coarse| coarse.len() == sums.len());
-            let is_fine = regions.iter().all(Region::is_fine);
-            let is_enough = !regions.is_empty() && is_known && is_fine;
-            if is_enough || triangles > MOST {
-                if !crossing.is_sound {
+            let is_seen = !regions.is_empty() && regions.iter().all(|region| region.has(FEW));
+            if is_last || (is_known && is_seen) {
+                let is_fine = is_last || regions.iter().all(|region| region.has(ENOUGH));
+                if is_fine && !crossing.is_sound {
                     return Err(RegionError::Crossing);
                 }
-                for (region, sums) in regions.iter().zip(&sums) {
-                    let (sums, volume_error) = self.extrapolated(sums);
-                    let (depth, starts) = self.deepest(region, &crossing, &placed);
-                    found.push(Found {
-                        sums,
-                        volume_error,
-                        depth,
-                        starts,
-                    });
+                let all = regions.iter().zip(&sums).map(|(region, sums)| {
+                    let (extent, starts) = self.deepest(region, &crossing, &placed);
+                    self.found(bodies, sums, extent, starts, is_fine)
+                });
+                if let Some(all) = all.collect::<Option<Vec<_>>>() {
+                    found.extend(all);
+                    continue;
                 }
-                continue;
             }
             if regions.is_empty() && sag < APART * self.size {
                 continue;
             }
             let patches = [0, 1].map(|side| {
                 let finer = self.patches[side].part(&part[side], &known[side]);
-                let finer = finer.finer(surfaces[side]);
+                let finer = finer.finer(bodies[side].surface);
                 work.evaluated += finer.vertices.len();
                 finer
             });
@@ -213,6 +236,37 @@ impl Cluster {
         (high - low, starts)
     }
 
+    /// What is shared in a region: by its lens if that agrees with its triangles, and by these if they are fine.
+    fn found(
+        &self,
+        bodies: &[Placed<'_>; 2],
+        sums: &Sums,
+        extent: f64,
+        starts: [Vector3<f64>; 2],
+        is_fine: bool,
+    ) -> Option<Found> {
+        let (sums, volume_error) = self.extrapolated(sums);
+        let deepest = DeepestPair::settled(bodies, starts).filter(|pair| {
+            pair.normal.dot(&sums.area) > 0.0
+                && (0.5 * extent..2.0 * extent).contains(&pair.depth())
+        });
+        let lens = deepest
+            .as_ref()
+            .and_then(|pair| lens(bodies, pair))
+            .filter(|(lens, _)| (lens.volume - sums.volume).abs() <= volume_error);
+        let (sums, volume_error) = match (lens, is_fine) {
+            (Some(lens), _) => lens,
+            (None, true) => (sums, volume_error),
+            (None, false) => return None,
+        };
+        Some(Found {
+            sums,
+            volume_error,
+            extent,
+            deepest,
+        })
+    }
+
     /// What sums say of surfaces, by those of triangles twice and four times as large, and the error of the volume.
     fn extrapolated(&self, fine: &Sums) -> (Sums, f64) {
         let [coarse, coarser] = &self.coarse;
@@ -241,101 +295,11 @@ impl Region {
         self.sums.volume > 0.0 && self.sums.area.norm() > 0.0
     }
 
-    fn is_fine(&self) -> bool {
+    /// Whether so many triangles of each surface are round it.
+    fn has(&self, count: usize) -> bool {
         self.triangles
             .iter()
-            .all(|triangles| triangles.len() >= ENOUGH)
-    }
-}
-
-/// What is kept for the next cut: what is near the other surface, or in it.
-struct Kept {
-    is_near: [Vec<bool>; 2],
-    is_kept: [Vec<bool>; 2],
-}
-
-impl Kept {
-    fn new(cluster: &Cluster, near: &[[u32; 2]], crossing: &Crossing) -> Self {
-        let mut is_near = [0, 1].map(|side| vec![false; cluster.patches[side].triangles.len()]);
-        for pair in near {
-            for side in 0..2 {
-                is_near[side][pair[side] as usize] = true;
-            }
-        }
-        let is_kept = [0, 1].map(|side| {
-            let inside = |corner: &u32| crossing.inside[side][*corner as usize];
-            let all = cluster.patches[side].triangles.iter().zip(&is_near[side]);
-            all.map(|(corners, is_near)| *is_near || corners.iter().any(inside))
-                .collect()
-        });
-        Self { is_near, is_kept }
-    }
-
-    fn count(&self) -> usize {
-        self.is_kept
-            .iter()
-            .flatten()
-            .filter(|is_kept| **is_kept)
-            .count()
-    }
-
-    /// The triangles of both surfaces, by the parts that hang together.
-    fn parts(&self, cluster: &Cluster, near: &[[u32; 2]]) -> Vec<[Vec<u32>; 2]> {
-        let offset = self.is_kept[0].len() as u32;
-        let mut sets = DisjointSets::new(self.is_kept.iter().map(Vec::len).sum());
-        for &[one, two] in near {
-            sets.join(one, offset + two);
-        }
-        let kept = |side: usize| {
-            let all = (0..)
-                .zip(&self.is_kept[side])
-                .filter(|(_, is_kept)| **is_kept);
-            all.map(|(triangle, _)| triangle)
-        };
-        for side in 0..2 {
-            let mut first = vec![None; cluster.patches[side].vertices.len()];
-            for triangle in kept(side) {
-                let own = triangle + offset * side as u32;
-                for corner in cluster.patches[side].triangles[triangle as usize] {
-                    sets.join(*first[corner as usize].get_or_insert(own), own);
-                }
-            }
-        }
-        let mut parts: BTreeMap<u32, [Vec<u32>; 2]> = BTreeMap::new();
-        for side in 0..2 {
-            for triangle in kept(side) {
-                let set = sets.of(triangle + offset * side as u32);
-                parts.entry(set).or_default()[side].push(triangle);
-            }
-        }
-        parts
-            .into_values()
-            .filter(|part| part.iter().all(|side| !side.is_empty()))
-            .collect()
-    }
-
-    /// What is known of the vertices of a patch for sure: those of what is left out lie outside, and those far from
-    /// the other surface where they are.
-    fn known(&self, side: usize, patch: &Patch, crossing: &Crossing) -> Vec<Option<bool>> {
-        let mut known: Vec<Option<bool>> = crossing.inside[side]
-            .iter()
-            .map(|is_inside| Some(*is_inside))
-            .collect();
-        for (triangle, corners) in patch.triangles.iter().enumerate() {
-            if self.is_near[side][triangle] {
-                corners
-                    .iter()
-                    .for_each(|&corner| known[corner as usize] = None);
-            }
-        }
-        for (triangle, corners) in patch.triangles.iter().enumerate() {
-            if !self.is_kept[side][triangle] {
-                corners
-                    .iter()
-                    .for_each(|&corner| known[corner as usize] = Some(false));
-            }
-        }
-        known
+            .all(|triangles| triangles.len() >= count)
     }
 }
 

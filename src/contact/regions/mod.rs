@@ -3,21 +3,29 @@
 //! Both are triangulated coarsely; triangles that may be near the other body (by a tree of boxes, each as much larger as
 //! the surface may be off its triangle) or inside it are cut in four, again and again, and the others are left out. So
 //! only the parts that face each other are evaluated. What the polyhedra share is known to rounding, and by how much it
-//! changes with the last cut, extrapolated, is the error of what the surfaces share. No centre and no star shape is made
-//! use of: a body's centre may lie inside the other.
+//! changes with the last cut, extrapolated, is the error of what the surfaces share. Where that is a lens between smooth
+//! surfaces, it is summed as such, far closer, as soon as the polyhedra agree. No centre and no star shape is made use of:
+//! a body's centre may lie inside the other.
+//!
+//! Of bodies that move, a [`ContactPair`] follows the deepest points from pose to pose.
 
 mod clip;
 mod cluster;
 mod deepest;
+mod kept;
+mod lens;
+mod near;
+mod pair;
 mod patch;
 mod sums;
 mod tree;
 
 use crate::measure::Curvature;
 use crate::model::Surface;
-use cluster::Cluster;
-use deepest::{PlacedPoint, settle};
+use cluster::{Cluster, Found};
+use deepest::Placed;
 use nalgebra::{Isometry3, Point3, Translation3, Vector3};
+pub use pair::{ContactPair, ContactPlace};
 use patch::Patch;
 use thiserror::Error;
 
@@ -25,15 +33,26 @@ use thiserror::Error;
 pub struct ContactBody<'a> {
     surface: &'a dyn Surface,
     whole: Patch,
+    /// Of a sphere about the centre that the body lies in.
+    radius: f64,
 }
 
 impl<'a> ContactBody<'a> {
     /// Triangulates a surface.
     pub fn new(surface: &'a dyn Surface) -> Self {
+        let whole = Patch::whole(surface);
         Self {
+            radius: whole.radius(&surface.frame().centre),
             surface,
-            whole: Patch::whole(surface),
+            whole,
         }
+    }
+
+    /// The most by which a point of the body moves between two poses.
+    fn motion(&self, from: &Isometry3<f64>, to: &Isometry3<f64>) -> f64 {
+        let centre = self.surface.frame().centre;
+        let turn = from.rotation.rotation_to(&to.rotation).angle();
+        (to * centre - from * centre).norm() + 2.0 * self.radius * (0.5 * turn).sin()
     }
 }
 
@@ -100,8 +119,8 @@ pub enum RegionError {
 
 /// Finds where two bodies overlap, of which the second is moved by `pose`.
 ///
-/// Volumes of smooth bodies are known to some 1e-6 of themselves, and told to be known less well. A depth below 1e-7 of the
-/// bodies' size may pass unseen.
+/// Volumes shared by smooth bodies are known to 1e-6 of themselves or closer where they are lenses, less well of cells
+/// that meet there and of deep overlaps, as the error of each tells. A depth below 1e-7 of the bodies' size may pass unseen.
 ///
 /// # Errors
 ///
@@ -111,54 +130,70 @@ pub fn contact_regions(
     second: &ContactBody<'_>,
     pose: &Isometry3<f64>,
 ) -> Result<ContactRegions, RegionError> {
-    // Seen from the first body's centre, so that digits are kept far from the origin.
-    let centre = first.surface.frame().centre;
-    let local = Translation3::from(-centre.coords);
-    let poses = [Isometry3::from(local), local * pose];
-    let bodies = [first, second];
+    let common = Common::new([first, second], pose);
+    let (found, work) = found_regions([first, second], &common)?;
+    let mut regions: Vec<_> = found
+        .iter()
+        .map(|found| found.told(&common.centre))
+        .collect();
+    regions.sort_by(|one, other| other.volume.total_cmp(&one.volume));
+    Ok(ContactRegions { regions, work })
+}
+
+/// The frame in which two bodies are compared: that of the first body's scan seen from its centre, so that digits are
+/// kept far from the origin.
+struct Common {
+    centre: Point3<f64>,
+    poses: [Isometry3<f64>; 2],
+}
+
+impl Common {
+    fn new([first, _]: [&ContactBody<'_>; 2], pose: &Isometry3<f64>) -> Self {
+        let centre = first.surface.frame().centre;
+        let local = Translation3::from(-centre.coords);
+        Self {
+            centre,
+            poses: [Isometry3::from(local), local * pose],
+        }
+    }
+
+    fn placed<'b>(&'b self, bodies: [&'b ContactBody<'_>; 2]) -> [Placed<'b>; 2] {
+        [0, 1].map(|side| Placed {
+            surface: bodies[side].surface,
+            pose: &self.poses[side],
+        })
+    }
+
+    /// How far apart the spheres are that the bodies lie in; below zero where they overlap.
+    fn clearance(&self, bodies: [&ContactBody<'_>; 2]) -> f64 {
+        let [one, two] = [0, 1].map(|side| self.poses[side] * bodies[side].surface.frame().centre);
+        (two - one).norm() - bodies[0].radius - bodies[1].radius
+    }
+}
+
+/// All regions, in no order.
+fn found_regions(
+    bodies: [&ContactBody<'_>; 2],
+    common: &Common,
+) -> Result<(Vec<Found>, RegionWork), RegionError> {
     let mut work = RegionWork {
         triangles: bodies.iter().map(|body| body.whole.triangles.len()).sum(),
         ..RegionWork::default()
     };
-    let mut left = vec![Cluster::whole(bodies.map(|body| &body.whole), &poses)];
+    if common.clearance(bodies) > 0.0 {
+        work.skipped = work.triangles;
+        return Ok((Vec::new(), work));
+    }
+    let placed = common.placed(bodies);
+    let wholes = bodies.map(|body| &body.whole);
+    let mut left = vec![Cluster::whole(wholes, &common.poses)];
     let mut regions = Vec::new();
     while let Some(cluster) = left.pop() {
-        let surfaces = bodies.map(|body| body.surface);
-        let (finer, found) = cluster.cut(surfaces, &poses, &mut work)?;
+        let (finer, found) = cluster.cut(&placed, &mut work)?;
         left.extend(finer);
-        regions.extend(found.into_iter().map(|found| {
-            let sums = found.sums;
-            let middle = Point3::from(sums.first / sums.volume);
-            let normal = sums.area.normalize();
-            let mut pair = [0, 1].map(|side| PlacedPoint {
-                surface: surfaces[side],
-                pose: &poses[side],
-                direction: found.starts[side],
-            });
-            let settled = settle(&mut pair)
-                .then(|| pair.map(|point| point.curved()))
-                .filter(|[(p, one), (q, two)]| {
-                    let depth = (p - q).dot(&normal);
-                    one.normal.dot(&normal) > 0.0
-                        && two.normal.dot(&normal) < 0.0
-                        && (0.5 * found.depth..2.0 * found.depth).contains(&depth)
-                });
-            ContactRegion {
-                depth: settled
-                    .as_ref()
-                    .map_or(found.depth, |[(p, _), (q, _)]| (p - q).norm()),
-                curvatures: settled.map(|pair| pair.map(|(_, curvature)| curvature)),
-                point: middle + centre.coords,
-                normal,
-                volume: sums.volume,
-                volume_error: found.volume_error,
-                area: sums.area,
-                moment: sums.moment - middle.coords.cross(&sums.area),
-            }
-        }));
+        regions.extend(found);
     }
-    regions.sort_by(|one: &ContactRegion, other| other.volume.total_cmp(&one.volume));
-    Ok(ContactRegions { regions, work })
+    Ok((regions, work))
 }
 
 #[cfg(test)]

@@ -139,12 +139,25 @@ impl Patch {
         self.vertices.iter().map(|vertex| pose * vertex).collect()
     }
 
-    /// Boxes that the surface over each triangle lies in, of vertices that were moved.
-    pub(super) fn bounds(&self, placed: &[Point3<f64>]) -> Vec<Bounds> {
+    /// Boxes round all that is within `margin` of the surface over each triangle, of vertices that were moved.
+    pub(super) fn bounds(&self, placed: &[Point3<f64>], margin: f64) -> Vec<Bounds> {
         let corners = |triangle: &[u32; 3]| triangle.map(|i| placed[i as usize]);
         let all = self.triangles.iter().zip(&self.sags);
-        all.map(|(triangle, sag)| Bounds::new(corners(triangle), *sag))
+        all.map(|(triangle, sag)| Bounds::new(corners(triangle), sag + margin))
             .collect()
+    }
+
+    /// The direction of the middle of a triangle.
+    pub(super) fn direction(&self, triangle: u32) -> Vector3<f64> {
+        let corners = self.triangles[triangle as usize].iter();
+        let sum: Vector3<f64> = corners.map(|&i| self.directions[i as usize]).sum();
+        sum.normalize()
+    }
+
+    /// The radius of a sphere about a point that the surface lies in.
+    pub(super) fn radius(&self, centre: &Point3<f64>) -> f64 {
+        let away = self.vertices.iter().map(|vertex| (vertex - centre).norm());
+        away.fold(0.0, f64::max) + self.largest_sag()
     }
 
     /// The most by which the surface may be off a triangle.

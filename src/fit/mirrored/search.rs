@@ -194,16 +194,12 @@ fn supported_degree(samples: usize) -> usize {
 }
 
 fn residuals(surface: &Mirrored, samples: &[Sample]) -> Residuals {
-    let (mut squared, mut max) = (0.0, 0.0_f64);
-    for &[x, y, z, radius] in samples {
-        let residual = radius - surface.radius(&Vector3::new(x, y, z));
-        squared += residual * residual;
-        max = max.max(residual.abs());
-    }
-    Residuals {
-        rms: (squared / samples.len() as f64).sqrt(),
-        max,
-    }
+    let radius = |x, y, z| surface.radius(&Vector3::new(x, y, z));
+    Residuals::of(
+        samples
+            .iter()
+            .map(|&[x, y, z, seen]| seen - radius(x, y, z)),
+    )
 }
 
 /// Root mean square difference of the radius between mirror images, over the directions of the samples.

@@ -13,15 +13,21 @@ const ROUNDS: usize = 30;
 /// Semi-axes over standard deviations of a filled ellipsoid, and a tenth more: parts overlap.
 const PER_DEVIATION: f64 = 1.1 * 2.236_067_977_499_79;
 
-/// Ways to choose the first cluster.
-pub(super) const SEEDINGS: usize = 7;
+/// Where the first cluster begins: outermost towards a face or a corner of a box along the axes of the cloud, whose
+/// edges are as its standard deviations.
+#[rustfmt::skip]
+pub(super) const SEEDINGS: [[f64; 3]; 14] = [
+    [1.0, 0.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 1.0], [0.0, 0.0, -1.0],
+    [1.0, 1.0, 1.0], [-1.0, 1.0, 1.0], [1.0, -1.0, 1.0], [-1.0, -1.0, 1.0],
+    [1.0, 1.0, -1.0], [-1.0, 1.0, -1.0], [1.0, -1.0, -1.0], [-1.0, -1.0, -1.0],
+];
 
-/// Ellipsoids for so many clusters, one of the ways to choose the first; `None` where a cluster is flat.
+/// Ellipsoids for so many clusters, of which the first begins where a seeding has it; `None` where a cluster is flat.
 pub(super) fn ellipsoids(
     cloud: &Cloud,
     points: &[Vector3<f64>],
     parts: usize,
-    seeding: usize,
+    seeding: [f64; 3],
 ) -> Option<Vec<Body>> {
     let shell = |i: usize| ((i as f64 + 0.5) / SHELLS as f64).cbrt();
     let inside: Vec<Vector3<f64>> = (0..SHELLS)
@@ -53,18 +59,15 @@ pub(super) fn ellipsoids(
     clusters.iter().zip(&centres).map(ellipsoid).collect()
 }
 
-/// Points that are far from each other: the first is the outermost, or that along an axis or against it.
+/// Points that are far from each other, the first outermost towards where the seeding has it.
 fn seeds(
     cloud: &Cloud,
     inside: &[Vector3<f64>],
     parts: usize,
-    seeding: usize,
+    seeding: [f64; 3],
 ) -> Vec<Vector3<f64>> {
-    let outwardness = |point: &Vector3<f64>| match seeding {
-        0 => point.norm_squared(),
-        side @ 1..=3 => point.dot(&cloud.axes.column(side - 1)),
-        side => -point.dot(&cloud.axes.column((side - 1) % 3)),
-    };
+    let towards = cloud.axes * Vector3::from(seeding).component_div(&cloud.deviations);
+    let outwardness = |point: &Vector3<f64>| point.dot(&towards);
     let farthest = |far: &dyn Fn(&Vector3<f64>) -> f64| {
         let order = |p: &&Vector3<f64>, q: &&Vector3<f64>| far(p).total_cmp(&far(q));
         inside.iter().max_by(order).copied().unwrap_or_default()

@@ -9,6 +9,7 @@ use super::least_squares::{Minimum, descended, least, weighed};
 use super::normal_equations::{Weighing, distances};
 use super::single::best;
 use super::standard_errors::{ParameterErrors, standard_errors};
+use crate::fit::Residuals;
 use crate::fit::context::Context;
 use crate::model::{
     Frame, Grain, InvalidGrain, MultiSuperquadric, Part, StarSurface, SuperquadricGrain,
@@ -40,11 +41,8 @@ pub struct MultiFit {
     pub union: MultiSuperquadric,
     /// Where its centre and axes are in the scan.
     pub frame: Frame,
-    /// Root mean square of the distances of the points, along rays from the centre, from where these leave the union;
-    /// in the scan's unit.
-    pub rms: f64,
-    /// The largest of them.
-    pub largest: f64,
+    /// Distances of the points, along rays from the centre, from where these leave the union.
+    pub residuals: Residuals,
     /// Mean distance of the points from their mean, in the scan's unit.
     pub mean_radius: f64,
     /// Standard errors, part by part.
@@ -103,11 +101,7 @@ fn chosen(
         points: kept,
         ..cloud.clone()
     };
-    let error = |found: &Minimum| {
-        let distances = distances(&found.bodies, &out);
-        let squares: f64 = distances.iter().map(|d| d * d).sum();
-        (squares / distances.len() as f64).sqrt() * cloud.size
-    };
+    let error = |found: &Minimum| Residuals::of(distances(&found.bodies, &out)).rms * cloud.size;
     let single = best(&cloud, Form::Single, context)?;
     let mut errors = vec![error(&single)];
     let (mut chosen, mut least) = (single.clone(), errors[0]);
@@ -131,7 +125,7 @@ fn with_parts(
 ) -> Result<Minimum, SuperquadricFitError> {
     let few = cloud.thinned();
     let mut tried = Vec::new();
-    for seeding in 0..SEEDINGS {
+    for seeding in SEEDINGS {
         if let Some(start) = ellipsoids(cloud, &few, parts, seeding) {
             tried.push(sharpened(start, &few, like, context)?);
         }
@@ -202,11 +196,9 @@ fn told(
         seen.norm() - union.radius(&seen.normalize())
     };
     let distances: Vec<f64> = cloud.points.par_iter().map(away).collect();
-    let squares: f64 = distances.iter().map(|d| d * d).sum();
     let errors = standard_errors(cloud, found);
     Ok(MultiFit {
-        rms: (squares / distances.len() as f64).sqrt(),
-        largest: distances.iter().fold(0.0, |most: f64, d| most.max(d.abs())),
+        residuals: Residuals::of(distances),
         mean_radius: cloud.size,
         union,
         frame,

@@ -4,9 +4,10 @@ use super::bodies::Body;
 use super::cloud::Cloud;
 use super::error::SuperquadricFitError;
 use super::form::Form;
-use super::least_squares::{Minimum, deviation, least, minimised};
+use super::least_squares::{Minimum, descended, deviation, least, minimised, weighed};
 use super::normal_equations::{Reach, Weighing, distances};
 use super::standard_errors::{ParameterErrors, standard_errors};
+use crate::fit::Residuals;
 use crate::fit::context::Context;
 use crate::model::{Frame, Grain, InvalidGrain, Superquadric, SuperquadricGrain};
 use nalgebra::{Matrix3, Point3, Vector3};
@@ -31,10 +32,8 @@ pub struct SuperquadricFit {
     pub shape: Superquadric,
     /// Its centre and axes in the scan.
     pub frame: Frame,
-    /// Root mean square of the radial distances of all points, in the scan's unit.
-    pub rms: f64,
-    /// The largest of them.
-    pub largest: f64,
+    /// Radial distances of all points.
+    pub residuals: Residuals,
     /// Mean distance of the points from their mean, in the scan's unit.
     pub mean_radius: f64,
     /// Standard errors.
@@ -68,13 +67,11 @@ pub fn fit_superquadric(
     let cloud = Cloud::new(points, form.parameters())?;
     let found = context.run(|| best(&cloud, form, context))?;
     let distances = distances(&found.bodies, &cloud.points);
-    let squares: f64 = distances.iter().map(|d| d * d).sum();
     let (shape, frame) = found.bodies[0].told(cloud.size, &cloud.centre)?;
     Ok(SuperquadricFit {
         shape,
         frame,
-        rms: (squares / distances.len() as f64).sqrt() * cloud.size,
-        largest: distances.iter().fold(0.0, |most: f64, d| most.max(d.abs())) * cloud.size,
+        residuals: Residuals::of(distances.iter().map(|d| d * cloud.size)),
         mean_radius: cloud.size,
         errors: standard_errors(&cloud, &found)[0],
         iterations: found.iterations,
@@ -106,13 +103,8 @@ pub(super) fn best(
             }
         }
     };
-    let mut found = minimised(
-        start.bodies,
-        &cloud.points,
-        &start.weighing,
-        STEPS[1],
-        context,
-    )?;
+    let weighing = weighed(&start.bodies, &cloud.points, &start.weighing);
+    let mut found = descended(start.bodies, &cloud.points, weighing, STEPS[1], context)?;
     found.iterations += start.iterations;
     Ok(found)
 }

@@ -103,7 +103,11 @@ fn a_fit_moves_turns_and_grows_with_the_scan_and_forgets_the_order_of_points() {
         let (here, there) = (fitted(&points, form), fitted(&moved, form));
         let grown = volume(&there.shape) / 1e6;
         assert_relative_eq!(volume(&here.shape), grown, max_relative = 1e-8);
-        assert_relative_eq!(100.0 * here.rms, there.rms, max_relative = 1e-8);
+        assert_relative_eq!(
+            100.0 * here.residuals.rms,
+            there.residuals.rms,
+            max_relative = 1e-8
+        );
     }
 }
 
@@ -120,7 +124,7 @@ fn grains_are_fitted_as_well_as_so_few_numbers_can() {
             .zip(most)
         {
             let found = fitted(&points, form);
-            let percent = 100.0 * found.rms / found.mean_radius;
+            let percent = 100.0 * found.residuals.rms / found.mean_radius;
             assert!(percent < most, "{body} {form:?}: {percent}");
         }
     }
@@ -128,7 +132,7 @@ fn grains_are_fitted_as_well_as_so_few_numbers_can() {
 
 #[test]
 fn a_dent_asks_for_four_parts() {
-    let points = synthesize(&SynthOptions::clean(Body::Bean)).unwrap().points;
+    let points = grain(Body::Bean);
     let cloud = cloud::Cloud::new(&points, 1).unwrap();
     let dent = -cloud.axes.column(1);
     let dented = cloud.points.iter().map(|p| {
@@ -138,7 +142,8 @@ fn a_dent_asks_for_four_parts() {
     let dented: Vec<_> = dented.collect();
     let found = fit_multi_superquadric(&dented, 4, &Context::default()).unwrap();
     assert_eq!(found.union.parts().len(), 4);
-    assert!(found.rms / found.mean_radius < 0.013, "{}", found.rms);
+    let share = found.residuals.rms / found.mean_radius;
+    assert!(share < 0.013, "{share}");
     assert!(
         found
             .held_out

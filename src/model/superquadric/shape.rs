@@ -193,6 +193,13 @@ impl Superquadric {
         (0..8).map(move |i| self.octant([sign(i, 1), sign(i, 2), sign(i, 4)]))
     }
 
+    /// The semi-axes of an ellipsoid; `None` of other bodies.
+    #[inline]
+    pub(crate) fn ellipsoid(&self) -> Option<[f64; 3]> {
+        let is_ellipsoid = self.is_single() && self.n1[0] == 2.0 && self.n2[0][0] == 2.0;
+        is_ellipsoid.then(|| self.semi_axes.map(|[axis, _]| axis))
+    }
+
     /// The largest distance of a point of the body from the origin.
     pub fn bounding_radius(&self) -> f64 {
         self.octants()
