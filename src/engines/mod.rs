@@ -21,3 +21,4 @@ pub use deck::{Deck, GRAVITY, GrainMaterial, InvalidDeck, Placed};
 pub use engine::Engine;
 pub use file::InputFile;
 pub use kind::{InvalidKind, Kind};
+pub use lammps::{Settled, SettledError};
