@@ -87,10 +87,8 @@ impl Cast {
         .with_context(|| format!("cannot make a clump of {name}"))?;
         self.warnings.extend(solid.warnings);
         self.warnings.push(format!(
-            "{name} is a clump of {} spheres here, RMS {} {} ({} % of the equivalent radius) off its surface.",
+            "{name} is a clump of {} spheres here, RMS {} % of the equivalent radius off its surface.",
             found.spheres.len(),
-            short(found.rms),
-            args.unit,
             short(100.0 * found.rms / found.equivalent_radius())
         ));
         GrainKind::of_clump(&found, metres, args.density).with_context(failed)

@@ -38,7 +38,7 @@ neigh_modify delay 0 every 1 exclude molecule/intra all
 pair_style granular
 pair_coeff * * {contact}
 timestep {step:e}
-fix grav all gravity {GRAVITY} vector 0 0 -1
+fix grav all gravity {GRAVITY} vector 0 0 -1 disable
 fix grains all rigid/small molecule infile bodies.in gravity grav
 fix wx all wall/gran granular {contact} xplane 0 {width:e}
 fix wy all wall/gran granular {contact} yplane 0 {depth:e}
