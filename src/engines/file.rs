@@ -6,8 +6,10 @@ use std::io::{self, Write};
 pub struct InputFile<'a> {
     /// Its path in the folder, with `/` between names.
     pub path: String,
-    text: Box<dyn Fn(&mut dyn Write) -> io::Result<()> + 'a>,
+    text: Text<'a>,
 }
+
+type Text<'a> = Box<dyn Fn(&mut dyn Write) -> io::Result<()> + 'a>;
 
 impl<'a> InputFile<'a> {
     pub(super) fn new(path: impl Into<String>, text: impl Into<String>) -> Self {

@@ -1,7 +1,7 @@
 //! Inputs for engines of the discrete element method: a folder for each that runs as it is.
 //!
 //! Lengths are in metres, masses in kg, times in s. Each engine has a function that takes a [`Deck`] and gives the files
-//! of its folder; nothing is written here but text.
+//! of its folder; [`Settled`] reads what LAMMPS leaves there.
 
 mod anm;
 mod deck;
