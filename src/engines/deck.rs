@@ -1,7 +1,9 @@
 //! What an engine is to do: grains in a column above a box, which fall and come to rest.
 
+use super::error::InvalidDeck;
 use super::kind::Kind;
-use crate::bed::{Bed, BedError, Container};
+use super::material::GrainMaterial;
+use crate::bed::{Bed, Container};
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
@@ -28,22 +30,6 @@ const MOST_FALLS: f64 = 40.0;
 
 /// Grains are at rest when their kinetic energy is below this share of what they lose in falling their own diameter.
 const AT_REST: f64 = 1e-8;
-
-/// What grains are made of: one material for grains and walls.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct GrainMaterial {
-    /// Young's modulus, in Pa. Engines take one softer than the grain's own, for the time step is as the inverse of
-    /// its root.
-    pub youngs_modulus: f64,
-    /// Poisson's ratio.
-    pub poissons_ratio: f64,
-    /// Coefficient of sliding friction.
-    pub friction: f64,
-    /// Coefficient of restitution of a normal impact.
-    pub restitution: f64,
-    /// Density, in kg/m³.
-    pub density: f64,
-}
 
 /// A grain at the start.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -76,91 +62,6 @@ pub struct Deck {
     pub rest: f64,
     /// Simulated time after which the run ends in any case, in s.
     pub seconds: f64,
-}
-
-/// Why there is no deck.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum InvalidDeck {
-    /// There is no grain, or no kind.
-    #[error("there are no grains")]
-    NoGrains,
-    /// More spheres than a deck holds.
-    #[error(
-        "the spheres of all {grains} grains are more than {}; ask for fewer grains or spheres",
-        Deck::MOST_SPHERES
-    )]
-    TooMany {
-        /// Grains asked for.
-        grains: usize,
-    },
-    /// The grains of a bed are no spheres.
-    #[error("engines take grains of spheres only")]
-    NoSpheres,
-    /// The container of a bed.
-    #[error("engines take grains into a box only")]
-    NoBox,
-    /// Grains of a bed that resist rolling.
-    #[error("engines are not told of rolling friction: leave it at zero")]
-    Rolling,
-    /// The material of a bed.
-    #[error(transparent)]
-    Bed(#[from] BedError),
-    /// Two kinds have the same name.
-    #[error("two of the grains have the same name")]
-    SameName,
-    /// A number of the material is out of its range.
-    #[error("{what} must be {range}, not {found}")]
-    Material {
-        /// Which.
-        what: &'static str,
-        /// What it may be.
-        range: &'static str,
-        /// What it is.
-        found: f64,
-    },
-}
-
-impl GrainMaterial {
-    fn check(&self) -> Result<(), InvalidDeck> {
-        let above_zero = |x: f64| x > 0.0 && x.is_finite();
-        let checks = [
-            (
-                "Young's modulus",
-                "above zero",
-                self.youngs_modulus,
-                above_zero(self.youngs_modulus),
-            ),
-            (
-                "Poisson's ratio",
-                "from 0 to 0.5",
-                self.poissons_ratio,
-                (0.0..0.5).contains(&self.poissons_ratio),
-            ),
-            (
-                "the coefficient of friction",
-                "zero or above",
-                self.friction,
-                self.friction >= 0.0 && self.friction.is_finite(),
-            ),
-            (
-                "the coefficient of restitution",
-                "above 0.05 and at most 1",
-                self.restitution,
-                self.restitution > 0.05 && self.restitution <= 1.0,
-            ),
-            (
-                "the density",
-                "above zero",
-                self.density,
-                above_zero(self.density),
-            ),
-        ];
-        match checks.into_iter().find(|check| !check.3) {
-            Some((what, range, found, _)) => Err(InvalidDeck::Material { what, range, found }),
-            None => Ok(()),
-        }
-    }
 }
 
 impl Deck {
@@ -356,7 +257,10 @@ fn check(kinds: &[Kind], count: usize, material: &GrainMaterial) -> Result<(), I
     }
     let most = kinds.iter().map(|kind| kind.spheres.len()).max();
     if count.saturating_mul(most.unwrap_or(0)) > Deck::MOST_SPHERES {
-        return Err(InvalidDeck::TooMany { grains: count });
+        return Err(InvalidDeck::TooMany {
+            grains: count,
+            most: Deck::MOST_SPHERES,
+        });
     }
     let is_twin =
         |(index, kind): (usize, &Kind)| kinds[..index].iter().any(|other| other.name == kind.name);

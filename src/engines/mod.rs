@@ -6,10 +6,12 @@
 mod anm;
 mod deck;
 mod engine;
+mod error;
 mod file;
 mod kind;
 mod lammps;
 mod liggghts;
+mod material;
 mod mercury;
 mod readme;
 #[cfg(test)]
@@ -17,8 +19,10 @@ mod tests;
 mod yade;
 
 pub use anm::{AnmExpansion, anm_files, write_anm};
-pub use deck::{Deck, GRAVITY, GrainMaterial, InvalidDeck, Placed};
+pub use deck::{Deck, GRAVITY, Placed};
 pub use engine::Engine;
+pub use error::InvalidDeck;
 pub use file::InputFile;
 pub use kind::{InvalidKind, Kind};
 pub use lammps::{Settled, SettledError};
+pub use material::GrainMaterial;

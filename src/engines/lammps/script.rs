@@ -69,7 +69,9 @@ dump frames all custom {frame} frames/bed.*.dump id mol type x y z radius
 dump_modify frames pad 9
 run {most}
 variable spheres equal count(all)
-print \"at rest: kinetic energy ${{energy}} J, ${{spheres}} spheres\"
+if \"${{energy}} < {rest:e}\" then &
+  \"print 'at rest: kinetic energy ${{energy}} J, ${{spheres}} spheres'\" else &
+  \"print 'not at rest: kinetic energy ${{energy}} J, ${{spheres}} spheres'\"
 unfix rest
 undump frames
 dump lying all local 1 grains.dump c_lying[*]
