@@ -162,7 +162,7 @@ fn a_scan_is_a_clump_in_the_sizes_of_a_batch() {
     assert!(told.contains("is a clump of 3 spheres here"), "{told}");
     let text = succeed(&folder, &words);
     assert!(
-        text.contains("grains        9 of ") && text.contains("2 to 4 mm"),
+        text.contains("grains        9 of ") && text.contains("2.00000 to 4.00000 mm"),
         "{text}"
     );
 }
