@@ -161,7 +161,7 @@ impl Touch {
         let turned = (1.0 - self.normal.dot(&other.normal)) / (1.0 - SAME_NORMAL);
         let patch = radius * self.overlap.max(other.overlap);
         let apart = (self.point - other.point).norm_squared() / patch;
-        (1.0 - 0.5 * turned).max(0.0) * (1.0 - 0.5 * apart).max(0.0)
+        fading(0.5 * turned) * fading(0.5 * apart)
     }
 
     /// The share of the law's force that acts, so that parts that touch at one place do not act several times:
@@ -184,6 +184,12 @@ impl Touch {
         let most = known.max_by(|(one, _), (other, _)| one.total_cmp(other));
         most.map_or(Vector3::zeros(), |(likeness, slip)| slip * likeness)
     }
+}
+
+/// From 1 at zero to 0 at one, level at both.
+fn fading(x: f64) -> f64 {
+    let x = x.clamp(0.0, 1.0);
+    1.0 - x * x * (3.0 - 2.0 * x)
 }
 
 impl Pair<'_> {
