@@ -1,7 +1,8 @@
 //! How densely grains pack by their shape: the beds behind figures 5 to 8 of Wang, Marmysh and Ji (2020).
 //!
 //! `cargo run --release --example packing [SEEDS] [GRAINS] [PLOT.svg]` (default: 2 seeds, 1500 grains, a quarter of an
-//! hour; the letter's figures ask for 5 seeds)
+//! hour; the letter's figures ask for 5 seeds). Each bed is kept in `packing.csv` when it is finished: stopped at any
+//! time, the example goes on with those that are missing.
 //!
 //! All grains have the volume of a sphere of 5 mm and fall into a box of 60 mm x 60 mm, or as much of it as fewer grains
 //! fill as high; fewer than some 300 have no core. Of the letter these figures, the number of grains and the diameter are known; its shapes and its table
@@ -11,10 +12,12 @@
 //! Without friction the beds are compared with published random close packings: 0.64 of spheres, 0.74 of ellipsoids
 //! 1.25 : 1 : 0.8 (Donev and others 2004), 0.71 of dimers 1.4 times as long as wide (Faure and others 2009).
 
+mod kept;
 mod plot;
 mod shapes;
 
 use grainform::bed::{Bed, BedSettings, Container, GrainKind, fabric, packing};
+use kept::{Kept, Row};
 use rayon::prelude::*;
 use shapes::{Shape, shapes};
 use std::error::Error;
@@ -29,12 +32,6 @@ const GRAINS: usize = 1500;
 /// Simulated time after which a bed without friction, which never quite comes to rest, is told all the same.
 const SECONDS: f64 = 1.5;
 
-/// The figures of one bed.
-struct Figures {
-    packing: f64,
-    neighbours: f64,
-}
-
 fn main() -> Result<(), Box<dyn Error>> {
     let mut words = std::env::args().skip(1);
     let seeds: u64 = words.next().map_or(Ok(2), |word| word.parse())?;
@@ -43,20 +40,21 @@ fn main() -> Result<(), Box<dyn Error>> {
     let runs: Vec<(usize, u64)> = (0..shapes.len())
         .flat_map(|shape| (0..seeds).map(move |seed| (shape, seed)))
         .collect();
-    let figures = runs.par_iter().map(|&(shape, seed)| {
-        let found = bed(&shapes[shape], seed, grains).map_err(|error| error.to_string());
-        Ok((shape, found?))
+    let kept = Kept::open("packing.csv")?;
+    let rows = runs.par_iter().map(|&(shape, seed)| {
+        let shape = &shapes[shape];
+        let found = kept.row(shape, seed, grains, || bed(shape, seed, grains));
+        found.map_err(|error| error.to_string())
     });
-    let figures: Vec<(usize, Figures)> = figures.collect::<Result<_, String>>()?;
+    let rows: Vec<Row> = rows.collect::<Result<_, String>>()?;
 
     println!("| shape | friction | packing in the core | published | neighbours |");
     println!("|---|---|---|---|---|");
     let mut points = Vec::new();
-    for (number, shape) in shapes.iter().enumerate() {
-        let own = figures.iter().filter(|(of, _)| *of == number);
-        let (packings, neighbours): (Vec<f64>, Vec<f64>) = own
-            .map(|(_, figures)| (figures.packing, figures.neighbours))
-            .unzip();
+    for shape in &shapes {
+        let own = rows.iter().filter(|row| row.is_of(shape));
+        let (packings, neighbours): (Vec<f64>, Vec<f64>) =
+            own.map(|row| (row.packing, row.neighbours)).unzip();
         let (packing, error) = mean(&packings);
         let told = error.map_or(String::new(), |error| format!(" ± {error:.4}"));
         let published = shape.published.map_or("".into(), |limit| limit.to_string());
@@ -74,8 +72,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// One bed, settled.
-fn bed(shape: &Shape, seed: u64, grains: usize) -> Result<Figures, Box<dyn Error>> {
+/// One bed, settled: packing in its core, and neighbours per grain.
+fn bed(shape: &Shape, seed: u64, grains: usize) -> Result<[f64; 2], Box<dyn Error>> {
     let settings = BedSettings {
         grains,
         container: Container::Box([SIDE * (grains as f64 / GRAINS as f64).cbrt(); 2]),
@@ -92,10 +90,7 @@ fn bed(shape: &Shape, seed: u64, grains: usize) -> Result<Figures, Box<dyn Error
         bed.go_on()?;
     }
     let core = packing(&bed).core.ok_or("too few grains for a core")?;
-    Ok(Figures {
-        packing: core.value,
-        neighbours: fabric(&bed).neighbours,
-    })
+    Ok([core.value, fabric(&bed).neighbours])
 }
 
 /// Mean and its standard error, which a single value does not tell.

@@ -1,5 +1,6 @@
 //! How a bed carries: contacts, their forces, and how grains lie.
 
+use super::link::Link;
 use super::settle::Bed;
 use nalgebra::{Matrix3, SymmetricEigen};
 use serde::Serialize;
@@ -55,42 +56,90 @@ pub struct Order {
     pub vertical: f64,
 }
 
+/// Where two grains touch.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct GrainContact {
+    /// Which grains, the one of the smaller number first.
+    pub grains: [u32; 2],
+    /// How far they overlap, in metres.
+    pub overlap: f64,
+    /// The normal force, in newtons.
+    pub force: f64,
+}
+
 /// How a bed carries.
 pub fn fabric(bed: &Bed) -> Fabric {
-    let grains = bed.bodies().len();
-    let (links, walls) = (&bed.state.links, &bed.state.wall_links);
-    let touches = || {
-        let links = links.iter();
-        links.filter_map(|link| Some((link.key, link.touch?)))
-    };
-    let pairs: BTreeSet<(u32, u32)> = touches().map(|(key, _)| (key.first, key.other)).collect();
-    let mut is_loose = vec![true; grains];
-    for &(first, other) in &pairs {
-        is_loose[first as usize] = false;
-        is_loose[other as usize] = false;
+    let grains = |link: &Link| [link.key.first, link.key.other];
+    let pairs = bed
+        .state
+        .links
+        .chunk_by(|one, other| grains(one) == grains(other));
+    let contacts = pairs.flat_map(|links| {
+        let grains = grains(&links[0]);
+        let [one, other] = grains.map(|grain| {
+            let body = &bed.bodies()[grain as usize];
+            bed.kinds()[body.kind].radius
+        });
+        let touches = Link::told(links, one * other / (one + other));
+        touches.into_iter().map(move |touch| GrainContact {
+            grains,
+            overlap: touch.overlap,
+            force: -touch.force.dot(&touch.normal),
+        })
+    });
+    Fabric::of(bed, &contacts.collect::<Vec<_>>())
+}
+
+impl Fabric {
+    /// How a bed carries whose grains touch so.
+    pub fn of(bed: &Bed, contacts: &[GrainContact]) -> Self {
+        let grains = bed.bodies().len();
+        let pairs: BTreeSet<[u32; 2]> = contacts.iter().map(|contact| contact.grains).collect();
+        let mut is_loose = vec![true; grains];
+        for grain in pairs.iter().flatten() {
+            is_loose[*grain as usize] = false;
+        }
+        let mut largest = contacts
+            .iter()
+            .map(|contact| contact.overlap)
+            .fold(0.0, f64::max);
+        for (grain, overlap) in on_walls(bed) {
+            is_loose[grain] = false;
+            largest = overlap.max(largest);
+        }
+        let radii = bed
+            .bodies()
+            .iter()
+            .map(|body| bed.kinds()[body.kind].radius);
+        let mut forces: Vec<f64> = contacts.iter().map(|contact| contact.force).collect();
+        forces.sort_by(f64::total_cmp);
+        Self {
+            contacts: 2.0 * forces.len() as f64 / grains as f64,
+            neighbours: 2.0 * pairs.len() as f64 / grains as f64,
+            loose: is_loose.iter().filter(|loose| **loose).count(),
+            largest_overlap: largest * grains as f64 / radii.sum::<f64>(),
+            forces: Forces::of(&forces),
+            order: order(bed),
+        }
     }
-    for link in walls.iter().filter(|link| link.touch.is_some()) {
-        is_loose[link.key.first as usize] = false;
-    }
-    let on_walls = walls.iter().filter_map(|link| link.touch);
-    let overlaps = touches().map(|(_, touch)| touch).chain(on_walls);
-    let largest = overlaps.map(|touch| touch.overlap).fold(0.0, f64::max);
-    let radii = bed
-        .bodies()
-        .iter()
-        .map(|body| bed.kinds()[body.kind].radius);
-    let mut forces: Vec<f64> = touches()
-        .map(|(_, touch)| -touch.force.dot(&touch.normal))
-        .collect();
-    forces.sort_by(f64::total_cmp);
-    Fabric {
-        contacts: 2.0 * forces.len() as f64 / grains as f64,
-        neighbours: 2.0 * pairs.len() as f64 / grains as f64,
-        loose: is_loose.iter().filter(|loose| **loose).count(),
-        largest_overlap: largest * grains as f64 / radii.sum::<f64>(),
-        forces: Forces::of(&forces),
-        order: order(bed),
-    }
+}
+
+/// The grains that touch walls, each with the overlap there.
+fn on_walls(bed: &Bed) -> impl Iterator<Item = (usize, f64)> {
+    let bodies = bed.bodies().iter().enumerate();
+    bodies.flat_map(|(number, body)| {
+        let kind = &bed.kinds()[body.kind];
+        let near = bed.walls.iter();
+        let near = near.filter(move |wall| wall.is_near(&body.position, kind.reach));
+        near.flat_map(move |wall| {
+            let parts = kind.placed(body.position, body.axes()).zip(&kind.parts);
+            parts.flat_map(move |(frame, part)| {
+                let touch = move |place| wall.touch(place, &part.part.shape, &frame);
+                (0..wall.places()).filter_map(touch)
+            })
+        })
+        .map(move |touch| (number, touch.overlap))
+    })
 }
 
 impl Forces {

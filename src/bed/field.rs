@@ -5,7 +5,7 @@ use super::grain::GrainKind;
 use super::link::{Last, Link, Motion, Pair, Touch};
 use super::wall::Wall;
 use crate::contact::law::Law;
-use crate::contact::{ConvexPair, Warm};
+use crate::contact::{ConvexPair, ConvexStatus, Warm};
 use crate::model::Frame;
 use nalgebra::Vector3;
 
@@ -13,6 +13,8 @@ use nalgebra::Vector3;
 #[derive(Debug, Clone)]
 pub(super) struct Placed {
     pub(super) motion: Motion,
+    /// How far its points may have turned about its centre in this step, in metres.
+    pub(super) turned: f64,
     pub(super) frames: Vec<Frame>,
 }
 
@@ -29,12 +31,17 @@ pub(super) struct Field<'a> {
 impl Field<'_> {
     /// Finds the touches of two grains, and lets them act.
     pub(super) fn act_between(&self, links: &mut [Link]) {
+        let numbers = [links[0].key.first as usize, links[0].key.other as usize];
+        let nearer = self.nearer(numbers);
         let mut is_touching = false;
         for link in links.iter_mut() {
-            link.touch = self.between(link);
+            link.gap -= nearer;
+            link.touch = match link.gap > 0.0 {
+                true => None,
+                false => self.between(link),
+            };
             is_touching |= link.touch.is_some();
         }
-        let numbers = [links[0].key.first as usize, links[0].key.other as usize];
         let [one, two] = numbers.map(|number| &self.kinds[self.bodies[number].kind]);
         let pair = Pair {
             law: self.law,
@@ -80,7 +87,14 @@ impl Field<'_> {
         Link::act(links, &pair);
     }
 
-    /// The touch of two parts of grains.
+    /// How far points of two grains may have come nearer to each other in this step.
+    fn nearer(&self, numbers: [usize; 2]) -> f64 {
+        let [one, two] = numbers.map(|number| &self.placed[number]);
+        let moved = (one.motion.velocity - two.motion.velocity).norm() * self.step;
+        moved + one.turned + two.turned
+    }
+
+    /// The touch of two parts of grains; how far they are apart if they do not touch.
     fn between(&self, link: &mut Link) -> Option<Touch> {
         let sides = [
             (link.key.first, link.key.part),
@@ -94,6 +108,7 @@ impl Field<'_> {
         let between = there.centre - here.centre;
         let (squared, reach) = (between.norm_squared(), one.reach + two.reach);
         if squared >= reach * reach {
+            link.gap = squared.sqrt() - reach;
             return None;
         }
         if one.is_sphere && two.is_sphere {
@@ -115,6 +130,9 @@ impl Field<'_> {
             normal: contact.normal,
         });
         if contact.ratio >= 1.0 {
+            if contact.status == ConvexStatus::Apart {
+                link.gap = -pair.overlap(&contact);
+            }
             return None;
         }
         let overlap = pair.overlap(&contact);

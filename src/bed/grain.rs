@@ -1,7 +1,8 @@
 //! A kind of grain as it moves: convex parts about its centre of mass, along its principal axes.
 
-use crate::measure::{superquadric_properties, union_properties};
-use crate::model::{Frame, MultiSuperquadric, Part};
+use crate::clump::Clump;
+use crate::measure::{Ball, MassProperties, superquadric_properties, union_properties};
+use crate::model::{Frame, InvalidSuperquadric, MultiSuperquadric, Part, Superquadric};
 use nalgebra::{Matrix3, Point3, Vector3};
 use std::f64::consts::PI;
 
@@ -39,6 +40,9 @@ pub(super) struct KindPart {
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum GrainError {
+    /// Spheres of a clump that are none.
+    #[error(transparent)]
+    Sphere(#[from] InvalidSuperquadric),
     /// The density is not above zero.
     #[error("the density must be above zero, not {value} kg/m³")]
     Density {
@@ -57,15 +61,12 @@ impl GrainKind {
     /// # Errors
     /// [`GrainError`].
     pub fn new(body: &MultiSuperquadric, metres: f64, density: f64) -> Result<Self, GrainError> {
-        if !(density > 0.0 && density.is_finite()) {
-            return Err(GrainError::Density { value: density });
-        }
         let body = body.times(metres);
         let solid = match body.parts() {
             [part] => {
                 let own = superquadric_properties(&part.shape).properties;
                 let axes = part.frame.axes;
-                crate::measure::MassProperties {
+                MassProperties {
                     centroid: part.frame.to_scan(&own.centroid.coords),
                     inertia: axes * own.inertia * axes.transpose(),
                     ..own
@@ -73,11 +74,46 @@ impl GrainKind {
             }
             _ => union_properties(&body, TOLERANCE).properties,
         };
+        Self::of(body.parts(), &solid, density)
+    }
+
+    /// A grain of a clump's spheres, likewise. Mass, centre and inertia are those of the grain that the clump stands
+    /// for, never sums over spheres.
+    ///
+    /// # Errors
+    /// [`GrainError`].
+    pub fn of_clump(clump: &Clump, metres: f64, density: f64) -> Result<Self, GrainError> {
+        let sphere = |ball: &Ball| {
+            Ok(Part {
+                shape: Superquadric::single([metres * ball.radius; 3], 2.0, 2.0)?,
+                frame: Frame {
+                    centre: ball.centre * metres,
+                    ..Frame::SCAN
+                },
+            })
+        };
+        let parts: Result<Vec<Part>, GrainError> = clump.spheres.iter().map(sphere).collect();
+        let grain = &clump.grain;
+        let solid = MassProperties {
+            area: grain.area * metres.powi(2),
+            volume: grain.volume * metres.powi(3),
+            centroid: grain.centroid * metres,
+            inertia: grain.inertia * metres.powi(5),
+        };
+        Self::of(&parts?, &solid, density)
+    }
+
+    /// A grain of parts in metres that is as heavy as a solid.
+    fn of(parts: &[Part], solid: &MassProperties, density: f64) -> Result<Self, GrainError> {
+        // Written so that NaN fails.
+        if !(density > 0.0 && density.is_finite()) {
+            return Err(GrainError::Density { value: density });
+        }
         let principal = solid.principal().ok_or(GrainError::Size)?;
         if !(solid.volume > 0.0 && principal.moments.min() > 0.0) {
             return Err(GrainError::Size);
         }
-        let parts = body.parts().iter().map(|part| {
+        let parts = parts.iter().map(|part| {
             let [sides, depths, heights] = part.shape.semi_axes();
             let axes = [sides, depths, heights].concat();
             let is_round = part.shape.is_single() && part.shape.n1() == [2.0; 2];
@@ -110,6 +146,36 @@ impl GrainKind {
         })
     }
 
+    /// The same grain, so many times as large.
+    ///
+    /// # Errors
+    /// [`GrainError::Size`] if it has none then.
+    pub fn times(&self, factor: f64) -> Result<Self, GrainError> {
+        let scaled = |part: &KindPart| KindPart {
+            part: Part {
+                shape: part.part.shape.times(factor),
+                frame: Frame {
+                    centre: part.part.frame.centre * factor,
+                    ..part.part.frame
+                },
+            },
+            reach: part.reach * factor,
+            is_sphere: part.is_sphere,
+        };
+        let kind = Self {
+            parts: self.parts.iter().map(scaled).collect(),
+            mass: self.mass * factor.powi(3),
+            inertia: self.inertia * factor.powi(5),
+            radius: self.radius * factor,
+            reach: self.reach * factor,
+            arm: self.arm * factor,
+        };
+        match kind.inertia.min() > 0.0 && kind.inertia.max().is_finite() {
+            true => Ok(kind),
+            false => Err(GrainError::Size),
+        }
+    }
+
     /// Mass, in kilograms.
     pub fn mass(&self) -> f64 {
         self.mass
@@ -123,6 +189,22 @@ impl GrainKind {
     /// Radius of the sphere of equal volume, in metres.
     pub fn radius(&self) -> f64 {
         self.radius
+    }
+
+    /// Principal moments of inertia, ascending, in kg m².
+    pub fn moments(&self) -> Vector3<f64> {
+        self.inertia
+    }
+
+    /// Its parts about its centre of mass and along its principal axes, in metres, if all of them are spheres.
+    pub fn spheres(&self) -> Option<Vec<Ball>> {
+        let ball = |part: &KindPart| {
+            part.is_sphere.then_some(Ball {
+                centre: part.part.frame.centre,
+                radius: part.reach,
+            })
+        };
+        self.parts.iter().map(ball).collect()
     }
 
     /// Whether one of the principal moments is smaller than the others, so that there is a long axis: the first.

@@ -2,9 +2,11 @@
 
 use super::record;
 use crate::contact::law::{Contact, Law};
-use crate::contact::same_touch;
 use nalgebra::{Point3, Vector3};
 use serde::{Deserialize, Serialize};
+
+/// Cosine of the angle between normals at which touches are half as one: 20 degrees.
+const SAME_NORMAL: f64 = 0.939_692_620_785_908_4;
 
 /// A part of a grain, and a part of another or a wall, that may touch.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -15,6 +17,8 @@ pub(super) struct Link {
     /// Tangential displacement since they touch.
     #[serde(with = "record::vector")]
     pub(super) slip: Vector3<f64>,
+    /// The parts are apart by so much at least, in metres.
+    pub(super) gap: f64,
     /// The touch of this step, which is found anew in each.
     pub(super) touch: Option<Touch>,
 }
@@ -99,49 +103,93 @@ impl Link {
             key,
             last: None,
             slip: Vector3::zeros(),
+            gap: 0.0,
             touch: None,
         }
     }
 
-    /// The forces of all links of two bodies, whose touches have been found. Of parts that touch at one place the
-    /// deepest acts; the others keep its displacement, for the case that one of them is deepest next.
+    /// The forces of all links of two bodies, whose touches have been found. Parts that touch at one place share it.
     pub(super) fn act(links: &mut [Self], pair: &Pair<'_>) {
         for link in links.iter_mut().filter(|link| link.touch.is_none()) {
             link.slip = Vector3::zeros();
         }
-        let mut left: Vec<usize> = match links {
-            [link] => {
-                if let Some(touch) = &mut link.touch {
-                    pair.act(touch, &mut link.slip);
-                }
-                return;
+        if let [link] = links {
+            if let Some(touch) = &mut link.touch {
+                pair.act(touch, &mut link.slip);
             }
-            _ => (0..links.len())
-                .filter(|&at| links[at].touch.is_some())
-                .collect(),
-        };
-        let overlap = |link: &Self| link.touch.map_or(0.0, |touch| touch.overlap);
-        left.sort_by(|&a, &b| overlap(&links[b]).total_cmp(&overlap(&links[a])));
-        while let [deepest, rest @ ..] = left.as_slice() {
-            let link = &mut links[*deepest];
-            let Some(touch) = &mut link.touch else { break };
-            pair.act(touch, &mut link.slip);
-            let (slip, touch) = (link.slip, *touch);
-            let mut others = Vec::new();
-            for &at in rest {
-                let found = links[at].touch;
-                let is_same = found.is_some_and(|other| {
-                    let places = [(touch.point, touch.normal), (other.point, other.normal)];
-                    same_touch(places, pair.radius, touch.overlap)
-                });
-                match is_same {
-                    true => (links[at].touch, links[at].slip) = (None, slip),
-                    false => others.push(at),
-                }
+            return;
+        }
+        let touches: Vec<(Touch, Vector3<f64>)> = links
+            .iter()
+            .filter_map(|link| Some((link.touch?, link.slip)))
+            .collect();
+        let touching = links.iter_mut().filter_map(|link| {
+            let touch = link.touch.as_mut()?;
+            Some((touch, &mut link.slip))
+        });
+        for (touch, slip) in touching {
+            let share = touch.share(&touches, pair.radius);
+            if *slip == Vector3::zeros() {
+                *slip = touch.first_slip(&touches, pair.radius);
             }
-            left = others;
+            pair.act(touch, slip);
+            touch.force *= share;
+            touch.moment *= share;
         }
     }
+
+    /// The touches of two bodies, those at one place as the deepest of them, with the force of all.
+    pub(super) fn told(links: &[Self], radius: f64) -> Vec<Touch> {
+        let mut touches: Vec<Touch> = links.iter().filter_map(|link| link.touch).collect();
+        touches.sort_by(|one, other| other.overlap.total_cmp(&one.overlap));
+        let mut told: Vec<Touch> = Vec::new();
+        for touch in touches {
+            let same = |deeper: &&mut Touch| deeper.likeness(&touch, radius) >= 0.5;
+            match told.iter_mut().find(same) {
+                Some(deeper) => deeper.force += touch.force,
+                None => told.push(touch),
+            }
+        }
+        told
+    }
+}
+
+impl Touch {
+    /// How far two touches of the same bodies are at one place: 1 where points and normals are the same, less the
+    /// farther apart they are, a half at a cosine of [`SAME_NORMAL`] or at the radius sqrt(R* overlap) of the patch.
+    fn likeness(&self, other: &Self, radius: f64) -> f64 {
+        let turned = (1.0 - self.normal.dot(&other.normal)) / (1.0 - SAME_NORMAL);
+        let patch = radius * self.overlap.max(other.overlap);
+        let apart = (self.point - other.point).norm_squared() / patch;
+        fading(0.5 * turned) * fading(0.5 * apart)
+    }
+
+    /// The share of the law's force that acts, so that parts that touch at one place do not act several times:
+    /// overlap³ over the sum of that of all touches, each times its likeness. It goes to 1 or 0 as other touches begin
+    /// and end and come near or part, without a step.
+    fn share(&self, touches: &[(Self, Vector3<f64>)], radius: f64) -> f64 {
+        let weights = touches.iter().filter_map(|(other, _)| {
+            let likeness = self.likeness(other, radius);
+            (likeness > 0.0).then(|| likeness * (other.overlap / self.overlap).powi(3))
+        });
+        1.0 / weights.sum::<f64>()
+    }
+
+    /// The displacement of a touch that begins: that of the one most like it.
+    fn first_slip(&self, touches: &[(Self, Vector3<f64>)], radius: f64) -> Vector3<f64> {
+        let known = touches
+            .iter()
+            .map(|(other, slip)| (self.likeness(other, radius), slip));
+        let known = known.filter(|(_, slip)| **slip != Vector3::zeros());
+        let most = known.max_by(|(one, _), (other, _)| one.total_cmp(other));
+        most.map_or(Vector3::zeros(), |(likeness, slip)| slip * likeness)
+    }
+}
+
+/// From 1 at zero to 0 at one, level at both.
+fn fading(x: f64) -> f64 {
+    let x = x.clamp(0.0, 1.0);
+    1.0 - x * x * (3.0 - 2.0 * x)
 }
 
 impl Pair<'_> {
@@ -157,5 +205,39 @@ impl Pair<'_> {
         };
         let acting = self.law.action(&contact, slip, self.step);
         (touch.force, touch.moment) = (acting.force, acting.moment);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_shares_of_touches_that_meet_and_part_have_no_step() {
+        let still = Touch::new(Point3::origin(), Vector3::z(), 1e-5);
+        // Another sinks in beside it, comes to the same place, leaves at an angle and ends.
+        let other = |way: f64| {
+            let normal = Vector3::new(0.6 * (way - 1.0).max(0.0), 0.0, 1.0).normalize();
+            let aside = 3e-4 * (1.0 - way);
+            Touch::new(
+                Point3::new(aside, 0.0, 0.0),
+                normal,
+                2e-5 * way * (2.0 - way),
+            )
+        };
+        let shares = (1..20_000).map(|at| {
+            let other = other(f64::from(at) * 1e-4);
+            let both = [still, other].map(|touch| (touch, Vector3::zeros()));
+            both.map(|(touch, _)| touch.share(&both, 2.5e-3))
+        });
+        let shares: Vec<[f64; 2]> = shares.collect();
+        for pair in shares.windows(2) {
+            for (before, after) in pair[0].iter().zip(pair[1]) {
+                assert!((before - after).abs() < 1e-3, "{pair:?}");
+            }
+        }
+        let [first, other] = shares[9_999];
+        assert!(first < 0.2 && other > 0.8 && (first + other - 1.0).abs() < 1e-12);
+        assert!(shares[0][0] > 0.999 && shares[19_998][0] > 0.999);
     }
 }

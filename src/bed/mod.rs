@@ -25,7 +25,7 @@ mod wall;
 mod write;
 
 pub use body::Body;
-pub use fabric::{Fabric, Forces, Order, fabric};
+pub use fabric::{Fabric, Forces, GrainContact, Order, fabric};
 pub use folder::{Folder, FolderError};
 pub use grain::{GrainError, GrainKind};
 pub use packing::{Fraction, Layer, Packing, packing};

@@ -162,6 +162,14 @@ impl BedSettings {
         Ok(())
     }
 
+    /// The share of its velocity that a grain keeps in a head-on impact without friction.
+    ///
+    /// # Errors
+    /// [`BedError`] if there is no law of such a material.
+    pub fn restitution(&self) -> Result<f64, BedError> {
+        Ok(self.law()?.restitution())
+    }
+
     /// The law of all contacts: walls are of the grains' material.
     pub(super) fn law(&self) -> Result<Law, BedError> {
         let material = Material::new(self.youngs_modulus_pa, self.poissons_ratio)?;

@@ -17,6 +17,9 @@ use serde::{Deserialize, Serialize};
 /// Bodies that a thread takes at least.
 const LEAST_BODIES: usize = 128;
 
+/// How much farther than its spin says a grain is taken to have turned in a step, for the spin of a free body changes.
+const TURNED: f64 = 1.1;
+
 /// Grains that fall, and lie.
 ///
 /// Each step moves all grains by velocity Verlet with half kicks, finds the touches of all pairs of the neighbour list,
@@ -70,6 +73,19 @@ impl Bed {
         shares: &[f64],
         mesh: Option<&Mesh>,
     ) -> Result<Self, BedError> {
+        Ok(Self::loose(settings, kinds, shares, mesh)?.begun())
+    }
+
+    /// The same for another engine: no touches are looked for, and no memory is taken for them.
+    ///
+    /// # Errors
+    /// [`BedError`].
+    pub fn loose(
+        settings: BedSettings,
+        kinds: Vec<GrainKind>,
+        shares: &[f64],
+        mesh: Option<&Mesh>,
+    ) -> Result<Self, BedError> {
         settings.check()?;
         let top = mesh.into_iter().flat_map(|mesh| &mesh.vertices);
         let floor = top.map(|vertex| vertex.z).fold(0.0, f64::max);
@@ -93,12 +109,22 @@ impl Bed {
             links: Vec::new(),
             wall_links: Vec::new(),
         };
-        let mut bed = Self::with_state(settings, kinds, walls, state)?;
-        bed.list();
-        bed.place();
-        bed.touch();
-        bed.sum();
-        Ok(bed)
+        Self::with_state(settings, kinds, walls, state)
+    }
+
+    /// The bed with what touches and acts at its first step.
+    pub(super) fn begun(mut self) -> Self {
+        self.list();
+        self.place();
+        self.touch();
+        self.sum();
+        self
+    }
+
+    /// The bed with its grains where another engine left them.
+    pub fn moved(mut self, bodies: Vec<Body>) -> Self {
+        self.state.bodies = bodies;
+        self
     }
 
     /// The same bed at another time; `None` if the state is not one of its.
@@ -136,6 +162,7 @@ impl Bed {
         };
         let placed = state.bodies.iter().map(|_| Placed {
             motion: still,
+            turned: 0.0,
             frames: Vec::new(),
         });
         let mut bed = Self {
@@ -293,7 +320,7 @@ impl Bed {
 
     /// Places all parts.
     fn place(&mut self) {
-        let kinds = &self.kinds;
+        let (kinds, step) = (&self.kinds, self.step);
         let bodies = self.placed.par_iter_mut().zip(&self.state.bodies);
         bodies
             .with_min_len(LEAST_BODIES)
@@ -304,6 +331,7 @@ impl Bed {
                     velocity: body.velocity,
                     spin: body.spin(kind, &axes),
                 };
+                placed.turned = TURNED * placed.motion.spin.norm() * kind.reach * step;
                 placed.frames.clear();
                 placed.frames.extend(kind.placed(body.position, axes));
             });

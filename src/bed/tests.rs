@@ -49,7 +49,8 @@ fn slope(degrees: f64) -> Wall {
 }
 
 fn bed(settings: BedSettings, kind: GrainKind, walls: Vec<Wall>, bodies: Vec<Body>) -> Bed {
-    Bed::of(settings, vec![kind], walls, bodies).unwrap()
+    let bed = Bed::of(settings, vec![kind], walls, bodies);
+    bed.unwrap().begun()
 }
 
 #[test]
@@ -204,6 +205,31 @@ fn few_at(steps: usize, threads: usize) -> Bed {
         }
     });
     bed
+}
+
+#[test]
+fn a_part_that_is_there_twice_touches_once() {
+    let single = kind(&[([3.0, 2.5, 2.0], 2.0, [0.0; 3])]);
+    let twice = GrainKind {
+        parts: [single.parts.clone(), single.parts.clone()].concat(),
+        ..single.clone()
+    };
+    let beds = [single, twice].map(|kind| {
+        let (settings, _) = few(BedSettings::default());
+        let mut bed = Bed::new(settings, vec![kind], &[1.0], None).unwrap();
+        on(1, || {
+            for _ in 0..2000 {
+                bed.advance();
+            }
+        });
+        bed
+    });
+    let [figures, other] = [0, 1].map(|at| fabric(&beds[at]));
+    assert!(figures.neighbours > 1.0);
+    assert_eq!(figures.contacts, other.contacts);
+    for (body, other) in beds[0].bodies().iter().zip(beds[1].bodies()) {
+        assert_relative_eq!(body.position, other.position, epsilon = 1e-6);
+    }
 }
 
 #[test]

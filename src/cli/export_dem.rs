@@ -11,7 +11,6 @@ use crate::measure::{SPECTRUM_DEGREE, Scheme, Survey};
 use crate::model::{Grain, Superquadric};
 use crate::report::{ClumpReport, short};
 use anyhow::{Context, Result};
-use std::path::Path;
 
 /// A body, what its input is called, and its name in the folder.
 struct Subject {
@@ -26,17 +25,17 @@ pub(super) fn run(args: ExportDemArgs, console: Console) -> Result<()> {
     progress.stage("Reading");
     let subjects = read(&args)?;
     progress.stage("Finding spheres");
+    let column;
     let (files, told) = match args.engine {
         EngineArg::Anm => shapes(&args, &subjects)?,
         EngineArg::Deck(engine) => {
             let (deck, told) = deck(&args, &subjects)?;
-            (engine.files(&deck), told)
+            column = deck;
+            (engine.files(&column), told)
         }
     };
     progress.stage("Writing");
-    for file in &files {
-        write(&args.output, file)?;
-    }
+    outputs::write_inputs(&args.output, &files)?;
     drop(progress);
     for line in told {
         console.print(line)?;
@@ -105,7 +104,10 @@ fn single(grain: &Grain) -> Option<Superquadric> {
 }
 
 /// Files of harmonics, and what is lost by each.
-fn shapes(args: &ExportDemArgs, subjects: &[Subject]) -> Result<(Vec<InputFile>, Vec<String>)> {
+fn shapes(
+    args: &ExportDemArgs,
+    subjects: &[Subject],
+) -> Result<(Vec<InputFile<'static>>, Vec<String>)> {
     let metres = args.unit.metres();
     let (mut grains, mut told) = (Vec::new(), Vec::new());
     for Subject { solid, input, name } in subjects {
@@ -124,10 +126,4 @@ fn shapes(args: &ExportDemArgs, subjects: &[Subject]) -> Result<(Vec<InputFile>,
         grains.push((name.clone(), AnmExpansion::from_real(&real)));
     }
     Ok((anm_files(&grains), told))
-}
-
-fn write(folder: &Path, file: &InputFile) -> Result<()> {
-    let path = folder.join(&file.path);
-    outputs::make_folder(path.parent().unwrap_or(folder))?;
-    outputs::write(&path, |writer| Ok(writer.write_all(file.text.as_bytes())?))
 }

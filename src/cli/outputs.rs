@@ -2,6 +2,7 @@
 
 use super::args::FitArgs;
 use super::inputs::is_stream;
+use crate::engines::InputFile;
 use crate::export::{MeshFormat, WriteError, sweep, write_atomically};
 use crate::model::{Grain, Surface, grain_to_json};
 use crate::picture::{Ground, Image};
@@ -131,6 +132,16 @@ pub(super) fn write_image(path: &Path, image: &Image) -> Result<()> {
         let written = image.write_png(file);
         written.map_err(|error| WriteError::Io(io::Error::other(error)))
     })
+}
+
+/// Writes the inputs of an engine into a folder.
+pub(super) fn write_inputs(folder: &Path, files: &[InputFile<'_>]) -> Result<()> {
+    for file in files {
+        let path = folder.join(&file.path);
+        make_folder(path.parent().unwrap_or(folder))?;
+        write(&path, |writer| Ok(file.write(writer)?))?;
+    }
+    Ok(())
 }
 
 /// What an output is called.

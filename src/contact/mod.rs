@@ -27,7 +27,6 @@ mod relative;
 mod touch;
 mod volume_law;
 
-pub(crate) use convex::same_touch;
 pub use convex::{
     ConvexContact, ConvexPair, ConvexStatus, Method, UnionContact, Warm, union_contacts,
 };

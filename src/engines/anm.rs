@@ -54,8 +54,8 @@ pub fn write_anm(expansion: &AnmExpansion) -> String {
 }
 
 /// The folder: a file of coefficients for each grain, and a README.
-pub fn anm_files(grains: &[(String, AnmExpansion)]) -> Vec<InputFile> {
-    let mut files: Vec<InputFile> = grains
+pub fn anm_files(grains: &[(String, AnmExpansion)]) -> Vec<InputFile<'static>> {
+    let mut files: Vec<InputFile<'static>> = grains
         .iter()
         .map(|(name, expansion)| InputFile::new(format!("{name}.anm"), write_anm(expansion)))
         .collect();

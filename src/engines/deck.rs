@@ -1,6 +1,9 @@
 //! What an engine is to do: grains in a column above a box, which fall and come to rest.
 
+use super::error::InvalidDeck;
 use super::kind::Kind;
+use super::material::GrainMaterial;
+use crate::bed::{Bed, Container};
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
@@ -22,24 +25,11 @@ const LEAST_WIDTH: f64 = 3.0;
 /// Share of the time that a Rayleigh wave takes through the smallest sphere.
 const TIME_STEP: f64 = 0.2;
 
+/// So many times the time of the fall are run at most.
+const MOST_FALLS: f64 = 40.0;
+
 /// Grains are at rest when their kinetic energy is below this share of what they lose in falling their own diameter.
 const AT_REST: f64 = 1e-8;
-
-/// What grains are made of: one material for grains and walls.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct GrainMaterial {
-    /// Young's modulus, in Pa. Engines take one softer than the grain's own, for the time step is as the inverse of
-    /// its root.
-    pub youngs_modulus: f64,
-    /// Poisson's ratio.
-    pub poissons_ratio: f64,
-    /// Coefficient of sliding friction.
-    pub friction: f64,
-    /// Coefficient of restitution of a normal impact.
-    pub restitution: f64,
-    /// Density, in kg/m³.
-    pub density: f64,
-}
 
 /// A grain at the start.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -50,94 +40,28 @@ pub struct Placed {
     pub centre: Vector3<f64>,
     /// What its principal axes are turned by from x, y, z.
     pub turn: UnitQuaternion<f64>,
+    /// How fast it moves, in m/s.
+    pub velocity: Vector3<f64>,
 }
 
-/// Grains in a column with a square floor, z up, at rest at first.
+/// Grains in a column above a floor, z up, between upright walls.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Deck {
     /// The kinds of grains.
     pub kinds: Vec<Kind>,
     /// The grains, the lowest first.
     pub grains: Vec<Placed>,
-    /// Side of the floor from the origin along x and y, in metres.
-    pub side: f64,
+    /// Sides of the floor from the origin along x and y, in metres.
+    pub floor: [f64; 2],
     /// Height of the column, in metres.
     pub height: f64,
     /// What they are made of.
     pub material: GrainMaterial,
-}
-
-/// Why there is no deck.
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum InvalidDeck {
-    /// There is no grain, or no kind.
-    #[error("there are no grains")]
-    NoGrains,
-    /// More spheres than a deck holds.
-    #[error(
-        "the spheres of all {grains} grains are more than {}; ask for fewer grains or spheres",
-        Deck::MOST_SPHERES
-    )]
-    TooMany {
-        /// Grains asked for.
-        grains: usize,
-    },
-    /// Two kinds have the same name.
-    #[error("two of the grains have the same name")]
-    SameName,
-    /// A number of the material is out of its range.
-    #[error("{what} must be {range}, not {found}")]
-    Material {
-        /// Which.
-        what: &'static str,
-        /// What it may be.
-        range: &'static str,
-        /// What it is.
-        found: f64,
-    },
-}
-
-impl GrainMaterial {
-    fn check(&self) -> Result<(), InvalidDeck> {
-        let above_zero = |x: f64| x > 0.0 && x.is_finite();
-        let checks = [
-            (
-                "Young's modulus",
-                "above zero",
-                self.youngs_modulus,
-                above_zero(self.youngs_modulus),
-            ),
-            (
-                "Poisson's ratio",
-                "from 0 to 0.5",
-                self.poissons_ratio,
-                (0.0..0.5).contains(&self.poissons_ratio),
-            ),
-            (
-                "the coefficient of friction",
-                "zero or above",
-                self.friction,
-                self.friction >= 0.0 && self.friction.is_finite(),
-            ),
-            (
-                "the coefficient of restitution",
-                "above 0.05 and at most 1",
-                self.restitution,
-                self.restitution > 0.05 && self.restitution <= 1.0,
-            ),
-            (
-                "the density",
-                "above zero",
-                self.density,
-                above_zero(self.density),
-            ),
-        ];
-        match checks.into_iter().find(|check| !check.3) {
-            Some((what, range, found, _)) => Err(InvalidDeck::Material { what, range, found }),
-            None => Ok(()),
-        }
-    }
+    /// Kinetic energy of all grains below which they are at rest, as a share of what they lose in falling their own
+    /// diameter.
+    pub rest: f64,
+    /// Simulated time after which the run ends in any case, in s.
+    pub seconds: f64,
 }
 
 impl Deck {
@@ -156,20 +80,7 @@ impl Deck {
         material: GrainMaterial,
         seed: u64,
     ) -> Result<Self, InvalidDeck> {
-        material.check()?;
-        if count == 0 || kinds.is_empty() {
-            return Err(InvalidDeck::NoGrains);
-        }
-        let most = kinds.iter().map(|kind| kind.spheres.len()).max();
-        if count.saturating_mul(most.unwrap_or(0)) > Self::MOST_SPHERES {
-            return Err(InvalidDeck::TooMany { grains: count });
-        }
-        let is_twin = |(index, kind): (usize, &Kind)| {
-            kinds[..index].iter().any(|other| other.name == kind.name)
-        };
-        if kinds.iter().enumerate().any(is_twin) {
-            return Err(InvalidDeck::SameName);
-        }
+        check(&kinds, count, &material)?;
         let mass: f64 = (0..count).map(|i| kinds[i % kinds.len()].mass).sum();
         let radii = kinds.iter().map(Kind::bounding_radius);
         let cell = 2.0 * APART * radii.fold(0.0, f64::max);
@@ -191,15 +102,72 @@ impl Deck {
                 kind: index % kinds.len(),
                 centre: Vector3::new(across(i), across(j), (k as f64 + 0.5) * cell),
                 turn: UnitQuaternion::new_normalize(Quaternion::new(w, x, y, z)),
+                velocity: Vector3::zeros(),
             }
         };
         let grains: Vec<Placed> = (0..count).map(placed).collect();
+        let height = grains[count - 1].centre.z + cell;
         Ok(Self {
-            height: grains[count - 1].centre.z + cell,
             kinds,
             grains,
-            side,
+            floor: [side; 2],
+            height,
             material,
+            rest: AT_REST,
+            seconds: MOST_FALLS * (2.0 * height / GRAVITY).sqrt(),
+        })
+    }
+
+    /// The bed as it is, of grains made of spheres, in a box, at the gravity of the Earth. What damps along the normal
+    /// becomes the restitution that it leaves.
+    ///
+    /// # Errors
+    ///
+    /// [`InvalidDeck`].
+    pub fn of_bed(bed: &Bed) -> Result<Self, InvalidDeck> {
+        let settings = bed.settings();
+        let Container::Box(floor) = settings.container else {
+            return Err(InvalidDeck::NoBox);
+        };
+        if settings.rolling_friction > 0.0 {
+            return Err(InvalidDeck::Rolling);
+        }
+        let kinds = bed.kinds().iter().enumerate().map(|(index, kind)| {
+            Ok(Kind {
+                name: format!("kind_{index}"),
+                spheres: kind.spheres().ok_or(InvalidDeck::NoSpheres)?,
+                mass: kind.mass(),
+                moments: kind.moments(),
+                superquadric: None,
+            })
+        });
+        let kinds = kinds.collect::<Result<Vec<_>, InvalidDeck>>()?;
+        let material = GrainMaterial {
+            youngs_modulus: settings.youngs_modulus_pa,
+            poissons_ratio: settings.poissons_ratio,
+            friction: settings.friction,
+            restitution: settings.restitution()?,
+            density: settings.density,
+        };
+        check(&kinds, bed.bodies().len(), &material)?;
+        let grains = bed.bodies().iter().map(|body| Placed {
+            kind: body.kind,
+            centre: body.position.coords,
+            turn: body.orientation,
+            velocity: body.velocity,
+        });
+        let grains: Vec<Placed> = grains.collect();
+        let reach = kinds.iter().map(Kind::bounding_radius);
+        let reach = reach.fold(0.0, f64::max);
+        let top = grains.iter().map(|grain| grain.centre.z);
+        Ok(Self {
+            height: top.fold(0.0, f64::max) + 2.0 * reach,
+            kinds,
+            grains,
+            floor,
+            material,
+            rest: settings.rest,
+            seconds: settings.most_seconds,
         })
     }
 
@@ -217,20 +185,55 @@ impl Deck {
         TIME_STEP * PI * self.least_radius() / wave
     }
 
+    /// The most steps that are run.
+    pub fn most_steps(&self) -> u64 {
+        (self.seconds / self.time_step()).ceil() as u64
+    }
+
+    /// How many spheres there are.
+    pub fn spheres(&self) -> usize {
+        let grains = self.grains.iter();
+        grains
+            .map(|grain| self.kinds[grain.kind].spheres.len())
+            .sum()
+    }
+
+    /// How many spheres there are before those of each grain, and in all.
+    pub fn first_spheres(&self) -> Vec<usize> {
+        let spheres = |grain: &Placed| self.kinds[grain.kind].spheres.len();
+        let mut sum = 0;
+        let ends = self.grains.iter().map(|grain| {
+            sum += spheres(grain);
+            sum
+        });
+        [0].into_iter().chain(ends).collect()
+    }
+
     /// The time in which the topmost grain has fallen, in s.
     pub fn fall(&self) -> f64 {
         (2.0 * self.height / GRAVITY).sqrt()
     }
 
-    /// The kinetic energy, in J, below which all grains together are at rest: 1e-8 of what they lose in falling their
-    /// own diameter.
+    /// The kinetic energy, in J, below which all grains together are at rest: a share of what they lose in falling
+    /// their own diameter.
     pub fn rest_energy(&self) -> f64 {
         let lost = |grain: &Placed| {
             let mass = self.kinds[grain.kind].mass;
-            let diameter = (6.0 * mass / self.material.density / PI).cbrt();
-            mass * GRAVITY * diameter
+            mass * GRAVITY * self.equal_diameter(mass)
         };
-        AT_REST * self.grains.iter().map(lost).sum::<f64>()
+        self.rest * self.grains.iter().map(lost).sum::<f64>()
+    }
+
+    /// The diameter of the ball of a mass, in metres.
+    fn equal_diameter(&self, mass: f64) -> f64 {
+        (6.0 * mass / self.material.density / PI).cbrt()
+    }
+
+    /// How often a step goes into that of the smallest grain as one ball, which is larger than its spheres.
+    pub fn steps_of_a_grain(&self) -> f64 {
+        let masses = self.kinds.iter().map(|kind| kind.mass);
+        let least = masses.fold(f64::INFINITY, f64::min);
+        0.5 * self.equal_diameter(least) / self.least_radius()
     }
 
     /// The radius of the smallest sphere, in metres.
@@ -243,5 +246,26 @@ impl Deck {
     pub fn largest_diameter(&self) -> f64 {
         let radii = self.kinds.iter().map(Kind::bounding_radius);
         2.0 * radii.fold(0.0, f64::max)
+    }
+}
+
+/// Refuses what no deck can be made of.
+fn check(kinds: &[Kind], count: usize, material: &GrainMaterial) -> Result<(), InvalidDeck> {
+    material.check()?;
+    if count == 0 || kinds.is_empty() {
+        return Err(InvalidDeck::NoGrains);
+    }
+    let most = kinds.iter().map(|kind| kind.spheres.len()).max();
+    if count.saturating_mul(most.unwrap_or(0)) > Deck::MOST_SPHERES {
+        return Err(InvalidDeck::TooMany {
+            grains: count,
+            most: Deck::MOST_SPHERES,
+        });
+    }
+    let is_twin =
+        |(index, kind): (usize, &Kind)| kinds[..index].iter().any(|other| other.name == kind.name);
+    match kinds.iter().enumerate().any(is_twin) {
+        true => Err(InvalidDeck::SameName),
+        false => Ok(()),
     }
 }

@@ -20,7 +20,7 @@ pub enum Engine {
 
 impl Engine {
     /// The files that let the engine run a deck, and a README that says how.
-    pub fn files(self, deck: &Deck) -> Vec<InputFile> {
+    pub fn files(self, deck: &Deck) -> Vec<InputFile<'_>> {
         match self {
             Self::Lammps => lammps::files(deck),
             Self::Yade => yade::files(deck),

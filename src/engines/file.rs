@@ -1,20 +1,39 @@
 //! The files of a folder.
 
-/// A file of a folder.
-#[derive(Debug, Clone, PartialEq)]
-pub struct InputFile {
+use std::io::{self, Write};
+
+/// A file of a folder, which need not be in memory as a whole at any time.
+pub struct InputFile<'a> {
     /// Its path in the folder, with `/` between names.
     pub path: String,
-    /// What it says.
-    pub text: String,
+    text: Text<'a>,
 }
 
-impl InputFile {
+type Text<'a> = Box<dyn Fn(&mut dyn Write) -> io::Result<()> + 'a>;
+
+impl<'a> InputFile<'a> {
     pub(super) fn new(path: impl Into<String>, text: impl Into<String>) -> Self {
+        let text = text.into();
+        Self::streamed(path, move |writer| writer.write_all(text.as_bytes()))
+    }
+
+    /// A file that is written row by row.
+    pub(super) fn streamed(
+        path: impl Into<String>,
+        text: impl Fn(&mut dyn Write) -> io::Result<()> + 'a,
+    ) -> Self {
         Self {
             path: path.into(),
-            text: text.into(),
+            text: Box::new(text),
         }
+    }
+
+    /// Writes what it says.
+    ///
+    /// # Errors
+    /// Those of the writer.
+    pub fn write(&self, writer: &mut dyn Write) -> io::Result<()> {
+        (self.text)(writer)
     }
 }
 

@@ -13,10 +13,7 @@ const SEEDS: [u32; 3] = [15_485_863, 15_485_867, 32_452_843];
 /// Steps between two looks at the kinetic energy.
 const LOOK: usize = 1000;
 
-/// So many times the time of the fall are run at most.
-const MOST_FALLS: f64 = 40.0;
-
-pub(super) fn files(deck: &Deck) -> Vec<InputFile> {
+pub(super) fn files(deck: &Deck) -> Vec<InputFile<'_>> {
     let spheres = |kind: &Kind| {
         let row = |ball: &Ball| {
             let [x, y, z] = ball.centre.coords.into();
@@ -27,7 +24,7 @@ pub(super) fn files(deck: &Deck) -> Vec<InputFile> {
             kind.spheres.iter().map(row).collect::<String>(),
         )
     };
-    let mut files: Vec<InputFile> = deck.kinds.iter().map(spheres).collect();
+    let mut files: Vec<InputFile<'_>> = deck.kinds.iter().map(spheres).collect();
     files.push(InputFile::new("in.settle", multispheres(deck)));
     let mut told = String::from(
         "NAME.spheres holds the spheres of a kind, in.settle the run; LIGGGHTS places the grains itself, and finds the \
@@ -109,7 +106,7 @@ fn script(
 ) -> String {
     let material = &deck.material;
     let step = deck.time_step();
-    let looks = (MOST_FALLS * deck.fall() / step / LOOK as f64).ceil();
+    let looks = (deck.seconds / step / LOOK as f64).ceil();
     let count = deck.grains.len();
     let mut weights = String::new();
     for index in 0..deck.kinds.len() {
@@ -128,7 +125,7 @@ boundary f f f
 newton off
 communicate single vel yes
 units si
-region box block 0 {side:e} 0 {side:e} 0 {height:e} units box
+region box block 0 {width:e} 0 {depth:e} 0 {height:e} units box
 create_box 1 box
 neighbor {skin:e} bin
 neigh_modify delay 0
@@ -141,9 +138,9 @@ pair_coeff * *
 timestep {step:e}
 fix grav all gravity {GRAVITY} vector 0 0 -1
 fix x0 all wall/gran {model} primitive type 1 xplane 0
-fix x1 all wall/gran {model} primitive type 1 xplane {side:e}
+fix x1 all wall/gran {model} primitive type 1 xplane {width:e}
 fix y0 all wall/gran {model} primitive type 1 yplane 0
-fix y1 all wall/gran {model} primitive type 1 yplane {side:e}
+fix y1 all wall/gran {model} primitive type 1 yplane {depth:e}
 fix z0 all wall/gran {model} primitive type 1 zplane 0
 {templates}fix kinds all particledistribution/discrete {seed} {kinds}{weights}
 fix pour all insert/pack seed {other} distributiontemplate kinds maxattempt 200 insert_every once overlapcheck yes \
@@ -166,7 +163,8 @@ print \"at rest: kinetic energy ${{energy}} J\"
 dump settled all custom 1 settled.dump id type x y z radius
 run 0
 ",
-        side = deck.side,
+        width = deck.floor[0],
+        depth = deck.floor[1],
         height = deck.height,
         skin = 0.3 * deck.least_radius(),
         young = material.youngs_modulus,

@@ -6,8 +6,8 @@ use super::kind::Kind;
 use super::readme::{kinds, readme};
 use std::fmt::Write;
 
-pub(super) fn files(deck: &Deck) -> Vec<InputFile> {
-    let mut files: Vec<InputFile> = deck.kinds.iter().flat_map(clump).collect();
+pub(super) fn files(deck: &Deck) -> Vec<InputFile<'_>> {
+    let mut files: Vec<InputFile<'_>> = deck.kinds.iter().flat_map(clump).collect();
     let first = format!(
         "Clumps for MercuryDPM, of {}: `cp -r clumps/* MERCURY/Tools/MClump/clumps/`.",
         kinds(deck)
@@ -21,7 +21,7 @@ pub(super) fn files(deck: &Deck) -> Vec<InputFile> {
 }
 
 /// Spheres, mass, inertia and the axes of the moments: x, y and z, for a [`Kind`] lies along them.
-fn clump(kind: &Kind) -> [InputFile; 4] {
+fn clump(kind: &Kind) -> [InputFile<'static>; 4] {
     let mut spheres = String::new();
     for ball in &kind.spheres {
         let [x, y, z] = ball.centre.coords.into();

@@ -4,7 +4,7 @@ use super::deck::Deck;
 use super::file::InputFile;
 
 /// The README of a folder that an engine runs, in three lines.
-pub(super) fn runs(deck: &Deck, needs: &str, command: &str, files: &str) -> InputFile {
+pub(super) fn runs(deck: &Deck, needs: &str, command: &str, files: &str) -> InputFile<'static> {
     let count = deck.grains.len();
     let kinds = kinds(deck);
     let first = format!(
@@ -14,7 +14,7 @@ pub(super) fn runs(deck: &Deck, needs: &str, command: &str, files: &str) -> Inpu
 }
 
 /// A README whose first two lines are given.
-pub(super) fn readme(deck: &Deck, first: &str, files: &str) -> InputFile {
+pub(super) fn readme(deck: &Deck, first: &str, files: &str) -> InputFile<'static> {
     let material = &deck.material;
     InputFile::new(
         "README",

@@ -40,9 +40,17 @@ fn deck() -> Deck {
 }
 
 fn text(engine: Engine, path: &str) -> String {
-    let files = engine.files(&deck());
-    let file = files.into_iter().find(|file| file.path == path);
-    file.unwrap_or_else(|| panic!("{path}")).text
+    written(engine, &deck(), path)
+}
+
+fn written(engine: Engine, deck: &Deck, path: &str) -> String {
+    let files = engine.files(deck);
+    let file = files.iter().find(|file| file.path == path);
+    let mut bytes = Vec::new();
+    file.unwrap_or_else(|| panic!("{path}"))
+        .write(&mut bytes)
+        .unwrap();
+    String::from_utf8(bytes).unwrap()
 }
 
 /// The numbers of a line, whatever separates them.
@@ -154,7 +162,7 @@ fn grains_begin_apart_and_inside() {
     for (index, grain) in deck.grains.iter().enumerate() {
         let place = grain.centre;
         let inside = |x: f64, side: f64| x >= reach / 2.0 && x <= side - reach / 2.0;
-        assert!(inside(place.x, deck.side) && inside(place.y, deck.side));
+        assert!(inside(place.x, deck.floor[0]) && inside(place.y, deck.floor[1]));
         assert!(inside(place.z, deck.height));
         for other in &deck.grains[..index] {
             assert!((other.centre - place).norm() > reach);
@@ -220,5 +228,88 @@ fn complex_harmonics_make_the_same_radius() {
         basis.evaluate(&n, &mut values);
         let expected: f64 = values.iter().zip(&real).map(|(y, a)| y * a).sum();
         assert_relative_eq!(found, expected, max_relative = 1e-12);
+    }
+}
+
+/// Two dimers of a bed, in metres.
+fn bed() -> crate::bed::Bed {
+    use crate::bed::{Bed, BedSettings, Container, GrainKind};
+    let kind = GrainKind::of_clump(&clump(), 1e-3, 2500.0).unwrap();
+    let settings = BedSettings {
+        grains: 2,
+        container: Container::Box([0.01, 0.02]),
+        ..BedSettings::default()
+    };
+    Bed::loose(settings, vec![kind], &[1.0], None).unwrap()
+}
+
+#[test]
+fn a_bed_becomes_a_deck_of_the_same_grains() {
+    let bed = bed();
+    let deck = Deck::of_bed(&bed).unwrap();
+    assert_eq!(deck.floor, [0.01, 0.02]);
+    let damping = bed.settings().restitution().unwrap();
+    assert_eq!(deck.material.restitution, damping);
+    let kind = Kind::new("a", &clump(), 1e-3, 2500.0).unwrap();
+    assert_relative_eq!(deck.kinds[0].mass, kind.mass, max_relative = 1e-12);
+    assert_relative_eq!(deck.kinds[0].moments, kind.moments, max_relative = 1e-12);
+    for (ball, other) in deck.kinds[0].spheres.iter().zip(&kind.spheres) {
+        assert_relative_eq!(ball.centre, other.centre, epsilon = 1e-15);
+        assert_relative_eq!(ball.radius, other.radius, max_relative = 1e-12);
+    }
+    let bodies = written(Engine::Lammps, &deck, "bodies.in");
+    for (line, body) in bodies.lines().skip(1).zip(bed.bodies()) {
+        let row = numbers(line);
+        let [place, velocity] = [2, 11].map(|at| Vector3::from_column_slice(&row[at..at + 3]));
+        assert_eq!((place, velocity), (body.position.coords, body.velocity));
+    }
+    let mut rolling = bed.settings().clone();
+    rolling.rolling_friction = 0.1;
+    let kinds = bed.kinds().to_vec();
+    let rolling = crate::bed::Bed::loose(rolling, kinds, &[1.0], None).unwrap();
+    assert_eq!(Deck::of_bed(&rolling), Err(InvalidDeck::Rolling));
+}
+
+#[test]
+fn what_lammps_leaves_is_read_back_as_turns_from_the_start() {
+    let (bed, folder) = (bed(), tempfile::tempdir().unwrap());
+    let deck = Deck::of_bed(&bed).unwrap();
+    let write = |name: &str, rows: &str| {
+        let head = "ITEM: TIMESTEP\n700\nITEM: NUMBER OF ENTRIES\n2\nITEM: BOX BOUNDS ff ff ff\n0 1\n0 1\n0 1\n\
+                    ITEM: ENTRIES c\n";
+        std::fs::write(folder.path().join(name), format!("{head}{rows}")).unwrap();
+    };
+    // LAMMPS has its axes turned by half a turn about x at first, and then the grain by a quarter about z.
+    let root = 0.5_f64.sqrt();
+    write("start.dump", "2 0 0 0 0 1 0 0 \n1 0 0 0 0 1 0 0 \n");
+    write(
+        "grains.dump",
+        &format!("1 0.001 0.002 0.003 0 {root} {root} 0 \n2 4 5 6 0 1 0 0 \n"),
+    );
+    write("contacts.dump", "5 2 0.0019 0.25 \n");
+    let found = Settled::read(folder.path(), &bed, &deck).unwrap();
+    assert_eq!(
+        (found.steps, found.bodies[1].position),
+        (700, Point3::new(4.0, 5.0, 6.0))
+    );
+    let quarter = found.bodies[0].orientation * bed.bodies()[0].orientation.inverse();
+    assert_relative_eq!(quarter * Vector3::x(), Vector3::y(), epsilon = 1e-12);
+    assert_relative_eq!(quarter * Vector3::z(), Vector3::z(), epsilon = 1e-12);
+    assert_eq!(found.bodies[1].orientation, bed.bodies()[1].orientation);
+    // The middle spheres of both, of a radius of 1.1 mm.
+    let [contact] = found.contacts[..] else {
+        panic!()
+    };
+    assert_eq!((contact.grains, contact.force), ([0, 1], 0.25));
+    assert_relative_eq!(contact.overlap, 3e-4, epsilon = 1e-12);
+    // A grain that is told twice, or of another bed, or not at all.
+    for rows in [
+        "1 0 0 0 1 0 0 0\n1 0 0 0 1 0 0 0\n",
+        "3 0 0 0 1 0 0 0\n",
+        "1 0 0 0 1 0 0 0\n",
+    ] {
+        write("grains.dump", rows);
+        let refused = Settled::read(folder.path(), &bed, &deck);
+        assert!(matches!(refused, Err(SettledError::Other { .. })), "{rows}");
     }
 }

@@ -13,10 +13,7 @@ use std::fmt::Write;
 /// Density of the spheres that touch, relative to the grain's.
 const LIGHT: f64 = 1e-12;
 
-/// So many times the time of the fall are run at most.
-const MOST_FALLS: f64 = 40.0;
-
-pub(super) fn files(deck: &Deck) -> Vec<InputFile> {
+pub(super) fn files(deck: &Deck) -> Vec<InputFile<'_>> {
     let mut kinds = String::from("kind,mass,ixx,iyy,izz\n");
     let mut spheres = String::from("kind,x,y,z,r\n");
     for kind in &deck.kinds {
@@ -61,7 +58,7 @@ import sys
 from math import atan, pi, sqrt
 from yade import utils
 
-side = {side:e}
+floor = {width:e}, {depth:e}
 rest = {rest:e}  # kinetic energy below which all are at rest
 density = {density:e}
 
@@ -97,7 +94,7 @@ for name, (mass, *moments) in kinds.items():
 
 walls = material(density)
 O.bodies.append([utils.wall(at, axis, material=walls)
-                 for at, axis in ((0, 0), (side, 0), (0, 1), (side, 1), (0, 2))])
+                 for at, axis in ((0, 0), (floor[0], 0), (0, 1), (floor[1], 1), (0, 2))])
 clumps = []
 for row in rows("grains.csv"):
     name = row["kind"]
@@ -145,7 +142,7 @@ O.run({falling}, True)
 while energy() >= rest and O.iter < {most}:
     O.run(500, True)
 lost = sum(1 for clump in clumps if not (0 < O.bodies[clump].state.pos[2]
-           and all(0 < O.bodies[clump].state.pos[axis] < side for axis in (0, 1))))
+           and all(0 < O.bodies[clump].state.pos[axis] < floor[axis] for axis in (0, 1))))
 print("at rest: kinetic energy %e J, %d grains, %d lost, %d steps" % (energy(), len(clumps), lost, O.iter))
 with open("settled.csv", "w") as file:
     file.write("x,y,z,r\n")
@@ -155,7 +152,8 @@ with open("settled.csv", "w") as file:
 sys.stdout.flush()
 os._exit(0)
 "#,
-        side = deck.side,
+        width = deck.floor[0],
+        depth = deck.floor[1],
         rest = deck.rest_energy(),
         density = material.density,
         young = material.youngs_modulus,
@@ -165,6 +163,6 @@ os._exit(0)
         light = LIGHT,
         skin = 0.3 * deck.least_radius(),
         falling = (deck.fall() / step) as usize,
-        most = (MOST_FALLS * deck.fall() / step) as usize,
+        most = (deck.seconds / step) as usize,
     )
 }

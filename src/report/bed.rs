@@ -134,14 +134,24 @@ impl fmt::Display for BedReport {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let metres = self.unit.metres();
         let length = |value: f64| format!("{} {}", short(value / metres), self.unit);
-        for kind in &self.kinds {
+        for kinds in self.kinds.chunk_by(|one, other| one.input == other.input) {
+            let range = |figure: &dyn Fn(&BedKindRecord) -> f64| {
+                let figures = || kinds.iter().map(figure);
+                let least = figures().fold(f64::INFINITY, f64::min);
+                let [least, most] = [least, figures().fold(0.0, f64::max)].map(short);
+                match least == most {
+                    true => least,
+                    false => format!("{least} to {most}"),
+                }
+            };
+            let grains: usize = kinds.iter().map(|kind| kind.grains).sum();
             writeln!(
                 f,
-                "grains        {} of {}, diameter {} (equal volume), mass {} mg",
-                kind.grains,
-                escaped(&kind.input),
-                length(kind.diameter_m),
-                short(1e6 * kind.mass_kg)
+                "grains        {grains} of {}, diameter {} {} (equal volume), mass {} mg",
+                escaped(&kinds[0].input),
+                range(&|kind| kind.diameter_m / metres),
+                self.unit,
+                range(&|kind| 1e6 * kind.mass_kg)
             )?;
         }
         let container = match self.settings.container {

@@ -1,7 +1,8 @@
 //! Beds from the command line: a mixture falls, is told, and goes on where it was.
 
-use super::{errors, folder, grainform, json, names, succeed};
+use super::{errors, folder, grain, grainform, json, names, succeed};
 use std::fs;
+use std::process::Command;
 
 /// A folder with a scan and a model of it that is convex.
 fn models() -> tempfile::TempDir {
@@ -115,10 +116,7 @@ fn what_makes_no_bed_is_refused() {
     let star = ["fit", "s.ply", "--segments", "1", "-o", "star.json"];
     succeed(&folder, &star);
     for (words, reason) in [
-        (
-            &["star.json", "--box", "9,9"][..],
-            "fit --surface poly12 or multi",
-        ),
+        (&["star.json", "--box", "9,9"][..], "take --spheres"),
         (&["lens.json", "--box", "1,1"], "too narrow"),
         (&["lens.json:0", "--box", "9,9"], "share above zero"),
         (
@@ -132,5 +130,98 @@ fn what_makes_no_bed_is_refused() {
         let output = grainform(&folder, &all);
         assert_eq!(output.status.code(), Some(2));
         assert!(errors(&output).contains(reason), "{}", errors(&output));
+    }
+}
+
+#[test]
+fn a_scan_is_a_clump_in_the_sizes_of_a_batch() {
+    let folder = folder();
+    // Volumes of balls of 2, 3 and 4 mm.
+    let table =
+        "path,volume,volume_se\na.ply,4.18879,0.1\nb.ply,14.13717,0.1\nc.ply,33.51032,0.1\n";
+    fs::write(folder.path().join("results.csv"), table).unwrap();
+    let words =
+        "--sizes results.csv --spheres 3 --grains 9 --box 12,12 --unit mm --seconds 0.05 -o bed";
+    let bean = grain("bean.ply");
+    let words: Vec<&str> = ["bed", &bean].into_iter().chain(words.split(' ')).collect();
+    let report = json(&folder, &words);
+    let kinds = report["kinds"].as_array().unwrap();
+    let mut found: Vec<(f64, u64)> = kinds
+        .iter()
+        .map(|kind| {
+            let diameter = 1e3 * kind["diameter_m"].as_f64().unwrap();
+            (
+                (1e4 * diameter).round() / 1e4,
+                kind["grains"].as_u64().unwrap(),
+            )
+        })
+        .collect();
+    found.sort_by(|one, other| one.0.total_cmp(&other.0));
+    assert_eq!(found, [(2.0, 3), (3.0, 3), (4.0, 3)]);
+    let told = report["warnings"][0].as_str().unwrap();
+    assert!(told.contains("is a clump of 3 spheres here"), "{told}");
+    let text = succeed(&folder, &words);
+    assert!(
+        text.contains("grains        9 of ") && text.contains("2.00000 to 4.00000 mm"),
+        "{text}"
+    );
+}
+
+/// Twenty beans of four spheres each, told to LAMMPS.
+fn with_lammps(bean: &str) -> Vec<&str> {
+    let words = "--spheres 4 --grains 20 --box 30,30 --unit mm --engine lammps -o bed";
+    ["bed", bean].into_iter().chain(words.split(' ')).collect()
+}
+
+#[test]
+fn without_lammps_it_is_told_how_to_come_by_it() {
+    let folder = folder();
+    let bean = grain("bean.ply");
+    let output = Command::new(assert_cmd::cargo::cargo_bin!("grainform"))
+        .args(with_lammps(&bean))
+        .current_dir(folder.path())
+        .env("PATH", folder.path())
+        .output()
+        .unwrap();
+    assert_eq!(output.status.code(), Some(2));
+    assert!(
+        errors(&output).contains("apt-get install lammps"),
+        "{}",
+        errors(&output)
+    );
+}
+
+#[test]
+#[ignore = "needs LAMMPS (lmp) in the path"]
+fn lammps_settles_the_same_bed_and_it_is_told_alike() {
+    let folder = folder();
+    let bean = grain("bean.ply");
+    let words = with_lammps(&bean);
+    let printed = succeed(&folder, &[&words[..], &["--dry-run"]].concat());
+    assert!(printed.contains("20 grains of 80 spheres"), "{printed}");
+    let report = json(&folder, &words);
+    let run = &report["runs"][0];
+    assert_eq!(run["is_at_rest"], true);
+    assert_eq!(run["fabric"]["loose"], 0);
+    // The same bed, settled here.
+    let at = words.iter().position(|word| *word == "--engine").unwrap();
+    let own = [&words[..at], &["-o", "own"]].concat();
+    let own = &json(&folder, &own)["runs"][0];
+    for (figure, most) in [("neighbours", 0.8), ("contacts", 1.5)] {
+        let [found, expected] = [run, own].map(|run| run["fabric"][figure].as_f64().unwrap());
+        assert!(
+            (found - expected).abs() < most,
+            "{figure}: {found} {expected}"
+        );
+    }
+    let files = names(&folder.path().join("bed"));
+    for name in [
+        "bed.png",
+        "bed.vtk",
+        "contacts.dump",
+        "grains.dump",
+        "frames",
+    ] {
+        assert!(files.iter().any(|file| file == name), "{files:?}");
     }
 }

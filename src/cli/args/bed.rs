@@ -1,6 +1,6 @@
 //! The arguments of `grainform bed`.
 
-use super::{LimitArgs, OUTPUT, RUN};
+use super::{InputArgs, OUTPUT, RUN};
 use crate::cli::values::{ShareArg, pair};
 use crate::report::Unit;
 use clap::{Args, value_parser};
@@ -10,8 +10,8 @@ const MATERIAL: &str = "Material, of grains and walls";
 
 /// Drop grains into a box, let them settle, and tell how densely they are packed and how they carry
 ///
-/// Grains are models of convex parts, as `fit --surface superquadric`, poly, poly12 or multi makes. They fall from a
-/// loose column, each turned at random. What is not asked for of the material is assumed, and told. The folder holds
+/// Grains are models of convex parts, as `fit --surface superquadric`, poly, poly12 or multi makes, or with --spheres
+/// any models and scans as clumps. They fall from a loose column, each turned at random. What is not asked for of the material is assumed, and told. The folder holds
 /// state.json, from which a bed that was stopped goes on when it is started again; frames, LAMMPS dumps that OVITO
 /// opens; bed.vtk, the grains as polygons for ParaView; and a picture, bed.png.
 #[derive(Args)]
@@ -37,13 +37,36 @@ pub(in crate::cli) struct BedArgs {
     #[arg(long, value_name = "MESH")]
     pub(in crate::cli) walls: Option<PathBuf>,
 
-    /// Unit of all lengths here and in the models: um, mm, cm or m
+    /// Unit of all lengths here, in the models and in the table of --sizes: um, mm, cm or m
     #[arg(long, value_name = "UNIT")]
     pub(in crate::cli) unit: Unit,
 
     /// Give all grains the volume of a sphere of this diameter [default: as they are]
     #[arg(long, value_name = "D")]
     pub(in crate::cli) diameter: Option<f64>,
+
+    /// Give each grain the volume of one in these results of `batch`: a folder or a table, of which at most 100 sizes
+    /// are taken, each for as many grains
+    #[arg(long, value_name = "RESULTS", conflicts_with = "diameter")]
+    pub(in crate::cli) sizes: Option<PathBuf>,
+
+    /// Make each grain a clump of at most so many spheres, whatever model or scan it is; mass, centre and inertia stay
+    /// the grain's [default: 10 with --engine]
+    #[arg(long, value_name = "N")]
+    pub(in crate::cli) spheres: Option<usize>,
+
+    /// Let another engine run the same bed, of clumps: lammps, which must be installed
+    #[arg(long, value_name = "NAME", value_parser = ["lammps"], conflicts_with = "walls", help_heading = RUN)]
+    pub(in crate::cli) engine: Option<String>,
+
+    /// Processes of the engine; mpirun starts them if they are more than one
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = value_parser!(u32).range(1..),
+          requires = "engine", help_heading = RUN)]
+    pub(in crate::cli) ranks: u32,
+
+    /// Write the engine's files, and let it read them without running, on no more processes than there are cores
+    #[arg(long, requires = "engine", help_heading = RUN)]
+    pub(in crate::cli) dry_run: bool,
 
     /// Write the bed into this folder
     #[arg(short, long, value_name = "DIR", help_heading = OUTPUT)]
@@ -98,5 +121,5 @@ pub(in crate::cli) struct BedArgs {
     pub(in crate::cli) json: bool,
 
     #[command(flatten)]
-    pub(in crate::cli) limit: LimitArgs,
+    pub(in crate::cli) input: InputArgs,
 }

@@ -23,5 +23,4 @@ mod tests;
 mod union;
 
 pub use pair::{ConvexContact, ConvexPair, ConvexStatus, Method, Warm};
-pub(crate) use union::same_touch;
 pub use union::{UnionContact, union_contacts};

@@ -66,7 +66,7 @@ pub fn union_contacts(
 
 /// Whether contacts of parts of the same bodies, each a point and a unit normal, are one touch: the patch is that of a
 /// sphere of this radius at the deeper one's overlap.
-pub(crate) fn same_touch(
+fn same_touch(
     [deeper, other]: [(Point3<f64>, Vector3<f64>); 2],
     radius: f64,
     overlap: f64,

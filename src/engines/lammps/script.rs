@@ -1,0 +1,93 @@
+//! The script that LAMMPS runs.
+
+use crate::engines::deck::{Deck, GRAVITY};
+
+/// Grains are at rest when they have been so at five looks in a row, fifty steps of a grain apart.
+const LOOKS: usize = 5;
+const LOOK: f64 = 50.0;
+
+/// Looks between two lines of the log.
+const LINE: usize = 10;
+
+/// Simulated seconds between two frames.
+const FRAME: f64 = 0.05;
+
+/// Ranks share the floor, for a bed is as high everywhere. The grains are told before the first step and after the last:
+/// LAMMPS turns principal axes from where it has found them, which is not where a [`Kind`](crate::engines::Kind) has them.
+pub(super) fn script(deck: &Deck) -> String {
+    let material = &deck.material;
+    let contact = format!(
+        "hertz/material {:e} {:e} {:e} tangential mindlin NULL 1.0 {:e} damping tsuji",
+        material.youngs_modulus, material.restitution, material.poissons_ratio, material.friction
+    );
+    let step = deck.time_step();
+    let look = (LOOK * deck.steps_of_a_grain()).ceil() as usize;
+    format!(
+        "# Clumps fall into a box and come to rest. SI units: m, kg, s, J.
+units si
+atom_style sphere
+atom_modify map array
+boundary f f f
+newton off
+processors * * 1
+comm_modify vel yes cutoff {cutoff:e}
+fix prop all property/atom mol ghost yes
+read_data data.clumps fix prop NULL Molecules
+neighbor {skin:e} bin
+neigh_modify delay 0 every 1 exclude molecule/intra all
+pair_style granular
+pair_coeff * * {contact}
+timestep {step:e}
+fix grav all gravity {GRAVITY} vector 0 0 -1 disable
+fix grains all rigid/small molecule infile bodies.in gravity grav
+fix wx all wall/gran granular {contact} xplane 0 {width:e}
+fix wy all wall/gran granular {contact} yplane 0 {depth:e}
+fix wz all wall/gran granular {contact} zplane 0 NULL
+compute moving all ke/rigid grains
+compute turning all erotate/rigid grains
+variable energy equal c_moving+c_turning
+compute top all reduce max z
+thermo_style custom step atoms c_top v_energy
+thermo {line}
+thermo_modify lost error flush yes
+compute lying all rigid/local grains mol x y z quatw quati quatj quatk
+compute pairs all property/local patom1 patom2 cutoff radius
+compute touching all pair/local dist force cutoff radius
+dump start all local 1 start.dump c_lying[*]
+dump_modify start format float %.15g
+run 0
+undump start
+variable dry index 0
+if \"${{dry}} == 1\" then quit
+# At rest: all together have less kinetic energy than this at {LOOKS} looks in a row.
+variable lively equal \"v_energy >= {rest:e}\"
+fix looks all ave/time {look} 1 {look} v_lively ave window {LOOKS}
+variable looks equal f_looks
+fix rest all halt {look} v_looks == 0 error continue message no
+shell mkdir frames
+dump frames all custom {frame} frames/bed.*.dump id mol type x y z radius
+dump_modify frames pad 9
+run {most}
+variable spheres equal count(all)
+if \"${{energy}} < {rest:e}\" then &
+  \"print 'at rest: kinetic energy ${{energy}} J, ${{spheres}} spheres'\" else &
+  \"print 'not at rest: kinetic energy ${{energy}} J, ${{spheres}} spheres'\"
+unfix rest
+undump frames
+dump lying all local 1 grains.dump c_lying[*]
+dump_modify lying format float %.15g
+dump touching all local 1 contacts.dump c_pairs[*] c_touching[*]
+dump_modify touching format float %.15g
+run 0
+write_dump all custom settled.dump id mol type x y z radius modify sort id
+",
+        cutoff = 1.1 * deck.largest_diameter(),
+        skin = 0.3 * deck.least_radius(),
+        width = deck.floor[0],
+        depth = deck.floor[1],
+        line = LINE * look,
+        frame = (FRAME / step).ceil(),
+        most = deck.most_steps(),
+        rest = deck.rest_energy(),
+    )
+}
