@@ -1,6 +1,7 @@
 //! A cover of the sphere by overlapping cells with weights that make a partition of unity.
 
-use super::cell_weight::{CellWeight, place};
+use super::cell_weight::CellWeight;
+use super::face_places::place;
 use super::{Cap, CubeCell, FaceRectangle, MARGIN};
 use nalgebra::Vector3;
 use std::ops::Range;
