@@ -2,8 +2,7 @@
 
 use crate::dense;
 use crate::table::LEVELS;
-use grainform::FitError;
-use grainform::bench::{BenchRow, Family, Setting, Subject, measure};
+use grainform::bench::{BenchError, BenchRow, Family, Setting, Subject, measure};
 
 /// Steps per decade of the ladder of tolerances that fits to the estimate climb.
 const STEPS: i32 = 10;
@@ -30,8 +29,8 @@ pub(crate) struct Curves {
 }
 
 impl Curves {
-    pub(crate) fn new(subject: &Subject) -> Result<Self, FitError> {
-        let rows = |settings: Vec<Setting>| -> Result<Vec<BenchRow>, FitError> {
+    pub(crate) fn new(subject: &Subject) -> Result<Self, BenchError> {
+        let rows = |settings: Vec<Setting>| -> Result<Vec<BenchRow>, BenchError> {
             let supported =
                 |setting: &Setting| setting.is_supported_by(subject.scan.points().len());
             let settings = settings.into_iter().filter(supported);

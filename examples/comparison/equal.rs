@@ -1,7 +1,6 @@
 //! Blended and independent fits at equal numbers of coefficients.
 
-use grainform::FitError;
-use grainform::bench::{BenchRow, Setting, Subject, measure};
+use grainform::bench::{BenchError, BenchRow, Setting, Subject, measure};
 
 /// Parts per edge of the cube's faces: 24, 54 and 96 cells.
 const PARTS: [usize; 3] = [2, 3, 4];
@@ -23,9 +22,9 @@ coefficients: held-out RMS, and distance to the truth, in % of the mean radius.
 |---|---|---|---|---|---|---|---|---|---|---|---|";
 
 /// The rows of one scan; without those that its points cannot bear in either family.
-pub(crate) fn rows(subject: &Subject) -> Result<Vec<String>, FitError> {
+pub(crate) fn rows(subject: &Subject) -> Result<Vec<String>, BenchError> {
     let points = subject.scan.points().len();
-    let fit = |setting: Setting| -> Option<Result<BenchRow, FitError>> {
+    let fit = |setting: Setting| -> Option<Result<BenchRow, BenchError>> {
         let is_supported = setting.is_supported_by(points);
         is_supported.then(|| measure(subject, &setting).map(|(row, _)| row))
     };

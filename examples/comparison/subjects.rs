@@ -36,6 +36,7 @@ fn standins() -> Result<Vec<Subject>, Box<dyn Error>> {
     let subject = |path: &std::path::PathBuf| -> Result<Subject, Box<dyn Error>> {
         let name = path.file_stem().unwrap_or_default();
         Ok(Subject {
+            hidden: Vec::new(),
             name: name.to_string_lossy().into(),
             scan: read_scan(path)?,
             truth: None,

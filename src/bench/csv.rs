@@ -5,9 +5,10 @@ use std::fmt::Display;
 use std::io::{self, Write};
 
 /// Names of the columns: the fields of [`BenchScan`] and [`BenchRow`](super::BenchRow).
-const COLUMNS: &str = "scan,points,noise,reference,family,degree,segments,tolerance,coefficients,\
-                       touched,seconds,seconds_prepare,heldout_rms,heldout_share,area_error,\
-                       volume_error,rms_error,seam_jump,rejected";
+const COLUMNS: &str = "scan,points,hidden,noise,reference,family,degree,segments,tolerance,coefficients,\
+                       touched,seconds,seconds_most,seconds_prepare,nanoseconds,nanoseconds_bulk,\
+                       heldout_rms,heldout_share,hidden_share,area_error,volume_error,rms_error,\
+                       seam_jump,rejected";
 
 /// Writes all rows as CSV: a line of names, then a row per scan and setting; what is unknown or does
 /// not apply is empty.
@@ -27,6 +28,7 @@ fn write_rows(scan: &BenchScan, writer: &mut impl Write) -> io::Result<()> {
         let cells = [
             quoted(&scan.scan),
             scan.points.to_string(),
+            scan.hidden.to_string(),
             known(scan.noise),
             scan.reference.into(),
             row.family.name().into(),
@@ -36,9 +38,13 @@ fn write_rows(scan: &BenchScan, writer: &mut impl Write) -> io::Result<()> {
             row.coefficients.to_string(),
             row.touched.to_string(),
             row.seconds.to_string(),
+            row.seconds_most.to_string(),
             row.seconds_prepare.to_string(),
+            row.nanoseconds.to_string(),
+            known(row.nanoseconds_bulk),
             known(row.heldout_rms),
             known(row.heldout_share),
+            known(row.hidden_share),
             row.area_error.to_string(),
             row.volume_error.to_string(),
             known(row.rms_error),

@@ -1,25 +1,28 @@
 //! The settings worth choosing: no other costs less and errs less.
 
-use super::{BenchRow, BenchScan};
+use super::{BenchRow, BenchScan, Family};
 
 /// What an error is bought with.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Cost {
     /// Coefficients of the model.
     Coefficients,
-    /// Seconds of the fit.
+    /// Seconds of preparing the scan and of the fit.
     Seconds,
+    /// Nanoseconds of one evaluation in a random direction.
+    Nanoseconds,
 }
 
 impl Cost {
     /// All costs.
-    pub const ALL: [Self; 2] = [Self::Coefficients, Self::Seconds];
+    pub const ALL: [Self; 3] = [Self::Coefficients, Self::Seconds, Self::Nanoseconds];
 
     /// The name, in lower case.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Coefficients => "coefficients",
             Self::Seconds => "seconds",
+            Self::Nanoseconds => "nanoseconds",
         }
     }
 
@@ -27,17 +30,32 @@ impl Cost {
     pub fn of(self, row: &BenchRow) -> f64 {
         match self {
             Self::Coefficients => row.coefficients as f64,
-            Self::Seconds => row.seconds,
+            Self::Seconds => row.seconds_prepare + row.seconds,
+            Self::Nanoseconds => row.nanoseconds,
         }
     }
 }
 
 impl BenchScan {
-    /// Indices of the rows on the Pareto front of a cost and the held-out RMS, the cheapest first.
+    /// The fit with the default options, if the scan bears it.
+    pub fn automatic(&self) -> Option<&BenchRow> {
+        let is_automatic =
+            |row: &&BenchRow| row.family == Family::Adaptive && row.tolerance.is_none();
+        self.rows.iter().find(is_automatic)
+    }
+
+    /// The rival of least degree whose error is no larger than that of a row.
+    pub fn rival_as_good_as(&self, row: &BenchRow) -> Option<&BenchRow> {
+        let rivals = self.rows.iter().filter(|row| row.family == Family::Ducc0);
+        let as_good = rivals.filter(|rival| rival.error() <= row.error());
+        as_good.min_by_key(|rival| rival.degree)
+    }
+
+    /// Indices of the rows on the Pareto front of a cost and the [error](BenchRow::error), the cheapest first.
     /// Rejected rows are not on it: they are no models of the grain, whatever their mean error.
     pub fn front(&self, cost: Cost) -> Vec<usize> {
         let error = |row: &BenchRow| match row.rejected {
-            None => row.heldout_share.unwrap_or(f64::NAN),
+            None => row.error(),
             Some(_) => f64::NAN,
         };
         let points: Vec<_> = self.rows.iter().map(|r| (cost.of(r), error(r))).collect();

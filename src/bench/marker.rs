@@ -46,6 +46,7 @@ pub(super) fn legend(family: Family) -> &'static str {
         Family::Adaptive => "adaptive",
         Family::Estimate => "estimate",
         Family::Superquadric => "superquadric",
+        Family::Ducc0 => "ducc0, whole surface",
     }
 }
 
@@ -57,6 +58,7 @@ fn colour(family: Family) -> RGBColor {
         Family::Adaptive => RGBColor(178, 57, 62),
         Family::Estimate => RGBColor(118, 80, 150),
         Family::Superquadric => RGBColor(90, 90, 90),
+        Family::Ducc0 => RGBColor(20, 20, 20),
     }
 }
 
@@ -70,6 +72,7 @@ fn corners(family: Family) -> (usize, f64) {
         Family::Adaptive => (24, 0.0),
         Family::Estimate => (3, 0.0),
         Family::Superquadric => (6, 0.0),
+        Family::Ducc0 => (5, 0.0),
     }
 }
 

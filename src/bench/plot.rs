@@ -32,7 +32,7 @@ type Drawn = Result<(), DrawingAreaErrorKind<io::Error>>;
 #[error("the plot could not be drawn")]
 pub struct PlotError(#[from] DrawingAreaErrorKind<io::Error>);
 
-/// Draws the held-out RMS of every setting against its cost, with the Pareto front as steps. The axes
+/// Draws the [error](BenchRow::error) of every setting against its cost, with the Pareto front as steps. The axes
 /// hold all settings but rejected ones, which are pale where they are in sight.
 ///
 /// # Errors
@@ -55,9 +55,9 @@ pub fn plot(scan: &BenchScan, cost: Cost) -> Result<String, PlotError> {
         .x_label_area_size(fine(56))
         .y_label_area_size(fine(76))
         .build_cartesian_2d(coordinate(&x), coordinate(&y))?;
-    draw_axes(&mut chart, cost)?;
+    draw_axes(&mut chart, scan, cost)?;
     draw_rows(&mut chart, scan, cost, &is_in_sight)?;
-    draw_legend(&right)?;
+    draw_legend(&right, scan)?;
     area.present()?;
     drop((chart, left, right, area));
     let dimensions = |(width, height)| format!(r#"width="{width}" height="{height}" "#);
@@ -69,9 +69,9 @@ const fn fine(pixels: u32) -> u32 {
     FINENESS * pixels
 }
 
-/// The held-out RMS in % of the mean radius.
+/// In % of the mean radius.
 fn error(row: &BenchRow) -> f64 {
-    100.0 * row.heldout_share.unwrap_or(f64::NAN)
+    100.0 * row.error()
 }
 
 fn text(size: u32) -> TextStyle<'static> {
@@ -87,7 +87,7 @@ fn coordinate(axis: &LogAxis) -> Axis {
         .with_light_points(axis.fine.clone())
 }
 
-fn draw_axes<'a, 'b: 'a>(chart: &mut Chart<'a, 'b>, cost: Cost) -> Drawn {
+fn draw_axes<'a, 'b: 'a>(chart: &mut Chart<'a, 'b>, scan: &BenchScan, cost: Cost) -> Drawn {
     chart
         .configure_mesh()
         .bold_line_style(GRID.stroke_width(fine(1)))
@@ -100,9 +100,13 @@ fn draw_axes<'a, 'b: 'a>(chart: &mut Chart<'a, 'b>, cost: Cost) -> Drawn {
         .y_label_formatter(&|mark| label(*mark))
         .x_desc(match cost {
             Cost::Coefficients => "coefficients",
-            Cost::Seconds => "seconds of the fit, one thread",
+            Cost::Seconds => "seconds of preparing and fitting, one thread",
+            Cost::Nanoseconds => "nanoseconds of one evaluation in a random direction",
         })
-        .y_desc("held-out RMS, % of the mean radius")
+        .y_desc(match scan.hidden {
+            0 => "held-out RMS, % of the mean radius",
+            _ => "RMS of hidden points, % of the mean radius",
+        })
         .draw()
 }
 
@@ -140,7 +144,7 @@ fn front_line() -> ShapeStyle {
 }
 
 /// The families, one below the other, then what is not a family.
-fn draw_legend(area: &DrawingArea<SVGBackend<'_>, Shift>) -> Drawn {
+fn draw_legend(area: &DrawingArea<SVGBackend<'_>, Shift>, scan: &BenchScan) -> Drawn {
     let at = |line: usize| {
         (
             fine(16) as i32,
@@ -151,11 +155,13 @@ fn draw_legend(area: &DrawingArea<SVGBackend<'_>, Shift>) -> Drawn {
         let beside = (fine(20) as i32, -(fine(7) as i32));
         area.draw(&(EmptyElement::at(at(line)) + Text::new(words.to_owned(), beside, text(18))))
     };
-    for (line, family) in Family::ALL.into_iter().enumerate() {
+    let mut families = Family::ALL.to_vec();
+    families.extend((scan.hidden > 0).then_some(Family::Ducc0));
+    for (line, &family) in families.iter().enumerate() {
         area.draw(&(EmptyElement::at(at(line)) + marker(family, Rank::Front, FINENESS)))?;
         write(line, legend(family))?;
     }
-    let line = Family::ALL.len();
+    let line = families.len();
     let half = fine(9) as i32;
     let path = PathElement::new([(-half, 0), (half, 0)], front_line());
     area.draw(&(EmptyElement::at(at(line)) + path))?;
@@ -187,9 +193,13 @@ mod tests {
             coefficients,
             touched: 1.0,
             seconds: 0.001,
+            seconds_most: 0.001,
             seconds_prepare: 0.0,
+            nanoseconds: 100.0,
+            nanoseconds_bulk: None,
             heldout_rms: share,
             heldout_share: share,
+            hidden_share: None,
             area_error: 0.0,
             volume_error: 0.0,
             rms_error: None,
@@ -202,6 +212,7 @@ mod tests {
         let scan = BenchScan {
             scan: "a <b> & c".into(),
             points: 10,
+            hidden: 0,
             noise: Some(0.005),
             reference: "truth",
             skipped: 0,

@@ -1,53 +1,70 @@
 //! Fits every setting to a scan and takes the time.
 
-use super::{Asked, BenchRow, BenchScan, Family, Setting, Subject, Truth, asked};
+use super::rivals::{Rival, RivalError, rivals};
+use super::timing::{Directions, timed};
+use super::{Asked, BenchRow, BenchScan, Family, Setting, Subject, asked};
 use crate::fit::{
     Context, FitError, Fitted, Form, PreparedScan, Reference, SuperquadricFit, fit_superquadric,
 };
 use crate::measure::{Deviation, grain_properties};
 use crate::model::{Grain, StarGrain};
+use crate::shapes::SynthError;
 use crate::sphere::Symmetry;
-use std::time::Instant;
 
-/// A fit that takes longer, in seconds, is timed once: the noise of the clock is far below.
-const LONG: f64 = 0.5;
+/// Why a scan cannot be benched.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum BenchError {
+    /// It cannot be fitted.
+    #[error(transparent)]
+    Fit(#[from] FitError),
+    /// Its rivals failed.
+    #[error(transparent)]
+    Rival(#[from] RivalError),
+    /// There are no directions to evaluate surfaces in.
+    #[error(transparent)]
+    Directions(#[from] SynthError),
+}
 
 /// Fits all settings of all families that the scan's points can bear. `progress` is told each
-/// setting before it is fitted, and how many are done of how many.
+/// setting before it is fitted, and how many are done of how many. If the subject has [hidden
+/// points](Subject::with_hidden_points), they judge the fits, and ducc0 fits the others too.
 ///
 /// # Errors
-/// [`FitError`] if the scan is not one closed surface round a centre.
+/// [`BenchError`] if the scan is not one closed surface round a centre, or ducc0 does not work.
 pub fn run(
     subject: &Subject,
-    progress: &dyn Fn(&Setting, usize, usize),
-) -> Result<BenchScan, FitError> {
+    progress: &dyn Fn(&dyn std::fmt::Display, usize, usize),
+) -> Result<BenchScan, BenchError> {
     let points = subject.scan.points.len();
     let mut settings: Vec<Setting> = Family::ALL.into_iter().flat_map(Family::settings).collect();
     let all = settings.len();
     settings.retain(|setting| setting.is_supported_by(points));
 
-    let mut reference = "truth";
+    let bench = Bench::new(subject)?;
     let mut refused = 0;
     let mut rows = Vec::with_capacity(settings.len());
     for (done, setting) in settings.iter().enumerate() {
         progress(setting, done, settings.len());
-        let (row, found) = match measure(subject, setting) {
-            Err(error) if error.is_of_fit() => {
-                refused += 1;
-                continue;
-            }
-            measured => measured?,
-        };
-        if subject.truth.is_none() {
-            reference = found.kind.name();
+        match bench.measure(setting) {
+            Err(error) if error.is_of_fit() => refused += 1,
+            measured => rows.push(measured?),
         }
-        rows.push(row);
+    }
+    if !subject.hidden.is_empty() {
+        let told = |degree| progress(&format_args!("ducc0, degree {degree}"), all, all);
+        let found = rivals(subject, *bench.prepared.frame(), &told)?;
+        rows.extend(found.into_iter().map(|rival| bench.rival(rival)));
     }
     Ok(BenchScan {
         scan: subject.name.clone(),
         points,
+        hidden: subject.hidden.len(),
         noise: subject.truth.as_ref().map(|truth| truth.noise),
-        reference,
+        reference: match subject.truth {
+            Some(_) => "truth",
+            None => bench.prepared.reference.kind.name(),
+        },
         skipped: all - settings.len(),
         refused,
         rows,
@@ -58,53 +75,113 @@ pub fn run(
 /// with the reference given back.
 ///
 /// # Errors
-/// [`FitError`] if the scan is not one closed surface round a centre.
-pub fn measure(subject: &Subject, setting: &Setting) -> Result<(BenchRow, Reference), FitError> {
-    let (prepared, seconds_prepare) = timed(|| PreparedScan::new(&subject.scan, Symmetry::NONE));
-    let prepared = prepared?;
-    let context = Context::default();
-    let (found, seconds) = match asked(setting) {
-        Asked::Harmonics(options) => {
-            let (fitted, seconds) = often(|| prepared.fit(&options, &context));
-            (Found::harmonics(&fitted?), seconds)
-        }
-        Asked::Superquadric(form) => {
-            let points = prepared.points();
-            let (fitted, seconds) = often(|| fit_superquadric(points, form, &context));
-            // What else it refuses was refused when the scan was prepared.
-            let found = fitted
-                .ok()
-                .and_then(|fitted| Found::superquadric(form, &fitted, points.len()));
-            let none = FitError::NoVolume {
-                points: points.len(),
-            };
-            (found.ok_or(none)?, seconds)
-        }
-    };
-    let row = found.row(
-        setting,
-        subject.truth.as_ref(),
-        &prepared.reference,
-        [seconds, seconds_prepare],
-    );
-    Ok((row, prepared.reference))
+/// [`BenchError`] if the scan is not one closed surface round a centre.
+pub fn measure(subject: &Subject, setting: &Setting) -> Result<(BenchRow, Reference), BenchError> {
+    let bench = Bench::new(subject)?;
+    Ok((bench.measure(setting)?, bench.prepared.reference))
 }
 
-/// What is fitted, and the median seconds of three fits.
-fn often<T>(fit: impl Fn() -> T) -> (T, f64) {
-    let (fitted, first) = timed(&fit);
-    let mut seconds = [first; 3];
-    if first <= LONG {
-        seconds = [first, timed(&fit).1, timed(&fit).1];
-        seconds.sort_by(f64::total_cmp);
+/// A scan that fits are made to.
+struct Bench<'a> {
+    subject: &'a Subject,
+    prepared: PreparedScan<'a>,
+    seconds_prepare: f64,
+    directions: Directions,
+}
+
+impl<'a> Bench<'a> {
+    fn new(subject: &'a Subject) -> Result<Self, BenchError> {
+        let prepare = || PreparedScan::new(&subject.scan, Symmetry::NONE);
+        let (prepared, [seconds_prepare, _]) = timed(prepare);
+        Ok(Self {
+            subject,
+            prepared: prepared?,
+            seconds_prepare,
+            directions: Directions::random()?,
+        })
     }
-    (fitted, seconds[1])
-}
 
-fn timed<T>(work: impl FnOnce() -> T) -> (T, f64) {
-    let started = Instant::now();
-    let result = work();
-    (result, started.elapsed().as_secs_f64())
+    fn measure(&self, setting: &Setting) -> Result<BenchRow, FitError> {
+        let context = Context::default();
+        let (found, seconds) = match asked(setting) {
+            Asked::Harmonics(options) => {
+                let (fitted, seconds) = timed(|| self.prepared.fit(&options, &context));
+                (Found::harmonics(&fitted?), seconds)
+            }
+            Asked::Superquadric(form) => {
+                let points = self.prepared.points();
+                let (fitted, seconds) = timed(|| fit_superquadric(points, form, &context));
+                // What else it refuses was refused when the scan was prepared.
+                let found = fitted
+                    .ok()
+                    .and_then(|fitted| Found::superquadric(form, &fitted, points.len()));
+                let none = FitError::NoVolume {
+                    points: points.len(),
+                };
+                (found.ok_or(none)?, seconds)
+            }
+        };
+        Ok(self.row(setting, found, seconds))
+    }
+
+    /// Its evaluations are its own or, of the same expansion, ours, whichever are faster.
+    fn rival(&self, rival: Rival) -> BenchRow {
+        let found = Found {
+            grain: rival.grain.into(),
+            segments: 1,
+            heldout_rms: None,
+            mean_radius: self.prepared.mean_radius,
+            rejected: None,
+        };
+        let degree = rival.degree;
+        let row = self.row(&Setting::Whole { degree }, found, rival.seconds);
+        BenchRow {
+            family: Family::Ducc0,
+            seconds_prepare: 0.0,
+            nanoseconds: row.nanoseconds.min(rival.nanoseconds),
+            nanoseconds_bulk: row
+                .nanoseconds_bulk
+                .map(|own| own.min(rival.nanoseconds_bulk)),
+            ..row
+        }
+    }
+
+    fn row(&self, setting: &Setting, found: Found, [seconds, seconds_most]: [f64; 2]) -> BenchRow {
+        let Found {
+            grain, mean_radius, ..
+        } = &found;
+        let told = grain_properties(grain).properties;
+        let (truth, hidden) = (self.subject.truth.as_ref(), &self.subject.hidden);
+        let reference = &self.prepared.reference;
+        let (area, volume) = truth.map_or((reference.area, reference.volume), |truth| {
+            (truth.area, truth.volume)
+        });
+        let is_judged = !hidden.is_empty();
+        BenchRow {
+            family: setting.family(),
+            degree: setting.degree(),
+            segments: found.segments,
+            tolerance: setting.tolerance(),
+            coefficients: grain.coefficient_count(),
+            touched: grain.coefficients_touched(),
+            seconds,
+            seconds_most,
+            seconds_prepare: self.seconds_prepare,
+            nanoseconds: self.directions.nanoseconds(grain),
+            nanoseconds_bulk: is_judged.then(|| self.directions.nanoseconds_bulk(grain)),
+            heldout_rms: found.heldout_rms,
+            heldout_share: found.heldout_rms.map(|rms| rms / mean_radius),
+            hidden_share: is_judged
+                .then(|| Deviation::from_places(grain, hidden).rms() / mean_radius),
+            area_error: told.area / area - 1.0,
+            volume_error: told.volume / volume - 1.0,
+            rms_error: truth.map(|truth| {
+                Deviation::from_places(grain, &truth.places).rms() / truth.mean_radius
+            }),
+            seam_jump: grain.star().map_or(0.0, StarGrain::seam_jump) / mean_radius,
+            rejected: found.rejected,
+        }
+    }
 }
 
 /// What a fit found.
@@ -139,40 +216,5 @@ impl Found {
             mean_radius: fitted.mean_radius,
             rejected: None,
         })
-    }
-
-    fn row(
-        self,
-        setting: &Setting,
-        truth: Option<&Truth>,
-        reference: &Reference,
-        [seconds, seconds_prepare]: [f64; 2],
-    ) -> BenchRow {
-        let Self {
-            grain, mean_radius, ..
-        } = self;
-        let found = grain_properties(&grain).properties;
-        let (area, volume) = truth.map_or((reference.area, reference.volume), |truth| {
-            (truth.area, truth.volume)
-        });
-        BenchRow {
-            family: setting.family(),
-            degree: setting.degree(),
-            segments: self.segments,
-            tolerance: setting.tolerance(),
-            coefficients: grain.coefficient_count(),
-            touched: grain.coefficients_touched(),
-            seconds,
-            seconds_prepare,
-            heldout_rms: self.heldout_rms,
-            heldout_share: self.heldout_rms.map(|rms| rms / mean_radius),
-            area_error: found.area / area - 1.0,
-            volume_error: found.volume / volume - 1.0,
-            rms_error: truth.map(|truth| {
-                Deviation::from_places(&grain, &truth.places).rms() / truth.mean_radius
-            }),
-            seam_jump: grain.star().map_or(0.0, StarGrain::seam_jump) / mean_radius,
-            rejected: self.rejected,
-        }
     }
 }

@@ -40,6 +40,8 @@ pub enum Family {
     Estimate,
     /// One superquadric: few numbers and fast contacts, at the price of a rough surface.
     Superquadric,
+    /// The rival: an expansion of the whole sphere by ducc0's least squares.
+    Ducc0,
 }
 
 /// One model of a family.
@@ -64,6 +66,8 @@ pub enum Setting {
         /// Degree of the cells' expansions.
         degree: usize,
     },
+    /// Of [`Family::Adaptive`]: the default options, with a tolerance that follows the scan.
+    Automatic,
     /// Of [`Family::Adaptive`].
     Adaptive {
         /// RMS error that is good enough, as a share of the mean radius.
@@ -108,6 +112,7 @@ pub fn asked(setting: &Setting) -> Asked {
         Setting::Whole { degree } => uniform(Seams::None, 1, degree),
         Setting::Uniform { parts, degree } => uniform(Seams::None, parts * parts, degree),
         Setting::Blended { parts, degree } => uniform(Seams::Blended, 6 * parts * parts, degree),
+        Setting::Automatic => FitOptions::default(),
         Setting::Adaptive { tolerance } => adaptive(tolerance, None),
         Setting::Estimate { tolerance } => adaptive(tolerance, Some(1)),
         Setting::Superquadric { form } => return Asked::Superquadric(form),
@@ -115,7 +120,7 @@ pub fn asked(setting: &Setting) -> Asked {
 }
 
 impl Family {
-    /// All families.
+    /// All families of grainform.
     pub const ALL: [Self; 6] = [
         Self::Whole,
         Self::Uniform,
@@ -134,6 +139,7 @@ impl Family {
             Self::Adaptive => "adaptive",
             Self::Estimate => "estimate",
             Self::Superquadric => "superquadric",
+            Self::Ducc0 => "ducc0",
         }
     }
 
@@ -151,13 +157,16 @@ impl Family {
                 .collect(),
             Self::Adaptive => TOLERANCES
                 .map(|tolerance| Setting::Adaptive { tolerance })
-                .into(),
+                .into_iter()
+                .chain([Setting::Automatic])
+                .collect(),
             Self::Estimate => TOLERANCES
                 .map(|tolerance| Setting::Estimate { tolerance })
                 .into(),
             Self::Superquadric => [Form::Single, Form::Poly8, Form::Poly12]
                 .map(|form| Setting::Superquadric { form })
                 .into(),
+            Self::Ducc0 => Vec::new(),
         }
     }
 }
@@ -177,7 +186,7 @@ impl Setting {
             Self::Whole { .. } => Family::Whole,
             Self::Uniform { .. } => Family::Uniform,
             Self::Blended { .. } => Family::Blended,
-            Self::Adaptive { .. } => Family::Adaptive,
+            Self::Automatic | Self::Adaptive { .. } => Family::Adaptive,
             Self::Estimate { .. } => Family::Estimate,
             Self::Superquadric { .. } => Family::Superquadric,
         }
@@ -189,7 +198,10 @@ impl Setting {
             Self::Whole { degree }
             | Self::Uniform { degree, .. }
             | Self::Blended { degree, .. } => Some(degree),
-            Self::Adaptive { .. } | Self::Estimate { .. } | Self::Superquadric { .. } => None,
+            Self::Automatic
+            | Self::Adaptive { .. }
+            | Self::Estimate { .. }
+            | Self::Superquadric { .. } => None,
         }
     }
 
@@ -199,6 +211,7 @@ impl Setting {
             Self::Whole { .. }
             | Self::Uniform { .. }
             | Self::Blended { .. }
+            | Self::Automatic
             | Self::Superquadric { .. } => None,
             Self::Adaptive { tolerance } | Self::Estimate { tolerance } => Some(tolerance),
         }
@@ -211,7 +224,7 @@ impl Setting {
             Self::Whole { degree } => coefficient_count(degree),
             Self::Uniform { parts, degree } => parts * parts * coefficient_count(degree),
             Self::Blended { parts, degree } => 6 * parts * parts * coefficient_count(degree),
-            Self::Adaptive { .. } | Self::Estimate { .. } => 0,
+            Self::Automatic | Self::Adaptive { .. } | Self::Estimate { .. } => 0,
             Self::Superquadric { form } => return 3 * form.parameters() <= points,
         };
         2 * coefficients <= points
@@ -228,6 +241,7 @@ impl fmt::Display for Setting {
             Self::Blended { parts, degree } => {
                 write!(f, "6 x {parts} x {parts} blended cells, degree {degree}")
             }
+            Self::Automatic => write!(f, "adaptive, by default"),
             Self::Adaptive { tolerance } => {
                 write!(f, "adaptive within {} %", 100.0 * tolerance)
             }
@@ -248,7 +262,7 @@ mod tests {
     #[test]
     fn every_setting_asks_for_one_fit() {
         let count = |family: Family| family.settings().len();
-        assert_eq!(Family::ALL.map(count), [20, 16 * 7, 5 * 5, 7, 7, 3]);
+        assert_eq!(Family::ALL.map(count), [20, 16 * 7, 5 * 5, 8, 7, 3]);
         for family in Family::ALL {
             for setting in family.settings() {
                 assert_eq!(setting.family(), family);
@@ -263,6 +277,9 @@ mod tests {
                         assert_eq!(options.tolerance, Tolerance::OfMeanRadius(share));
                         let of_whole = family == Family::Estimate;
                         assert_eq!(options.segments, of_whole.then_some(1));
+                    }
+                    None if setting == Setting::Automatic => {
+                        assert_eq!(options, FitOptions::default());
                     }
                     None => assert!(options.degree.is_some() && options.segments.is_some()),
                 }

@@ -3,12 +3,17 @@
 use crate::scan::Scan;
 use crate::shapes::{Body, Sampling, SynthError, SynthOptions, synthesize};
 use nalgebra::Point3;
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::{Rng, SeedableRng};
 
 /// Noise of the noisy synthetic scans: its standard deviation as a share of the mean radius.
 pub const NOISE: f64 = 0.005;
 
 /// Places in which the fitted radius is compared with the true one.
 const PLACES: usize = 2000;
+
+/// One point in so many is hidden where fits are judged by hidden points.
+const ONE_IN_HIDDEN: u32 = 10;
 
 /// A scan, and what is known of it.
 #[derive(Debug, Clone)]
@@ -19,6 +24,8 @@ pub struct Subject {
     pub scan: Scan,
     /// The closed form that it was taken from, if any.
     pub truth: Option<Truth>,
+    /// Points that were taken out of the scan, to judge its fits.
+    pub hidden: Vec<Point3<f64>>,
 }
 
 /// A closed form and how it was scanned. Lengths are in the scan's unit.
@@ -67,7 +74,21 @@ impl Subject {
                     .map(|n| Point3::from(n * surface.radius(n)))
                     .collect(),
             }),
+            hidden: Vec::new(),
         })
+    }
+
+    /// The subject with one point in ten, at random, hidden. Triangles are lost with them.
+    #[must_use]
+    pub fn with_hidden_points(self) -> Self {
+        let mut random = ChaCha8Rng::seed_from_u64(0);
+        let points = self.scan.points.iter().copied();
+        let (hidden, seen) = points.partition(|_| random.next_u32() % ONE_IN_HIDDEN == 0);
+        Self {
+            scan: Scan::from_points(seen),
+            hidden,
+            ..self
+        }
     }
 }
 

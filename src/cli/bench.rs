@@ -4,7 +4,7 @@ use super::args::{BenchArgs, InputArgs};
 use super::console::{Console, put_json};
 use super::{inputs, outputs};
 use crate::bench::{
-    self, BenchReport, BenchRow, BenchScan, Cost, Subject, plot, synthetic, write_csv,
+    self, BenchReport, BenchRow, BenchScan, Cost, Subject, find_rivals, plot, synthetic, write_csv,
 };
 use crate::export::write_atomically;
 use crate::fit::PreparedScan;
@@ -19,10 +19,19 @@ pub(super) fn run(args: BenchArgs, console: Console) -> Result<()> {
         .num_threads(1)
         .build_global()
         .context("cannot start a thread")?;
-    let subjects = match args.scans.as_slice() {
+    if args.rivals {
+        find_rivals()?;
+    }
+    let mut subjects = match args.scans.as_slice() {
         [] => synthetic()?,
         paths => read(paths, &args.input)?,
     };
+    if args.rivals {
+        subjects = subjects
+            .into_iter()
+            .map(Subject::with_hidden_points)
+            .collect();
+    }
     let stems = stems(&subjects)?;
     outputs::make_folder(&args.output)?;
 
@@ -46,6 +55,9 @@ pub(super) fn run(args: BenchArgs, console: Console) -> Result<()> {
     for scan in &report.scans {
         console.print(heading(scan))?;
         console.print(format_args!("{}\n", table(scan).trim_fmt()))?;
+        if let Some(sentence) = beside_rivals(scan) {
+            console.print(format_args!("{sentence}\n"))?;
+        }
     }
     for path in written {
         console.wrote(&path.display().to_string())?;
@@ -63,6 +75,7 @@ fn read(paths: &[PathBuf], input: &InputArgs) -> Result<Vec<Subject>> {
             name,
             scan,
             truth: None,
+            hidden: Vec::new(),
         })
     };
     paths.iter().map(subject).collect()
@@ -112,6 +125,10 @@ fn heading(scan: &BenchScan) -> String {
         "faces" => "the scan's own faces",
         _ => "the points, triangulated by direction",
     };
+    let hidden = match scan.hidden {
+        0 => String::new(),
+        hidden => format!(", {hidden} more are hidden"),
+    };
     let skipped = match scan.skipped {
         0 => String::new(),
         1 => "; 1 setting has more coefficients than half of the points".into(),
@@ -122,9 +139,30 @@ fn heading(scan: &BenchScan) -> String {
         count => format!("; {count} settings give no body near the points"),
     };
     format!(
-        "{}; errors against {reference}{skipped}{refused}",
+        "{}{hidden}; errors against {reference}{skipped}{refused}",
         scan.title()
     )
+}
+
+/// How the default fit does beside the rival; nothing without rivals.
+fn beside_rivals(scan: &BenchScan) -> Option<String> {
+    let own = scan.automatic().filter(|_| scan.hidden > 0)?;
+    let error = 100.0 * own.error();
+    let Some(rival) = scan.rival_as_good_as(own) else {
+        return Some(format!(
+            "The default fit's hidden RMS is {error:.4} %: no degree of ducc0 that the points bear is as good."
+        ));
+    };
+    let times = |cost: Cost| cost.of(own) / cost.of(rival);
+    let bulk = own.nanoseconds_bulk.zip(rival.nanoseconds_bulk)?;
+    Some(format!(
+        "The default fit's hidden RMS is {error:.4} %, where ducc0 needs degree {}. Seconds: {:.2} times ducc0's; one \
+         evaluation: {:.2} times the time, of many {:.2} times.",
+        rival.degree?,
+        times(Cost::Seconds),
+        times(Cost::Nanoseconds),
+        bulk.0 / bulk.1,
+    ))
 }
 
 /// The rows on a Pareto front, by coefficients. Shares are of the mean radius.
@@ -142,7 +180,11 @@ fn table(scan: &BenchScan) -> Table {
         "coefficients",
         "touched",
         "seconds",
-        "held-out RMS",
+        "ns",
+        match scan.hidden {
+            0 => "held-out RMS",
+            _ => "hidden RMS",
+        },
         "area",
         "volume",
         "true RMS",
@@ -161,13 +203,13 @@ fn table(scan: &BenchScan) -> Table {
                 .chain([least_for.join(", ")]),
         );
     }
-    for column in table.column_iter_mut().skip(1).take(10) {
+    for column in table.column_iter_mut().skip(1).take(11) {
         column.set_cell_alignment(CellAlignment::Right);
     }
     table
 }
 
-fn cells(row: &BenchRow) -> [String; 11] {
+fn cells(row: &BenchRow) -> [String; 12] {
     let share =
         |share: Option<f64>| share.map_or("-".into(), |share| format!("{:.3} %", 100.0 * share));
     [
@@ -176,8 +218,9 @@ fn cells(row: &BenchRow) -> [String; 11] {
         row.degree.map_or("-".into(), |degree| degree.to_string()),
         row.coefficients.to_string(),
         format!("{:.0}", row.touched),
-        format!("{:.5}", row.seconds),
-        share(row.heldout_share),
+        format!("{:.5}", Cost::Seconds.of(row)),
+        format!("{:.0}", row.nanoseconds),
+        share(Some(row.error()).filter(|error| error.is_finite())),
         percent(row.area_error),
         percent(row.volume_error),
         share(row.rms_error),

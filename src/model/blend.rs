@@ -1,7 +1,7 @@
 //! K functions on a cover of the sphere, blended so that no seam is left.
 
 use super::InvalidGrain;
-use crate::sphere::{CapBasis, Cover, Jet, cube_grid};
+use crate::sphere::{CapBasis, CapExpansion, Cover, FacePlaces, Jet, Jets, cube_grid};
 use crate::vectorize::vectorize;
 use nalgebra::Vector3;
 use rayon::prelude::*;
@@ -18,6 +18,7 @@ pub(super) struct Blend<const K: usize> {
     /// Of each cell, the K coefficients of its first function, of its second, ...
     pub(super) coefficients: Vec<Vec<f64>>,
     pub(super) basis: CapBasis,
+    expansions: Vec<CapExpansion<K>>,
 }
 
 impl<const K: usize> Blend<K> {
@@ -41,25 +42,29 @@ impl<const K: usize> Blend<K> {
         for (cell, list) in coefficients.iter().enumerate() {
             degree = degree.max(degree_of(cell, list)?);
         }
-        Ok(Self {
-            cover,
-            coefficients,
-            basis: CapBasis::new(degree),
-        })
+        Ok(Self::of(cover, coefficients, CapBasis::new(degree)))
     }
 
-    /// The K coefficients of each function of a cell.
-    pub(super) fn of_cell(&self, cell: usize) -> &[[f64; K]] {
-        self.coefficients[cell].as_chunks().0
+    fn of(cover: Cover, coefficients: Vec<Vec<f64>>, basis: CapBasis) -> Self {
+        let lists = coefficients.iter().enumerate();
+        let expansions = lists
+            .map(|(cell, own)| CapExpansion::new(&basis, cover.cap(cell), own.as_chunks().0))
+            .collect();
+        Self {
+            cover,
+            coefficients,
+            basis,
+            expansions,
+        }
     }
 
     /// All coefficients so many times as large.
     pub(super) fn times(&self, factor: f64) -> Self {
-        let mut found = self.clone();
-        for coefficient in found.coefficients.iter_mut().flatten() {
+        let mut coefficients = self.coefficients.clone();
+        for coefficient in coefficients.iter_mut().flatten() {
             *coefficient *= factor;
         }
-        found
+        Self::of(self.cover.clone(), coefficients, self.basis.clone())
     }
 
     /// The number of coefficients that an evaluation touches, as a mean over all directions.
@@ -79,42 +84,52 @@ impl<const K: usize> Blend<K> {
 
     /// Values and surface gradients in a direction.
     pub(super) fn values_and_gradients(&self, n: &Vector3<f64>) -> Blends<K> {
-        let near = self.cover.near(self.cover.bucket(n));
-        let (values, gradients) = self.blend(near, &[[n.x], [n.y], [n.z]]);
-        std::array::from_fn(|k| {
-            let gradient = Vector3::from(gradients[k].map(|[component]| component));
-            (values[k][0], gradient)
+        let n_at = [[n.x], [n.y], [n.z]];
+        self.blend::<1, 1>(self.near(n), &n_at).map(|mut jets| {
+            jets.keep_along_sphere(&n_at);
+            (jets.value[0], jets.gradient_at(0))
         })
     }
 
     /// Values in a direction.
     pub(super) fn values(&self, n: &Vector3<f64>) -> [f64; K] {
-        let near = self.cover.near(self.cover.bucket(n));
-        self.blend(near, &[[n.x], [n.y], [n.z]])
-            .0
-            .map(|[value]| value)
+        let found = self.blend::<0, 1>(self.near(n), &[[n.x], [n.y], [n.z]]);
+        found.map(|jets| jets.value[0])
+    }
+
+    /// The functions and their derivatives with respect to the components of `n`.
+    pub(super) fn jets(&self, n: &Vector3<f64>) -> [Jet; K] {
+        let found = self.blend::<2, 1>(self.near(n), &[[n.x], [n.y], [n.z]]);
+        found.map(|jets| jets.jet())
     }
 
     /// Values in many directions, in their order.
     pub(super) fn many_values(&self, directions: &[Vector3<f64>]) -> Vec<[f64; K]> {
-        self.many(directions, [0.0; K], |values, _| values)
+        self.many::<0, _>(directions, [0.0; K], |jets, lane| {
+            std::array::from_fn(|k| jets[k].value[lane])
+        })
     }
 
     /// Values and surface gradients in many directions, in their order.
     pub(super) fn many_values_and_gradients(&self, directions: &[Vector3<f64>]) -> Vec<Blends<K>> {
         let none = [(0.0, Vector3::zeros()); K];
-        self.many(directions, none, |values, gradients| {
-            std::array::from_fn(|k| (values[k], gradients[k]))
+        self.many::<1, _>(directions, none, |jets, lane| {
+            std::array::from_fn(|k| (jets[k].value[lane], jets[k].gradient_at(lane)))
         })
     }
 
-    /// What `of` takes of values and surface gradients in many directions, in their order: what it does not take is not
-    /// computed.
-    fn many<T: Copy + Send + Sync>(
+    /// The cells near a direction.
+    fn near(&self, n: &Vector3<f64>) -> &[u16] {
+        self.cover.near(self.cover.bucket(n))
+    }
+
+    /// What `of` takes of the functions with ORDER derivatives in many directions, in their order, from a
+    /// lane of them.
+    fn many<const ORDER: usize, T: Copy + Send + Sync>(
         &self,
         directions: &[Vector3<f64>],
         none: T,
-        of: impl Fn([f64; K], [Vector3<f64>; K]) -> T + Copy + Sync,
+        of: impl Fn(&[Jets<ORDER, LANES>; K], usize) -> T + Copy + Sync,
     ) -> Vec<T> {
         // Sorted by bucket, so that each bucket looks up once what is near.
         let buckets: Vec<u32> = directions
@@ -150,12 +165,12 @@ impl<const K: usize> Blend<K> {
     }
 
     /// The same in some of the directions, all near the same cells.
-    fn blend_near<T>(
+    fn blend_near<const ORDER: usize, T>(
         &self,
         near: &[u16],
         members: &[u32],
         directions: &[Vector3<f64>],
-        of: impl Fn([f64; K], [Vector3<f64>; K]) -> T + Copy,
+        of: impl Fn(&[Jets<ORDER, LANES>; K], usize) -> T + Copy,
     ) -> Vec<T> {
         let mut out = Vec::with_capacity(members.len());
         vectorize(
@@ -169,14 +184,14 @@ impl<const K: usize> Blend<K> {
                             n[axis][lane] = direction[axis];
                         }
                     }
-                    let (values, gradients) = self.blend(near, &n);
+                    let mut jets = self.blend::<ORDER, LANES>(near, &n);
+                    if ORDER == 1 {
+                        for jets in &mut jets {
+                            jets.keep_along_sphere(&n);
+                        }
+                    }
                     for lane in 0..block.len() {
-                        let gradient =
-                            |[x, y, z]: &[[f64; LANES]; 3]| Vector3::new(x[lane], y[lane], z[lane]);
-                        out.push(of(
-                            std::array::from_fn(|k| values[k][lane]),
-                            std::array::from_fn(|k| gradient(&gradients[k])),
-                        ));
+                        out.push(of(&jets, lane));
                     }
                 }
             },
@@ -184,85 +199,40 @@ impl<const K: usize> Blend<K> {
         out
     }
 
-    /// Values and surface gradients in N directions, given component by component, that are near the
-    /// given cells.
+    /// The functions in N directions, given component by component, that are near the given cells.
     #[inline(always)]
-    fn blend<const N: usize>(
+    fn blend<const ORDER: usize, const N: usize>(
         &self,
         near: &[u16],
         n: &[[f64; N]; 3],
-    ) -> ([[f64; N]; K], [[[f64; N]; 3]; K]) {
-        let (mut sums, mut weights) = ([[0.0; N]; K], [0.0; N]);
-        let (mut slopes, mut weight_slopes) = ([[[0.0; N]; 3]; K], [[0.0; N]; 3]);
+    ) -> [Jets<ORDER, N>; K] {
+        let (mut sums, mut weights) = ([Jets::ZERO; K], Jets::ZERO);
+        let (mut face, mut places) = (u8::MAX, FacePlaces::NOWHERE);
         for &cell in near {
             let cell = usize::from(cell);
-            let (w, dw) = self.cover.weight(cell).values_and_gradients(n);
+            let weight = self.cover.weight(cell);
+            if face != weight.face() {
+                face = weight.face();
+                places = FacePlaces::new::<ORDER>(face, n);
+            }
+            let weight = weight.jets::<ORDER, N>(&places);
             let mut touched = 0.0;
-            for w in w {
-                touched += w;
+            for value in weight.value {
+                touched += value;
             }
             if touched == 0.0 {
                 continue;
             }
-            let (cap, own) = (self.cover.cap(cell), self.of_cell(cell));
-            let (f, df) = self.basis.values_and_gradients(cap, own, n);
-            for i in 0..N {
-                weights[i] += w[i];
-            }
-            for axis in 0..3 {
-                for i in 0..N {
-                    weight_slopes[axis][i] += dw[axis][i];
-                }
-            }
+            weights.add(&weight);
+            let expansions = self.expansions[cell].jets::<ORDER, N>(n);
             for k in 0..K {
-                for i in 0..N {
-                    sums[k][i] += w[i] * f[k][i];
-                }
-                for axis in 0..3 {
-                    let slope = &mut slopes[k][axis];
-                    let (df, dw) = (&df[k][axis], &dw[axis]);
-                    for i in 0..N {
-                        slope[i] += w[i] * df[i] + dw[i] * f[k][i];
-                    }
-                }
+                sums[k].add_product(&weight, &expansions[k]);
             }
         }
-        let mut values = [[0.0; N]; K];
-        let mut gradients = [[[0.0; N]; 3]; K];
-        for k in 0..K {
-            for i in 0..N {
-                let per_weight = 1.0 / weights[i];
-                let value = sums[k][i] * per_weight;
-                let mut along = 0.0;
-                for axis in 0..3 {
-                    let slope = (slopes[k][axis][i] - weight_slopes[axis][i] * value) * per_weight;
-                    gradients[k][axis][i] = slope;
-                    along += slope * n[axis][i];
-                }
-                for axis in 0..3 {
-                    gradients[k][axis][i] -= along * n[axis][i];
-                }
-                values[k][i] = value;
-            }
+        for sum in &mut sums {
+            *sum = sum.over(&weights);
         }
-        (values, gradients)
-    }
-
-    /// The functions and their derivatives with respect to the components of `n`.
-    pub(super) fn jets(&self, n: &Vector3<f64>) -> [Jet; K] {
-        let (mut sums, mut weights) = ([Jet::default(); K], Jet::default());
-        for &cell in self.cover.near(self.cover.bucket(n)) {
-            let cell = usize::from(cell);
-            let weight = self.cover.weight(cell).jet(n);
-            if weight.value > 0.0 {
-                let expansions = self.basis.jets(self.cover.cap(cell), self.of_cell(cell), n);
-                for (sum, expansion) in sums.iter_mut().zip(&expansions) {
-                    *sum = sum.plus(&weight.times(expansion));
-                }
-                weights = weights.plus(&weight);
-            }
-        }
-        sums.map(|sum| sum.over(&weights))
+        sums
     }
 }
 

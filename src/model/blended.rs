@@ -61,6 +61,7 @@ impl Blended {
             cover,
             coefficients,
             basis,
+            ..
         } = &self.radius;
         (basis, cover.cap(cell), &coefficients[cell])
     }

@@ -3,7 +3,7 @@
 use super::invalid::check_expansion;
 use super::star_surface::radial_slopes;
 use super::{Derivatives, InvalidGrain, StarSurface, Surface, SurfaceJet, Tiling};
-use crate::sphere::{Cap, CapBasis, Jet, Symmetry};
+use crate::sphere::{CapBasis, CapExpansion, Jet, Symmetry};
 use nalgebra::{Matrix3, Vector3};
 
 /// A radius that is mirror-symmetric: r(n) = f(fold(n)), with f one expansion on the region into which
@@ -12,9 +12,9 @@ use nalgebra::{Matrix3, Vector3};
 #[derive(Debug, Clone)]
 pub struct Mirrored {
     symmetry: Symmetry,
-    cap: Cap,
     pub(super) coefficients: Vec<f64>,
-    basis: CapBasis,
+    expansion: CapExpansion<1>,
+    degree: usize,
 }
 
 impl Mirrored {
@@ -24,12 +24,17 @@ impl Mirrored {
     /// [`InvalidGrain`] if the coefficients are not (L+1)^2 finite numbers.
     pub fn new(symmetry: Symmetry, coefficients: Vec<f64>) -> Result<Self, InvalidGrain> {
         let degree = check_expansion(0, &coefficients)?;
-        Ok(Self {
+        Ok(Self::of(symmetry, coefficients, degree))
+    }
+
+    fn of(symmetry: Symmetry, coefficients: Vec<f64>, degree: usize) -> Self {
+        let (basis, (own, _)) = (CapBasis::new(degree), coefficients.as_chunks());
+        Self {
             symmetry,
-            cap: symmetry.cap(),
+            expansion: CapExpansion::new(&basis, &symmetry.cap(), own),
             coefficients,
-            basis: CapBasis::new(degree),
-        })
+            degree,
+        }
     }
 
     /// The mirrors, in the grain's own frame.
@@ -44,23 +49,20 @@ impl Mirrored {
 
     /// The surface so many times as large.
     pub(crate) fn times(&self, factor: f64) -> Self {
-        let mut found = self.clone();
-        for coefficient in found.coefficients.iter_mut() {
-            *coefficient *= factor;
-        }
-        found
+        let coefficients = self.coefficients.iter().map(|c| c * factor).collect();
+        Self::of(self.symmetry, coefficients, self.degree)
     }
 
     /// The degree of the expansion.
     pub fn degree(&self) -> usize {
-        self.basis.degree()
+        self.degree
     }
 
     /// Radius and its derivatives with respect to the components of `n`.
     pub(crate) fn jet(&self, n: &Vector3<f64>) -> Jet {
         let signs = self.symmetry.signs(n);
         let folded = n.component_mul(&signs);
-        let jet = self.basis.jet(&self.cap, &self.coefficients, &folded);
+        let jet = self.expansion.jet(&folded);
         let unfold = Matrix3::from_diagonal(&signs);
         Jet {
             value: jet.value,
@@ -72,16 +74,13 @@ impl Mirrored {
 
 impl StarSurface for Mirrored {
     fn radius(&self, n: &Vector3<f64>) -> f64 {
-        let folded = self.symmetry.fold(n);
-        self.basis.value(&self.cap, &self.coefficients, &folded)
+        self.expansion.value(&self.symmetry.fold(n))
     }
 
     fn radius_and_gradient(&self, n: &Vector3<f64>) -> (f64, Vector3<f64>) {
         let signs = self.symmetry.signs(n);
         let folded = n.component_mul(&signs);
-        let (radius, gradient) =
-            self.basis
-                .value_and_gradient(&self.cap, &self.coefficients, &folded);
+        let (radius, gradient) = self.expansion.value_and_gradient(&folded);
         (radius, gradient.component_mul(&signs))
     }
 

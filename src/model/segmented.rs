@@ -2,7 +2,7 @@
 
 use super::InvalidGrain;
 use super::invalid::check_expansion;
-use crate::sphere::{AngularPartition, Cap, CapBasis, Jet};
+use crate::sphere::{AngularPartition, Cap, CapBasis, CapExpansion, Jet};
 use nalgebra::Vector3;
 
 /// The indicator-weighted sum of the dissertation's (4.1): in each segment, an expansion in spherical
@@ -12,7 +12,8 @@ pub struct Segmented {
     partition: AngularPartition,
     caps: Vec<Cap>,
     coefficients: Vec<Vec<f64>>,
-    basis: CapBasis,
+    expansions: Vec<CapExpansion<1>>,
+    degree: usize,
 }
 
 impl Segmented {
@@ -34,14 +35,23 @@ impl Segmented {
         for (segment, list) in coefficients.iter().enumerate() {
             degree = degree.max(check_expansion(segment, list)?);
         }
-        Ok(Self {
-            caps: (0..partition.segments())
-                .map(|segment| partition.cap(segment))
+        Ok(Self::of(partition, coefficients, degree))
+    }
+
+    fn of(partition: AngularPartition, coefficients: Vec<Vec<f64>>, degree: usize) -> Self {
+        let basis = CapBasis::new(degree);
+        let segments = 0..partition.segments();
+        let caps: Vec<Cap> = segments.map(|segment| partition.cap(segment)).collect();
+        let lists = caps.iter().zip(&coefficients);
+        Self {
+            expansions: lists
+                .map(|(cap, own)| CapExpansion::new(&basis, cap, own.as_chunks().0))
                 .collect(),
             partition,
+            caps,
             coefficients,
-            basis: CapBasis::new(degree),
-        })
+            degree,
+        }
     }
 
     /// The partition of the angle domain, in the grain's own frame.
@@ -56,16 +66,16 @@ impl Segmented {
 
     /// The surface so many times as large.
     pub(crate) fn times(&self, factor: f64) -> Self {
-        let mut found = self.clone();
-        for coefficient in found.coefficients.iter_mut().flatten() {
+        let mut coefficients = self.coefficients.clone();
+        for coefficient in coefficients.iter_mut().flatten() {
             *coefficient *= factor;
         }
-        found
+        Self::of(self.partition, coefficients, self.degree)
     }
 
     /// The largest degree of any segment.
     pub fn degree(&self) -> usize {
-        self.basis.degree()
+        self.degree
     }
 
     /// The cap in which the expansion of a segment lives.
@@ -76,8 +86,7 @@ impl Segmented {
     /// Radius of a segment's expansion in a direction of the grain's own frame, also beyond the
     /// segment.
     pub(crate) fn segment_radius(&self, segment: usize, n: &Vector3<f64>) -> f64 {
-        self.basis
-            .value(&self.caps[segment], &self.coefficients[segment], n)
+        self.expansions[segment].value(n)
     }
 
     /// Radius and surface gradient of a segment's expansion, likewise.
@@ -86,8 +95,7 @@ impl Segmented {
         segment: usize,
         n: &Vector3<f64>,
     ) -> (f64, Vector3<f64>) {
-        self.basis
-            .value_and_gradient(&self.caps[segment], &self.coefficients[segment], n)
+        self.expansions[segment].value_and_gradient(n)
     }
 
     /// Radius in a direction of the grain's own frame.
@@ -102,8 +110,6 @@ impl Segmented {
 
     /// Radius and its derivatives with respect to the components of `n`.
     pub(crate) fn jet(&self, n: &Vector3<f64>) -> Jet {
-        let segment = self.partition.segment_of(n);
-        self.basis
-            .jet(&self.caps[segment], &self.coefficients[segment], n)
+        self.expansions[self.partition.segment_of(n)].jet(n)
     }
 }

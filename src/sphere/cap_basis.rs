@@ -21,8 +21,6 @@
 //! degree m + j, so that the first (d+1)^2 span the harmonics of degree <= d. No trigonometric
 //! function is called, and 1 - n.c is taken as |n - c|^2 / 2, which does not cancel.
 
-mod derivatives;
-
 use super::cap::{Cap, Places};
 use crate::vectorize::vectorize;
 use nalgebra::Vector3;
@@ -141,66 +139,64 @@ impl CapBasis {
     /// `n`. The number of coefficients sets the degree, at most that of the basis.
     pub fn value(&self, cap: &Cap, coefficients: &[f64], n: &Vector3<f64>) -> f64 {
         let [u, v, x] = cap.coordinates((*n).into());
-        let (coefficients, _) = coefficients.as_chunks();
-        let [[value]] = self.expand::<1, 1>(coefficients, [u], [v], [x]).value;
+        let [value] = self.expand(coefficients, [u], [v], [x]);
         value
     }
 
-    /// Value and surface gradient (per radian, orthogonal to `n`) of an expansion.
-    pub fn value_and_gradient(
+    /// K expansions, whose coefficients stand side by side, in Chebyshev polynomials of x: the real and the imaginary
+    /// parts of the c_mj of [`CapExpansion`](super::CapExpansion), in its order. Of a degree that the basis has.
+    pub(super) fn chebyshev<const K: usize>(
         &self,
-        cap: &Cap,
-        coefficients: &[f64],
-        n: &Vector3<f64>,
-    ) -> (f64, Vector3<f64>) {
-        let components = [[n.x], [n.y], [n.z]];
-        let (coefficients, _) = coefficients.as_chunks();
-        let ([value], [gradient]) =
-            self.values_and_gradients::<1, 1>(cap, coefficients, &components);
-        let in_space = Vector3::from(gradient.map(|[component]| component));
-        (value[0], in_space - n * in_space.dot(n))
-    }
-
-    /// Values of K expansions, whose coefficients stand side by side, in N directions, given component by
-    /// component, and their gradients with respect to the components of n.
-    #[inline(always)]
-    pub(crate) fn values_and_gradients<const K: usize, const N: usize>(
-        &self,
-        cap: &Cap,
         coefficients: &[[f64; K]],
-        n: &[[f64; N]; 3],
-    ) -> ([[f64; N]; K], [[[f64; N]; 3]; K]) {
-        let (mut u, mut v, mut x) = ([0.0; N], [0.0; N], [0.0; N]);
-        for i in 0..N {
-            [u[i], v[i], x[i]] = cap.coordinates([n[0][i], n[1][i], n[2][i]]);
-        }
-        let e = self.expand(coefficients, u, v, x);
-        let (per_tangent, per_height) = (1.0 / cap.tangent_length(), 2.0 / cap.height);
-        let mut gradients = [[[0.0; N]; 3]; K];
-        for (k, gradient) in gradients.iter_mut().enumerate() {
-            for (axis, component) in gradient.iter_mut().enumerate() {
-                let (e1, e2) = (
-                    cap.tangents[0][axis] * per_tangent,
-                    cap.tangents[1][axis] * per_tangent,
-                );
-                let c = cap.centre[axis] * per_height;
-                for (i, component) in component.iter_mut().enumerate() {
-                    *component = e1 * e.du[k][i] + e2 * e.dv[k][i] - c * e.dx[k][i];
+    ) -> Vec<[[f64; K]; 2]> {
+        let degree = coefficients.len().isqrt().saturating_sub(1);
+        let mut terms = Vec::with_capacity((degree + 1) * (degree + 2) / 2);
+        for m in (0..=degree).rev() {
+            let (first, steps) = &self.orders[m];
+            let from = terms.len();
+            terms.resize(from + degree - m + 1, [[0.0; K]; 2]);
+            let (mut below, mut current) = (vec![0.0; degree - m + 1], vec![0.0; degree - m + 1]);
+            current[0] = *first;
+            for j in 0..=degree - m {
+                let at = column(m + j, m);
+                for (term, p) in terms[from..].iter_mut().rev().zip(&current) {
+                    for k in 0..K {
+                        term[0][k] += coefficients[at][k] * p;
+                        term[1][k] -= if m > 0 {
+                            coefficients[at + 1][k] * p
+                        } else {
+                            0.0
+                        };
+                    }
+                }
+                if let Some(step) = steps.get(j) {
+                    for (i, below) in below.iter_mut().enumerate() {
+                        // x T_0 = T_1, and x T_i = (T_(i+1) + T_(i-1)) / 2.
+                        let share = |i: usize, per: f64| current.get(i).map_or(0.0, |p| p * per);
+                        let from_above = share(i + 1, 0.5);
+                        let from_below = match i {
+                            0 => 0.0,
+                            1 => share(0, 1.0),
+                            _ => share(i - 1, 0.5),
+                        };
+                        *below = step.a * (from_below + from_above) + step.b * current[i]
+                            - step.c * *below;
+                    }
+                    std::mem::swap(&mut below, &mut current);
                 }
             }
         }
-        (e.value, gradients)
+        terms
     }
 
     /// Values of an expansion at many places.
     pub fn values(&self, coefficients: &[f64], places: &Places, out: &mut [f64]) {
-        let (coefficients, _) = coefficients.as_chunks();
         vectorize(
             #[inline(always)]
             || {
                 for (block, out) in out[..places.len()].chunks_mut(LANES).enumerate() {
                     let [u, v, x] = places.block(block);
-                    let [values] = self.expand::<1, LANES>(coefficients, u, v, x).value;
+                    let values = self.expand::<LANES>(coefficients, u, v, x);
                     for (out, value) in out.iter_mut().zip(values) {
                         *out = value;
                     }
@@ -261,78 +257,42 @@ impl CapBasis {
         out
     }
 
-    /// Values of K expansions and partial derivatives with respect to u, v and x = 2w - 1, at N places at once.
+    /// The values of an expansion at N places at once.
     #[inline(always)]
-    fn expand<const K: usize, const N: usize>(
+    fn expand<const N: usize>(
         &self,
-        coefficients: &[[f64; K]],
+        coefficients: &[f64],
         u: [f64; N],
         v: [f64; N],
         x: [f64; N],
-    ) -> Expansion<K, N> {
-        let degree = coefficients
-            .len()
-            .isqrt()
-            .saturating_sub(1)
-            .min(self.degree);
-        let mut out = Expansion {
-            value: [[0.0; N]; K],
-            du: [[0.0; N]; K],
-            dv: [[0.0; N]; K],
-            dx: [[0.0; N]; K],
-        };
-        let (mut re, mut im) = ([1.0; N], [0.0; N]);
-        let (mut re_below, mut im_below) = ([0.0; N], [0.0; N]);
+    ) -> [f64; N] {
+        let degree = coefficients.len().isqrt().saturating_sub(1);
+        let (mut re, mut im, mut values) = ([1.0; N], [0.0; N], [0.0; N]);
         for (m, (first, steps)) in self.orders.iter().enumerate().take(degree + 1) {
-            if m > 0 {
-                (re_below, im_below) = (re, im);
-                for i in 0..N {
-                    (re[i], im[i]) = (re[i] * u[i] - im[i] * v[i], re[i] * v[i] + im[i] * u[i]);
-                }
-            }
-            let (mut p0, mut p, mut d0, mut d) = ([0.0; N], [*first; N], [0.0; N], [0.0; N]);
-            let (mut even, mut odd) = ([[0.0; N]; K], [[0.0; N]; K]);
-            let (mut even_x, mut odd_x) = ([[0.0; N]; K], [[0.0; N]; K]);
-            for j in 0..=degree - m {
+            let (mut below, mut p) = ([0.0; N], [*first; N]);
+            let (mut even, mut odd) = ([0.0; N], [0.0; N]);
+            for j in 0..=(degree - m).min(steps.len()) {
                 let at = column(m + j, m);
-                for k in 0..K {
-                    let a = coefficients[at][k];
-                    let b = if m > 0 { coefficients[at + 1][k] } else { 0.0 };
-                    for i in 0..N {
-                        even[k][i] += a * p[i];
-                        even_x[k][i] += a * d[i];
-                        odd[k][i] += b * p[i];
-                        odd_x[k][i] += b * d[i];
-                    }
+                let a = coefficients[at];
+                let b = if m > 0 { coefficients[at + 1] } else { 0.0 };
+                for i in 0..N {
+                    even[i] += a * p[i];
+                    odd[i] += b * p[i];
                 }
                 if let Some(s) = steps.get(j) {
                     for i in 0..N {
-                        let factor = s.a * x[i] + s.b;
-                        (d0[i], d[i]) = (d[i], s.a * p[i] + factor * d[i] - s.c * d0[i]);
-                        (p0[i], p[i]) = (p[i], factor * p[i] - s.c * p0[i]);
+                        let next = (s.a * x[i] + s.b) * p[i] - s.c * below[i];
+                        (below[i], p[i]) = (p[i], next);
                     }
                 }
             }
-            let order = m as f64;
-            for k in 0..K {
-                for i in 0..N {
-                    out.value[k][i] += re[i] * even[k][i] + im[i] * odd[k][i];
-                    out.dx[k][i] += re[i] * even_x[k][i] + im[i] * odd_x[k][i];
-                    out.du[k][i] += order * (re_below[i] * even[k][i] + im_below[i] * odd[k][i]);
-                    out.dv[k][i] += order * (re_below[i] * odd[k][i] - im_below[i] * even[k][i]);
-                }
+            for i in 0..N {
+                values[i] += re[i] * even[i] + im[i] * odd[i];
+                (re[i], im[i]) = (re[i] * u[i] - im[i] * v[i], re[i] * v[i] + im[i] * u[i]);
             }
         }
-        out
+        values
     }
-}
-
-/// K expansions at N places.
-struct Expansion<const K: usize, const N: usize> {
-    value: [[f64; N]; K],
-    du: [[f64; N]; K],
-    dv: [[f64; N]; K],
-    dx: [[f64; N]; K],
 }
 
 /// First column of the functions of the given degree and order: (Re, Im) of an order stand together.

@@ -9,7 +9,8 @@
 //! halfway for the cells on both sides of it, and found without a trigonometric function.
 
 use super::CubeCell;
-use super::jet::Jet;
+use super::face_places::{FacePlaces, across};
+use super::jets::{AXES, Jets, entry};
 use nalgebra::Vector3;
 
 /// Half the width of the strip along a border in which neighbouring expansions blend, as a share of
@@ -19,27 +20,6 @@ use nalgebra::Vector3;
 /// the mean radius): 0.021, 0.042, 0.084 at 0.35; 0.021, 0.039, 0.065 at 0.4; 0.020, 0.035, 0.045 at
 /// 0.45. An evaluation touches 2.8, 3.1 and 3.5 cells.
 pub const MARGIN: f64 = 0.4;
-
-/// The half-angle tangents of a direction on a face; beyond all cells if it lies behind the face.
-#[inline(always)]
-pub(crate) fn place(face: u8, n: &[f64; 3]) -> [f64; 2] {
-    let axis = usize::from(face / 2);
-    let depth = if face.is_multiple_of(2) {
-        n[axis]
-    } else {
-        -n[axis]
-    };
-    if depth <= 0.0 {
-        return [f64::INFINITY; 2];
-    }
-    across(axis).map(|axis| n[axis] / (depth + (depth * depth + n[axis] * n[axis]).sqrt()))
-}
-
-/// The axes along which the face of an axis is cut.
-#[inline(always)]
-fn across(axis: usize) -> [usize; 2] {
-    [[1, 2], [2, 0], [0, 1]][axis]
-}
 
 /// The weight of a cell, ready to be evaluated.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -133,54 +113,66 @@ impl CellWeight {
         first * self.along[1].value(place[1])
     }
 
-    /// The weights in N directions, given component by component, and the gradients with respect to
-    /// the components of n.
-    #[inline(always)]
-    pub(crate) fn values_and_gradients<const N: usize>(
-        &self,
-        n: &[[f64; N]; 3],
-    ) -> ([f64; N], [[f64; N]; 3]) {
-        let [b, c] = across(self.axis);
-        let (mut depth, mut front) = (n[self.axis], [0.0; N]);
-        for i in 0..N {
-            depth[i] *= self.side;
-            front[i] = if depth[i] > 0.0 { 1.0 } else { 0.0 };
-            // Behind the face the weight is 0 whatever the profiles say.
-            depth[i] = if depth[i] > 1e-3 { depth[i] } else { 1e-3 };
-        }
-        let (value_b, slope_b) = self.along[0].values_and_slopes(&depth, &n[b]);
-        let (value_c, slope_c) = self.along[1].values_and_slopes(&depth, &n[c]);
-        let mut values = [0.0; N];
-        let (mut along_a, mut along_b, mut along_c) = ([0.0; N], [0.0; N], [0.0; N]);
-        for i in 0..N {
-            // d(angle) = (depth d(height) - height d(depth)) / (depth^2 + height^2)
-            let (to_b, to_c) = (
-                value_c[i] * slope_b[i] * front[i],
-                value_b[i] * slope_c[i] * front[i],
-            );
-            values[i] = front[i] * value_b[i] * value_c[i];
-            along_b[i] = to_b * depth[i];
-            along_c[i] = to_c * depth[i];
-            along_a[i] = -self.side * (to_b * n[b][i] + to_c * n[c][i]);
-        }
-        let mut gradients = [[0.0; N]; 3];
-        gradients[self.axis] = along_a;
-        gradients[b] = along_b;
-        gradients[c] = along_c;
-        (values, gradients)
+    /// The face of the cell: 2a + s as [`CubeCell::face`].
+    pub(crate) fn face(&self) -> u8 {
+        2 * self.axis as u8 + u8::from(self.side < 0.0)
     }
 
-    /// The weight and its derivatives.
-    pub(crate) fn jet(&self, n: &Vector3<f64>) -> Jet {
-        let depth = self.side * n[self.axis];
-        if depth <= 0.0 {
-            return Jet::default();
+    /// The weights in the directions of places on the cell's face.
+    #[inline(always)]
+    pub(crate) fn jets<const ORDER: usize, const N: usize>(
+        &self,
+        places: &FacePlaces<N>,
+    ) -> Jets<ORDER, N> {
+        let [p, p_q, p_qq] = self.along[0].derivatives::<ORDER, N>(&places.along[0].q);
+        let [s, s_q, s_qq] = self.along[1].derivatives::<ORDER, N>(&places.along[1].q);
+        let [q, r] = &places.along;
+        let mut out = Jets::ZERO;
+        for i in 0..N {
+            out.value[i] = places.front[i] * p[i] * s[i];
         }
-        let out = Vector3::ith(self.axis, self.side);
-        let [b, c] = across(self.axis);
-        self.along[0]
-            .jet(depth, n[b], &out, &Vector3::ith(b, 1.0))
-            .times(&self.along[1].jet(depth, n[c], &out, &Vector3::ith(c, 1.0)))
+        // Along the face's axis and the two across it.
+        let axes = [self.axis, across(self.axis)[0], across(self.axis)[1]];
+        if ORDER > 0 {
+            let (mut of_q, mut of_r) = ([0.0; N], [0.0; N]);
+            let [mut along_a, mut along_b, mut along_c] = [[0.0; N]; 3];
+            for i in 0..N {
+                of_q[i] = places.front[i] * p_q[i] * s[i];
+                of_r[i] = places.front[i] * p[i] * s_q[i];
+            }
+            for i in 0..N {
+                along_a[i] = of_q[i] * q.depth[i] + of_r[i] * r.depth[i];
+                along_b[i] = of_q[i] * q.height[i];
+                along_c[i] = of_r[i] * r.height[i];
+            }
+            for (axis, along) in axes.into_iter().zip([along_a, along_b, along_c]) {
+                out.gradient[axis] = along;
+            }
+            if ORDER > 1 {
+                let mut bends = [[0.0; N]; 6];
+                for i in 0..N {
+                    let of_qq = places.front[i] * p_qq[i] * s[i];
+                    let of_rr = places.front[i] * p[i] * s_qq[i];
+                    let of_qr = places.front[i] * p_q[i] * s_q[i];
+                    let ([qa, qb], [ra, rc]) =
+                        ([q.depth[i], q.height[i]], [r.depth[i], r.height[i]]);
+                    bends[0][i] = of_qq * qa * qa
+                        + of_rr * ra * ra
+                        + 2.0 * of_qr * qa * ra
+                        + of_q[i] * q.bends[0][i]
+                        + of_r[i] * r.bends[0][i];
+                    bends[1][i] = of_qq * qb * qb + of_q[i] * q.bends[1][i];
+                    bends[2][i] = of_rr * rc * rc + of_r[i] * r.bends[1][i];
+                    bends[3][i] = of_qr * qb * rc;
+                    bends[4][i] = (of_rr * ra + of_qr * qa) * rc + of_r[i] * r.bends[2][i];
+                    bends[5][i] = (of_qq * qa + of_qr * ra) * qb + of_q[i] * q.bends[2][i];
+                }
+                for ([j, k], bend) in AXES.into_iter().zip(bends) {
+                    out.hessian[entry(axes[j], axes[k])] = bend;
+                }
+            }
+        }
+        out
     }
 }
 
@@ -200,67 +192,29 @@ impl Profile {
         smoothstep(((self.falls - q) * self.per_fall).clamp(0.0, 1.0))
     }
 
-    /// The profile, and its slope per angle over depth^2 + height^2, at N places.
+    /// The profile at N places, and its first two derivatives.
     #[inline(always)]
-    fn values_and_slopes<const N: usize>(
-        &self,
-        depth: &[f64; N],
-        height: &[f64; N],
-    ) -> ([f64; N], [f64; N]) {
-        let (mut values, mut slopes) = ([0.0; N], [0.0; N]);
+    fn derivatives<const ORDER: usize, const N: usize>(&self, q: &[f64; N]) -> [[f64; N]; 3] {
+        let mut out = [[0.0; N]; 3];
         for i in 0..N {
-            let squared = depth[i] * depth[i] + height[i] * height[i];
-            let q = height[i] / (depth[i] + squared.sqrt());
-            let rise = within_unit((q - self.rises) * self.per_rise);
-            let fall = within_unit((self.falls - q) * self.per_fall);
-            let (rising, falling) = (smoothstep(rise), smoothstep(fall));
-            values[i] = rising * falling;
-            let slope = steepness(rise) * self.per_rise * falling
-                - steepness(fall) * self.per_fall * rising;
-            slopes[i] = slope * 0.5 * (1.0 + q * q) / squared;
+            let rise = within_unit((q[i] - self.rises) * self.per_rise);
+            let fall = within_unit((self.falls - q[i]) * self.per_fall);
+            let (up, down) = (smoothstep(rise), smoothstep(fall));
+            out[0][i] = up * down;
+            if ORDER > 0 {
+                let (climb, drop) = (
+                    steepness(rise) * self.per_rise,
+                    -steepness(fall) * self.per_fall,
+                );
+                out[1][i] = climb * down + up * drop;
+                if ORDER > 1 {
+                    out[2][i] = bend(rise) * self.per_rise * self.per_rise * down
+                        + 2.0 * climb * drop
+                        + bend(fall) * self.per_fall * self.per_fall * up;
+                }
+            }
         }
-        (values, slopes)
-    }
-
-    /// The profile as a function of space, at a `depth` along `out` and a `height` along `across`.
-    fn jet(&self, depth: f64, height: f64, out: &Vector3<f64>, across: &Vector3<f64>) -> Jet {
-        let squared = depth * depth + height * height;
-        let q = height / (depth + squared.sqrt());
-        let rise = within_unit((q - self.rises) * self.per_rise);
-        let fall = within_unit((self.falls - q) * self.per_fall);
-        if rise == 0.0 || fall == 0.0 {
-            return Jet::default();
-        }
-        if rise == 1.0 && fall == 1.0 {
-            return Jet::constant(1.0);
-        }
-        let (up, down) = (smoothstep(rise), smoothstep(fall));
-        let (up_slope, down_slope) = (
-            steepness(rise) * self.per_rise,
-            -steepness(fall) * self.per_fall,
-        );
-        let value = up * down;
-        let first = up_slope * down + up * down_slope;
-        let second = bend(rise) * self.per_rise * self.per_rise * down
-            + 2.0 * up_slope * down_slope
-            + bend(fall) * self.per_fall * self.per_fall * up;
-        // q = tan(alpha / 2) with tan(alpha) = height / depth.
-        let angle = Jet {
-            value: 0.0,
-            gradient: (across * depth - out * height) / squared,
-            hessian: {
-                let mixed = out * across.transpose();
-                ((out * out.transpose() - across * across.transpose()) * (2.0 * depth * height)
-                    + (mixed + mixed.transpose()) * (height * height - depth * depth))
-                    / (squared * squared)
-            },
-        };
-        let per_angle = 0.5 * (1.0 + q * q);
-        angle.composed(
-            value,
-            first * per_angle,
-            second * per_angle * per_angle + first * q * per_angle,
-        )
+        out
     }
 }
 

@@ -1,6 +1,7 @@
 //! A cover of the sphere by overlapping cells with weights that make a partition of unity.
 
-use super::cell_weight::{CellWeight, place};
+use super::cell_weight::CellWeight;
+use super::face_places::place;
 use super::{Cap, CubeCell, FaceRectangle, MARGIN};
 use nalgebra::Vector3;
 use std::ops::Range;
@@ -49,8 +50,8 @@ pub enum CoverError {
 /// Least margin: that of a finest cell is 2.5e-4 radians wide, which directions still resolve.
 const LEAST_MARGIN: f64 = 0.01;
 
-/// Least number of buckets per edge of a face.
-const LEAST_BUCKETS: usize = 4;
+/// Least number of buckets per edge of a face: in each a direction is weighed against one cell more than it touches.
+const LEAST_BUCKETS: usize = 12;
 
 /// Most parts per edge of a face.
 pub const MAX_FACE_PARTS: u16 = 64;
@@ -94,7 +95,9 @@ impl Cover {
                 parts: bucket_parts,
                 weights: &weights,
             };
-            let all: Vec<u16> = (0..cells.len() as u16).collect();
+            // Those of a face stand together, so that what they share is found once.
+            let mut all: Vec<u16> = (0..cells.len() as u16).collect();
+            all.sort_by_key(|&cell| cells[usize::from(cell)].face);
             face.find_near([0..bucket_parts, 0..bucket_parts], &all, buckets);
         }
         let (mut starts, mut near) = (vec![0], Vec::new());

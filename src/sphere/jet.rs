@@ -94,17 +94,4 @@ impl Jet {
             hessian: self.hessian + other.hessian,
         }
     }
-
-    /// The quotient of two functions.
-    pub(crate) fn over(&self, divisor: &Self) -> Self {
-        let per = 1.0 / divisor.value;
-        let value = self.value * per;
-        let gradient = (self.gradient - divisor.gradient * value) * per;
-        let mixed = gradient * divisor.gradient.transpose();
-        Self {
-            value,
-            gradient,
-            hessian: (self.hessian - mixed - mixed.transpose() - divisor.hessian * value) * per,
-        }
-    }
 }
