@@ -34,6 +34,7 @@ mod spectrum_fit;
 mod stopping;
 mod sums;
 mod surface;
+mod tips;
 mod unresolved;
 
 pub use errors::{NoInterval, StandardErrors};
@@ -118,6 +119,10 @@ pub(crate) fn estimate(
             rounds += 1;
             outliers += alone.len();
             cloud = cloud.without(&alone);
+            // The lower degree was fitted to all points.
+            if let Some((lower, before)) = lower.take() {
+                (degree, fit) = (lower, before);
+            }
             continue;
         }
         if let Some((lower, before)) = lower.take()
