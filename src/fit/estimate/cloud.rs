@@ -1,7 +1,12 @@
 //! The points that an estimate rests on, in a space in which the grain is rounder.
 
 use crate::fit::prepare::Sample;
+use crate::sphere::CubeCell;
 use nalgebra::Vector3;
+use std::collections::BTreeMap;
+
+/// Cells along an edge of the cube in which points are counted.
+const CELLS: u16 = 6;
 
 /// Directions and radii of points after the linear map T = diag(`stretch`), radii in units of their mean.
 #[derive(Debug, Clone)]
@@ -62,6 +67,17 @@ impl Cloud {
     /// Number of points.
     pub(crate) fn len(&self) -> usize {
         self.radii.len()
+    }
+
+    /// Number of points of an even cloud that tells of the harmonics as little as this one: as many per cell of the sphere
+    /// as the harmonic mean of the points in them.
+    pub(crate) fn even_len(&self) -> f64 {
+        let mut counts = BTreeMap::<usize, f64>::new();
+        for n in &self.directions {
+            *counts.entry(CubeCell::position(CELLS, n)).or_default() += 1.0;
+        }
+        let cells = counts.len() as f64;
+        cells * cells / counts.values().map(|count| count.recip()).sum::<f64>()
     }
 
     /// Every so many points of the cloud: samples are sorted by place, so these are spread like all.

@@ -9,9 +9,8 @@
 //! ```
 //!
 //! is its error of prediction in standard deviations of that. The mean square of z of the nearest points multiplies
-//! the variances of the surface and of a new point. Creases are narrower than the places of so many points, and leave long
-//! tails: so the variances are multiplied too with what makes the 95 % interval of each point, told by the others,
-//! hold 95 % of the points.
+//! the variances of the surface and of a new point: without, flat parts would be told too unsurely, and creases too surely.
+//! By how much the model differs from the estimate is known, and added as a square.
 
 use super::draws::Draws;
 use super::outcome::Estimate;
@@ -22,12 +21,6 @@ use nalgebra::Vector3;
 
 /// Points whose errors of prediction are taken together.
 const VICINITY: usize = 40;
-
-/// Share of the points that intervals are made to hold, and their normal quantile.
-const HELD: (f64, f64) = (0.95, 1.96);
-
-/// Fewest points that tell such a share.
-const TELLING: usize = 100;
 
 /// Largest leverage: a point that decides all by itself says nothing of errors.
 const MOST_LEVERAGE: f64 = 0.98;
@@ -70,34 +63,6 @@ impl Predictions {
             .collect();
         Self { standardised }
     }
-
-    /// Mean square of those nearest to a direction, `own` left out.
-    fn mean_square(&self, neighbours: &Neighbours, n: &Vector3<f64>, own: Option<usize>) -> f64 {
-        let near = neighbours.nearest(n, VICINITY);
-        let near = near.into_iter().filter(|&i| Some(i) != own);
-        let (count, sum) = near.fold((0.0, 0.0), |(count, sum): (f64, f64), i| {
-            (count + 1.0, sum + self.standardised[i].powi(2))
-        });
-        sum / count.max(1.0)
-    }
-
-    /// What the variances are multiplied with for intervals to hold their share of the points.
-    fn calibration(&self, neighbours: &Neighbours, directions: &[Vector3<f64>]) -> f64 {
-        let (share, quantile) = HELD;
-        if directions.len() < TELLING {
-            return 1.0;
-        }
-        let all = directions.iter().zip(&self.standardised).enumerate();
-        let mut squares: Vec<f64> = all
-            .map(|(own, (n, z))| z * z / self.mean_square(neighbours, n, Some(own)))
-            .filter(|square| square.is_finite())
-            .collect();
-        squares.sort_unstable_by(f64::total_cmp);
-        let at = (share * squares.len() as f64) as usize;
-        squares
-            .get(at)
-            .map_or(1.0, |square| square / (quantile * quantile))
-    }
 }
 
 /// Where the variances of the surface come from.
@@ -135,7 +100,6 @@ impl Estimate {
         let variances = Variances::new(&given);
         let predictions = Predictions::new(self, |n| variances.at(n), &posterior);
         let neighbours = Neighbours::new(&self.cloud.directions);
-        let calibration = predictions.calibration(&neighbours, &self.cloud.directions);
         let noise = self.spectrum.noise().powi(2);
 
         let mapped: Vec<Vector3<f64>> = directions
@@ -152,7 +116,9 @@ impl Estimate {
             .zip(known)
             .zip(differences)
             .map(|(((mapped, n), variance), (stretched, radius))| {
-                let factor = calibration * predictions.mean_square(&neighbours, n, None);
+                let near = neighbours.nearest(n, VICINITY);
+                let squares = near.iter().map(|&i| predictions.standardised[i].powi(2));
+                let factor = squares.sum::<f64>() / near.len().max(1) as f64;
                 let scale = self.cloud.mean / mapped.norm();
                 let difference = radius - stretched / mapped.norm();
                 let error = |variance: f64| difference.hypot(scale * (factor * variance).sqrt());
