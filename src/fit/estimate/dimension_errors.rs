@@ -4,8 +4,8 @@
 //! Beyond it, allowances, as squares:
 //!
 //! - half of the excess of a largest value, by the variance at the end itself, for a scan may be thinner there;
-//! - what the points say is [missing](super::tips) at the ends, where it is more than chance: the prior is the same
-//!   everywhere, and takes the beak of a chickpea for noise;
+//! - the mean square of what is [missing](super::tips) at the ends, as far as the points tell it: the prior is the same
+//!   everywhere, and takes the last of a beak or a tip for noise;
 //! - what turning an axis by its standard deviation does to the extent beyond first order (of a box it grows whichever
 //!   way it turns), and the range of extents in the plane of two axes that are not told apart.
 
@@ -85,7 +85,7 @@ pub(super) fn dimensions(
             missing += at.height * end.by_radius;
             chance += at.variance * end.by_radius * end.by_radius;
         }
-        squares += (missing * missing - chance).max(0.0);
+        squares += missing * missing + chance;
         squares += (0.5 * found.excess[i]).powi(2);
         squares += turned(reach, principal, i, extent.length, &sd);
         found.variances[i] = squares;
