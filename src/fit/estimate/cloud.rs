@@ -112,3 +112,24 @@ impl Cloud {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shapes::Sampling;
+
+    /// Of a half with an eighth of the points the harmonics are told as by 4 n_1 n_2 / (n_1 + n_2) even points.
+    #[test]
+    fn a_thin_half_counts_for_less() {
+        let sample = |n: &Vector3<f64>| [n.x, n.y, n.z, 1.0];
+        let even = Sampling::Fibonacci.directions(6000, 0).unwrap();
+        let even: Vec<_> = even.iter().map(sample).collect();
+        let thin = even.iter().enumerate();
+        let thin = thin.filter(|(i, [x, ..])| *x > 0.0 || i.is_multiple_of(8));
+        let thin: Vec<_> = thin.map(|(_, sample)| *sample).collect();
+        let even_len =
+            |samples: &[Sample]| Cloud::new(samples, None, Vector3::repeat(1.0)).even_len();
+        assert!((even_len(&even) / 6000.0 - 1.0).abs() < 0.02);
+        assert!((even_len(&thin) / (4.0 * 3000.0 * 375.0 / 3375.0) - 1.0).abs() < 0.2);
+    }
+}
