@@ -1,5 +1,6 @@
 //! How often intervals of points hold points of real scans that the fit has not seen.
 
+use crate::scans::SCANS;
 use grainform::scan::{Scan, read_scan};
 use grainform::{FitOptions, StarSurface, Surface, fit};
 use nalgebra::{Point3, Vector3};
@@ -7,22 +8,6 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use std::error::Error;
 use std::path::Path;
-
-/// Scans, of barley kernels and stones.
-const SCANS: [&str; 12] = [
-    "barley_batch/l1_30.ply",
-    "barley_batch/l1_05.ply",
-    "barley_batch/l2_10.ply",
-    "barley_batch/l3_09.ply",
-    "stone/low_res_AAA.ply",
-    "stone/low_res_E22.ply",
-    "lithic/ClarksonEXP02_Discoid.stl",
-    "barley/barley_S017_l2_07_ascii.ply",
-    "standins/maize_levallois_6146.xyz",
-    "standins/barley_l1_01_6146.xyz",
-    "standins/chickpea_danshaku_6146.xyz",
-    "standins/bean_stoneE22_1538.xyz",
-];
 
 /// One point in so many is hidden.
 const ONE_IN: u32 = 10;

@@ -10,6 +10,8 @@ mod hidden;
 #[path = "../real/particle.rs"]
 #[allow(dead_code, reason = "the other example compares radii too")]
 mod particle;
+#[path = "../real/scans.rs"]
+mod scans;
 mod tally;
 mod truth;
 

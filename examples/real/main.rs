@@ -11,6 +11,7 @@
 mod hidden;
 mod particle;
 mod rival;
+mod scans;
 mod stats;
 mod truth;
 
