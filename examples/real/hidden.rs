@@ -1,6 +1,7 @@
 //! Fits of scans, judged by points that they have not seen.
 
 use crate::rival;
+use crate::scans::SCANS;
 use crate::stats::{median, quantile};
 use grainform::scan::{Scan, read_scan};
 use grainform::{FitError, FitOptions, Grain, StarSurface, Surface, fit};
@@ -10,22 +11,6 @@ use rand_chacha::rand_core::{Rng, SeedableRng};
 use std::error::Error;
 use std::path::Path;
 use std::time::Instant;
-
-/// Scans that are told one by one.
-const SCANS: [&str; 12] = [
-    "barley_batch/l1_30.ply",
-    "barley_batch/l1_05.ply",
-    "barley_batch/l2_10.ply",
-    "barley_batch/l3_09.ply",
-    "stone/low_res_AAA.ply",
-    "stone/low_res_E22.ply",
-    "lithic/ClarksonEXP02_Discoid.stl",
-    "barley/barley_S017_l2_07_ascii.ply",
-    "standins/maize_levallois_6146.xyz",
-    "standins/barley_l1_01_6146.xyz",
-    "standins/chickpea_danshaku_6146.xyz",
-    "standins/bean_stoneE22_1538.xyz",
-];
 
 /// One point in so many is hidden.
 const ONE_IN: u32 = 10;

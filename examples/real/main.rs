@@ -13,6 +13,7 @@ mod hidden;
 mod particle;
 mod published;
 mod rival;
+mod scans;
 mod stats;
 mod truth;
 

@@ -16,7 +16,7 @@ pub(crate) struct Particle {
     pub(crate) area: f64,
     pub(crate) volume: f64,
     basis: HarmonicBasis,
-    coefficients: Vec<f64>,
+    pub(crate) coefficients: Vec<f64>,
 }
 
 impl Particle {

@@ -115,7 +115,7 @@ fn told(error: &dyn Error) -> String {
 fn row(fitted: &Fitted, warnings: &[String], settings: &Settings) -> Row {
     let fit = FitReport::new(String::new(), None, fitted, &settings.fit, warnings);
     // Where much was not seen, the whole surface is a guess that the fit withholds.
-    let is_withheld = fitted.unseen.is_some() && !settings.fit.extrapolate;
+    let is_withheld = fitted.grain.unseen().is_some() && !settings.fit.extrapolate;
     let measured = (!is_withheld).then(|| {
         let survey = Survey::of_grain(&fitted.grain, Scheme::Exact);
         MeasureReport::new(

@@ -35,6 +35,9 @@ fn measure(args: &MeasureArgs) -> Result<MeasureReport> {
     let bytes = inputs::read(path, &args.input.limit)?;
     if bytes.trim_ascii_start().starts_with(b"{") {
         let grain = inputs::parse_model(path, &bytes)?;
+        if let Some(unseen) = grain.unseen().filter(|_| !args.extrapolate) {
+            return Ok(MeasureReport::withheld(input, unseen, only).in_unit(args.unit));
+        }
         let survey = Survey::of_grain(&grain, args.scheme.0);
         return Ok(report(Measured::Model, &survey, Vec::new()));
     }

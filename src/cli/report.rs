@@ -109,7 +109,7 @@ fn grain_part(path: &Path, args: &ReportArgs) -> Result<GrainPart> {
     let told = FitReport::new(name.clone(), args.unit, &fitted, &options, &[]);
     let mut warnings = sentences(scan.warnings(), &fitted.warnings, args.unit);
     let measures =
-        match fitted.unseen {
+        match fitted.grain.unseen() {
             Some(_) => {
                 let missing = told.not_measured.iter();
                 warnings.extend(missing.map(|missing| {

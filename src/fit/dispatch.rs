@@ -13,7 +13,7 @@ use super::prepare::{CellGrid, PreparedScan, Sample};
 use super::segments;
 use super::sound;
 use super::warning::FitWarning;
-use crate::model::{Family, Frame, StarGrain, Stretch};
+use crate::model::{Family, Frame, Grain, StarGrain, Stretch};
 use crate::sphere::Symmetry;
 use nalgebra::Vector3;
 
@@ -56,7 +56,7 @@ impl PreparedScan<'_> {
         points: usize,
     ) -> Fitted {
         Fitted {
-            grain: grain.into(),
+            grain: Grain::from(grain).with_unseen(self.unseen),
             kind: KindChoice::Star,
             search,
             reference: self.reference,
@@ -66,7 +66,6 @@ impl PreparedScan<'_> {
             asymmetry: None,
             estimate: None,
             whole: None,
-            unseen: self.unseen,
             warnings: self.warnings.clone(),
             posterior: None,
         }

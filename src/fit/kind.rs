@@ -224,7 +224,6 @@ fn positioned(
         asymmetry: None,
         estimate: None,
         whole: None,
-        unseen: None,
         warnings,
         posterior: None,
     })

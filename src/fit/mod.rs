@@ -52,7 +52,6 @@ pub use superquadric::{
     Form, MAX_UNION_PARTS, MultiFit, ParameterErrors, SuperquadricFit, SuperquadricFitError,
     fit_multi_superquadric, fit_superquadric,
 };
-pub use unseen::Unseen;
 pub use warning::FitWarning;
 
 use crate::scan::Scan;

@@ -3,7 +3,6 @@
 use super::candidate::Search;
 use super::estimate::{Estimate, Figures, NoInterval, RadiusError, StandardErrors};
 use super::prepare::Reference;
-use super::unseen::Unseen;
 use super::warning::FitWarning;
 use crate::measure::MassProperties;
 use crate::model::{Grain, StarGrain, Surface};
@@ -36,8 +35,6 @@ pub struct Fitted {
     /// The expansion of the whole sphere that comes as near to the estimate as the chosen cells. `None` where there are no
     /// cells.
     pub whole: Option<StarGrain>,
-    /// What the scan did not see, if it is large: figures of the whole surface are guesses then.
-    pub unseen: Option<Unseen>,
     /// What a user should know of the scan and the fit.
     pub warnings: Vec<FitWarning>,
     pub(crate) posterior: Option<Box<Estimate>>,
@@ -149,7 +146,7 @@ impl Fitted {
             dimensions: *dimensions,
         };
         let posterior = self.posterior.as_ref().ok_or(NoInterval::NotEstimated);
-        match &self.unseen {
+        match self.grain.unseen() {
             Some(unseen) => {
                 let beside =
                     posterior.and_then(|posterior| posterior.errors_beside_holes(&figures));
@@ -165,7 +162,8 @@ impl Fitted {
         let with_errors = || {
             let star = self.grain.star()?;
             let errors = self.posterior.as_ref()?.curvature_errors(star)?;
-            Some(star.clone().with_curvature_errors(errors).into())
+            let grain = Grain::from(star.clone().with_curvature_errors(errors));
+            Some(grain.with_unseen(self.grain.unseen()))
         };
         with_errors().unwrap_or_else(|| self.grain.clone())
     }
@@ -175,6 +173,7 @@ impl Fitted {
     pub fn radius_errors(&self, directions: &[Vector3<f64>]) -> Option<Vec<RadiusError>> {
         let axes = self.grain.frame().axes;
         let local: Vec<Vector3<f64>> = directions.iter().map(|n| axes.tr_mul(n)).collect();
-        Some(self.posterior.as_ref()?.radius_errors(&local))
+        let (posterior, grain) = (self.posterior.as_ref()?, self.grain.star()?);
+        Some(posterior.radius_errors(grain, &local))
     }
 }

@@ -39,7 +39,7 @@ pub(super) fn check(fitted: &Fitted, options: &FitOptions) -> Result<Option<FitW
     if share.is_nan() || share > far {
         return Err(FitError::FarFromPoints { share });
     }
-    if fitted.unseen.is_none() && fitted.points > FEW_POINTS && !is_asked_for {
+    if fitted.grain.unseen().is_none() && fitted.points > FEW_POINTS && !is_asked_for {
         let volume = grain_properties(&fitted.grain).properties.volume;
         let times = volume / fitted.reference.volume;
         if times > LARGEST_VOLUME {

@@ -1,27 +1,10 @@
-//! What a scan did not see of a grain.
+//! When so much of a grain was not seen that it is told of, and what that does to its figures.
 
 use super::estimate::{Figures, StandardErrors};
 use super::gaps::random_gap;
+use crate::model::Unseen;
 use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::PI;
-
-/// A part of the surface that is too large to be told from what is round it.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[non_exhaustive]
-pub enum Unseen {
-    /// A cap without points.
-    Hole {
-        /// Its half-angle, in radians.
-        half_angle: f64,
-    },
-    /// Holes between the faces.
-    Open {
-        /// Their number.
-        holes: usize,
-        /// Area of the triangles that would close them, as a share of that of the faces.
-        share: f64,
-    },
-}
 
 /// Half-angle, in radians, of the largest hole that is told of as if it were seen. In holes of 20 degrees the radius is
 /// off by 0.2 to 5 %, in holes of 40 by 10 to 26 %.
@@ -36,14 +19,6 @@ impl Unseen {
     pub(crate) fn hole(half_angle: f64, points: usize) -> Option<Self> {
         let is_large = half_angle > LARGEST_HOLE.max(random_gap(points));
         is_large.then_some(Self::Hole { half_angle })
-    }
-
-    /// Its share of the sphere of directions, about.
-    pub(crate) fn share(&self) -> f64 {
-        match *self {
-            Self::Hole { half_angle } => 0.5 * (1.0 - half_angle.cos()),
-            Self::Open { share, .. } => share / (1.0 + share),
-        }
     }
 
     /// Standard errors of figures with a guess in them: to those that the points tell of, if known, is added that the

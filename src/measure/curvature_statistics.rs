@@ -2,6 +2,7 @@
 
 use super::Curvature;
 use crate::model::{Node, Surface};
+use nalgebra::Vector3;
 use rayon::prelude::*;
 use serde::Serialize;
 use std::f64::consts::PI;
@@ -11,6 +12,8 @@ use std::f64::consts::PI;
 pub struct CurvatureStatistics {
     /// (principal curvatures, the larger first; area).
     nodes: Vec<([f64; 2], f64)>,
+    /// Direction of the node with the largest curvature.
+    sharpest: Vector3<f64>,
     /// The length that is one here, in the surface's unit.
     unit: f64,
 }
@@ -42,15 +45,24 @@ impl Distribution {
 impl CurvatureStatistics {
     /// That of a surface at the nodes of a quadrature over its [tiling](Surface::tiling).
     pub fn new(surface: &(impl Surface + Sync + ?Sized), nodes: &[Node]) -> Self {
-        let nodes = nodes
+        let found: Vec<_> = nodes
             .par_iter()
             .map(|node| {
                 let (n, solid_angle) = surface.node(*node);
                 let curvature = Curvature::new(&n, &surface.jet(&n));
-                (curvature.principal, curvature.area() * solid_angle)
+                (n, (curvature.principal, curvature.area() * solid_angle))
             })
             .collect();
-        Self { nodes, unit: 1.0 }
+        let sharpness = |(_, ([first, _], _)): &&(Vector3<f64>, ([f64; 2], f64))| *first;
+        let sharpest = found
+            .iter()
+            .max_by(|a, b| sharpness(a).total_cmp(&sharpness(b)))
+            .map_or(Vector3::zeros(), |(n, _)| *n);
+        Self {
+            nodes: found.into_iter().map(|(_, node)| node).collect(),
+            sharpest,
+            unit: 1.0,
+        }
     }
 
     /// The same, of the surface that is so many times as large.
@@ -75,6 +87,11 @@ impl CurvatureStatistics {
     /// The larger principal curvature, one over length, positive where convex.
     pub fn larger(&self) -> Distribution {
         self.distribution(|[first, _]| first).over(self.unit)
+    }
+
+    /// The direction, in the frame of the surface's places, of the node with the largest principal curvature.
+    pub fn sharpest(&self) -> Vector3<f64> {
+        self.sharpest
     }
 
     /// The smaller principal curvature, negative in hollows.
@@ -144,7 +161,6 @@ mod tests {
     use crate::shapes::{Body, Ellipsoid, Sphere};
     use crate::sphere::{AngleRectangle, GaussLegendre};
     use approx::assert_relative_eq;
-    use nalgebra::Vector3;
     use std::f64::consts::TAU;
 
     fn statistics(surface: &(impl StarSurface + Sync + ?Sized)) -> CurvatureStatistics {
@@ -213,6 +229,7 @@ mod tests {
     fn roundness_is_the_mean_radius_of_the_corners() {
         let found = CurvatureStatistics {
             nodes: vec![([0.5, 0.5], 7.0), ([2.0, 1.0], 3.0), ([4.0, -1.0], 1.0)],
+            sharpest: Vector3::x(),
             unit: 1.0,
         };
         // Corners of radii 1/2 and 1/4 of an inscribed radius of 1, by area.

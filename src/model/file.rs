@@ -1,9 +1,10 @@
 //! A grain as JSON: versioned, exact to the last bit, and refused where it is not sound.
 //!
-//! Version 4 holds either `superquadrics`, or `position`, the `cells` or the `harmonics` of the position of points over the sphere, or of
+//! Version 5 holds either `superquadrics`, or `position`, the `cells` or the `harmonics` of the position of points over the sphere, or of
 //! a radius one of `cells` (blended), `segments` (independent), `symmetry` (mirrored) and
 //! `harmonics` (the whole sphere), of the grain stretched along its axes by `stretch`, if that is there.
-//! `margin` goes with `cells`; `curvature_errors` with any radius, if they are known. Version 3, which knew neither
+//! `margin` goes with `cells`; `curvature_errors` with any radius, if they are known; `unseen` with all, if the scan did not see
+//! much of the grain. Version 4 knew no `unseen`. Version 3, which knew neither
 //! `superquadrics` nor `position`, version 2, which knew none of `harmonics`, `stretch`, `margin` and `curvature_errors` either, and version 1,
 //! which knew segments only, are still read.
 
@@ -11,14 +12,14 @@ use super::grain::Kind;
 use super::superquadric::PartRecord;
 use super::{
     Blended, CurvatureErrors, Family, Frame, Grain, InvalidGrain, Mirrored, Position,
-    PositionGrain, Segmented, StarGrain, Stretch, SuperquadricGrain, Surface, Whole,
+    PositionGrain, Segmented, StarGrain, Stretch, SuperquadricGrain, Surface, Unseen, Whole,
 };
 use crate::sphere::{AngularPartition, Cover, CoverError, CubeCell, MARGIN, Symmetry};
 use nalgebra::{Matrix3, Point3, Vector3};
 use serde::{Deserialize, Serialize};
 
 /// The version of the file format that this library writes.
-const VERSION: u32 = 4;
+const VERSION: u32 = 5;
 
 /// The text that tells a model file from any other JSON.
 const FORMAT: &str = "grainform model";
@@ -70,6 +71,9 @@ struct GrainFile {
     /// The superquadrics of a union, in place of all else.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     superquadrics: Option<Vec<PartRecord>>,
+    /// What the scan did not see.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    unseen: Option<Unseen>,
 }
 
 /// Cells, or the whole sphere: coefficients are x, y, z of the first function, of the second, and so on.
@@ -131,6 +135,11 @@ pub enum ModelError {
     /// The errors of the curvature are none.
     #[error("the model is not sound: `curvature_errors` must hold 864 numbers, none below zero")]
     CurvatureErrors,
+    /// What was not seen is none.
+    #[error(
+        "the model is not sound: `unseen` must hold a `hole` with a half-angle of 0 to pi, or what is `open`, with a share"
+    )]
+    Unseen,
     /// The cells do not tile the sphere.
     #[error("the model is not sound: {0}")]
     Cover(#[from] CoverError),
@@ -147,6 +156,7 @@ pub fn grain_to_json(grain: &Grain) -> String {
         version: VERSION,
         centre: centre.coords.into(),
         axes: [0, 1, 2].map(|i| axes.column(i).into_owned().into()),
+        unseen: grain.unseen(),
         ..GrainFile::default()
     };
     match grain.kind() {
@@ -255,59 +265,74 @@ pub fn grain_from_json(text: &str) -> Result<Grain, ModelError> {
             found: file.version,
         });
     }
-    let frame = Frame {
-        centre: Point3::from(file.centre),
-        axes: Matrix3::from_columns(&file.axes.map(Vector3::from)),
-    };
-    let errors = file.curvature_errors;
-    let stretch = file.stretch;
-    let radius = (file.cells, file.margin);
-    let independent = (file.parts_per_angle, file.segments);
-    let mirrored = (file.symmetry, file.coefficients);
-    let placed = (file.position, file.superquadrics);
-    let family = match (radius, independent, mirrored, file.harmonics, placed) {
-        ((None, None), (None, None), (None, None), None, (Some(position), None))
-            if stretch.is_none() && errors.is_none() =>
-        {
-            let grain = PositionGrain::new(frame, position.read()?)?;
-            grain.check()?;
-            return Ok(grain.into());
-        }
-        ((None, None), (None, None), (None, None), None, (None, Some(records)))
-            if stretch.is_none() && errors.is_none() =>
-        {
-            let body = PartRecord::read(&records).map_err(InvalidGrain::from)?;
-            return Ok(SuperquadricGrain::multi(frame, body)?.into());
-        }
-        ((Some(cells), margin), (None, None), (None, None), None, (None, None)) => {
-            let (cover, coefficients) = to_cover(cells, margin)?;
-            Family::Blended(Blended::new(cover, coefficients)?)
-        }
-        ((None, None), (Some(found), Some(segments)), (None, None), None, (None, None)) => {
-            if found > LARGEST_PARTITION {
-                return Err(ModelError::Partition { found });
+    let unseen = file.unseen;
+    if unseen.is_some_and(|unseen| !unseen.is_sound()) {
+        return Err(ModelError::Unseen);
+    }
+    Ok(file.grain()?.with_unseen(unseen))
+}
+
+impl GrainFile {
+    /// The grain, but for what was not seen of it.
+    fn grain(self) -> Result<Grain, ModelError> {
+        let frame = Frame {
+            centre: Point3::from(self.centre),
+            axes: Matrix3::from_columns(&self.axes.map(Vector3::from)),
+        };
+        let errors = self.curvature_errors;
+        let stretch = self.stretch;
+        let radius = (self.cells, self.margin);
+        let independent = (self.parts_per_angle, self.segments);
+        let mirrored = (self.symmetry, self.coefficients);
+        let placed = (self.position, self.superquadrics);
+        let family = match (radius, independent, mirrored, self.harmonics, placed) {
+            ((None, None), (None, None), (None, None), None, (Some(position), None))
+                if stretch.is_none() && errors.is_none() =>
+            {
+                let grain = PositionGrain::new(frame, position.read()?)?;
+                grain.check()?;
+                return Ok(grain.into());
             }
-            Family::Segmented(Segmented::new(AngularPartition::new(found), segments)?)
+            ((None, None), (None, None), (None, None), None, (None, Some(records)))
+                if stretch.is_none() && errors.is_none() =>
+            {
+                let body = PartRecord::read(&records).map_err(InvalidGrain::from)?;
+                return Ok(SuperquadricGrain::multi(frame, body)?.into());
+            }
+            ((Some(cells), margin), (None, None), (None, None), None, (None, None)) => {
+                let (cover, coefficients) = to_cover(cells, margin)?;
+                Family::Blended(Blended::new(cover, coefficients)?)
+            }
+            ((None, None), (Some(found), Some(segments)), (None, None), None, (None, None)) => {
+                if found > LARGEST_PARTITION {
+                    return Err(ModelError::Partition { found });
+                }
+                Family::Segmented(Segmented::new(AngularPartition::new(found), segments)?)
+            }
+            (
+                (None, None),
+                (None, None),
+                (Some(symmetry), Some(coefficients)),
+                None,
+                (None, None),
+            ) => Family::Mirrored(Mirrored::new(symmetry, coefficients)?),
+            ((None, None), (None, None), (None, None), Some(harmonics), (None, None)) => {
+                Family::Whole(Whole::new(harmonics)?)
+            }
+            _ => return Err(ModelError::Surface),
+        };
+        let stretch = match stretch {
+            Some(factors) => Stretch::new(factors.into())?,
+            None => Stretch::NONE,
+        };
+        let grain = StarGrain::stretched(frame, stretch, family)?;
+        grain.least_radius()?;
+        match errors {
+            Some(errors) => {
+                let errors = CurvatureErrors::new(errors).ok_or(ModelError::CurvatureErrors)?;
+                Ok(grain.with_curvature_errors(errors).into())
+            }
+            None => Ok(grain.into()),
         }
-        ((None, None), (None, None), (Some(symmetry), Some(coefficients)), None, (None, None)) => {
-            Family::Mirrored(Mirrored::new(symmetry, coefficients)?)
-        }
-        ((None, None), (None, None), (None, None), Some(harmonics), (None, None)) => {
-            Family::Whole(Whole::new(harmonics)?)
-        }
-        _ => return Err(ModelError::Surface),
-    };
-    let stretch = match stretch {
-        Some(factors) => Stretch::new(factors.into())?,
-        None => Stretch::NONE,
-    };
-    let grain = StarGrain::stretched(frame, stretch, family)?;
-    grain.least_radius()?;
-    match errors {
-        Some(errors) => {
-            let errors = CurvatureErrors::new(errors).ok_or(ModelError::CurvatureErrors)?;
-            Ok(grain.with_curvature_errors(errors).into())
-        }
-        None => Ok(grain.into()),
     }
 }

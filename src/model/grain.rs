@@ -2,7 +2,7 @@
 
 use super::{
     Frame, Node, PositionGrain, StarGrain, SuperquadricGrain, Surface, SurfaceElement, SurfaceJet,
-    Tiling,
+    Tiling, Unseen,
 };
 use crate::mesh::Mesh;
 use crate::sphere::Symmetry;
@@ -12,7 +12,10 @@ use nalgebra::{Matrix3, Vector3};
 ///
 /// Figures that only some kinds have are those of a view of it, such as [`star`](Self::star).
 #[derive(Debug, Clone)]
-pub struct Grain(Kind);
+pub struct Grain {
+    kind: Kind,
+    unseen: Option<Unseen>,
+}
 
 /// The kinds of surfaces that are fitted.
 #[derive(Debug, Clone)]
@@ -25,7 +28,7 @@ pub(super) enum Kind {
 impl Grain {
     /// The grain as a star-shaped one, if it is fitted as one: then it has a radius in each direction.
     pub fn star(&self) -> Option<&StarGrain> {
-        match &self.0 {
+        match &self.kind {
             Kind::Star(grain) => Some(grain),
             Kind::Position(_) | Kind::Superquadric(_) => None,
         }
@@ -33,7 +36,7 @@ impl Grain {
 
     /// The grain as one whose points are given over the sphere, if it is fitted as one.
     pub fn position(&self) -> Option<&PositionGrain> {
-        match &self.0 {
+        match &self.kind {
             Kind::Position(grain) => Some(grain),
             Kind::Star(_) | Kind::Superquadric(_) => None,
         }
@@ -41,18 +44,18 @@ impl Grain {
 
     /// The grain as a union of superquadrics, if it is fitted as one.
     pub fn superquadric(&self) -> Option<&SuperquadricGrain> {
-        match &self.0 {
+        match &self.kind {
             Kind::Superquadric(grain) => Some(grain),
             Kind::Star(_) | Kind::Position(_) => None,
         }
     }
 
     pub(super) fn kind(&self) -> &Kind {
-        &self.0
+        &self.kind
     }
 
     fn surface(&self) -> &(dyn Surface + Sync) {
-        match &self.0 {
+        match &self.kind {
             Kind::Star(grain) => grain,
             Kind::Position(grain) => grain,
             Kind::Superquadric(grain) => grain,
@@ -61,16 +64,27 @@ impl Grain {
 
     /// The grain about the origin, so many times as large.
     pub(crate) fn about_origin(&self, factor: f64) -> Self {
-        Self(match &self.0 {
+        let kind = match &self.kind {
             Kind::Star(grain) => Kind::Star(grain.about_origin(factor)),
             Kind::Position(grain) => Kind::Position(grain.about_origin(factor)),
             Kind::Superquadric(grain) => Kind::Superquadric(grain.about_origin(factor)),
-        })
+        };
+        Self { kind, ..*self }
+    }
+
+    /// The same with what its scan did not see.
+    pub fn with_unseen(self, unseen: Option<Unseen>) -> Self {
+        Self { unseen, ..self }
+    }
+
+    /// What its scan did not see, if it is large: figures of the whole surface are guesses then.
+    pub fn unseen(&self) -> Option<Unseen> {
+        self.unseen
     }
 
     /// The largest degree of its expansions; zero if it has none.
     pub fn degree(&self) -> usize {
-        match &self.0 {
+        match &self.kind {
             Kind::Star(grain) => grain.degree(),
             Kind::Position(grain) => grain.position().degree(),
             Kind::Superquadric(_) => 0,
@@ -84,7 +98,7 @@ impl Grain {
 
     /// The number of numbers that make its shape.
     pub fn coefficient_count(&self) -> usize {
-        match &self.0 {
+        match &self.kind {
             Kind::Star(grain) => grain.coefficient_count(),
             Kind::Position(grain) => grain.position().coefficient_count(),
             Kind::Superquadric(grain) => grain.number_count(),
@@ -93,7 +107,7 @@ impl Grain {
 
     /// The number of these that one evaluation touches, as a mean over all directions.
     pub fn coefficients_touched(&self) -> f64 {
-        match &self.0 {
+        match &self.kind {
             Kind::Star(grain) => grain.coefficients_touched(),
             Kind::Position(grain) => grain.position().coefficients_touched(),
             Kind::Superquadric(grain) => grain.number_count() as f64,
@@ -106,21 +120,27 @@ impl Grain {
     }
 }
 
+impl From<Kind> for Grain {
+    fn from(kind: Kind) -> Self {
+        Self { kind, unseen: None }
+    }
+}
+
 impl From<StarGrain> for Grain {
     fn from(grain: StarGrain) -> Self {
-        Self(Kind::Star(grain))
+        Kind::Star(grain).into()
     }
 }
 
 impl From<PositionGrain> for Grain {
     fn from(grain: PositionGrain) -> Self {
-        Self(Kind::Position(grain))
+        Kind::Position(grain).into()
     }
 }
 
 impl From<SuperquadricGrain> for Grain {
     fn from(grain: SuperquadricGrain) -> Self {
-        Self(Kind::Superquadric(grain))
+        Kind::Superquadric(grain).into()
     }
 }
 

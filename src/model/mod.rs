@@ -24,6 +24,7 @@ mod stretch;
 mod superquadric;
 mod surface;
 mod tiling;
+mod unseen;
 mod whole;
 
 pub use blended::Blended;
@@ -51,4 +52,5 @@ pub use superquadric::{
 pub use surface::{Node, Surface, SurfaceElement, SurfaceJet};
 pub use tiling::Tiling;
 pub(crate) use tiling::{Parts, Piece};
+pub use unseen::Unseen;
 pub use whole::Whole;

@@ -85,7 +85,11 @@ impl SearchReport {
             limit: search.limit,
             noise: search.noise,
             mean_radius: fitted.mean_radius,
-            reference: fitted.unseen.is_none().then(|| fitted.reference.into()),
+            reference: fitted
+                .grain
+                .unseen()
+                .is_none()
+                .then(|| fitted.reference.into()),
             seconds: Seconds::default(),
             warnings: sentences(scan_warnings, &fitted.warnings, unit),
         }

@@ -2,8 +2,9 @@
 
 use super::number::short;
 use super::unit::{Labels, Unit};
-use crate::fit::{FitWarning, NoInterval, Rejection, Unseen};
+use crate::fit::{FitWarning, NoInterval, Rejection};
 use crate::measure::{FacesDefect, Fill};
+use crate::model::Unseen;
 use crate::scan::plural;
 use std::fmt;
 

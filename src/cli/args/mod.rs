@@ -176,6 +176,10 @@ pub(super) struct MeasureArgs {
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     pub(super) only: Vec<Measure>,
 
+    /// Measure a model also where its scan did not see much of the surface: the measures are guesses then
+    #[arg(long)]
+    pub(super) extrapolate: bool,
+
     /// How area, volume and moments of a model are integrated: exact, or four-triangles, the source's
     /// polyhedron on a 128 x 128 grid
     #[arg(long, value_name = "exact|four-triangles", default_value = "exact")]

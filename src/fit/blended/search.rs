@@ -3,7 +3,7 @@
 use super::forest::{Bounds, Forest, Plan};
 use super::joint::{Joint, Solved};
 use super::local_fit::LocalFits;
-use super::nodes::{Sampler, nodes_per_side};
+use super::nodes::{Sampler, Samples, nodes_per_side};
 use super::{Blend, Outcome, Round, Settings, Target};
 use crate::fit::MAX_COEFFICIENTS;
 use crate::model::Blended;
@@ -34,6 +34,9 @@ const AIM: f64 = 0.95;
 
 /// A round more must save this share of the coefficients.
 const LEAST_SAVING: f64 = 0.03;
+
+/// Where a cover is cut by its own errors, cells with less than this share of the largest of them stay whole.
+const LEAST_CUT: f64 = 1.0 / 16.0;
 
 /// Quadtrees grow from the cells of faces cut in so many parts: other numbers are these times powers of
 /// two, or cost more than 2916 coefficients from the start.
@@ -71,6 +74,16 @@ struct Found {
     coefficients: usize,
     rms: f64,
     max: f64,
+    /// Integrals of the squared error over the cells.
+    squares: Vec<f64>,
+}
+
+/// The error of a surface at directions that its fit has not used.
+struct Unseen {
+    rms: f64,
+    max: f64,
+    /// Integrals of its square over the cells.
+    squares: Vec<f64>,
 }
 
 impl<'a> Search<'a> {
@@ -103,6 +116,7 @@ impl<'a> Search<'a> {
             self.fit(next)?;
         }
         if self.settings.segments.is_none() {
+            self.refine()?;
             self.try_uniform()?;
         }
         let Found {
@@ -204,6 +218,43 @@ impl<'a> Search<'a> {
         Some(())
     }
 
+    /// Where no forecast was good enough, cuts the cells that err most in four, as long as that helps: along an edge of a
+    /// body that lies between cells, the blend errs as neither cell's own fit shows.
+    fn refine(&mut self) -> Option<()> {
+        while let Some((cells, degrees)) = self.finer() {
+            let before = self.best.as_ref().map(|best| best.rms);
+            self.solve(&cells, &degrees)?;
+            if self.best.as_ref().map(|best| best.rms) == before {
+                break;
+            }
+        }
+        Some(())
+    }
+
+    /// The best cover with the cells that err most cut in four. `None` if it is good enough, or that would exceed the
+    /// bounds.
+    fn finer(&self) -> Option<(Vec<CubeCell>, Vec<usize>)> {
+        let best = self.best.as_ref().filter(|best| !self.is_met(best.rms))?;
+        let largest = best.squares.iter().copied().fold(0.0, f64::max);
+        let fair = self.goal() / best.squares.len() as f64;
+        let most = fair.max(LEAST_CUT * largest);
+        let coefficients = best.surface.coefficients().iter().map(Vec::len);
+        let cover = best.surface.cover().cells().iter();
+        let (mut cells, mut degrees) = (Vec::new(), Vec::new());
+        for ((cell, size), square) in cover.zip(coefficients).zip(&best.squares) {
+            let before = cells.len();
+            match *square > most && 2 * cell.parts <= MAX_FACE_PARTS {
+                true => cells.extend(cell.quarters()),
+                false => cells.push(*cell),
+            }
+            degrees.resize(degrees.len() + cells.len() - before, size.isqrt() - 1);
+        }
+        let bounds = self.bounds();
+        let sizes = degrees.iter().map(|&degree| coefficient_count(degree));
+        let is_within = cells.len() <= bounds.cells && sizes.sum::<usize>() <= bounds.coefficients;
+        (is_within && cells.len() > best.squares.len()).then_some((cells, degrees))
+    }
+
     /// Fits cells of one size and degree, and fewer of them as long as they do.
     fn try_uniform(&mut self) -> Option<()> {
         let degree = self.even_degree();
@@ -249,10 +300,12 @@ impl<'a> Search<'a> {
         let count = coefficients.iter().map(Vec::len).sum();
         let seen = (squared / (4.0 * PI)).sqrt();
         let surface = Blended::new(cover, coefficients).ok()?;
-        let (mut rms, mut max) = (seen * self.unseen.sqrt(), f64::NAN);
-        let is_last = self.best.is_none();
-        if self.is_met(seen) || is_last {
-            (rms, max) = self.unseen_error(&surface, &sides);
+        let mut rms = seen * self.unseen.sqrt();
+        let mut unseen = None;
+        if self.is_met(seen) || self.best.is_none() {
+            let found = self.unseen_error(&surface, &sides);
+            rms = found.rms;
+            unseen = Some(found);
             if seen > 0.0 {
                 self.unseen = (rms / seen).powi(2).clamp(1.0, 4.0);
             }
@@ -271,21 +324,21 @@ impl<'a> Search<'a> {
                     (met, is_met) => is_met || (!met && rms < best.rms),
                 });
         if is_better {
-            if max.is_nan() {
-                (rms, max) = self.unseen_error(&surface, &sides);
-            }
+            let unseen = unseen.unwrap_or_else(|| self.unseen_error(&surface, &sides));
+            rms = unseen.rms;
             self.best = Some(Found {
                 surface,
                 coefficients: count,
                 rms,
-                max,
+                max: unseen.max,
+                squares: unseen.squares,
             });
         }
         Some(rms)
     }
 
-    /// The RMS and the largest difference from the target at the nodes of other Gauss rules.
-    fn unseen_error(&mut self, surface: &Blended, sides: &[(CubeCell, usize)]) -> (f64, f64) {
+    /// The error at the nodes of other Gauss rules.
+    fn unseen_error(&mut self, surface: &Blended, sides: &[(CubeCell, usize)]) -> Unseen {
         let sides: Vec<(CubeCell, usize)> = sides.iter().map(|(c, side)| (*c, side - 1)).collect();
         self.sampler.sample(self.target, &sides);
         let samples = sides
@@ -296,17 +349,24 @@ impl<'a> Search<'a> {
             .flat_map(|samples| &samples.directions)
             .copied()
             .collect();
-        let found = surface.radii_and_gradients(&directions);
-        let known = samples.flat_map(|samples| {
+        let mut found = surface.radii_and_gradients(&directions).into_iter();
+        let mut max = 0.0_f64;
+        let square = |samples: &Samples| {
             let weights = samples.weights.iter().zip(&samples.solid_angles);
-            samples.radii.iter().zip(weights)
-        });
-        let (mut sum, mut max) = (0.0, 0.0_f64);
-        for ((radius, _), (exact, (weight, solid_angle))) in found.iter().zip(known) {
-            let squared = weight * (radius - exact).powi(2);
-            sum += squared;
-            max = max.max(squared / solid_angle);
+            let known = samples.radii.iter().zip(weights);
+            let squares = known.zip(&mut found);
+            let squares = squares.map(|((exact, (weight, solid_angle)), (radius, _))| {
+                let squared = weight * (radius - exact).powi(2);
+                max = max.max(squared / solid_angle);
+                squared
+            });
+            squares.sum::<f64>()
+        };
+        let squares: Vec<f64> = samples.map(square).collect();
+        Unseen {
+            rms: (squares.iter().sum::<f64>() / (4.0 * PI)).sqrt(),
+            max: max.sqrt(),
+            squares,
         }
-        ((sum / (4.0 * PI)).sqrt(), max.sqrt())
     }
 }

@@ -56,6 +56,21 @@ fn rounded_cube() -> Known<Radius> {
     Known(Box::new(|n| n.map(|x| x.powi(12)).sum().powf(-1.0 / 12.0)))
 }
 
+/// Edges of a cube that lie between cells show in no cell's own fit: covers are cut where the blend errs, and the middles
+/// of the faces stay whole.
+#[test]
+fn edges_between_cells_are_followed() {
+    let cube = Known(|n: &Vector3<f64>| 1.0 / n.amax());
+    let settings = Settings {
+        max_segments: 600,
+        ..Settings::within(0.008)
+    };
+    let outcome = found(&cube, &settings);
+    assert!(outcome.met && outcome.rms <= 0.008);
+    let most = outcome.rounds.iter().map(|round| round.cells).max();
+    assert!(most > Some(6) && most <= Some(600));
+}
+
 /// Directions all over the sphere, in no relation to any cell.
 fn anywhere() -> Vec<Vector3<f64>> {
     let count = 20_000;

@@ -4,9 +4,8 @@
 //! Beyond it, allowances, as squares:
 //!
 //! - half of the excess of a largest value, by the variance at the end itself, for a scan may be thinner there;
-//! - what the nearest points say of the end: the mean of their errors of prediction, where it is larger than noise.
-//!   The prior is the same everywhere, and takes the beak of a chickpea for noise: its length was 6 standard errors
-//!   short without this;
+//! - the mean square of what is [missing](super::tips) at the ends, as far as the points tell it: the prior is the same
+//!   everywhere, and takes the last of a beak or a tip for noise;
 //! - what turning an axis by its standard deviation does to the extent beyond first order (of a box it grows whichever
 //!   way it turns), and the range of extents in the plane of two axes that are not told apart.
 
@@ -16,17 +15,11 @@ use super::functionals::{combined, dot};
 use super::outcome::Estimate;
 use super::outcome::{slope_variance, variance};
 use super::posterior::Conditioned;
-use crate::fit::neighbours::Neighbours;
+use super::tips::Tips;
 use crate::measure::PrincipalInertia;
 use crate::sphere::HarmonicBasis;
 use nalgebra::Vector3;
 use std::f64::consts::PI;
-
-/// Points that tell of an end.
-const NEAREST: usize = 9;
-
-/// Least share of the points that is not spent on coefficients.
-const LEAST_SPARE: f64 = 0.1;
 
 /// Steps of half a turn at which the extents along axes that are not told apart are compared.
 const TURNS: usize = 8;
@@ -68,7 +61,7 @@ pub(super) fn dimensions(
     // Slopes are larger where radii are less well known.
     let slope_per_value = slope_variance(&estimate.spectrum, &estimate.unlearnt)
         / variance(&estimate.spectrum, &estimate.unlearnt);
-    let points = Points::new(estimate, given);
+    let tips = Tips::new(estimate, given.posterior);
 
     let mut found = Dimensions {
         lengths: Vector3::from_fn(|i, _| extents[i].length),
@@ -84,11 +77,15 @@ pub(super) fn dimensions(
             combined(vectors, factors.iter())
         };
         let mut squares = dot(&whole(&ends, mass), &whole(&solved, covariances)).max(0.0);
+        let (mut missing, mut chance) = (0.0, 0.0);
         for (at, end) in (2 * i..).zip(&extent.ends) {
             let value = dot(&ends[at], &solved[at]).max(0.0);
             found.excess[i] += end.excess(value, slope_per_value * value);
-            squares += points.off(&end.direction) * end.by_radius * end.by_radius;
+            let at = tips.missing(&end.direction);
+            missing += at.height * end.by_radius;
+            chance += at.variance * end.by_radius * end.by_radius;
         }
+        squares += missing * missing + chance;
         squares += (0.5 * found.excess[i]).powi(2);
         squares += turned(reach, principal, i, extent.length, &sd);
         found.variances[i] = squares;
@@ -124,35 +121,4 @@ fn turned(
         (OF_RANGE * (most - least)).powi(2)
     });
     squares.sum()
-}
-
-/// Points and their errors of prediction, as if they were spread evenly, in units of the mean radius.
-struct Points {
-    neighbours: Neighbours,
-    errors: Vec<f64>,
-    /// Variance of one.
-    variance: f64,
-}
-
-impl Points {
-    fn new(estimate: &Estimate, given: &Conditioned<'_>) -> Self {
-        let posterior = given.posterior;
-        let orders = estimate.unlearnt.iter().enumerate();
-        let learnt: f64 = orders.map(|(l, q)| (2 * l + 1) as f64 * (1.0 - q)).sum();
-        let spare = (1.0 - learnt / posterior.cloud.len() as f64).max(LEAST_SPARE);
-        let residuals = posterior.residuals(&estimate.coefficients);
-        Self {
-            neighbours: Neighbours::new(&posterior.cloud.directions),
-            errors: residuals.iter().map(|e| e / spare).collect(),
-            variance: given.noise / spare,
-        }
-    }
-
-    /// The square of the mean error of the points nearest to a direction, less what noise has of it.
-    fn off(&self, direction: &Vector3<f64>) -> f64 {
-        let near = self.neighbours.nearest(direction, NEAREST);
-        let count = near.len().max(1) as f64;
-        let mean = near.iter().map(|&i| self.errors[i]).sum::<f64>() / count;
-        (mean * mean - self.variance / count).max(0.0)
-    }
 }

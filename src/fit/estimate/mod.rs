@@ -34,6 +34,7 @@ mod spectrum_fit;
 mod stopping;
 mod sums;
 mod surface;
+mod tips;
 mod unresolved;
 
 pub use errors::{NoInterval, StandardErrors};
@@ -100,7 +101,7 @@ pub(crate) fn estimate(
     let mut is_found = fit.factor.is_some() && fit.coefficients.len() == coefficient_count(degree);
     loop {
         context.check()?;
-        let is_factored = is_factored(cloud.len(), degree);
+        let is_factored = is_factored(&cloud, degree);
         let posterior = match is_found {
             true => Posterior::with(&cloud, Arc::clone(&fit.sums)),
             false => Posterior::new(&cloud, degree, is_factored),
@@ -118,6 +119,10 @@ pub(crate) fn estimate(
             rounds += 1;
             outliers += alone.len();
             cloud = cloud.without(&alone);
+            // The lower degree was fitted to all points.
+            if let Some((lower, before)) = lower.take() {
+                (degree, fit) = (lower, before);
+            }
             continue;
         }
         if let Some((lower, before)) = lower.take()

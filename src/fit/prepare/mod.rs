@@ -22,11 +22,10 @@ pub(crate) use surface::usable;
 pub use surface::{ScannedSurface, scanned_surface};
 
 use super::error::FitError;
-use super::unseen::Unseen;
 use super::warning::FitWarning;
 use crate::measure::{MassProperties, Unit, mesh_properties};
 use crate::mesh::{Mesh, relaxed};
-use crate::model::Frame;
+use crate::model::{Frame, Unseen};
 use crate::scan::Scan;
 use crate::sphere::Symmetry;
 use centre::{deepest_centre, facing_away_share};

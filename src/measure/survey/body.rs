@@ -8,6 +8,7 @@ use crate::measure::{
 };
 use crate::model::{Grain, Radial, StarSurface, Surface};
 use crate::sphere::cube_grid;
+use nalgebra::Vector3;
 
 /// Parts per angle of the source's grid.
 const PUBLISHED_GRID: usize = 128;
@@ -81,6 +82,14 @@ impl<'a> Body<'a> {
             Self::Grain(..) | Self::Known(..) => Ok(1),
             Self::Mesh(_, Inside::Bodies(bodies)) => Ok(*bodies),
             Self::Mesh(_, Inside::Unknown(error)) => Err(error.clone()),
+        }
+    }
+
+    /// Standard error of the curvature in a direction, where it is known.
+    pub(super) fn curvature_error(&self, n: &Vector3<f64>) -> Option<f64> {
+        match self {
+            Self::Grain(grain, _) => grain.curvature_error(n),
+            Self::Known(..) | Self::Mesh(..) => None,
         }
     }
 

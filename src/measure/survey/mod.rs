@@ -249,6 +249,17 @@ impl<'a> Survey<'a> {
         }))
     }
 
+    /// Standard error of the largest principal curvature, where the grain tells it.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::curvature`].
+    pub fn largest_curvature_error(&self) -> Result<Option<f64>, SurveyError> {
+        let sharpest = self.curvature()?.sharpest();
+        let error = self.body.curvature_error(&sharpest);
+        Ok(error.map(|error| error / self.unit.length))
+    }
+
     /// Roundness of the corners, see [`CurvatureStatistics::roundness`].
     ///
     /// # Errors

@@ -1,8 +1,9 @@
 //! The figures of a fitted grain, as far as they can be told.
 
 use super::StandardErrorsRecord;
-use crate::fit::{FitOptions, Fitted, NoInterval, Unseen};
+use crate::fit::{FitOptions, Fitted, NoInterval};
 use crate::measure::{Scheme, Survey, SurveyError};
+use crate::model::Unseen;
 use crate::report::measure::{Dimensions, NotMeasured, Principal};
 
 /// Figures that rest on the whole surface.
@@ -22,7 +23,7 @@ pub(super) struct Figures {
 
 impl Figures {
     pub(super) fn new(fitted: &Fitted, options: &FitOptions) -> Self {
-        match fitted.unseen.filter(|_| !options.extrapolate) {
+        match fitted.grain.unseen().filter(|_| !options.extrapolate) {
             Some(unseen) => Self::withheld(&unseen),
             None => Self::told(fitted),
         }

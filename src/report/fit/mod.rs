@@ -177,7 +177,7 @@ impl FitReport {
         let symmetry = Some(fitted.grain.symmetry()).filter(|mirrors| *mirrors != Symmetry::NONE);
         let choice = search.choice();
         let figures = Figures::new(fitted, options);
-        let reference = fitted.unseen.is_none().then_some(fitted.reference);
+        let reference = fitted.grain.unseen().is_none().then_some(fitted.reference);
         let beside = |found: Option<f64>, of: fn(&Reference) -> f64| {
             Some(found? / of(reference.as_ref()?) - 1.0)
         };

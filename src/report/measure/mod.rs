@@ -18,6 +18,7 @@ use crate::fit::ReferenceKind;
 use crate::measure::{
     Convexity, Form, ScannedBody, SideRatios, Spectrum, Sphericity, Survey, SurveyError,
 };
+use crate::model::Unseen;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -180,6 +181,26 @@ impl MeasureReport {
         }
     }
 
+    /// The report of a model of which so much was not seen that its measures are guesses: none is told.
+    pub fn withheld(input: String, unseen: Unseen, asked: &[Measure]) -> Self {
+        let names = || asked.iter().map(|measure| measure.name());
+        let reason = unseen.to_string();
+        let not_measured = names().map(|measure| NotMeasured {
+            measure,
+            reason: reason.clone(),
+        });
+        Self {
+            input,
+            unit: None,
+            of: Measured::Model,
+            measures: Measures::default(),
+            faces: None,
+            nulls: names().map(|name| (name, ())).collect(),
+            not_measured: not_measured.collect(),
+            warnings: Vec::new(),
+        }
+    }
+
     /// The same with the unit of its lengths.
     pub fn in_unit(self, unit: Option<Unit>) -> Self {
         Self { unit, ..self }
@@ -233,7 +254,10 @@ impl Measures {
                     ProjectionRecord::new("thickness", &thickness),
                 ]);
             }
-            Measure::Curvature => self.curvature = Some(survey.curvature()?.into()),
+            Measure::Curvature => {
+                let error = survey.largest_curvature_error()?;
+                self.curvature = Some(CurvatureRecord::new(survey.curvature()?, error));
+            }
             Measure::Spectrum => self.spectrum = Some(survey.spectrum()?),
         }
         Ok(())

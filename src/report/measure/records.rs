@@ -207,6 +207,8 @@ pub struct CurvatureRecord {
     pub gaussian: Distribution,
     /// The larger principal curvature.
     pub larger: Distribution,
+    /// Standard error of its largest value; `None` where the model does not tell it.
+    pub largest_error: Option<f64>,
     /// The smaller principal curvature.
     pub smaller: Distribution,
     /// Share of the area where both are positive.
@@ -215,9 +217,10 @@ pub struct CurvatureRecord {
     pub gauss_bonnet_error: f64,
 }
 
-impl From<&CurvatureStatistics> for CurvatureRecord {
-    fn from(statistics: &CurvatureStatistics) -> Self {
+impl CurvatureRecord {
+    pub(super) fn new(statistics: &CurvatureStatistics, largest_error: Option<f64>) -> Self {
         Self {
+            largest_error,
             mean: statistics.mean(),
             gaussian: statistics.gaussian(),
             larger: statistics.larger(),

@@ -5,7 +5,7 @@ use super::{
 };
 use crate::measure::Distribution;
 use crate::report::escape::escaped;
-use crate::report::number::{short, triple};
+use crate::report::number::{short, triple, with_error};
 use crate::report::unit::Labels;
 use std::fmt;
 
@@ -30,12 +30,10 @@ impl fmt::Display for MeasureReport {
         self.size(f)?;
         self.shape(f)?;
         self.surface(f)?;
-        for missing in &self.not_measured {
-            writeln!(
-                f,
-                "{:<13} not measured: {}",
-                missing.measure, missing.reason
-            )?;
+        for missing in self.not_measured.chunk_by(|a, b| a.reason == b.reason) {
+            let names: Vec<&str> = missing.iter().map(|missing| missing.measure).collect();
+            let reason = &missing[0].reason;
+            writeln!(f, "{:<13} not measured: {reason}", names.join(", "))?;
         }
         write!(f, "Lengths are in {}, the density is 1.", labels.name())
     }
@@ -182,26 +180,36 @@ impl MeasureReport {
         }
         if let Some(curvature) = measures.curvature {
             let one = labels.curvature();
-            let told = |distribution: Distribution, unit: &str| {
+            let told = |distribution: Distribution, error: Option<f64>, unit: &str| {
                 format!(
                     "{} mean, {} SD, {} to {}{unit}",
                     short(distribution.mean),
                     short(distribution.standard_deviation),
                     short(distribution.least),
-                    short(distribution.largest)
+                    with_error(distribution.largest, error)
                 )
             };
-            writeln!(f, "curvature     mean: {}", told(curvature.mean, &one))?;
+            writeln!(
+                f,
+                "curvature     mean: {}",
+                told(curvature.mean, None, &one)
+            )?;
             writeln!(
                 f,
                 "              Gaussian: {}",
-                told(curvature.gaussian, &labels.gaussian())
+                told(curvature.gaussian, None, &labels.gaussian())
             )?;
-            writeln!(f, "              larger: {}", told(curvature.larger, &one))?;
+            let error = curvature.largest_error;
+            let larger = told(curvature.larger, error, &one);
+            let of_error = match error {
+                Some(_) => "a standard error after ±",
+                None => "the largest without a known error",
+            };
+            writeln!(f, "              larger: {larger}, {of_error}")?;
             writeln!(
                 f,
                 "              smaller: {}",
-                told(curvature.smaller, &one)
+                told(curvature.smaller, None, &one)
             )?;
             writeln!(
                 f,

@@ -2,6 +2,7 @@ use super::*;
 use crate::fit::context::Context;
 use crate::fit::estimate::estimate;
 use crate::fit::prepare::Sample;
+use crate::model::{Family, Frame, StarGrain};
 use crate::shapes::{Body, Sampling};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
@@ -167,7 +168,10 @@ fn degenerate_clouds_have_finite_errors_or_a_reason() {
                 );
             }
         }
-        for error in estimate.radius_errors(&[Vector3::x(), Vector3::new(0.6, 0.0, 0.8)]) {
+        let expansion = Family::Whole(estimate.expansion(estimate.degree));
+        let grain = StarGrain::stretched(Frame::SCAN, estimate.stretch(), expansion).unwrap();
+        let directions = [Vector3::x(), Vector3::new(0.6, 0.0, 0.8)];
+        for error in estimate.radius_errors(&grain, &directions) {
             assert!(error.surface.is_finite() && error.point >= error.surface);
         }
     }

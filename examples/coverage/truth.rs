@@ -1,0 +1,66 @@
+//! Bodies whose figures are known.
+
+use crate::particle::Particle;
+use crate::tally::FIGURES;
+use grainform::Grain;
+use grainform::measure::{MassProperties, Scheme, Survey};
+use grainform::model::{Family, Frame, StarGrain, StarSurface, Whole};
+use grainform::shapes::{Body, SynthOptions, synthesize};
+use nalgebra::Vector3;
+use std::error::Error;
+
+/// A body and its figures, in the order of [`FIGURES`].
+pub(crate) struct Truth {
+    surface: Box<dyn StarSurface + Sync>,
+    pub(crate) mean_radius: f64,
+    pub(crate) figures: [f64; FIGURES.len()],
+}
+
+impl Truth {
+    /// A synthetic grain.
+    pub(crate) fn closed_form(body: Body) -> Result<Self, Box<dyn Error>> {
+        let truth = synthesize(&SynthOptions::clean(body))?.truth;
+        let surface = body.surface();
+        let properties = truth.properties;
+        let lengths = Survey::of_surface(surface.as_ref(), properties).dimensions()?;
+        Ok(Self {
+            mean_radius: truth.mean_radius,
+            figures: figures(&properties, &lengths)?,
+            surface,
+        })
+    }
+
+    /// A particle.
+    pub(crate) fn expansion(particle: &Particle) -> Result<Self, Box<dyn Error>> {
+        let whole = Whole::new(particle.coefficients.clone())?;
+        let star = StarGrain::new(Frame::SCAN, Family::Whole(whole))?;
+        let grain = Grain::from(star.clone());
+        let survey = Survey::of_grain(&grain, Scheme::Exact);
+        Ok(Self {
+            mean_radius: particle.mean_radius,
+            figures: figures(&survey.properties()?, &survey.dimensions()?)?,
+            surface: Box::new(star),
+        })
+    }
+
+    pub(crate) fn radius(&self, n: &Vector3<f64>) -> f64 {
+        self.surface.radius(n)
+    }
+}
+
+fn figures(
+    solid: &MassProperties,
+    lengths: &Vector3<f64>,
+) -> Result<[f64; FIGURES.len()], Box<dyn Error>> {
+    let moments = solid.principal().ok_or("a finite inertia")?.moments;
+    Ok([
+        solid.area,
+        solid.volume,
+        moments[0],
+        moments[1],
+        moments[2],
+        lengths[0],
+        lengths[1],
+        lengths[2],
+    ])
+}

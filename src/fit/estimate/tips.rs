@@ -1,0 +1,118 @@
+//! What the points say of the very end of an extent that the estimate does not.
+//!
+//! The prior is alike everywhere. It takes the last of a beak or a tip for noise, which the estimate then flattens;
+//! but what it took is left in the residuals there. Let the surface have, beside what the prior tells of, a bump
+//! b = exp(k (n.t - 1)) of unknown height about the end t. With the residuals e of the posterior mean, the most likely
+//! height and its variance are
+//!
+//! ```text
+//! a = S / I,   1 / I,      S = b'W e / s²,   I = b'W (b - b°) / s²
+//! ```
+//!
+//! with b° what the estimate makes of radii b (generalised least squares: the inverse covariance of the radii takes them to
+//! W e / s²). The estimate leaves out the share q_l that the points leave unlearnt: of b = sum b_l P_l that is
+//! b - b° = sum q_l b_l P_l, at the end and in the mean square over a cloud that is alike everywhere. The width is the one
+//! of several under which the points are most likely.
+
+use super::cloud::Cloud;
+use super::outcome::Estimate;
+use super::posterior::Posterior;
+use nalgebra::Vector3;
+
+/// k of the bumps: Gaussians of 20, 14, 10, 7, 5 and 3.5 degrees.
+const SHARPNESSES: [f64; 6] = [8.0, 16.0, 32.0, 64.0, 128.0, 256.0];
+
+/// A bump is nothing where its logarithm is below this.
+const LEAST: f64 = -16.0;
+
+/// What is missing at an end.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(super) struct Missing {
+    /// Most likely height above the estimate, in units of the mean radius.
+    pub(super) height: f64,
+    /// Its variance.
+    pub(super) variance: f64,
+}
+
+/// The points with what the estimate leaves of them.
+pub(super) struct Tips<'a> {
+    cloud: &'a Cloud,
+    residuals: Vec<f64>,
+    noise: f64,
+    bumps: [Bump; SHARPNESSES.len()],
+}
+
+#[derive(Clone, Copy)]
+struct Bump {
+    sharpness: f64,
+    /// b - b° at the end, of a bump of height one.
+    left: f64,
+    /// Mean square b (b - b°) over that of b².
+    left_of_squares: f64,
+}
+
+impl Bump {
+    fn new(sharpness: f64, unlearnt: &[f64]) -> Self {
+        // b_l / (2 l + 1) is exp(-l (l + 1) / 2 k) times a constant, but for terms of the order 1 / k.
+        let reach = 0..(6.0 * sharpness.sqrt()) as usize;
+        let [mut height, mut left, mut squares, mut left_of_squares] = [0.0; 4];
+        for l in reach {
+            let fall = (-((l * (l + 1)) as f64) / (2.0 * sharpness)).exp();
+            let orders = (2 * l + 1) as f64;
+            let share = unlearnt.get(l).copied().unwrap_or(1.0);
+            height += orders * fall;
+            left += orders * fall * share;
+            squares += orders * fall * fall;
+            left_of_squares += orders * fall * fall * share;
+        }
+        Self {
+            sharpness,
+            left: left / height,
+            left_of_squares: left_of_squares / squares,
+        }
+    }
+}
+
+impl<'a> Tips<'a> {
+    pub(super) fn new(estimate: &Estimate, posterior: &Posterior<'a>) -> Self {
+        Self {
+            cloud: posterior.cloud,
+            residuals: posterior.residuals(&estimate.coefficients),
+            noise: estimate.spectrum.noise().powi(2),
+            bumps: SHARPNESSES.map(|sharpness| Bump::new(sharpness, &estimate.unlearnt)),
+        }
+    }
+
+    /// What is missing at an end, in the stretched space.
+    pub(super) fn missing(&self, end: &Vector3<f64>) -> Missing {
+        let mut sums = [[0.0; 2]; SHARPNESSES.len()];
+        let weighted = self.residuals.iter().zip(&self.cloud.weights);
+        for (n, (e, w)) in self.cloud.directions.iter().zip(weighted) {
+            let fall = n.dot(end) - 1.0;
+            for (bump, [of_residuals, of_squares]) in self.bumps.iter().zip(&mut sums) {
+                let exponent = bump.sharpness * fall;
+                if exponent < LEAST {
+                    break;
+                }
+                let height = exponent.exp();
+                *of_residuals += w * height * e;
+                *of_squares += w * height * height;
+            }
+        }
+        let likely = self.bumps.iter().zip(sums).map(|(bump, [score, squares])| {
+            let score = score / self.noise;
+            let information = squares * bump.left_of_squares / self.noise;
+            let missing = Missing {
+                height: bump.left * score / information,
+                variance: bump.left * bump.left / information,
+            };
+            (score * score / information, missing)
+        });
+        let known = likely.filter(|(gain, _)| gain.is_finite());
+        let best = known.max_by(|(a, _), (b, _)| a.total_cmp(b));
+        best.map(|(_, missing)| missing).unwrap_or_default()
+    }
+}
+
+#[cfg(test)]
+mod tests;
