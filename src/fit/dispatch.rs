@@ -69,6 +69,7 @@ impl PreparedScan<'_> {
             unseen: self.unseen,
             warnings: self.warnings.clone(),
             posterior: None,
+            errors: None,
         }
     }
 }

@@ -46,7 +46,7 @@ pub fn fit_scan(
     match options.kind {
         Kind::Star => star(),
         Kind::Position => positioned(scan, options, context, KindChoice::Asked),
-        Kind::Auto => match star() {
+        Kind::Auto => match { let t=std::time::Instant::now(); let s=star(); if std::env::var_os("DEBUG_KIND").is_some() { eprintln!("STAR took {:.2} err {:?}", t.elapsed().as_secs_f64(), s.as_ref().err()); } s } {
             Err(error) => match unseen(&error, options) {
                 None => Err(error),
                 Some(choice) => match positioned(scan, options, context, choice) {
@@ -128,6 +128,7 @@ fn compared(
         rms: fitted.search.choice().heldout_rms.unwrap_or(f64::INFINITY),
     };
     let is_star = own.is_better(&other, limit);
+    if std::env::var_os("DEBUG_KIND").is_some() { eprintln!("COMPARED star {} {:.4}% position {} {:.4}% limit {:.4}% keep star {is_star} warnings {:?}", own.coefficients, 100.0*own.rms/star.mean_radius, other.coefficients, 100.0*other.rms/star.mean_radius, 100.0*limit/star.mean_radius, star.warnings); }
     if is_star {
         fitted = star;
     }
@@ -227,5 +228,6 @@ fn positioned(
         unseen: None,
         warnings,
         posterior: None,
+        errors: Some(fit.errors),
     })
 }

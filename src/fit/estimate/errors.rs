@@ -45,6 +45,22 @@ pub struct StandardErrors {
     pub dimensions_excess: Vector3<f64>,
 }
 
+impl StandardErrors {
+    /// Those of a grain so many times as large.
+    pub(crate) fn times(self, factor: f64) -> Self {
+        let [square, cube, fifth] = [2, 3, 5].map(|power| factor.powi(power));
+        Self {
+            area: self.area * square,
+            volume: self.volume * cube,
+            centroid: self.centroid * factor,
+            inertia: self.inertia * fifth,
+            moments: self.moments * fifth,
+            dimensions: self.dimensions * factor,
+            dimensions_excess: self.dimensions_excess * factor,
+        }
+    }
+}
+
 /// Why there are no standard errors that could be trusted.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
@@ -63,6 +79,8 @@ pub enum NoInterval {
     NotFinite,
     /// Squares of the figures are beyond the range of numbers.
     OutOfRange,
+    /// The surface turns over or crosses itself.
+    Crossing,
     /// The model is fitted to the points themselves, not to an estimate.
     NotEstimated,
 }
