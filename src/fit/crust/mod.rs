@@ -55,7 +55,8 @@ pub(super) fn surface_of_points(points: &[Point3<f64>]) -> Result<Mesh, FitError
     let mut failed = FitError::NoInside;
     for wider in WIDER {
         let reach = REACH * wider * spacing;
-        let Some(voxels) = Voxels::new(&drawn, &squeezes, VOXEL * spacing, reach, LEAST_INSIDE) else {
+        let Some(voxels) = Voxels::new(&drawn, &squeezes, VOXEL * spacing, reach, LEAST_INSIDE)
+        else {
             continue;
         };
         let mesh = surface(&voxels, spacing);

@@ -41,7 +41,7 @@ pub struct StandardErrors {
     /// Of the length, width and thickness: extents along the principal axes.
     pub dimensions: Vector3<f64>,
     /// By what the extents of the scanned grain exceed these in the mean: the fitted surface lacks the ripples that
-    /// the points do not tell, and a largest value is larger with them.
+    /// the points do not tell, and a largest value is larger with them. Zero of positions, which keep their ripples.
     pub dimensions_excess: Vector3<f64>,
 }
 

@@ -31,7 +31,8 @@ use nalgebra::{Matrix3, SVector, Vector3};
 pub(in crate::fit) const INTEGRALS: usize = 11;
 
 /// Second moments of the list: xx, yy, zz, yz, xz, xy.
-pub(in crate::fit) const PAIRS: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (1, 2), (0, 2), (0, 1)];
+pub(in crate::fit) const PAIRS: [(usize, usize); 6] =
+    [(0, 0), (1, 1), (2, 2), (1, 2), (0, 2), (0, 1)];
 
 /// Rings per degree. On a cement particle of degree 30 the area is then right to 1e-8, and with half as many to
 /// 1e-5; volume and moments, of polynomials of degree 5 L + 2, are exact from 2.5 rings per degree on, and right to

@@ -13,9 +13,7 @@ use super::functions::Functions;
 use super::least_squares::{add_adjoint, no_sums};
 use crate::fit::estimate::functionals::{INTEGRALS, list};
 use crate::measure::{Curvature, Moments, PrincipalInertia, support};
-use crate::model::{
-    Frame, Position, PositionDerivatives, PositionGrain, SurfaceJet, area_normal,
-};
+use crate::model::{Frame, Position, PositionDerivatives, PositionGrain, SurfaceJet, area_normal};
 use crate::sphere::{CubeCell, GaussLegendre};
 use faer::Mat;
 use nalgebra::{Point3, SVector, Vector3};
@@ -34,22 +32,15 @@ pub(super) struct Functionals {
     /// The points farthest along each principal axis, and those farthest against it.
     pub(super) ends: Vec<[End; 2]>,
     places: Vec<Place>,
+    /// Points all over the surface, and their solid angles.
+    points: Vec<(Vector3<f64>, f64)>,
 }
 
 /// Where a surface reaches farthest.
 pub(super) struct End {
     pub(super) figure: usize,
     point: Vector3<f64>,
-    /// How much lower other places are, and their solid angles.
-    lower: Vec<(f64, f64)>,
-}
-
-impl End {
-    /// The share of the sphere whose places are lower by less than this.
-    pub(super) fn share_within(&self, depth: f64) -> f64 {
-        let near = self.lower.iter().filter(|(lower, _)| *lower < depth);
-        near.map(|(_, solid_angle)| solid_angle).sum::<f64>() / (4.0 * PI)
-    }
+    along: Vector3<f64>,
 }
 
 /// A direction, and the changes of the figures for a move of the surface there along a vector.
@@ -61,6 +52,9 @@ struct Place {
 
 /// Nodes of the quadrature per side of a cell, which is right to five figures.
 const NODES: usize = 8;
+
+/// Steps of half a turn at which extents are compared.
+const TURNS: usize = 8;
 
 /// Cells per edge of the cube for a surface that has none.
 const WHOLE_PARTS: u16 = 3;
@@ -117,14 +111,10 @@ impl Functionals {
                 along,
                 changes: Figures::ith(figure, 1.0),
             });
-            let height = found.point.dot(&along);
-            let lower = |(point, solid_angle): &(Vector3<f64>, f64)| {
-                (height - point.dot(&along), *solid_angle)
-            };
             End {
                 figure,
                 point: found.point,
-                lower: points.iter().map(lower).collect(),
+                along,
             }
         };
         let ends = (0..3).map(|axis| [end(axis, 0), end(axis, 1)]).collect();
@@ -133,7 +123,32 @@ impl Functionals {
             principal,
             ends,
             places,
+            points,
         })
+    }
+
+    /// The share of the sphere whose places are lower than an end by less than this.
+    pub(super) fn share_within(&self, depth: f64, end: &End) -> f64 {
+        let least = end.point.dot(&end.along) - depth;
+        let points = self.points.iter();
+        let near = points.filter(|(point, _)| point.dot(&end.along) > least);
+        near.map(|(_, solid_angle)| solid_angle).sum::<f64>() / (4.0 * PI)
+    }
+
+    /// About the range of extents along axes between two principal ones.
+    pub(super) fn range(&self, axis: usize, other: usize) -> f64 {
+        let axes = &self.principal.axes;
+        let length = |turn: usize| {
+            let (sin, cos) = (turn as f64 * PI / TURNS as f64).sin_cos();
+            let along = axes.column(axis) * cos + axes.column(other) * sin;
+            let heights = self.points.iter().map(|(point, _)| point.dot(&along));
+            let none = (f64::INFINITY, f64::NEG_INFINITY);
+            let (low, high) = heights.fold(none, |(low, high), h| (h.min(low), h.max(high)));
+            high - low
+        };
+        let lengths: Vec<f64> = (0..TURNS).map(length).collect();
+        let most = lengths.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        most - lengths.into_iter().fold(f64::INFINITY, f64::min)
     }
 
     /// From one end of a principal axis to the other.

@@ -12,6 +12,7 @@ mod functions;
 mod least_squares;
 pub(crate) mod map;
 mod on_mesh;
+mod on_sphere;
 mod rounds;
 mod search;
 

@@ -6,8 +6,8 @@
 //! from folding; its weight is the one with which samples that are held out are met best.
 
 use super::cloud::{Cloud, Distances};
-use super::functions::{Functions, Rows};
 use super::errors::Solved;
+use super::functions::{Functions, Rows};
 use super::least_squares::{Equations, Term, solve};
 use crate::fit::context::{Cancelled, Context};
 use crate::fit::estimate::{NoInterval, StandardErrors};
@@ -213,10 +213,11 @@ impl<'a> Problem<'a> {
             [0, 0] => Solved {
                 functions: self.functions,
                 surface: &surface,
+                other: &other,
                 factor: &factor,
                 rows: &rows,
                 cloud,
-                held_out: (held_out.rms / distances.rms).max(1.0),
+                rms: [distances.rms, held_out.rms],
                 roughness,
             }
             .errors(),
