@@ -1,11 +1,13 @@
 //! How often the truth lies within the stated 95 % intervals (figure ± 1.96 standard errors): prints the tables of the
 //! README.
 //!
-//! `cargo run --release --example coverage` prints three tables: of the three synthetic grains; of particles whose radius
-//! is known as an expansion (`nist`); and of the hidden points of real scans (`hidden`). The last two are read from
-//! `../shared/scans`, and left out where that folder is absent. Arguments: `synth`, `nist` or `hidden` for one table.
+//! `cargo run --release --example coverage` prints four tables: of the three synthetic grains; of particles whose radius
+//! is known as an expansion (`nist`); of bodies that no centre sees whole (`curled`); and of the hidden points of real
+//! scans (`hidden`). The second and the last are read from `../shared/scans`, and left out where that folder is absent.
+//! Arguments: `synth`, `nist`, `curled` or `hidden` for one table.
 
 mod cloud;
+mod curled;
 mod hidden;
 #[path = "../real/particle.rs"]
 #[allow(dead_code, reason = "the other example compares radii too")]
@@ -16,9 +18,10 @@ mod tally;
 mod truth;
 
 use cloud::Layout;
-use grainform::shapes::Body;
+use grainform::shapes::{Body, Curled};
 use particle::Particle;
 use std::error::Error;
+use std::fmt::Display;
 use std::path::Path;
 use tally::{FIGURES, Tally};
 use truth::Truth;
@@ -62,7 +65,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             for (points, noise, layout, scans) in SYNTH {
                 let mut tally = Tally::default();
                 for seed in 0..scans {
-                    tally.add(&truth, &layout.scan(&truth, points, noise, seed)?)?;
+                    tally.add(&truth.figures, &layout.scan(&truth, points, noise, seed)?)?;
                 }
                 row(&body.to_string(), points, noise, layout, &tally);
             }
@@ -76,9 +79,25 @@ fn main() -> Result<(), Box<dyn Error>> {
         for (points, noise, layout) in NIST {
             let mut tally = Tally::default();
             for (seed, truth) in (0..).zip(&truths) {
-                tally.add(truth, &layout.scan(truth, points, noise, seed)?)?;
+                tally.add(&truth.figures, &layout.scan(truth, points, noise, seed)?)?;
             }
             row("particles", points, noise, layout, &tally);
+        }
+    }
+    if wants("curled") {
+        head();
+        for body in [Curled::Banana, Curled::Cup, Curled::Mushroom, Curled::Hook] {
+            let truth = curled::truth(body)?;
+            for (points, noise, scans) in curled::CURLED {
+                let mut tally = Tally::default();
+                for seed in 0..scans {
+                    tally.add(&truth, &curled::scan(body, points, noise, seed)?)?;
+                }
+                match points {
+                    Some(points) => row(&body.to_string(), points, noise, "points", &tally),
+                    None => row(&body.to_string(), "all", noise, "mesh", &tally),
+                }
+            }
         }
     }
     if wants("hidden") && scans.exists() {
@@ -95,7 +114,7 @@ fn head() {
     );
 }
 
-fn row(name: &str, points: usize, noise: f64, layout: Layout, tally: &Tally) {
+fn row(name: &str, points: impl Display, noise: f64, layout: impl Display, tally: &Tally) {
     let percent = 100.0 * noise;
     println!("| {name} | {points} | {percent} % | {layout} | {tally} |");
 }

@@ -1,6 +1,5 @@
 //! How often intervals hold the truth.
 
-use crate::truth::Truth;
 use grainform::report::FitReport;
 use grainform::scan::Scan;
 use grainform::{FitOptions, fit};
@@ -18,6 +17,9 @@ pub(crate) const FIGURES: [&str; 8] = [
     "thickness",
 ];
 
+/// The figures of a body, in this order.
+pub(crate) type Figures = [f64; FIGURES.len()];
+
 /// Normal quantile of a two-sided interval of 95 %.
 const QUANTILE: f64 = 1.96;
 
@@ -33,7 +35,7 @@ pub(crate) struct Tally {
 
 impl Tally {
     /// Fits a scan with the default options; of one that is refused nothing is told.
-    pub(crate) fn add(&mut self, truth: &Truth, scan: &Scan) -> Result<(), Box<dyn Error>> {
+    pub(crate) fn add(&mut self, truth: &Figures, scan: &Scan) -> Result<(), Box<dyn Error>> {
         self.scans += 1;
         let options = FitOptions::default();
         let Ok(fitted) = fit(scan, &options) else {
@@ -57,7 +59,7 @@ impl Tally {
             (sizes.thickness, errors.dimensions.thickness),
         ];
         for (i, (found, error)) in pairs.into_iter().enumerate() {
-            let deviation = (found - truth.figures[i]) / error;
+            let deviation = (found - truth[i]) / error;
             self.covered[i] += usize::from(deviation.abs() <= QUANTILE);
             self.bias[i] += deviation;
         }

@@ -1,7 +1,7 @@
 //! Bodies whose figures are known.
 
 use crate::particle::Particle;
-use crate::tally::FIGURES;
+use crate::tally::Figures;
 use grainform::Grain;
 use grainform::measure::{MassProperties, Scheme, Survey};
 use grainform::model::{Family, Frame, StarGrain, StarSurface, Whole};
@@ -9,11 +9,11 @@ use grainform::shapes::{Body, SynthOptions, synthesize};
 use nalgebra::Vector3;
 use std::error::Error;
 
-/// A body and its figures, in the order of [`FIGURES`].
+/// A body and its figures.
 pub(crate) struct Truth {
     surface: Box<dyn StarSurface + Sync>,
     pub(crate) mean_radius: f64,
-    pub(crate) figures: [f64; FIGURES.len()],
+    pub(crate) figures: Figures,
 }
 
 impl Truth {
@@ -48,10 +48,11 @@ impl Truth {
     }
 }
 
-fn figures(
+/// The figures of a solid of this length, width and thickness.
+pub(crate) fn figures(
     solid: &MassProperties,
     lengths: &Vector3<f64>,
-) -> Result<[f64; FIGURES.len()], Box<dyn Error>> {
+) -> Result<Figures, Box<dyn Error>> {
     let moments = solid.principal().ok_or("a finite inertia")?.moments;
     Ok([
         solid.area,

@@ -68,6 +68,7 @@ impl PreparedScan<'_> {
             whole: None,
             warnings: self.warnings.clone(),
             posterior: None,
+            errors: None,
         }
     }
 }

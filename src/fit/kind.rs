@@ -29,6 +29,13 @@ const LOOKED_AT: usize = 24;
 /// Where a surface is folded it is fitted again with half as many cells, as long as there are more than these.
 const FEWEST_CELLS: usize = 6;
 
+/// What a radius does not see is far from it in few places: the mean of all distances is then less than this share of
+/// their RMS. Of noise it is .80 (Geary 1935).
+const LONG_TAILS: f64 = 0.74;
+
+/// A radius that hides area so counts as so many times farther off.
+const HIDING: f64 = 2.0;
+
 /// Most vertices of a scan whose distances from a radius are compared with those from a position.
 const MOST_COMPARED: usize = 4000;
 
@@ -88,12 +95,16 @@ fn unseen(error: &FitError, options: &FitOptions) -> Option<KindChoice> {
     }
 }
 
+/// Whether a radius hides area.
+fn hides(fitted: &Fitted) -> bool {
+    let mut warnings = fitted.warnings.iter();
+    warnings.any(|warning| matches!(warning, FitWarning::NotStarShaped { .. }))
+}
+
 /// Whether a radius hides area, ends above its limit, or is steep.
 fn is_doubtful(fitted: &Fitted) -> bool {
-    let warns = fitted.warnings.iter().any(|warning| {
-        let hides = matches!(warning, FitWarning::NotStarShaped { .. });
-        hides || matches!(warning, FitWarning::LimitNotMet { .. })
-    });
+    let is_far = |warning: &FitWarning| matches!(warning, FitWarning::LimitNotMet { .. });
+    let warns = hides(fitted) || fitted.warnings.iter().any(is_far);
     let Some(star) = fitted.grain.star() else {
         return false;
     };
@@ -114,9 +125,10 @@ fn compared(
     context: &Context<'_>,
 ) -> Result<Fitted, FitError> {
     let limit = star.search.limit;
+    let distances = normal_distances(&star.grain, scan);
     let own = Rival {
         coefficients: star.grain.coefficient_count(),
-        rms: normal_distance(&star.grain, scan) * held_out_over_fitted(&star),
+        rms: distances.rms() * held_out_over_fitted(&star),
     };
     let mut fitted = match positioned(scan, options, context, KindChoice::Asked) {
         Err(FitError::Cancelled) => return Err(FitError::Cancelled),
@@ -127,7 +139,13 @@ fn compared(
         coefficients: fitted.grain.coefficient_count(),
         rms: fitted.search.choice().heldout_rms.unwrap_or(f64::INFINITY),
     };
-    let is_star = own.is_better(&other, limit);
+    let is_hiding = hides(&star) && distances.mean_absolute < LONG_TAILS * distances.rms();
+    let times = if is_hiding { HIDING } else { 1.0 };
+    let weighed = Rival {
+        rms: times * own.rms,
+        ..own
+    };
+    let is_star = weighed.is_better(&other, limit);
     if is_star {
         fitted = star;
     }
@@ -157,13 +175,13 @@ fn held_out_over_fitted(star: &Fitted) -> f64 {
     }
 }
 
-/// Root mean square of the distances of a scan's points from a surface, along its normals.
-fn normal_distance(grain: &Grain, scan: &Scan) -> f64 {
+/// Distances of a scan's points from a surface, along its normals.
+fn normal_distances(grain: &Grain, scan: &Scan) -> Deviation {
     let points = scan.points();
     let every = points.len().div_ceil(MOST_COMPARED).max(1);
     let some: Vec<_> = points.iter().step_by(every).copied().collect();
     let feet = feet(grain, &some);
-    Deviation::of(feet.iter().map(|foot| (foot.distance, 1.0))).rms()
+    Deviation::of(feet.iter().map(|foot| (foot.distance, 1.0)))
 }
 
 /// Fits positions over the sphere.
@@ -226,5 +244,6 @@ fn positioned(
         whole: None,
         warnings,
         posterior: None,
+        errors: Some(fit.errors),
     })
 }

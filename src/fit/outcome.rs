@@ -38,6 +38,8 @@ pub struct Fitted {
     /// What a user should know of the scan and the fit.
     pub warnings: Vec<FitWarning>,
     pub(crate) posterior: Option<Box<Estimate>>,
+    /// Standard errors of a surface that has no estimate of its radius.
+    pub(crate) errors: Option<Result<StandardErrors, NoInterval>>,
 }
 
 /// Why a grain is of its kind.
@@ -134,6 +136,9 @@ impl Fitted {
     ) -> Result<StandardErrors, NoInterval> {
         if !(SMALLEST..1.0 / SMALLEST).contains(&self.mean_radius) {
             return Err(NoInterval::OutOfRange);
+        }
+        if let Some(errors) = self.errors {
+            return errors;
         }
         let frame = self.grain.frame();
         let principal = told.principal().ok_or(NoInterval::NotFinite)?;

@@ -109,6 +109,9 @@ pub(super) fn kind_rule(fitted: &Fitted, unit: Option<Unit>) -> Option<String> {
         KindChoice::Compared { kept, rival } => {
             let other = match fitted.grain.star() {
                 Some(_) => "the position of points takes",
+                None if rival.rms < kept.rms && kept.rms > fitted.search.limit => {
+                    "a radius, which does not see all of it, takes"
+                }
                 None => "a radius takes",
             };
             Some(format!(

@@ -205,6 +205,7 @@ impl fmt::Display for NoInterval {
                 f,
                 "in this unit squares of the figures are beyond the range of numbers; change the unit"
             ),
+            Self::Crossing => write!(f, "the surface crosses itself or turns over"),
             Self::NotEstimated => write!(f, "the model is fitted to the points themselves"),
         }
     }

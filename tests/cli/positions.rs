@@ -41,7 +41,7 @@ fn a_banana_is_fitted_measured_and_touched() {
         assert!((share - 1.004).abs() < 0.006, "{figure}: {share}");
     }
     assert!(number(&report, "heldout_rms") < 5e-3 * number(&report, "mean_radius"));
-    assert!(report["no_standard_errors"].is_string());
+    assert!(number(&report["standard_errors"], "volume") < 0.01 * number(&report, "volume"));
 
     let measured = json(&folder, &["measure", "b.json"]);
     assert_eq!(number(&measured, "volume"), number(&report, "volume"));
@@ -91,6 +91,8 @@ fn points_of_a_banana_are_fitted_without_faces() {
     for figure in ["area", "volume"] {
         let share = number(&report, figure) / number(&truth, figure);
         assert!((share - 1.0).abs() < 0.01, "{figure}: {share}");
+        let error = number(&report["standard_errors"], figure) / number(&truth, figure);
+        assert!(error > 0.0 && error < 0.01, "{figure}: {error}");
     }
     succeed(&folder, &["measure", "b.json", "--only", "dimensions"]);
 }

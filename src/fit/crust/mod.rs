@@ -1,7 +1,7 @@
 //! The surface that points without faces lie on, where no centre sees all of it: its topology, and a place on it for
 //! every point.
 //!
-//! All voxels near a point are a crust. What the crust keeps apart from the outside is inside; across the crust a field
+//! All voxels near a point are a crust, thinner across the surface where the neighbours of the point lie in a plane. What the crust keeps apart from the outside is inside; across the crust a field
 //! goes from -1 outside to 1 inside, and mostly changes near the points, for it is led well far from them. The surface
 //! is where it is zero (Hornung and Kobbelt 2006, with a harmonic field for their cut). No normals are needed.
 
@@ -12,7 +12,7 @@ use super::error::FitError;
 use super::neighbours::Neighbours;
 use crate::mesh::{Grid, Mesh, contour, part, parts};
 use field::harmonic;
-use nalgebra::{Point3, Vector3};
+use nalgebra::{Matrix3, Point3, Vector3};
 use voxels::Voxels;
 
 /// Points that the crust is made of; of more, so many are drawn by a hash of their coordinates.
@@ -24,6 +24,14 @@ const RANK: usize = 6;
 /// Sides of voxels, and the usual reach of the crust from a point, in spacings.
 const VOXEL: f64 = 0.7;
 const REACH: f64 = 1.6;
+
+/// Neighbours of a point that tell whether it lies in a plane: if their least extent is below this share of the middle
+/// one.
+const AROUND: usize = 12;
+const FLAT: f64 = 0.35;
+
+/// How many times less the crust reaches along the normal of such a plane: so that it leaves room in thin walls.
+const SQUEEZE: f64 = 3.0;
 
 /// Factors by which the reach is tried, until the surface is closed, has no handle and lies on the points. A narrow crust
 /// leaks between points laid at random, a wide one fills thin walls.
@@ -43,10 +51,12 @@ const LARGEST_OFF: f64 = 0.01;
 pub(super) fn surface_of_points(points: &[Point3<f64>]) -> Result<Mesh, FitError> {
     let drawn = drawn(points);
     let spacing = spacing(&drawn);
+    let squeezes = squeezes(&drawn);
     let mut failed = FitError::NoInside;
     for wider in WIDER {
         let reach = REACH * wider * spacing;
-        let Some(voxels) = Voxels::new(&drawn, VOXEL * spacing, reach, LEAST_INSIDE) else {
+        let Some(voxels) = Voxels::new(&drawn, &squeezes, VOXEL * spacing, reach, LEAST_INSIDE)
+        else {
             continue;
         };
         let mesh = surface(&voxels, spacing);
@@ -103,6 +113,29 @@ fn off(all: &[Point3<f64>], others: &[Point3<f64>], reach: f64) -> f64 {
             .is_none_or(|at| (point.coords - others[*at]).norm() > reach)
     };
     all.iter().filter(is_off).count() as f64 / all.len().max(1) as f64
+}
+
+/// What distances grow by along the normals of planes: a point at x from another one, whose vector is s, is as far away as
+/// (|x|² + (s.x)²)^½. Zero where the neighbours lie in no plane.
+fn squeezes(points: &[Point3<f64>]) -> Vec<Vector3<f64>> {
+    let places: Vec<Vector3<f64>> = points.iter().map(|point| point.coords).collect();
+    let near = Neighbours::new(&places);
+    let squeeze = |place: &Vector3<f64>| {
+        let own = near.nearest(place, AROUND);
+        let count = own.len() as f64;
+        let mean = own.iter().map(|&at| places[at]).sum::<Vector3<f64>>() / count;
+        let spread = own.iter().map(|&at| places[at] - mean);
+        let spread: Matrix3<f64> = spread.map(|x| x * x.transpose()).sum();
+        let eigen = spread.symmetric_eigen();
+        let mut order = [0, 1, 2];
+        order.sort_by(|&i, &j| eigen.eigenvalues[i].total_cmp(&eigen.eigenvalues[j]));
+        let [least, middle, _] = order.map(|i| eigen.eigenvalues[i]);
+        match least < FLAT * FLAT * middle {
+            true => eigen.eigenvectors.column(order[0]) * (SQUEEZE * SQUEEZE - 1.0).sqrt(),
+            false => Vector3::zeros(),
+        }
+    };
+    places.iter().map(squeeze).collect()
 }
 
 /// The median distance of neighbours of a rank.

@@ -17,6 +17,8 @@ fn points_of_bodies_that_no_centre_sees_have_a_surface_of_nearly_their_volume() 
         (Curled::Banana, 3000, 0.0),
         (Curled::Hook, 4000, 0.01),
         (Curled::Mushroom, 6000, 0.0),
+        // Walls of two and a half spacings.
+        (Curled::Cup, 3000, 0.005),
     ] {
         let (points, volume) = points(body, count, noise);
         let mesh = surface_of_points(&points).unwrap();

@@ -28,9 +28,11 @@ pub(super) struct Voxels {
 
 impl Voxels {
     /// The crust of points, what it encloses as far as that hangs together, and what is outside. `None` where less
-    /// than a share of the box is enclosed, or the box would be too large.
+    /// than a share of the box is enclosed, or the box would be too large. Each point has a squeeze, by which distances
+    /// from it grow.
     pub(super) fn new(
         points: &[Point3<f64>],
+        squeezes: &[Vector3<f64>],
         side: f64,
         reach: f64,
         least_inside: f64,
@@ -54,8 +56,8 @@ impl Voxels {
             states: vec![State::Inside; size.iter().product()],
             distances: vec![reach; size.iter().product()],
         };
-        for point in points {
-            voxels.add(point);
+        for (point, squeeze) in points.iter().zip(squeezes) {
+            voxels.add(point, squeeze);
         }
         for (state, distance) in voxels.states.iter_mut().zip(&voxels.distances) {
             if *distance < reach {
@@ -72,8 +74,8 @@ impl Voxels {
         [1, self.size[0], self.size[0] * self.size[1]]
     }
 
-    /// Notes the distance of a point from the voxels near it.
-    fn add(&mut self, point: &Point3<f64>) {
+    /// Notes the distance of a point from the voxels near it, larger along its squeeze.
+    fn add(&mut self, point: &Point3<f64>, squeeze: &Vector3<f64>) {
         let place = (point - self.origin) / self.side;
         let reach = self.reach / self.side;
         let range = |axis: usize| {
@@ -85,8 +87,10 @@ impl Voxels {
             for y in range(1) {
                 for x in range(0) {
                     let at = Vector3::new(x as f64, y as f64, z as f64);
+                    let away = at - place;
+                    let squared = away.norm_squared() + away.dot(squeeze).powi(2);
                     let distance = &mut self.distances[x + steps[1] * y + steps[2] * z];
-                    *distance = distance.min((at - place).norm() * self.side);
+                    *distance = distance.min(squared.sqrt() * self.side);
                 }
             }
         }

@@ -41,8 +41,24 @@ pub struct StandardErrors {
     /// Of the length, width and thickness: extents along the principal axes.
     pub dimensions: Vector3<f64>,
     /// By what the extents of the scanned grain exceed these in the mean: the fitted surface lacks the ripples that
-    /// the points do not tell, and a largest value is larger with them.
+    /// the points do not tell, and a largest value is larger with them. Zero of positions, which keep their ripples.
     pub dimensions_excess: Vector3<f64>,
+}
+
+impl StandardErrors {
+    /// Those of a grain so many times as large.
+    pub(crate) fn times(self, factor: f64) -> Self {
+        let [square, cube, fifth] = [2, 3, 5].map(|power| factor.powi(power));
+        Self {
+            area: self.area * square,
+            volume: self.volume * cube,
+            centroid: self.centroid * factor,
+            inertia: self.inertia * fifth,
+            moments: self.moments * fifth,
+            dimensions: self.dimensions * factor,
+            dimensions_excess: self.dimensions_excess * factor,
+        }
+    }
 }
 
 /// Why there are no standard errors that could be trusted.
@@ -63,6 +79,8 @@ pub enum NoInterval {
     NotFinite,
     /// Squares of the figures are beyond the range of numbers.
     OutOfRange,
+    /// The surface turns over or crosses itself.
+    Crossing,
     /// The model is fitted to the points themselves, not to an estimate.
     NotEstimated,
 }

@@ -31,19 +31,19 @@ pub(crate) struct Figures {
 }
 
 /// Area, volume, centroid and inertia as a list, in this order.
-pub(super) type MassList = SVector<f64, INTEGRALS>;
+pub(in crate::fit) type MassList = SVector<f64, INTEGRALS>;
 
 /// Where the inertia stands in the list, in the order of [`PAIRS`].
-pub(super) const INERTIA: usize = 5;
+pub(in crate::fit) const INERTIA: usize = 5;
 
 /// Area, volume, centroid and inertia, and the principal axes if these are finite.
-pub(super) fn mass(moments: &Moments) -> (MassProperties, Option<PrincipalInertia>) {
+pub(in crate::fit) fn mass(moments: &Moments) -> (MassProperties, Option<PrincipalInertia>) {
     let mass = moments.about_centroid(&Point3::origin());
     (mass, mass.principal())
 }
 
 /// The derivatives of area, volume, centroid and inertia (rows) by the integrals (columns).
-pub(super) fn derivatives(at: &Moments) -> SMatrix<f64, INTEGRALS, INTEGRALS> {
+pub(in crate::fit) fn derivatives(at: &Moments) -> SMatrix<f64, INTEGRALS, INTEGRALS> {
     let centroid = at.first / at.volume;
     let mut all = SMatrix::<f64, INTEGRALS, INTEGRALS>::zeros();
     for column in 0..INTEGRALS {
@@ -65,7 +65,7 @@ pub(super) fn derivatives(at: &Moments) -> SMatrix<f64, INTEGRALS, INTEGRALS> {
 }
 
 /// The derivative of u' I w by the entries of the inertia tensor I, in the order of [`PAIRS`].
-pub(super) fn form(u: &Vector3<f64>, w: &Vector3<f64>) -> SVector<f64, 6> {
+pub(in crate::fit) fn form(u: &Vector3<f64>, w: &Vector3<f64>) -> SVector<f64, 6> {
     SVector::from_fn(|at, _| match PAIRS[at] {
         (i, j) if i == j => u[i] * w[i],
         (i, j) => u[i] * w[j] + u[j] * w[i],

@@ -28,10 +28,11 @@ use crate::sphere::RingGrid;
 use nalgebra::{Matrix3, SVector, Vector3};
 
 /// Area, volume, three first moments and six second moments, as a list.
-pub(super) const INTEGRALS: usize = 11;
+pub(in crate::fit) const INTEGRALS: usize = 11;
 
 /// Second moments of the list: xx, yy, zz, yz, xz, xy.
-pub(super) const PAIRS: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (1, 2), (0, 2), (0, 1)];
+pub(in crate::fit) const PAIRS: [(usize, usize); 6] =
+    [(0, 0), (1, 1), (2, 2), (1, 2), (0, 2), (0, 1)];
 
 /// Rings per degree. On a cement particle of degree 30 the area is then right to 1e-8, and with half as many to
 /// 1e-5; volume and moments, of polynomials of degree 5 L + 2, are exact from 2.5 rings per degree on, and right to
@@ -192,7 +193,7 @@ impl RingSurface {
 }
 
 /// Moments as a list.
-pub(super) fn list(moments: &Moments) -> SVector<f64, INTEGRALS> {
+pub(in crate::fit) fn list(moments: &Moments) -> SVector<f64, INTEGRALS> {
     let Moments {
         area,
         volume,
@@ -210,7 +211,7 @@ pub(super) fn list(moments: &Moments) -> SVector<f64, INTEGRALS> {
 }
 
 /// A list as moments.
-pub(super) fn unlist(list: &SVector<f64, INTEGRALS>) -> Moments {
+pub(in crate::fit) fn unlist(list: &SVector<f64, INTEGRALS>) -> Moments {
     let mut second = Matrix3::zeros();
     for (at, (i, j)) in PAIRS.into_iter().enumerate() {
         second[(i, j)] = list[5 + at];
@@ -225,7 +226,7 @@ pub(super) fn unlist(list: &SVector<f64, INTEGRALS>) -> Moments {
 }
 
 /// The sum of vectors of equal length times factors.
-pub(super) fn combined<'a>(
+pub(in crate::fit) fn combined<'a>(
     vectors: impl Iterator<Item = &'a Vec<f64>>,
     factors: impl Iterator<Item = &'a f64>,
 ) -> Vec<f64> {
@@ -239,7 +240,7 @@ pub(super) fn combined<'a>(
     sum
 }
 
-pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
+pub(in crate::fit) fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 

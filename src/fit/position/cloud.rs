@@ -3,6 +3,7 @@
 use super::foot::foot_step;
 use super::map::is_upright;
 use super::on_mesh::OnMesh;
+use super::on_sphere::{middles, spherical_area};
 use crate::mesh::Mesh;
 use crate::model::{Position, area_normal};
 use nalgebra::Vector3;
@@ -23,7 +24,7 @@ const HELD_OUT: usize = 8;
 
 /// Share of the weight of the vertices of a mesh that is only near the points: enough that functions between points are
 /// told, and not so much that its errors are.
-const NEAR_SHARE: f64 = 0.005;
+const NEAR_SHARE: f64 = 0.0005;
 
 /// Samples: the vertices of a mesh first, then places inside its large triangles, or the points that it is near.
 pub(super) struct Cloud<'a> {
@@ -145,7 +146,42 @@ impl<'a> Cloud<'a> {
 
     /// Whether a sample judges fits that do without it: a point of the scan, which places in triangles are not.
     pub(super) fn is_held_out(&self, sample: usize) -> bool {
-        self.is_left_out[sample] && (self.is_of_points || sample < self.vertices())
+        self.is_left_out[sample] && self.is_point(sample)
+    }
+
+    /// Whether a sample is a point of the scan, which places in triangles are not.
+    pub(super) fn is_point(&self, sample: usize) -> bool {
+        self.is_of_points == (sample >= self.vertices())
+    }
+
+    /// The points of the scan that a sample is made of, and their shares in it.
+    pub(super) fn points_of(&self, sample: usize) -> [(usize, f64); 3] {
+        match sample.checked_sub(self.vertices()) {
+            Some(inside) if !self.is_of_points => {
+                let OnMesh {
+                    triangle,
+                    barycentric,
+                } = self.inside[inside];
+                let corners = self.mesh.triangles[triangle];
+                std::array::from_fn(|i| (corners[i] as usize, barycentric[i]))
+            }
+            _ => [(sample, 1.0), (sample, 0.0), (sample, 0.0)],
+        }
+    }
+
+    /// Area of the mesh.
+    pub(super) fn area(&self) -> f64 {
+        self.doubled_areas().iter().sum::<f64>() / 2.0
+    }
+
+    fn doubled_areas(&self) -> Vec<f64> {
+        let triangles = self.mesh.triangles.iter();
+        triangles
+            .map(|corners| {
+                let [a, b, c] = corners.map(|corner| self.mesh.vertices[corner as usize]);
+                (b - a).cross(&(c - a)).norm()
+            })
+            .collect()
     }
 
     /// The number of vertices, the first of the samples.
@@ -212,15 +248,7 @@ impl<'a> Cloud<'a> {
         for place in self.inside.iter().filter(|_| !self.is_of_points) {
             inside[place.triangle] += 1;
         }
-        let areas: Vec<f64> = self
-            .mesh
-            .triangles
-            .iter()
-            .map(|corners| {
-                let [a, b, c] = corners.map(|corner| self.mesh.vertices[corner as usize]);
-                (b - a).cross(&(c - a)).norm()
-            })
-            .collect();
+        let areas = self.doubled_areas();
         let area: f64 = areas.iter().sum();
         let share = |triangle: usize| {
             let solid_angle = spherical_area(self.images(triangle)) / (4.0 * PI);
@@ -367,26 +395,4 @@ fn left_out(places: &[Vector3<f64>]) -> Vec<bool> {
         is_left_out[place] = true;
     }
     is_left_out
-}
-
-/// Solid angle of a triangle on the sphere.
-fn spherical_area([a, b, c]: [Vector3<f64>; 3]) -> f64 {
-    let volume = a.dot(&(b - a).cross(&(c - a)));
-    2.0 * volume.atan2(1.0 + a.dot(&b) + b.dot(&c) + c.dot(&a))
-}
-
-/// Barycentric coordinates of the middles of the parts when every edge is cut in so many.
-fn middles(parts: usize) -> Vec<[f64; 3]> {
-    let mut found = Vec::with_capacity(parts * parts);
-    for i in 0..parts {
-        for j in 0..parts - i {
-            let thirds: [&[usize]; 2] = [&[1], &[1, 2]];
-            for &third in thirds[usize::from(i + j + 1 < parts)] {
-                let place = |at: usize| (at as f64 + third as f64 / 3.0) / parts as f64;
-                let (s, t) = (place(i), place(j));
-                found.push([s, t, 1.0 - s - t]);
-            }
-        }
-    }
-    found
 }

@@ -22,11 +22,13 @@ const DIFFERENCE: f64 = 0.05;
 const WHOLE_PARTS: u16 = 3;
 
 /// The functions of a surface.
+#[derive(Debug, Clone)]
 pub(super) struct Functions {
     degree: usize,
     kind: Kind,
 }
 
+#[derive(Debug, Clone)]
 enum Kind {
     /// Harmonics of the whole sphere, as of one cell.
     Whole(HarmonicBasis),

@@ -6,7 +6,7 @@
 //! for what is left at the samples, which gains the digits that the first has lost.
 
 use super::functions::{Functions, Rows};
-use crate::fit::linear::BlockMatrix;
+use crate::fit::linear::{BlockFactor, BlockMatrix};
 use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, MatRef, Par};
 use nalgebra::{Matrix3, Vector3};
@@ -32,8 +32,8 @@ pub(super) struct Equations<'a> {
     pub(super) terms: &'a [Term],
 }
 
-/// The coefficients of least squares, per cell; `None` if nothing determines them.
-pub(super) fn solve(functions: &Functions, equations: &[Equations<'_>]) -> Option<Vec<Vec<f64>>> {
+/// The factored matrix of the equations; `None` if nothing determines the coefficients.
+fn factored(functions: &Functions, equations: &[Equations<'_>]) -> Option<BlockFactor> {
     let per_cell = functions.per_cell();
     let sizes = vec![3 * per_cell; functions.cell_count()];
     let mut matrix = BlockMatrix::new(sizes);
@@ -57,26 +57,23 @@ pub(super) fn solve(functions: &Functions, equations: &[Equations<'_>]) -> Optio
             block[(at, at)] += ridge;
         }
     }
-    let factor = matrix.factor()?;
-    let mut coefficients = vec![vec![0.0; 3 * per_cell]; functions.cell_count()];
+    matrix.factor()
+}
+
+/// The coefficients of least squares, per cell, and the factored matrix; `None` if nothing determines them.
+pub(super) fn solve(
+    functions: &Functions,
+    equations: &[Equations<'_>],
+) -> Option<(Vec<Vec<f64>>, BlockFactor)> {
+    let factor = factored(functions, equations)?;
+    let mut coefficients = vec![vec![0.0; 3 * functions.per_cell()]; functions.cell_count()];
     for _ in 0..PASSES {
-        let mut steps: Vec<Mat<f64>> = coefficients
-            .iter()
-            .map(|own| Mat::zeros(own.len(), 1))
-            .collect();
+        let mut steps = no_sums(functions, 1);
         for part in equations {
-            let gradients: Vec<Vec<f64>> = part
-                .rows
-                .par_iter()
-                .map(|rows| gradient(rows, part.terms, &coefficients, per_cell))
-                .collect();
-            for (rows, gradient) in part.rows.iter().zip(gradients) {
-                for (cell, own) in rows.cells.iter().zip(gradient.chunks_exact(3 * per_cell)) {
-                    let step = steps[usize::from(*cell)].col_as_slice_mut(0);
-                    step.iter_mut()
-                        .zip(own)
-                        .for_each(|(sum, value)| *sum += value);
-                }
+            let left = |rows: &Rows| left(rows, part.terms, &coefficients);
+            let left: Vec<Vec<Vector3<f64>>> = part.rows.par_iter().map(left).collect();
+            for (rows, left) in part.rows.iter().zip(left) {
+                add_adjoint(&mut steps, 0, rows, &left);
             }
         }
         factor.solve(&mut steps);
@@ -87,7 +84,12 @@ pub(super) fn solve(functions: &Functions, equations: &[Equations<'_>]) -> Optio
         }
     }
     let is_finite = coefficients.iter().flatten().all(|c| c.is_finite());
-    is_finite.then_some(coefficients)
+    is_finite.then_some((coefficients, factor))
+}
+
+/// Zeros for each coefficient, cell by cell, in so many columns.
+pub(super) fn no_sums(functions: &Functions, columns: usize) -> Vec<Mat<f64>> {
+    vec![Mat::zeros(3 * functions.per_cell(), columns); functions.cell_count()]
 }
 
 /// The pairs of coordinates, each once.
@@ -165,35 +167,42 @@ fn scatter(
     }
 }
 
-/// B^T T (target - B c) of some rows, cell after cell.
-fn gradient(rows: &Rows, terms: &[Term], coefficients: &[Vec<f64>], per_cell: usize) -> Vec<f64> {
-    let height = rows.members.len();
-    let mut left: Vec<Vector3<f64>> = rows
-        .members
-        .iter()
-        .map(|member| terms[*member as usize].target)
-        .collect();
-    let triples = rows.cells.iter().flat_map(|cell| {
-        let (triples, _) = coefficients[usize::from(*cell)].as_chunks::<3>();
-        triples
-    });
-    for (column, triple) in rows.values.chunks_exact(height).zip(triples) {
+/// T (target - B c) of each of some rows.
+fn left(rows: &Rows, terms: &[Term], coefficients: &[Vec<f64>]) -> Vec<Vector3<f64>> {
+    let triples = |cell: u16| coefficients[usize::from(cell)].as_chunks().0;
+    let fitted = values(rows, triples).into_iter().zip(&rows.members);
+    fitted
+        .map(|(fitted, member)| {
+            let Term { target, weight } = &terms[*member as usize];
+            weight * (target - fitted)
+        })
+        .collect()
+}
+
+/// B c, of each of some rows, with the coefficients of each cell.
+pub(super) fn values<'a>(
+    rows: &Rows,
+    triples: impl Fn(u16) -> &'a [[f64; 3]],
+) -> Vec<Vector3<f64>> {
+    let mut found = vec![Vector3::zeros(); rows.members.len()];
+    let triples = rows.cells.iter().flat_map(|&cell| triples(cell));
+    for (column, triple) in rows.values.chunks_exact(found.len()).zip(triples) {
         let triple = Vector3::from(*triple);
-        for (left, value) in left.iter_mut().zip(column) {
-            *left -= triple * *value;
+        for (found, value) in found.iter_mut().zip(column) {
+            *found += triple * *value;
         }
     }
-    for (left, member) in left.iter_mut().zip(&rows.members) {
-        *left = terms[*member as usize].weight * *left;
-    }
-    let mut found = Vec::with_capacity(3 * rows.cells.len() * per_cell);
-    for column in rows.values.chunks_exact(height) {
-        let sum: Vector3<f64> = column
-            .iter()
-            .zip(&left)
-            .map(|(value, left)| left * *value)
-            .sum();
-        found.extend_from_slice(sum.as_slice());
-    }
     found
+}
+
+/// Adds B^T v to a column of sums, v having an entry for each of some rows.
+pub(super) fn add_adjoint(sums: &mut [Mat<f64>], column: usize, rows: &Rows, v: &[Vector3<f64>]) {
+    let per_cell = rows.values.len() / (v.len() * rows.cells.len());
+    let functions = rows.values.chunks_exact(v.len()).enumerate();
+    for (at, values) in functions {
+        let sum: Vector3<f64> = values.iter().zip(v).map(|(value, v)| v * *value).sum();
+        let (cell, function) = (usize::from(rows.cells[at / per_cell]), at % per_cell);
+        let own = &mut sums[cell].col_as_slice_mut(column)[3 * function..][..3];
+        own.iter_mut().zip(&sum).for_each(|(own, sum)| *own += sum);
+    }
 }

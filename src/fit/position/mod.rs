@@ -5,17 +5,21 @@
 //! [rounds](rounds) that also move the directions; cells are [split](search) where the distance asks for it.
 
 mod cloud;
+mod errors;
 mod foot;
+mod functionals;
 mod functions;
 mod least_squares;
 pub(crate) mod map;
 mod on_mesh;
+mod on_sphere;
 mod rounds;
 mod search;
 
 use super::context::Context;
 use super::crust::surface_of_points;
 use super::error::FitError;
+use super::estimate::{NoInterval, StandardErrors};
 use super::options::{FitOptions, Tolerance};
 use super::prepare::{Reference, ReferenceKind, principal_axes, scanned_surface, usable};
 use super::warning::FitWarning;
@@ -52,6 +56,8 @@ pub struct PositionFit {
     pub turned_over: usize,
     /// Pairs of triangles of the surface's mesh that cross.
     pub crossings: usize,
+    /// Standard errors of its figures.
+    pub errors: Result<StandardErrors, NoInterval>,
     /// What a user should know of the scan.
     pub warnings: Vec<FitWarning>,
 }
@@ -142,6 +148,7 @@ pub fn fit_position(
         roughness: fitted.roughness,
         turned_over,
         crossings,
+        errors: fitted.errors.map(|errors| errors.times(radius)),
         warnings,
     })
 }

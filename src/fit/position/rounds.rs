@@ -6,9 +6,12 @@
 //! from folding; its weight is the one with which samples that are held out are met best.
 
 use super::cloud::{Cloud, Distances};
+use super::errors::Solved;
 use super::functions::{Functions, Rows};
 use super::least_squares::{Equations, Term, solve};
 use crate::fit::context::{Cancelled, Context};
+use crate::fit::estimate::{NoInterval, StandardErrors};
+use crate::fit::linear::BlockFactor;
 use crate::measure::crossings;
 use crate::mesh::Mesh;
 use crate::model::Position;
@@ -57,6 +60,8 @@ pub(super) struct Fitted {
     pub(super) roughness: f64,
     /// Samples at which the surface is turned over, and pairs of triangles of its mesh that cross.
     pub(super) faults: [usize; 2],
+    /// Of its figures.
+    pub(super) errors: Result<StandardErrors, NoInterval>,
 }
 
 impl<'a> Problem<'a> {
@@ -73,10 +78,23 @@ impl<'a> Problem<'a> {
         &self,
         cloud: &Cloud<'_>,
         rows: &[Rows],
-        [normal, any]: [f64; 2],
+        weights: [f64; 2],
         roughness: f64,
         used: Used,
     ) -> Option<Position> {
+        let fitted = self.fit_factored(cloud, rows, weights, roughness, used);
+        fitted.map(|(surface, _)| surface)
+    }
+
+    /// The same, and the factored matrix of the least squares.
+    fn fit_factored(
+        &self,
+        cloud: &Cloud<'_>,
+        rows: &[Rows],
+        [normal, any]: [f64; 2],
+        roughness: f64,
+        used: Used,
+    ) -> Option<(Position, BlockFactor)> {
         let term = |at: usize| {
             let is_used = used == Used::All || !cloud.is_left_out[at];
             let weight = if is_used { cloud.weights[at] } else { 0.0 };
@@ -103,9 +121,8 @@ impl<'a> Problem<'a> {
                 terms: &smooth,
             },
         ];
-        self.functions
-            .surface(solve(self.functions, &equations)?)
-            .ok()
+        let (coefficients, factor) = solve(self.functions, &equations)?;
+        Some((self.functions.surface(coefficients).ok()?, factor))
     }
 
     /// The functions at the samples.
@@ -184,14 +201,31 @@ impl<'a> Problem<'a> {
         }
         let rows = self.rows(cloud);
         let weights = [1.0, LAST_ACROSS];
-        let fit = |used: Used| self.fit(cloud, &rows, weights, roughness, used);
-        let (Some(surface), Some(other)) = (fit(Used::All), fit(Used::NotLeftOut)) else {
+        let fit = |used: Used| self.fit_factored(cloud, &rows, weights, roughness, used);
+        let (Some((surface, factor)), Some((other, _))) = (fit(Used::All), fit(Used::NotLeftOut))
+        else {
             return Ok(None);
         };
         let (distances, _) = cloud.distances(&surface, |at| cloud.is_scanned(at));
         let (held_out, _) = cloud.distances(&other, |at| cloud.is_held_out(at));
+        let faults = [cloud.turned_over(&surface), crossing_pairs(&surface)];
+        let errors = match faults {
+            [0, 0] => Solved {
+                functions: self.functions,
+                surface: &surface,
+                other: &other,
+                factor: &factor,
+                rows: &rows,
+                cloud,
+                rms: [distances.rms, held_out.rms],
+                roughness,
+            }
+            .errors(),
+            _ => Err(NoInterval::Crossing),
+        };
         Ok(Some(Fitted {
-            faults: [cloud.turned_over(&surface), crossing_pairs(&surface)],
+            faults,
+            errors,
             surface,
             distances,
             held_out,

@@ -2,6 +2,9 @@ use super::functions::Functions;
 use super::map::MapError;
 use super::rounds::crossing_pairs;
 use super::*;
+use crate::measure::grain_properties;
+use crate::model::PositionGrain;
+use crate::shapes::{Curled, CurledOptions, synthesize_curled};
 use crate::sphere::{CubeCell, GaussLegendre, coefficient_count, cube_grid, harmonics};
 use approx::assert_relative_eq;
 use nalgebra::{Rotation3, Vector3};
@@ -135,6 +138,29 @@ fn roughness_is_that_of_harmonics_in_closed_form() {
             "{j}: {sum} {expected}"
         );
     }
+}
+
+/// A mean over the surface is known as well as the mean of so many points: the volume to the noise times the area over
+/// the root of their number.
+#[test]
+fn errors_are_those_of_noise_and_hold_the_truth() {
+    let (count, noise) = (3000, 0.005);
+    let noisy = CurledOptions::clean(Curled::Banana).with_noise(noise);
+    let seen = synthesize_curled(&noisy.with_points(count)).unwrap();
+    let scan = Scan::from_points(seen.mesh.vertices);
+    let fit = fit_position(&scan, &FitOptions::default(), &Context::default()).unwrap();
+    let errors = fit.errors.unwrap();
+    let grain = PositionGrain::new(fit.frame, fit.surface).unwrap();
+    let [found, truth] = [grain_properties(&grain).properties, seen.truth.properties];
+    let of_mean = noise * fit.radius * truth.area / (count as f64).sqrt();
+    assert!(
+        (0.7..2.5).contains(&(errors.volume / of_mean)),
+        "{errors:?}"
+    );
+    assert!((found.volume - truth.volume).abs() < 3.0 * errors.volume);
+    assert!((found.area - truth.area).abs() < 3.0 * errors.area);
+    let [one, other] = [found, truth].map(|solid| solid.principal().unwrap().moments);
+    assert!((one - other).component_div(&errors.moments).amax() < 3.0);
 }
 
 /// A surface with the coordinates of a function of degree 3 or less.

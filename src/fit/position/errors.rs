@@ -1,0 +1,278 @@
+//! Standard errors of a surface's figures.
+//!
+//! A figure that changes by g'dc with the coefficients c has, to first order, the error
+//!
+//! ```text
+//! sum over points of  psi = w (n.B z) e,     A z = g
+//! ```
+//!
+//! with A the matrix of the least squares, B z the move of the surface under a point of weight w, n its normal and e its
+//! distance: one solution per figure. Errors of points are independent of each other, but need not be alike: the
+//! variance is the sum of squares of psi (Huber 1967, White 1980), as much larger as held-out points are farther off than
+//! fitted ones. To it are added, as squares,
+//!
+//! - the change of the figure if the surface moved to the points, for the penalty on roughness and too few functions
+//!   leave more than noise; and the same of held-out points, which see what the surface does between the others, as far
+//!   as it is more than they scatter;
+//! - what is [not resolved](Solved::unresolved): a tenth of it is taken to have the same sign everywhere;
+//! - of the area what second order brings: ripples of noise that the surface has, and of the grain that it has not;
+//! - of extents that the highest of many ripples is higher than the surface.
+//!
+//! There are none of a surface that crosses itself.
+
+use super::cloud::Cloud;
+use super::functionals::{FIGURES, Figures, Functionals, by_move};
+use super::functions::{Functions, Rows};
+use super::least_squares::values;
+use crate::fit::estimate::figures::{INERTIA, derivatives, form, mass};
+use crate::fit::estimate::functionals::{INTEGRALS, unlist};
+use crate::fit::estimate::{NoInterval, StandardErrors};
+use crate::fit::linear::BlockFactor;
+use crate::fit::neighbours::Neighbours;
+use crate::measure::PrincipalInertia;
+use crate::model::Position;
+use nalgebra::{Matrix3, Matrix6, SMatrix, SVector, Vector3};
+use std::f64::consts::PI;
+
+/// A fit whose errors are asked for, of a body of about radius 1.
+pub(super) struct Solved<'a> {
+    pub(super) functions: &'a Functions,
+    pub(super) surface: &'a Position,
+    /// The surface without the points held out.
+    pub(super) other: &'a Position,
+    /// The factored matrix of the least squares, and its rows at the samples.
+    pub(super) factor: &'a BlockFactor,
+    pub(super) rows: &'a [Rows],
+    pub(super) cloud: &'a Cloud<'a>,
+    /// Root mean squares of the distances of points, and of those held out.
+    pub(super) rms: [f64; 2],
+    /// Weight of the roughness.
+    pub(super) roughness: f64,
+}
+
+/// Least standard errors, relative.
+const FLOOR: f64 = 2e-5;
+
+/// Share of what is not resolved that has one sign all over the surface: of bodies whose truth is known at most a fifth.
+const ONE_SIDED: f64 = 0.1;
+
+/// Squared slopes of ripples over those of functions that fill a band of wavelengths evenly: of the noise that blended
+/// cells follow, and of what they leave. Measured on bodies whose truth is known.
+const STEEPER_NOISE: f64 = 3.0;
+const STEEPER_REST: f64 = 2.0;
+
+impl Solved<'_> {
+    /// The standard errors of a surface's figures.
+    pub(super) fn errors(&self) -> Result<StandardErrors, NoInterval> {
+        let functionals =
+            Functionals::new(self.functions, self.surface).ok_or(NoInterval::NotFinite)?;
+        let distances = self.distances(self.surface);
+        let covariance = self.covariance(&functionals, &distances);
+        let unresolved = self.unresolved(&distances);
+
+        let (best, _) = mass(&functionals.moments);
+        let jacobian = derivatives(&functionals.moments);
+        let block = covariance.fixed_view::<INTEGRALS, INTEGRALS>(0, 0);
+        let mut of_mass = jacobian * block * jacobian.transpose();
+        of_mass += self.left(&jacobian, &distances, unresolved);
+        of_mass[(0, 0)] += self.ripples(unresolved).iter().map(|x| x * x).sum::<f64>();
+        let errors = unlist(&of_mass.diagonal());
+        let axes = &functionals.principal.axes;
+        let inertia = of_mass.fixed_view::<6, 6>(INERTIA, INERTIA);
+        let moments = Vector3::from_fn(|i, _| {
+            let axis = axes.column(i).into_owned();
+            let form = form(&axis, &axis);
+            form.dot(&(inertia * form))
+        });
+        let dimensions = Vector3::from_fn(|i, _| {
+            let (extent, range) = extent(&functionals, &jacobian, &inertia.into_owned(), i);
+            let higher = functionals.ends[i].iter().map(|end| {
+                let variance = covariance[(end.figure, end.figure)].max(0.0);
+                let sd = (variance + unresolved * unresolved).sqrt();
+                let rivals =
+                    functionals.share_within(2.0 * sd, end) * self.functions.count() as f64;
+                sd * (2.0 * rivals.max(1.0).ln()).sqrt() + unresolved
+            });
+            let higher: f64 = higher.sum();
+            let floor = FLOOR * functionals.length(i);
+            let squares = higher * higher + range * range + floor * floor;
+            extent.dot(&(covariance * extent)) + squares
+        });
+        let root = |x: f64| x.max(0.0).sqrt();
+        Ok(StandardErrors {
+            area: root(errors.area).hypot(FLOOR * best.area),
+            volume: root(errors.volume).hypot(FLOOR * best.volume),
+            centroid: errors.first.map(root),
+            inertia: errors.second.map(root),
+            moments: moments.map(root),
+            dimensions: dimensions.map(root),
+            dimensions_excess: Vector3::zeros(),
+        })
+    }
+
+    /// Distances of the samples from a surface, along the normals of the scan.
+    fn distances(&self, surface: &Position) -> Vec<f64> {
+        let cloud = self.cloud;
+        let found = surface.points_and_tangents(&cloud.directions);
+        let distance = |(at, (point, _)): (usize, &(Vector3<f64>, Matrix3<f64>))| {
+            cloud.normals[at].dot(&(cloud.points[at] - point))
+        };
+        found.iter().enumerate().map(distance).collect()
+    }
+
+    /// Distances of held-out points over those of fitted ones.
+    fn held_out(&self) -> f64 {
+        (self.rms[1] / self.rms[0]).max(1.0)
+    }
+
+    /// Of the figures, by the errors of points.
+    fn covariance(
+        &self,
+        functionals: &Functionals,
+        distances: &[f64],
+    ) -> SMatrix<f64, FIGURES, FIGURES> {
+        let cloud = self.cloud;
+        let mut solved = functionals.gradients(self.functions);
+        self.factor.solve(&mut solved);
+        let mut influences = vec![Figures::zeros(); cloud.points.len()];
+        for rows in self.rows {
+            for figure in 0..FIGURES {
+                let of_cell =
+                    |cell: u16| solved[usize::from(cell)].col_as_slice(figure).as_chunks().0;
+                for (value, &member) in values(rows, of_cell).iter().zip(&rows.members) {
+                    let at = member as usize;
+                    let share = cloud.weights[at] * cloud.normals[at].dot(value);
+                    for (point, part) in cloud.points_of(at) {
+                        influences[point][figure] += part * share * distances[at];
+                    }
+                }
+            }
+        }
+        let sum: SMatrix<f64, FIGURES, FIGURES> =
+            influences.iter().map(|psi| psi * psi.transpose()).sum();
+        sum * self.held_out().powi(2)
+    }
+
+    /// Squares and products of the changes of the figures if the surface moved to the samples, to those held out, or to
+    /// what is not resolved; `jacobian` leads from the integrals to the figures.
+    fn left(
+        &self,
+        jacobian: &SMatrix<f64, INTEGRALS, INTEGRALS>,
+        distances: &[f64],
+        unresolved: f64,
+    ) -> SMatrix<f64, INTEGRALS, INTEGRALS> {
+        let cloud = self.cloud;
+        let without = self.distances(self.other);
+        let (mut fitted, mut even, mut held_out) =
+            (SVector::zeros(), SVector::zeros(), SVector::zeros());
+        let mut scatter = SMatrix::zeros();
+        let mut weights = [0.0; 2];
+        for at in (0..distances.len()).filter(|&at| cloud.is_scanned(at)) {
+            let n = &cloud.directions[at];
+            let change = jacobian * by_move(n, &self.surface.derivatives(n)) * cloud.weights[at];
+            weights[0] += cloud.weights[at];
+            fitted += change * distances[at];
+            even += change;
+            if cloud.is_held_out(at) {
+                let moved = change * without[at];
+                weights[1] += cloud.weights[at];
+                held_out += moved;
+                scatter += moved * moved.transpose();
+            }
+        }
+        let [all, some] = weights.map(|weight| cloud.area() / weight);
+        let square = |x: SVector<f64, INTEGRALS>| x * x.transpose();
+        let mut squares = square(fitted * (all * self.held_out()));
+        squares += square(even * (all * ONE_SIDED * unresolved));
+        let beyond = (square(held_out) - scatter) * (some * some);
+        for at in 0..INTEGRALS {
+            squares[(at, at)] += beyond[(at, at)].max(0.0);
+        }
+        squares
+    }
+
+    /// Functions of which the roughness leaves the points to decide.
+    fn told(&self) -> f64 {
+        let root = self.roughness.sqrt();
+        (root * self.functions.count() as f64).atan() / root
+    }
+
+    /// Root mean square of what functions between the points would still tell: by how much neighbours are off
+    /// together, or held-out points are farther off than noise of the size of what is left would be.
+    fn unresolved(&self, distances: &[f64]) -> f64 {
+        let cloud = self.cloud;
+        let points = (0..cloud.points.len()).filter(|&at| cloud.is_point(at));
+        let (directions, distances): (Vec<_>, Vec<_>) = points
+            .map(|at| (cloud.directions[at], distances[at]))
+            .unzip();
+        let near = Neighbours::new(&directions);
+        let (mut squares, mut products) = (0.0, 0.0);
+        for (own, n) in directions.iter().enumerate() {
+            let other = near.nearest(n, 2).into_iter().find(|&other| other != own);
+            squares += distances[own] * distances[own];
+            products += distances[own] * distances[other.unwrap_or(own)];
+        }
+        let count = distances.len() as f64;
+        let spent = (self.told() / count).min(MOST_SPENT);
+        let together = (products + squares * spent) / count;
+        let [fitted, held_out] = self.rms.map(|rms| rms * rms);
+        let spent_without = spent / HELD_IN;
+        let of_noise = fitted * (1.0 + spent_without) / (1.0 - spent);
+        let scatter = held_out * (2.0 / ((1.0 - HELD_IN) * count)).sqrt();
+        together.max(held_out - of_noise - scatter).max(0.0).sqrt()
+    }
+
+    /// By what the area is larger for the ripples of noise, and smaller for those of the grain. A band of functions on an
+    /// area S has 4 pi / S times their number as largest squared wavenumber, and half of it as mean.
+    fn ripples(&self, unresolved: f64) -> [f64; 2] {
+        let functions = self.functions.count() as f64;
+        let followed = functions * functions / (1.0 + self.roughness * functions * functions);
+        let points = self.cloud.scan_points() as f64;
+        let noise = PI * self.rms[0] * self.rms[0] * followed / points;
+        let rest = 2.0 * PI * unresolved * unresolved * self.told();
+        [STEEPER_NOISE * noise, STEEPER_REST * rest]
+    }
+}
+
+/// Share of the points that are not held out.
+const HELD_IN: f64 = 7.0 / 8.0;
+
+/// Largest share of the points' freedom that functions are taken to spend.
+const MOST_SPENT: f64 = 0.7;
+
+/// Axes whose turn has a larger standard deviation, in radians, have no direction of their own, ...
+const LARGEST_TURN: f64 = 0.1;
+
+/// ... and an extent along them has this share of the range of extents as standard error: it may be told at one end
+/// and be at the other.
+const OF_RANGE: f64 = 0.6;
+
+/// The change of an extent with the figures, for its ends move, and its axis turns with the inertia, the entries of which
+/// have a covariance; and the error of an axis that may lie anywhere.
+fn extent(
+    functionals: &Functionals,
+    jacobian: &SMatrix<f64, INTEGRALS, INTEGRALS>,
+    inertia: &Matrix6<f64>,
+    axis: usize,
+) -> (Figures, f64) {
+    let PrincipalInertia { moments, axes } = &functionals.principal;
+    let span = functionals.span(axis);
+    let (mut by_inertia, mut range) = (SVector::<f64, 6>::zeros(), 0.0_f64);
+    for other in (0..3).filter(|&other| other != axis) {
+        let [own, across] = [axis, other].map(|i| axes.column(i).into_owned());
+        let (form, gap) = (form(&across, &own), moments[axis] - moments[other]);
+        let sd = form.dot(&(inertia * form)).max(0.0).sqrt();
+        if sd < LARGEST_TURN * gap.abs() {
+            by_inertia += form * (span.dot(&across) / gap);
+        } else {
+            range = range.hypot(OF_RANGE * functionals.range(axis, other));
+        }
+    }
+    let mut change = Figures::zeros();
+    let turn = jacobian.fixed_rows::<6>(INERTIA).transpose() * by_inertia;
+    change.fixed_rows_mut::<INTEGRALS>(0).copy_from(&turn);
+    for end in &functionals.ends[axis] {
+        change[end.figure] = 1.0;
+    }
+    (change, range)
+}
