@@ -35,9 +35,14 @@ const FACTORED: f64 = 0.45;
 /// ... but only of clouds up to this size, whose matrices of degree 36 take 30 ms.
 const MOST_FACTORED: usize = 3000;
 
-/// Whether the matrix of so many points should be formed and factored.
+/// Whether the matrix of so many points may be formed and factored.
+pub(super) fn is_small(points: usize) -> bool {
+    points <= MOST_FACTORED
+}
+
+/// Whether it must be.
 pub(super) fn is_factored(points: usize, degree: usize) -> bool {
-    points <= MOST_FACTORED && coefficient_count(degree) as f64 > FACTORED * points as f64
+    is_small(points) && coefficient_count(degree) as f64 > FACTORED * points as f64
 }
 
 impl<'a> Posterior<'a> {
