@@ -78,6 +78,16 @@ impl Subject {
         })
     }
 
+    /// A scan of which nothing else is known.
+    pub fn unknown(name: String, scan: Scan) -> Self {
+        Self {
+            name,
+            scan,
+            truth: None,
+            hidden: Vec::new(),
+        }
+    }
+
     /// The subject with one point in ten, at random, hidden. Triangles are lost with them.
     #[must_use]
     pub fn with_hidden_points(self) -> Self {

@@ -71,12 +71,7 @@ fn read(paths: &[PathBuf], input: &InputArgs) -> Result<Vec<Subject>> {
         let scan = inputs::scan(path, input)?;
         let name = inputs::name(path);
         PreparedScan::new(&scan, Symmetry::NONE).with_context(|| format!("cannot fit {name}"))?;
-        Ok(Subject {
-            name,
-            scan,
-            truth: None,
-            hidden: Vec::new(),
-        })
+        Ok(Subject::unknown(name, scan))
     };
     paths.iter().map(subject).collect()
 }

@@ -170,11 +170,7 @@ fn search(scan: &Scan, name: &str) -> Result<SearchPart> {
 
 /// Fits all families of models on one thread.
 fn costs(scan: &Scan, name: &str) -> Result<BenchPart> {
-    let subject = bench::Subject {
-        name: name.into(),
-        scan: scan.clone(),
-        truth: None,
-    };
+    let subject = bench::Subject::unknown(name.into(), scan.clone());
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build();
     let run = || bench::run(&subject, &|_, _, _| ());
     let scan = pool.context("cannot start a thread")?.install(run)?;

@@ -48,10 +48,9 @@ use crate::sphere::{ScatteredHarmonics, coefficient_count};
 use cloud::Cloud;
 use map::rounder;
 use nalgebra::Vector3;
-use outcome::variance;
 use outliers::{ROUNDS, alone};
 use patches::{Patches, WHOLE_CLOUD};
-use posterior::{Posterior, is_factored};
+use posterior::{Posterior, is_factored, is_small};
 use rayon::prelude::*;
 use spectrum_fit::{Count, SpectrumFit, fit_spectrum};
 use std::sync::Arc;
@@ -59,13 +58,6 @@ use stopping::SETTLED;
 
 /// Degrees that are tried one after the other, as long as the last degrees carry something.
 const DEGREES: [usize; 5] = [36, 48, 60, 72, 80];
-
-/// The last degrees carry something when the surface they make is larger, as RMS, than this share of the standard
-/// deviation of the estimate ...
-const TAIL: f64 = 0.1;
-
-/// ... and than this share of the mean radius.
-const LEAST_TAIL: f64 = 2e-5;
 
 /// Degrees that count as last.
 const LAST_DEGREES: usize = 4;
@@ -92,16 +84,21 @@ pub(crate) fn estimate(
     let first = first_degree(reduced.len());
     let rounder = rounder(reduced, counts, axes, first, context)?;
     let (mut cloud, start) = (rounder.cloud, rounder.fit);
-    let mut degree = first;
+    let mut fit = start;
+    let compared = fit.sums.degree();
+    let mut degree = match is_small(cloud.len()) && fit.is_enough() {
+        true => compared,
+        false => first,
+    };
+    fit.spectrum = fit.spectrum.raised(compared, degree);
     let mut outliers = patches.as_ref().map_or(rounder.outliers, Patches::left_out);
     let mut rounds = 0;
     let mut lower: Option<(usize, SpectrumFit)> = None;
-    let mut fit = start;
     // The comparison of maps may have found the exact likelihood at this degree.
-    let mut is_found = fit.factor.is_some() && fit.coefficients.len() == coefficient_count(degree);
+    let mut is_found = fit.factor.is_some() && compared == first;
     loop {
         context.check()?;
-        let is_factored = is_factored(&cloud, degree);
+        let is_factored = is_small(cloud.len()) || is_factored(&cloud, degree);
         let posterior = match is_found {
             true => Posterior::with(&cloud, Arc::clone(&fit.sums)),
             false => Posterior::new(&cloud, degree, is_factored),
@@ -176,9 +173,8 @@ fn next_degree(
     }
     let from = (degree + 1 - LAST_DEGREES).pow(2);
     let tail: f64 = fit.coefficients[from..].iter().map(|x| x * x).sum();
-    let variance = variance(&fit.spectrum, &fit.unlearnt);
-    let sphere = 4.0 * std::f64::consts::PI;
-    (tail / sphere > (TAIL * TAIL * variance).max(LEAST_TAIL * LEAST_TAIL)).then_some(next)
+    let tail = tail / (4.0 * std::f64::consts::PI);
+    (!fit.hides(tail)).then_some(next)
 }
 
 /// Points evaluated at once.

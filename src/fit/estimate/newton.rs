@@ -68,6 +68,11 @@ impl Newton {
         }
     }
 
+    /// By how much the step to the next place should lower the cost.
+    pub(crate) fn promise(&self) -> f64 {
+        self.promise
+    }
+
     /// Takes note of a place and tells where to look next.
     pub(crate) fn next(&mut self, place: Place) -> Next {
         if let Some(best) = self.best {

@@ -35,6 +35,14 @@ const FACTORED: f64 = 0.45;
 /// ... but only up to this degree, of which it takes 30 ms.
 const MOST_FACTORED: usize = 36;
 
+/// Points up to which it is formed whatever the degree.
+const SMALL: usize = 3000;
+
+/// Whether the matrix of so many points may be formed and factored.
+pub(super) fn is_small(points: usize) -> bool {
+    points <= SMALL
+}
+
 /// Whether the matrix of a cloud should be formed and factored.
 pub(super) fn is_factored(cloud: &Cloud, degree: usize) -> bool {
     degree <= MOST_FACTORED && coefficient_count(degree) as f64 > FACTORED * cloud.even_len()

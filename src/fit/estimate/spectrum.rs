@@ -28,6 +28,9 @@ pub(crate) const STEPS: [f64; 4] = [4.0, 0.5, 0.7, 1.5];
 /// of proportions as of a grain of which nothing is known (the middle of the hyperprior).
 const FREE: [f64; 3] = [100.0, 1.0, 0.06];
 
+/// Least share of the noise's variance that is left when a higher degree takes its part.
+const LEAST_LEFT: f64 = 0.5;
+
 impl Spectrum {
     /// Where a search starts: the slope and knee of a kernel, noise of one percent.
     pub(crate) fn start() -> Self {
@@ -54,6 +57,28 @@ impl Spectrum {
     /// The exponent of the power law that the variances end in: v_l ~ l^-slope.
     pub(crate) fn slope(&self) -> f64 {
         2.0 * self.0[1].exp()
+    }
+
+    /// The same for an expansion of a higher degree: what that adds was noise to the lower one, unless it would be most
+    /// of it, more than such a spectrum can tell.
+    pub(crate) fn raised(&self, from: usize, to: usize) -> Self {
+        let [pivot, exponent, knee, noise] = self.0;
+        let left = 1.0 - self.power(from, to) / self.noise().powi(2);
+        let noise = match left > LEAST_LEFT {
+            true => noise + 0.5 * left.ln(),
+            false => noise,
+        };
+        Self([pivot, exponent, knee, noise])
+    }
+
+    /// Expected square of what the degrees above `from`, up to `to`, add to the radius.
+    pub(crate) fn power(&self, from: usize, to: usize) -> f64 {
+        let variances = self.variances(to).into_iter().enumerate();
+        let sum: f64 = variances
+            .skip(from + 1)
+            .map(|(l, v)| (2 * l + 1) as f64 * v)
+            .sum();
+        sum / (4.0 * std::f64::consts::PI)
     }
 
     /// v_l of degrees 0 to `degree`.

@@ -7,6 +7,7 @@
 use super::dense::Factor;
 use super::likelihood::{Evidence, hyperprior, hyperprior_curvature, positive};
 use super::newton::{Newton, Next, Place};
+use super::outcome::variance;
 use super::posterior::{Conditioned, Posterior};
 use super::spectrum::Spectrum;
 use super::stopping::SETTLED as MEAN_SETTLED;
@@ -18,6 +19,9 @@ const MOST_ROUNDS: usize = 40;
 
 /// Where the cost may fall by more than this per point, second derivatives say little.
 const FAR: f64 = 0.2;
+
+/// Beyond this degree nothing is expected.
+const HIGHEST: usize = 80;
 
 /// A spectrum and the coefficients under it.
 #[derive(Debug, Clone)]
@@ -33,6 +37,26 @@ pub(crate) struct SpectrumFit {
     pub(crate) sums: Arc<Sums>,
     /// The factored matrix, where it is factored.
     pub(crate) factor: Option<Arc<Factor>>,
+}
+
+/// A surface is small when it is so, as RMS, beside this share of the standard deviation of the estimate ...
+const SMALL: f64 = 0.1;
+
+/// ... or beside this share of the mean radius.
+const SMALLEST: f64 = 2e-5;
+
+impl SpectrumFit {
+    /// Whether a surface of so large a mean square is small beside the error of the estimate.
+    pub(crate) fn hides(&self, square: f64) -> bool {
+        let variance = variance(&self.spectrum, &self.unlearnt);
+        square <= (SMALL * SMALL * variance).max(SMALLEST * SMALLEST)
+    }
+
+    /// Whether the prior expects nothing to speak of beyond its degree.
+    pub(crate) fn is_enough(&self) -> bool {
+        let variance = variance(&self.spectrum, &self.unlearnt);
+        self.spectrum.power(self.sums.degree(), HIGHEST) <= SMALL * SMALL * variance
+    }
 }
 
 /// How the number of measurements per degree is told where no matrix is factored.
@@ -51,10 +75,8 @@ pub(crate) fn fit_spectrum(
     coefficients: Option<Vec<f64>>,
     count: Count,
 ) -> SpectrumFit {
-    let points = posterior.cloud.len() as f64;
-    let mut spectrum = start;
     let is_warm = coefficients.is_some();
-    let mut coefficients = coefficients;
+    let (mut spectrum, mut coefficients) = (start, coefficients);
     // From the coefficients of a lower degree the spectrum is nearly right, and better than an even cloud's.
     let mut counted = match posterior.is_factored() || is_warm {
         true => count,
@@ -63,48 +85,14 @@ pub(crate) fn fit_spectrum(
     let mut newton: Option<Newton> = None;
     let mut is_last = false;
     for round in 1.. {
-        let given = posterior.given(&spectrum);
-        let (mean, _) = given.mean(coefficients.as_deref(), MEAN_SETTLED);
-        let Told {
-            evidence,
-            unlearnt,
-            gradient,
-        } = told(posterior, &given, &spectrum, &mean, counted);
-        let value = evidence.value(&spectrum).0;
-        let prior = hyperprior(points, &spectrum).0;
-        let cost = given.cost(&mean).map(|cost| cost + prior);
-        let proposal = evidence.most_likely(&spectrum);
-        let is_near = proposal.1 < FAR * points;
-        let information = is_near
-            .then(|| given.information(&spectrum, &mean))
-            .flatten();
-        let place = Place {
-            spectrum,
-            cost,
-            gradient: gradient.into(),
-            information: information
-                .map(|known| positive(&(known + hyperprior_curvature(points, &spectrum)))),
-            proposal,
-        };
-        let search = newton.get_or_insert_with(|| Newton::new(evidence.curvature(&spectrum)));
+        let look = Look::new(posterior, &spectrum, coefficients.as_deref(), counted);
+        let search = newton.get_or_insert_with(|| look.search());
         let next = match is_last || round >= MOST_ROUNDS {
             true => Next::Here,
-            false => search.next(place),
+            false => search.next(look.place),
         };
-        if counted == count && matches!(next, Next::Here) {
-            return SpectrumFit {
-                cost: cost.unwrap_or(value) - posterior.cloud.compression,
-                spectrum,
-                coefficients: mean,
-                unlearnt: match count {
-                    Count::Probed if given.factor.is_some() => given.unlearnt(),
-                    _ => unlearnt,
-                },
-                sums: Arc::clone(&posterior.sums),
-                factor: given.factor,
-            };
-        }
         match next {
+            Next::Here if counted == count => return look.fit(count),
             Next::Here => {
                 counted = count;
                 newton = None;
@@ -115,9 +103,90 @@ pub(crate) fn fit_spectrum(
                 spectrum = best;
             }
         }
-        coefficients = Some(mean);
+        coefficients = Some(look.mean);
     }
     unreachable!("rounds end")
+}
+
+/// The first step of that search: where it leads to, and the cost that it promises there.
+pub(crate) fn first_step(posterior: &Posterior<'_>, start: Spectrum) -> SpectrumFit {
+    let look = Look::new(posterior, &start, None, Count::Even);
+    let mut search = look.search();
+    let next = search.next(look.place);
+    let mut fit = look.fit(Count::Even);
+    if let Next::Try(next) = next {
+        fit.cost -= search.promise();
+        fit.spectrum = next;
+    }
+    fit
+}
+
+/// A spectrum, what the points say of it, and the coefficients under it.
+struct Look<'a> {
+    given: Conditioned<'a>,
+    place: Place,
+    mean: Vec<f64>,
+    told: Told,
+}
+
+impl<'a> Look<'a> {
+    fn new(
+        posterior: &'a Posterior<'_>,
+        spectrum: &Spectrum,
+        coefficients: Option<&[f64]>,
+        count: Count,
+    ) -> Self {
+        let points = posterior.cloud.len() as f64;
+        let given = posterior.given(spectrum);
+        let (mean, _) = given.mean(coefficients, MEAN_SETTLED);
+        let told = told(posterior, &given, spectrum, &mean, count);
+        let prior = hyperprior(points, spectrum).0;
+        let proposal = told.evidence.most_likely(spectrum);
+        let is_near = proposal.1 < FAR * points;
+        let information = is_near
+            .then(|| given.information(spectrum, &mean))
+            .flatten();
+        let place = Place {
+            spectrum: *spectrum,
+            cost: given.cost(&mean).map(|cost| cost + prior),
+            gradient: told.gradient.into(),
+            information: information
+                .map(|known| positive(&(known + hyperprior_curvature(points, spectrum)))),
+            proposal,
+        };
+        Self {
+            given,
+            place,
+            mean,
+            told,
+        }
+    }
+
+    /// A search that starts here.
+    fn search(&self) -> Newton {
+        Newton::new(self.told.evidence.curvature(&self.place.spectrum))
+    }
+
+    fn fit(self, count: Count) -> SpectrumFit {
+        let Self {
+            given,
+            place,
+            mean,
+            told,
+        } = self;
+        let value = || told.evidence.value(&place.spectrum).0;
+        SpectrumFit {
+            cost: place.cost.unwrap_or_else(value) - given.posterior.cloud.compression,
+            spectrum: place.spectrum,
+            coefficients: mean,
+            unlearnt: match count {
+                Count::Probed if given.factor.is_some() => given.unlearnt(),
+                _ => told.unlearnt,
+            },
+            sums: Arc::clone(&given.posterior.sums),
+            factor: given.factor,
+        }
+    }
 }
 
 /// What a round says of a spectrum.
