@@ -91,7 +91,13 @@ impl TriangleTree {
 
     /// The point of the mesh nearest to a place; infinitely far off if there are no triangles.
     pub(super) fn nearest(&self, place: &Vector3<f64>) -> Vector3<f64> {
-        let mut best = (f64::INFINITY, Vector3::repeat(f64::INFINITY));
+        self.nearest_within(place, f64::INFINITY)
+            .unwrap_or(Vector3::repeat(f64::INFINITY))
+    }
+
+    /// The same, if it is nearer than `limit`: the search for it keeps to that ball.
+    pub(super) fn nearest_within(&self, place: &Vector3<f64>, limit: f64) -> Option<Vector3<f64>> {
+        let mut best = (limit * limit, None);
         let mut open: Vec<(f64, usize)> = Vec::with_capacity(64);
         if let Some(root) = self.nodes.first() {
             open.push((root.squared_distance(place), 0));
@@ -105,7 +111,7 @@ impl TriangleTree {
                 let nearest = nearest_in_triangle(triangle, place);
                 let squared = (place - nearest).norm_squared();
                 if squared < best.0 {
-                    best = (squared, nearest);
+                    best = (squared, Some(nearest));
                 }
             }
             if node.second > 0 {
