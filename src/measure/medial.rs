@@ -33,7 +33,7 @@ pub(super) fn medial_balls_of(tree: &TriangleTree, places: &[EvenPlace]) -> Vec<
         let inward = -at.outward;
         let others = places.iter().map(|other| &other.place);
         let free = free_radius(&at.place, &inward, tree.size(), others);
-        let nearest = |place: &Vector3<f64>, limit| tree.nearest_within(place, limit);
+        let nearest = |place: &Vector3<f64>, limit| tree.nearest(place, limit);
         medial_ball(&at.place, &inward, free, nearest)
     };
     places.par_iter().map(ball).collect()
