@@ -24,7 +24,7 @@ const WORTH: f64 = 1e-5;
 const SHRINK: f64 = 0.03;
 
 /// The same for the planes to be used further.
-const PLANES_WORTH: f64 = 0.05;
+const PLANES_WORTH: f64 = 0.01;
 
 /// Convex and flat obstacles: triangles, say.
 pub(super) trait Obstacles {
@@ -47,8 +47,9 @@ pub(super) trait Obstacles {
 /// go first, those that the ball does not cross: where the surface is convex they are exact. When they
 /// allow little more, as on a rough surface, the linearisations decide.
 ///
-/// `None` if there are no obstacles or a distance is not finite.
-pub(super) fn largest(obstacles: &impl Obstacles, start: &Point3<f64>) -> Option<Ball> {
+/// `None` if there are no obstacles, a distance is not finite, or the ball comes as near as the first shift to one of
+/// those `found` before, and is smaller: it would become that one.
+fn largest(obstacles: &impl Obstacles, start: &Point3<f64>, found: &[Ball]) -> Option<Ball> {
     let count = obstacles.count();
     let distance = |index: usize, place: &Vector3<f64>| {
         let nearest = obstacles.nearest(index, place);
@@ -66,6 +67,12 @@ pub(super) fn largest(obstacles: &impl Obstacles, start: &Point3<f64>) -> Option
     for _ in 0..SHIFTS {
         if reach <= LAST_REACH * radius {
             break;
+        }
+        let is_found = |ball: &Ball| {
+            radius < ball.radius && (centre - ball.centre.coords).norm() < FIRST_REACH * ball.radius
+        };
+        if found.iter().any(is_found) {
+            return None;
         }
         // The ball grows by less than the reach, and an obstacle comes nearer by less.
         let limit = radius + 2.0 * reach;
@@ -105,6 +112,22 @@ pub(super) fn largest(obstacles: &impl Obstacles, start: &Point3<f64>) -> Option
         centre: centre.into(),
         radius,
     })
+}
+
+/// The largest of the balls that starts lead to, of those that are inside.
+pub(super) fn largest_from(
+    obstacles: &impl Obstacles,
+    starts: &[Ball],
+    is_inside: impl Fn(&Ball) -> bool,
+) -> Option<Ball> {
+    let mut found = Vec::with_capacity(starts.len());
+    for start in starts {
+        let ball = largest(obstacles, &start.centre, &found);
+        found.extend(ball.filter(&is_inside));
+    }
+    found
+        .into_iter()
+        .max_by(|one, other| one.radius.total_cmp(&other.radius))
 }
 
 /// Distance to the nearest of `count` obstacles; `None` if there are none, or a distance is not finite.

@@ -1,7 +1,7 @@
 //! The largest ball inside a closed surface.
 
 use super::Ball;
-use super::clearance;
+use super::clearance::largest_from;
 use super::even_places::even_places;
 use super::medial::{deepest, medial_balls_of};
 use super::triangle_tree::TriangleTree;
@@ -65,12 +65,7 @@ pub fn inscribed_ball(mesh: &Mesh) -> Result<Ball, InscribedBallError> {
     let tree = TriangleTree::new(mesh);
     let medial = medial_balls_of(&tree, &even_places(mesh, FEET));
     let is_inside = |ball: &Ball| winding_number(mesh, &ball.centre) > 0.5;
-    deepest(medial, is_inside)
-        .iter()
-        .filter_map(|start| clearance::largest(&tree, &start.centre))
-        .filter(is_inside)
-        .max_by(|one, other| one.radius.total_cmp(&other.radius))
-        .ok_or(InscribedBallError::NoInside)
+    largest_from(&tree, &deepest(medial, is_inside), is_inside).ok_or(InscribedBallError::NoInside)
 }
 
 #[cfg(test)]

@@ -33,14 +33,15 @@ pub(super) fn medial_balls_of(tree: &TriangleTree, places: &[EvenPlace]) -> Vec<
         let inward = -at.outward;
         let others = places.iter().map(|other| &other.place);
         let free = free_radius(&at.place, &inward, tree.size(), others);
-        medial_ball(&at.place, &inward, free, |place| tree.nearest(place))
+        let nearest = |place: &Vector3<f64>, limit| tree.nearest(place, limit);
+        medial_ball(&at.place, &inward, free, nearest)
     };
     places.par_iter().map(ball).collect()
 }
 
 /// The ball that touches a surface at `foot` from the side to which the unit vector `inward` points, and
 /// touches it somewhere else, by the shrinking of a ball of the radius `largest` (Ma, Bae and Choi 2012).
-/// `nearest` finds the nearest point of the surface.
+/// `nearest` finds the nearest point of the surface, if it is nearer than a limit.
 ///
 /// The ball through the foot and the nearest point, with its centre on the normal, is smaller; it is taken
 /// until no point is nearer than the foot.
@@ -48,15 +49,14 @@ pub(super) fn medial_ball(
     foot: &Vector3<f64>,
     inward: &Vector3<f64>,
     largest: f64,
-    nearest: impl Fn(&Vector3<f64>) -> Vector3<f64>,
+    nearest: impl Fn(&Vector3<f64>, f64) -> Option<Vector3<f64>>,
 ) -> Ball {
     let mut radius = largest;
     for _ in 0..MAX_SHRINKS {
         let centre = foot + inward * radius;
-        let other = nearest(&centre);
-        if (other - centre).norm() >= radius * (1.0 - TOUCHES) {
+        let Some(other) = nearest(&centre, radius * (1.0 - TOUCHES)) else {
             break;
-        }
+        };
         let across = other - foot;
         let smaller = across.norm_squared() / (2.0 * across.dot(inward));
         // Written so that NaN ends the search.
@@ -66,9 +66,10 @@ pub(super) fn medial_ball(
         radius = smaller;
     }
     let centre = foot + inward * radius;
+    let nearer = nearest(&centre, radius);
     Ball {
         centre: centre.into(),
-        radius: (nearest(&centre) - centre).norm(),
+        radius: nearer.map_or(radius, |other| (other - centre).norm()),
     }
 }
 

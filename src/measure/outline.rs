@@ -1,7 +1,7 @@
 //! The outline of a body as seen from one side, and its shape in two dimensions.
 
 use super::bounds::{OutOfBounds, ratio};
-use super::clearance::{self, Obstacles};
+use super::clearance::{Obstacles, largest_from};
 use super::convex_polygon::ConvexPolygon;
 use super::medial::{deepest, free_radius, medial_ball};
 use super::roundness::roundness;
@@ -146,13 +146,11 @@ impl Outline {
 /// The largest circle inside a polygon that the circle of radius `largest` holds.
 fn inscribed_circle(points: &[Vector2<f64>], largest: f64) -> Option<Ball> {
     let walls = Walls(points);
-    let nearest = |place: &Vector3<f64>| {
+    let nearest = |place: &Vector3<f64>, limit: f64| {
         let all = (0..walls.count()).map(|index| walls.nearest(index, place));
-        all.min_by(|one, other| {
-            let [one, other] = [one, other].map(|nearest| (nearest - place).norm_squared());
-            one.total_cmp(&other)
-        })
-        .unwrap_or(*place)
+        let squares = all.map(|nearest| ((nearest - place).norm_squared(), nearest));
+        let least = squares.min_by(|one, other| one.0.total_cmp(&other.0))?;
+        (least.0 < limit * limit).then_some(least.1)
     };
     let step = points.len().div_ceil(FEET);
     let corners: Vec<Vector3<f64>> = points.iter().map(|p| in_space(p).coords).collect();
@@ -164,11 +162,7 @@ fn inscribed_circle(points: &[Vector2<f64>], largest: f64) -> Option<Ball> {
         Some(medial_ball(&foot, &inward, free, nearest))
     });
     let is_inside = |ball: &Ball| polygon_winding_number(points, &ball.centre.coords.xy()) > 0.5;
-    deepest(medial.collect(), is_inside)
-        .iter()
-        .filter_map(|start| clearance::largest(&walls, &start.centre))
-        .filter(is_inside)
-        .max_by(|one, other| one.radius.total_cmp(&other.radius))
+    largest_from(&walls, &deepest(medial.collect(), is_inside), is_inside)
 }
 
 /// The edges of a polygon as walls across the plane, so that the distance to them is that in the plane.

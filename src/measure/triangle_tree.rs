@@ -89,9 +89,9 @@ impl TriangleTree {
             .map_or(0.0, |root| (root.high - root.low).norm())
     }
 
-    /// The point of the mesh nearest to a place; infinitely far off if there are no triangles.
-    pub(super) fn nearest(&self, place: &Vector3<f64>) -> Vector3<f64> {
-        let mut best = (f64::INFINITY, Vector3::repeat(f64::INFINITY));
+    /// The point of the mesh nearest to a place, if it is nearer than `limit`: the search keeps to that ball.
+    pub(super) fn nearest(&self, place: &Vector3<f64>, limit: f64) -> Option<Vector3<f64>> {
+        let mut best = (limit * limit, None);
         let mut open: Vec<(f64, usize)> = Vec::with_capacity(64);
         if let Some(root) = self.nodes.first() {
             open.push((root.squared_distance(place), 0));
@@ -105,7 +105,7 @@ impl TriangleTree {
                 let nearest = nearest_in_triangle(triangle, place);
                 let squared = (place - nearest).norm_squared();
                 if squared < best.0 {
-                    best = (squared, nearest);
+                    best = (squared, Some(nearest));
                 }
             }
             if node.second > 0 {
@@ -220,18 +220,20 @@ mod tests {
             .enumerate()
         {
             let place = n * (0.03 * i as f64);
-            let found = (tree.nearest(&place) - place).norm();
+            let found = tree.nearest(&place, f64::INFINITY).unwrap();
+            let found = (found - place).norm();
             let all = mesh.triangles.iter().map(|t| {
                 let corners = t.map(|corner| mesh.vertices[corner as usize].coords);
                 (nearest_in_triangle(&corners, &place) - place).norm()
             });
             assert_relative_eq!(found, all.fold(f64::MAX, f64::min), epsilon = 1e-14);
+            assert_eq!(tree.nearest(&place, 0.999 * found), None);
         }
     }
 
     #[test]
     fn without_triangles_nothing_is_near() {
         let tree = TriangleTree::new(&Mesh::default());
-        assert!(tree.nearest(&Vector3::zeros()).norm().is_infinite());
+        assert_eq!(tree.nearest(&Vector3::zeros(), f64::INFINITY), None);
     }
 }

@@ -83,14 +83,15 @@ pub(crate) fn estimate(
     };
     let first = first_degree(reduced.len());
     let rounder = rounder(reduced, counts, axes, first, context)?;
-    let (mut cloud, start) = (rounder.cloud, rounder.fit);
-    let mut fit = start;
+    let (mut cloud, mut fit) = (rounder.cloud, rounder.fit);
     let compared = fit.sums.degree();
-    let mut degree = match is_small(cloud.len()) && fit.is_enough() {
-        true => compared,
-        false => first,
-    };
-    fit.spectrum = fit.spectrum.raised(compared, degree);
+    let mut degree = first;
+    if is_small(cloud.len()) {
+        if fit.is_enough() {
+            degree = compared;
+        }
+        fit.spectrum = fit.spectrum.raised(compared, degree);
+    }
     let mut outliers = patches.as_ref().map_or(rounder.outliers, Patches::left_out);
     let mut rounds = 0;
     let mut lower: Option<(usize, SpectrumFit)> = None;
@@ -173,8 +174,8 @@ fn next_degree(
     }
     let from = (degree + 1 - LAST_DEGREES).pow(2);
     let tail: f64 = fit.coefficients[from..].iter().map(|x| x * x).sum();
-    let tail = tail / (4.0 * std::f64::consts::PI);
-    (!fit.hides(tail)).then_some(next)
+    let carries = !fit.hides(tail / (4.0 * std::f64::consts::PI));
+    carries.then_some(next)
 }
 
 /// Points evaluated at once.
