@@ -49,11 +49,11 @@ impl Kept {
                 .filter(|(_, is_kept)| **is_kept);
             all.map(|(triangle, _)| triangle)
         };
-        for side in 0..2 {
-            let mut first = vec![None; patches[side].vertices.len()];
+        for (side, patch) in patches.iter().enumerate() {
+            let mut first = vec![None; patch.vertices.len()];
             for triangle in kept(side) {
                 let own = triangle + offset * side as u32;
-                for corner in patches[side].triangles[triangle as usize] {
+                for corner in patch.triangles[triangle as usize] {
                     sets.join(*first[corner as usize].get_or_insert(own), own);
                 }
             }

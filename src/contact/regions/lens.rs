@@ -162,8 +162,7 @@ impl Plane {
                 return (fall < 0.0).then_some(Rim { reach, feet });
             }
             let square = reach * reach - 2.0 * reach * gap / fall;
-            // Written so that NaN fails.
-            if !(square > 0.0) {
+            if square.is_nan() || square <= 0.0 {
                 return None;
             }
             reach = square.sqrt();
