@@ -101,7 +101,7 @@ pub(crate) fn estimate(
     let mut is_found = fit.factor.is_some() && fit.coefficients.len() == coefficient_count(degree);
     loop {
         context.check()?;
-        let is_factored = is_factored(&cloud, degree);
+        let is_factored = is_factored(cloud.len(), degree);
         let posterior = match is_found {
             true => Posterior::with(&cloud, Arc::clone(&fit.sums)),
             false => Posterior::new(&cloud, degree, is_factored),
