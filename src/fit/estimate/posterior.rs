@@ -28,24 +28,21 @@ pub(crate) struct Posterior<'a> {
     right: OnceLock<Vec<f64>>,
 }
 
-/// The matrix is factored where there are more coefficients per [point of an even cloud](Cloud::even_len) than this:
-/// beyond .6 the cheap way fails; ...
+/// The matrix is factored where there are more coefficients per point than this: beyond .6 the cheap way fails on
+/// uneven clouds; ...
 const FACTORED: f64 = 0.45;
 
-/// ... but only up to this degree, of which it takes 30 ms.
-const MOST_FACTORED: usize = 36;
-
-/// Points up to which it is formed whatever the degree.
-const SMALL: usize = 3000;
+/// ... but only of clouds up to this size, whose matrices of degree 36 take 30 ms.
+const MOST_FACTORED: usize = 3000;
 
 /// Whether the matrix of so many points may be formed and factored.
 pub(super) fn is_small(points: usize) -> bool {
-    points <= SMALL
+    points <= MOST_FACTORED
 }
 
-/// Whether the matrix of a cloud should be formed and factored.
-pub(super) fn is_factored(cloud: &Cloud, degree: usize) -> bool {
-    degree <= MOST_FACTORED && coefficient_count(degree) as f64 > FACTORED * cloud.even_len()
+/// Whether it must be.
+pub(super) fn is_factored(points: usize, degree: usize) -> bool {
+    is_small(points) && coefficient_count(degree) as f64 > FACTORED * points as f64
 }
 
 impl<'a> Posterior<'a> {
