@@ -178,9 +178,9 @@ impl<const K: usize> CapExpansion<K> {
                 let both = |a, b| of(a, b) + of(b, a);
                 let (uu, uv, xx) = (of(&du, &du) - of(&dv, &dv), both(&du, &dv), of(&dx, &dx));
                 let (ux, vx) = (both(&du, &dx), both(&dv, &dx));
-                let out = &mut out.hessian[entry(j, k)];
-                for i in 0..N {
-                    out[i] = uu * p_zz.0[i] - uv * p_zz.1[i] + ux * p_zx.0[i] - vx * p_zx.1[i]
+                let bends = out.hessian[entry(j, k)].iter_mut();
+                for (i, bend) in bends.enumerate() {
+                    *bend = uu * p_zz.0[i] - uv * p_zz.1[i] + ux * p_zx.0[i] - vx * p_zx.1[i]
                         + xx * p_xx.0[i];
                 }
             }

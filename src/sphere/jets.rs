@@ -74,6 +74,10 @@ impl<const ORDER: usize, const N: usize> Jets<ORDER, N> {
 
     /// The quotient of two functions.
     #[inline(always)]
+    #[expect(
+        clippy::needless_range_loop,
+        reason = "iterators over lanes are not vectorised in one piece here"
+    )]
     pub(crate) fn over(&self, divisor: &Self) -> Self {
         let mut out = Self::ZERO;
         let mut per = [0.0; N];
@@ -105,6 +109,10 @@ impl<const ORDER: usize, const N: usize> Jets<ORDER, N> {
 
     /// Takes from the gradients what is not along the sphere.
     #[inline(always)]
+    #[expect(
+        clippy::needless_range_loop,
+        reason = "iterators over lanes are not vectorised in one piece here"
+    )]
     pub(crate) fn keep_along_sphere(&mut self, n: &[[f64; N]; 3]) {
         let mut outwards = [0.0; N];
         for axis in 0..3 {

@@ -1,7 +1,7 @@
 //! Interpolation from a grid at places that do not change, and its transpose.
 
 use super::grid::Grid;
-use super::kernel::Weights;
+use super::kernel::weights;
 use crate::vectorize::vectorize;
 use nalgebra::Vector3;
 use std::f64::consts::PI;
@@ -40,15 +40,6 @@ impl<const WIDTH: usize> Places<WIDTH> {
             .collect();
         visits.sort_unstable_by_key(|(key, _)| *key);
         let stride = grid.stride();
-        let (kernel, mut weights) = (Weights::new(), Vec::with_capacity(visits.len()));
-        vectorize(
-            #[inline(always)]
-            || {
-                for (_, [row, column]) in &visits {
-                    weights.push([kernel.at(*row), kernel.at(*column)]);
-                }
-            },
-        );
         Self {
             stride,
             places: visits
@@ -58,7 +49,7 @@ impl<const WIDTH: usize> Places<WIDTH> {
                     corner: (row * stride + column) as u32,
                 })
                 .collect(),
-            weights,
+            weights: visits.iter().map(|(_, at)| at.map(weights)).collect(),
         }
     }
 
