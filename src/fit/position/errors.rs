@@ -135,18 +135,18 @@ impl Solved<'_> {
         let mut solved = functionals.gradients(self.functions);
         self.factor.solve(&mut solved);
         let mut influences = vec![Figures::zeros(); cloud.points.len()];
-        for rows in self.rows {
-            for figure in 0..FIGURES {
-                let of_cell =
-                    |cell: u16| solved[usize::from(cell)].col_as_slice(figure).as_chunks().0;
-                for (value, &member) in values(rows, of_cell).iter().zip(&rows.members) {
-                    let at = member as usize;
-                    let share = cloud.weights[at] * cloud.normals[at].dot(value);
-                    for (point, part) in cloud.points_of(at) {
-                        influences[point][figure] += part * share * distances[at];
-                    }
+        let mut add = |figure: usize, rows: &Rows| {
+            let of_cell = |cell: u16| solved[usize::from(cell)].col_as_slice(figure).as_chunks().0;
+            for (value, &member) in values(rows, of_cell).iter().zip(&rows.members) {
+                let at = member as usize;
+                let share = cloud.weights[at] * cloud.normals[at].dot(value);
+                for (point, part) in cloud.points_of(at) {
+                    influences[point][figure] += part * share * distances[at];
                 }
             }
+        };
+        for rows in self.rows {
+            (0..FIGURES).for_each(|figure| add(figure, rows));
         }
         let sum: SMatrix<f64, FIGURES, FIGURES> =
             influences.iter().map(|psi| psi * psi.transpose()).sum();
