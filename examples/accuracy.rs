@@ -1,4 +1,4 @@
-//! How near fits come to the truth: prints the table of the README.
+//! How near fits come to the truth: prints the table of docs/accuracy.md.
 //!
 //! `cargo run --release --example accuracy`
 

@@ -1,5 +1,5 @@
-//! How often the truth lies within the stated 95 % intervals (figure ± 1.96 standard errors): prints the tables of the
-//! README.
+//! How often the truth lies within the stated 95 % intervals (figure ± 1.96 standard errors): prints the tables of
+//! docs/accuracy.md.
 //!
 //! `cargo run --release --example coverage` prints four tables: of the three synthetic grains; of particles whose radius
 //! is known as an expansion (`nist`); of bodies that no centre sees whole (`curled`); and of the hidden points of real
