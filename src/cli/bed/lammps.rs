@@ -87,6 +87,9 @@ fn start(
     let command = command.current_dir(folder).stdin(Stdio::null());
     // A process that follows its own threads too takes the cores twice.
     let command = command.env("OMP_NUM_THREADS", "1");
+    // Open MPI starts nothing for root, who is the user of most containers, unless it is told twice.
+    let command = command.env("OMPI_ALLOW_RUN_AS_ROOT", "1");
+    let command = command.env("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1");
     let mut child = command.stdout(Stdio::piped()).spawn()?;
     let (mut reason, mut found) = (None, None);
     for line in BufReader::new(child.stdout.take().context("LAMMPS says nothing")?).lines() {
