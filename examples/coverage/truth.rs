@@ -4,7 +4,7 @@ use crate::particle::Particle;
 use crate::tally::Figures;
 use grainform::Grain;
 use grainform::measure::{MassProperties, Scheme, Survey};
-use grainform::model::{Family, Frame, StarGrain, StarSurface, Whole};
+use grainform::model::{Frame, StarGrain, StarSurface};
 use grainform::shapes::{Body, SynthOptions, synthesize};
 use nalgebra::Vector3;
 use std::error::Error;
@@ -32,8 +32,7 @@ impl Truth {
 
     /// A particle.
     pub(crate) fn expansion(particle: &Particle) -> Result<Self, Box<dyn Error>> {
-        let whole = Whole::new(particle.coefficients.clone())?;
-        let star = StarGrain::new(Frame::SCAN, Family::Whole(whole))?;
+        let star = StarGrain::expansion(Frame::SCAN, particle.coefficients.clone())?;
         let grain = Grain::from(star.clone());
         let survey = Survey::of_grain(&grain, Scheme::Exact);
         Ok(Self {

@@ -1,7 +1,7 @@
 //! Fits of the whole sphere by ducc0, where python3 has it.
 
 use super::{Setting, Subject};
-use crate::model::{Family, Frame, InvalidGrain, StarGrain, Whole};
+use crate::model::{Frame, InvalidGrain, StarGrain};
 use nalgebra::Point3;
 use serde::{Deserialize, Serialize};
 use std::io::{BufRead, BufReader, Read, Write};
@@ -112,7 +112,7 @@ pub(super) fn rivals(
         progress(told.degree);
         Ok(Rival {
             degree: told.degree,
-            grain: StarGrain::new(frame, Family::Whole(Whole::new(told.coefficients)?))?,
+            grain: StarGrain::expansion(frame, told.coefficients)?,
             seconds: told.seconds,
             nanoseconds: told.nanoseconds,
             nanoseconds_bulk: told.nanoseconds_bulk,

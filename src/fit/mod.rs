@@ -16,6 +16,7 @@ mod crust;
 mod dispatch;
 mod error;
 mod estimate;
+mod figures;
 mod gaps;
 mod kind;
 mod linear;
@@ -27,6 +28,7 @@ mod position;
 mod prepare;
 mod segments;
 mod sound;
+mod standard_errors;
 mod superquadric;
 mod unseen;
 mod warning;
@@ -34,7 +36,7 @@ mod warning;
 pub use candidate::{Candidate, Rejection, Search, Work};
 pub use context::{Context, Stage};
 pub use error::FitError;
-pub use estimate::{NoInterval, RadiusError, StandardErrors};
+pub use estimate::RadiusError;
 pub use kind::fit_scan;
 pub use mirrored::{DirectedSample, MirroredFitError, fit_mirrored};
 pub use options::{
@@ -48,6 +50,7 @@ pub(crate) use prepare::whole_or_largest;
 pub use prepare::{
     PreparedScan, Reference, ReferenceKind, ScannedSurface, largest_body, scanned_surface,
 };
+pub use standard_errors::{NoInterval, StandardErrors};
 pub use superquadric::{
     Form, MAX_UNION_PARTS, MultiFit, ParameterErrors, SuperquadricFit, SuperquadricFitError,
     fit_multi_superquadric, fit_superquadric,

@@ -1,8 +1,10 @@
 //! What a fit gives.
 
 use super::candidate::Search;
-use super::estimate::{Estimate, Figures, NoInterval, RadiusError, StandardErrors};
+use super::estimate::{Estimate, RadiusError};
+use super::figures::Figures;
 use super::prepare::Reference;
+use super::standard_errors::{NoInterval, StandardErrors};
 use super::warning::FitWarning;
 use crate::measure::MassProperties;
 use crate::model::{Grain, StarGrain, Surface};

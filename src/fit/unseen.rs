@@ -1,7 +1,8 @@
 //! When so much of a grain was not seen that it is told of, and what that does to its figures.
 
-use super::estimate::{Figures, StandardErrors};
+use super::figures::Figures;
 use super::gaps::random_gap;
+use super::standard_errors::StandardErrors;
 use crate::model::Unseen;
 use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::PI;
@@ -24,7 +25,7 @@ impl Unseen {
     /// Standard errors of figures with a guess in them: to those that the points tell of, if known, is added that the
     /// radius is off there. Area, volume, moments go with its powers; the centroid with the volume, three quarters of the
     /// radius away.
-    pub(crate) fn errors(
+    pub(super) fn errors(
         &self,
         told: &Figures,
         mean_radius: f64,

@@ -3,7 +3,7 @@
 use super::star_surface::radial_slopes;
 use super::{
     CurvatureErrors, Derivatives, Family, Frame, InvalidGrain, Node, StarSurface, Stretch, Surface,
-    SurfaceElement, SurfaceJet, Tiling,
+    SurfaceElement, SurfaceJet, Tiling, Whole,
 };
 use crate::mesh::Mesh;
 use crate::sphere::cube_grid;
@@ -32,6 +32,15 @@ impl StarGrain {
     /// [`InvalidGrain`] if the frame is not orthonormal or not finite.
     pub fn new(frame: Frame, family: Family) -> Result<Self, InvalidGrain> {
         Self::stretched(frame, Stretch::NONE, family)
+    }
+
+    /// A grain whose radius is one expansion in real orthonormal harmonics, at their
+    /// [indices](crate::sphere::harmonic_index).
+    ///
+    /// # Errors
+    /// [`InvalidGrain`] as [`new`](Self::new), and if the coefficients make no expansion.
+    pub fn expansion(frame: Frame, coefficients: Vec<f64>) -> Result<Self, InvalidGrain> {
+        Self::new(frame, Family::Whole(Whole::new(coefficients)?))
     }
 
     /// A grain whose `family` is that of the grain stretched along the axes of the frame: with

@@ -36,7 +36,7 @@ fn grains_of_all_kinds_are_the_same_to_the_last_bit_once_saved() {
     }
     for grain in grains {
         let text = to_json(&grain);
-        assert!(text.contains("\"version\": 4"));
+        assert!(text.contains("\"version\": 5"));
         let loaded = from_json(&text).expect("a model");
         assert_eq!(loaded.frame(), grain.frame());
         assert_eq!(loaded.stretch(), grain.stretch());
@@ -65,7 +65,7 @@ fn a_file_of_the_first_version_is_still_read() {
     let n = Vector3::new(0.0, 0.6, 0.8);
     assert!((grain.radius(&n) - 5.0).abs() < 1e-15);
     let again = to_json(&grain);
-    assert!(again.contains("\"version\": 4"));
+    assert!(again.contains("\"version\": 5"));
     assert_eq!(
         from_json(&again).expect("a model").coefficients(),
         grain.coefficients()

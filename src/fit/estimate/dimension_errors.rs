@@ -10,12 +10,12 @@
 //!   way it turns), and the range of extents in the plane of two axes that are not told apart.
 
 use super::dimensions::{End, Extent, LARGEST_TURN, Reach};
-use super::figures::INERTIA;
 use super::functionals::{combined, dot};
 use super::outcome::Estimate;
 use super::outcome::{slope_variance, variance};
 use super::posterior::Conditioned;
 use super::tips::Tips;
+use crate::fit::figures::INERTIA;
 use crate::measure::PrincipalInertia;
 use crate::sphere::HarmonicBasis;
 use nalgebra::Vector3;

@@ -15,8 +15,8 @@
 //! over the directions and s the random slope of the ripples' height, by E[-s' H^-1 s / 2], at most by the standard
 //! deviation of the ripples.
 
-use super::figures::form;
 use super::outcome::Estimate;
+use crate::fit::figures::form;
 use crate::measure::{PrincipalInertia, support_near};
 use crate::model::{Radial, StarSurface, Whole};
 use nalgebra::{Matrix3, SVector, Vector3};

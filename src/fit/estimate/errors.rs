@@ -14,76 +14,18 @@
 
 use super::dimension_errors::dimensions;
 use super::dimensions::Reach;
-use super::figures::{Figures, INERTIA, MassList, derivatives, form, mass};
-use super::functionals::{INTEGRALS, RingSurface, combined, dot, list, unlist};
+use super::functionals::{RingSurface, combined, dot};
 use super::outcome::Estimate;
 use super::posterior::Posterior;
 use super::unresolved::{kurtosis, limit};
+use crate::fit::figures::{
+    Figures, INERTIA, INTEGRALS, MassList, derivatives, form, list, mass, unlist,
+};
 use crate::fit::gaps::{largest_gap, random_gap};
+use crate::fit::standard_errors::{NoInterval, StandardErrors};
 use crate::measure::{Moments, PrincipalInertia};
 use nalgebra::{Matrix3, SMatrix, Vector3};
 use std::f64::consts::PI;
-
-/// Standard errors (one standard deviation) of a grain's measures, in the powers of the scan's unit
-/// of these.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct StandardErrors {
-    /// Of the area.
-    pub area: f64,
-    /// Of the volume.
-    pub volume: f64,
-    /// Of the centroid's coordinates along the grain's axes.
-    pub centroid: Vector3<f64>,
-    /// Of the entries of the inertia tensor about the centroid, along the grain's axes.
-    pub inertia: Matrix3<f64>,
-    /// Of the principal moments of inertia, ascending.
-    pub moments: Vector3<f64>,
-    /// Of the length, width and thickness: extents along the principal axes.
-    pub dimensions: Vector3<f64>,
-    /// By what the extents of the scanned grain exceed these in the mean: the fitted surface lacks the ripples that
-    /// the points do not tell, and a largest value is larger with them. Zero of positions, which keep their ripples.
-    pub dimensions_excess: Vector3<f64>,
-}
-
-impl StandardErrors {
-    /// Those of a grain so many times as large.
-    pub(crate) fn times(self, factor: f64) -> Self {
-        let [square, cube, fifth] = [2, 3, 5].map(|power| factor.powi(power));
-        Self {
-            area: self.area * square,
-            volume: self.volume * cube,
-            centroid: self.centroid * factor,
-            inertia: self.inertia * fifth,
-            moments: self.moments * fifth,
-            dimensions: self.dimensions * factor,
-            dimensions_excess: self.dimensions_excess * factor,
-        }
-    }
-}
-
-/// Why there are no standard errors that could be trusted.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[non_exhaustive]
-pub enum NoInterval {
-    /// No point lies in a cap of directions of this half-angle, in radians.
-    Hole {
-        /// Half-angle in radians, in the stretched space.
-        half_angle: f64,
-    },
-    /// Residuals are not those of noise: there are edges, or detail that the estimate does not resolve.
-    Unresolved {
-        /// Kurtosis of the residuals: 3 of normal noise.
-        kurtosis: f64,
-    },
-    /// The figures are not finite.
-    NotFinite,
-    /// Squares of the figures are beyond the range of numbers.
-    OutOfRange,
-    /// The surface turns over or crosses itself.
-    Crossing,
-    /// The model is fitted to the points themselves, not to an estimate.
-    NotEstimated,
-}
 
 /// Half-angle of holes, in radians, up to which 95 % intervals of area and volume cover: of 20 degrees they do (92 %
 /// of 50 particles), of 40 they are up to 8 standard errors off.
@@ -94,7 +36,7 @@ impl Estimate {
     ///
     /// # Errors
     /// [`NoInterval`] where they could not be trusted.
-    pub(crate) fn errors(&self, told: &Figures) -> Result<StandardErrors, NoInterval> {
+    pub(in crate::fit) fn errors(&self, told: &Figures) -> Result<StandardErrors, NoInterval> {
         let half_angle = largest_gap(&self.cloud.directions);
         if half_angle > LARGEST_HOLE.max(random_gap(self.cloud.len())) {
             return Err(NoInterval::Hole { half_angle });
@@ -103,7 +45,10 @@ impl Estimate {
     }
 
     /// The same, with what holes hide only as far as the prior tells it.
-    pub(crate) fn errors_beside_holes(&self, told: &Figures) -> Result<StandardErrors, NoInterval> {
+    pub(in crate::fit) fn errors_beside_holes(
+        &self,
+        told: &Figures,
+    ) -> Result<StandardErrors, NoInterval> {
         let posterior = self.posterior();
         let kurtosis = kurtosis(&posterior.residuals(&self.coefficients));
         if kurtosis > limit(self.cloud.len()) {

@@ -23,16 +23,10 @@
 //! ```
 
 use super::outcome::{Estimate, slope_variance, variance};
+use crate::fit::figures::{INTEGRALS, PAIRS, list, unlist};
 use crate::measure::Moments;
 use crate::sphere::RingGrid;
-use nalgebra::{Matrix3, SVector, Vector3};
-
-/// Area, volume, three first moments and six second moments, as a list.
-pub(in crate::fit) const INTEGRALS: usize = 11;
-
-/// Second moments of the list: xx, yy, zz, yz, xz, xy.
-pub(in crate::fit) const PAIRS: [(usize, usize); 6] =
-    [(0, 0), (1, 1), (2, 2), (1, 2), (0, 2), (0, 1)];
+use nalgebra::{SVector, Vector3};
 
 /// Rings per degree. On a cement particle of degree 30 the area is then right to 1e-8, and with half as many to
 /// 1e-5; volume and moments, of polynomials of degree 5 L + 2, are exact from 2.5 rings per degree on, and right to
@@ -189,39 +183,6 @@ impl RingSurface {
             gradient.iter_mut().for_each(|g| *g *= scales[at]);
             gradient
         })
-    }
-}
-
-/// Moments as a list.
-pub(in crate::fit) fn list(moments: &Moments) -> SVector<f64, INTEGRALS> {
-    let Moments {
-        area,
-        volume,
-        first,
-        second,
-    } = moments;
-    let mut list = SVector::<f64, INTEGRALS>::zeros();
-    list[0] = *area;
-    list[1] = *volume;
-    list.fixed_rows_mut::<3>(2).copy_from(first);
-    for (at, pair) in PAIRS.into_iter().enumerate() {
-        list[5 + at] = second[pair];
-    }
-    list
-}
-
-/// A list as moments.
-pub(in crate::fit) fn unlist(list: &SVector<f64, INTEGRALS>) -> Moments {
-    let mut second = Matrix3::zeros();
-    for (at, (i, j)) in PAIRS.into_iter().enumerate() {
-        second[(i, j)] = list[5 + at];
-        second[(j, i)] = list[5 + at];
-    }
-    Moments {
-        area: list[0],
-        volume: list[1],
-        first: list.fixed_rows::<3>(2).into_owned(),
-        second,
     }
 }
 

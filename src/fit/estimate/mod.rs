@@ -18,8 +18,7 @@ mod dimension_errors;
 mod dimensions;
 mod draws;
 mod errors;
-pub(super) mod figures;
-pub(super) mod functionals;
+mod functionals;
 mod information;
 mod likelihood;
 mod local;
@@ -37,8 +36,6 @@ mod surface;
 mod tips;
 mod unresolved;
 
-pub use errors::{NoInterval, StandardErrors};
-pub(crate) use figures::Figures;
 pub use local::RadiusError;
 pub(crate) use outcome::Estimate;
 

@@ -11,7 +11,7 @@
 
 use super::functions::Functions;
 use super::least_squares::{add_adjoint, no_sums};
-use crate::fit::estimate::functionals::{INTEGRALS, list};
+use crate::fit::figures::{INTEGRALS, list};
 use crate::measure::{Curvature, Moments, PrincipalInertia, support};
 use crate::model::{Frame, Position, PositionDerivatives, PositionGrain, SurfaceJet, area_normal};
 use crate::sphere::{CubeCell, GaussLegendre};

@@ -9,41 +9,46 @@
 //!
 //! and the principal moments change by the diagonal of the change of the inertia along the principal axes.
 
-use super::functionals::{INTEGRALS, PAIRS, list, unlist};
 use crate::measure::{MassProperties, Moments, PrincipalInertia};
 use nalgebra::{Matrix3, Point3, SMatrix, SVector, Vector3};
 
+/// Area, volume, three first moments and six second moments, as a list.
+pub(super) const INTEGRALS: usize = 11;
+
+/// Second moments of the list: xx, yy, zz, yz, xz, xy.
+pub(super) const PAIRS: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (1, 2), (0, 2), (0, 1)];
+
 /// Figures of a grain along its own axes and from its own centre, in powers of the scan's unit.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Figures {
+pub(super) struct Figures {
     /// Surface area.
-    pub(crate) area: f64,
+    pub(super) area: f64,
     /// Volume.
-    pub(crate) volume: f64,
+    pub(super) volume: f64,
     /// Centroid.
-    pub(crate) centroid: Vector3<f64>,
+    pub(super) centroid: Vector3<f64>,
     /// Inertia tensor about the centroid.
-    pub(crate) inertia: Matrix3<f64>,
+    pub(super) inertia: Matrix3<f64>,
     /// Principal moments of inertia, ascending.
-    pub(crate) moments: Vector3<f64>,
+    pub(super) moments: Vector3<f64>,
     /// Length, width and thickness: extents along the principal axes.
-    pub(crate) dimensions: Vector3<f64>,
+    pub(super) dimensions: Vector3<f64>,
 }
 
 /// Area, volume, centroid and inertia as a list, in this order.
-pub(in crate::fit) type MassList = SVector<f64, INTEGRALS>;
+pub(super) type MassList = SVector<f64, INTEGRALS>;
 
 /// Where the inertia stands in the list, in the order of [`PAIRS`].
-pub(in crate::fit) const INERTIA: usize = 5;
+pub(super) const INERTIA: usize = 5;
 
 /// Area, volume, centroid and inertia, and the principal axes if these are finite.
-pub(in crate::fit) fn mass(moments: &Moments) -> (MassProperties, Option<PrincipalInertia>) {
+pub(super) fn mass(moments: &Moments) -> (MassProperties, Option<PrincipalInertia>) {
     let mass = moments.about_centroid(&Point3::origin());
     (mass, mass.principal())
 }
 
 /// The derivatives of area, volume, centroid and inertia (rows) by the integrals (columns).
-pub(in crate::fit) fn derivatives(at: &Moments) -> SMatrix<f64, INTEGRALS, INTEGRALS> {
+pub(super) fn derivatives(at: &Moments) -> SMatrix<f64, INTEGRALS, INTEGRALS> {
     let centroid = at.first / at.volume;
     let mut all = SMatrix::<f64, INTEGRALS, INTEGRALS>::zeros();
     for column in 0..INTEGRALS {
@@ -65,9 +70,42 @@ pub(in crate::fit) fn derivatives(at: &Moments) -> SMatrix<f64, INTEGRALS, INTEG
 }
 
 /// The derivative of u' I w by the entries of the inertia tensor I, in the order of [`PAIRS`].
-pub(in crate::fit) fn form(u: &Vector3<f64>, w: &Vector3<f64>) -> SVector<f64, 6> {
+pub(super) fn form(u: &Vector3<f64>, w: &Vector3<f64>) -> SVector<f64, 6> {
     SVector::from_fn(|at, _| match PAIRS[at] {
         (i, j) if i == j => u[i] * w[i],
         (i, j) => u[i] * w[j] + u[j] * w[i],
     })
+}
+
+/// Moments as a list.
+pub(super) fn list(moments: &Moments) -> SVector<f64, INTEGRALS> {
+    let Moments {
+        area,
+        volume,
+        first,
+        second,
+    } = moments;
+    let mut list = SVector::<f64, INTEGRALS>::zeros();
+    list[0] = *area;
+    list[1] = *volume;
+    list.fixed_rows_mut::<3>(2).copy_from(first);
+    for (at, pair) in PAIRS.into_iter().enumerate() {
+        list[5 + at] = second[pair];
+    }
+    list
+}
+
+/// A list as moments.
+pub(super) fn unlist(list: &SVector<f64, INTEGRALS>) -> Moments {
+    let mut second = Matrix3::zeros();
+    for (at, (i, j)) in PAIRS.into_iter().enumerate() {
+        second[(i, j)] = list[5 + at];
+        second[(j, i)] = list[5 + at];
+    }
+    Moments {
+        area: list[0],
+        volume: list[1],
+        first: list.fixed_rows::<3>(2).into_owned(),
+        second,
+    }
 }

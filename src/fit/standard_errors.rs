@@ -1,0 +1,64 @@
+//! Standard errors of what is told of a grain, or why there are none.
+
+use nalgebra::{Matrix3, Vector3};
+
+/// Standard errors (one standard deviation) of a grain's measures, in the powers of the scan's unit
+/// of these.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StandardErrors {
+    /// Of the area.
+    pub area: f64,
+    /// Of the volume.
+    pub volume: f64,
+    /// Of the centroid's coordinates along the grain's axes.
+    pub centroid: Vector3<f64>,
+    /// Of the entries of the inertia tensor about the centroid, along the grain's axes.
+    pub inertia: Matrix3<f64>,
+    /// Of the principal moments of inertia, ascending.
+    pub moments: Vector3<f64>,
+    /// Of the length, width and thickness: extents along the principal axes.
+    pub dimensions: Vector3<f64>,
+    /// By what the extents of the scanned grain exceed these in the mean: the fitted surface lacks the ripples that
+    /// the points do not tell, and a largest value is larger with them. Zero of positions, which keep their ripples.
+    pub dimensions_excess: Vector3<f64>,
+}
+
+impl StandardErrors {
+    /// Those of a grain so many times as large.
+    pub(crate) fn times(self, factor: f64) -> Self {
+        let [square, cube, fifth] = [2, 3, 5].map(|power| factor.powi(power));
+        Self {
+            area: self.area * square,
+            volume: self.volume * cube,
+            centroid: self.centroid * factor,
+            inertia: self.inertia * fifth,
+            moments: self.moments * fifth,
+            dimensions: self.dimensions * factor,
+            dimensions_excess: self.dimensions_excess * factor,
+        }
+    }
+}
+
+/// Why there are no standard errors that could be trusted.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub enum NoInterval {
+    /// No point lies in a cap of directions of this half-angle, in radians.
+    Hole {
+        /// Half-angle in radians, in the stretched space.
+        half_angle: f64,
+    },
+    /// Residuals are not those of noise: there are edges, or detail that the estimate does not resolve.
+    Unresolved {
+        /// Kurtosis of the residuals: 3 of normal noise.
+        kurtosis: f64,
+    },
+    /// The figures are not finite.
+    NotFinite,
+    /// Squares of the figures are beyond the range of numbers.
+    OutOfRange,
+    /// The surface turns over or crosses itself.
+    Crossing,
+    /// The model is fitted to the points themselves, not to an estimate.
+    NotEstimated,
+}
