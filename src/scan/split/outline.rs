@@ -99,7 +99,7 @@ mod tests {
     use crate::shapes::{Body, SynthOptions, synthesize};
 
     /// Where the bean, 14 mm long, is cut off.
-    const END: f64 = 5.0;
+    const END: f64 = 4.0;
 
     #[test]
     fn an_outline_goes_on_where_a_tenth_of_the_points_is_missing() {
@@ -111,7 +111,7 @@ mod tests {
             let distances = points.iter().map(|point| outline.distance(point));
             distances.fold(0.0, f64::max)
         };
-        assert!(farthest(&known) < 0.06 && farthest(&missing) < 0.4);
+        assert!(farthest(&known) < 0.15 && farthest(&missing) < 0.45);
         let flat: Vec<_> = points.iter().map(|p| Point3::new(p.x, p.y, 1.0)).collect();
         assert!(Outline::through(&flat).is_none() && Outline::through(&points[..50]).is_none());
     }
