@@ -13,7 +13,7 @@
 //!
 //! - the change of the figure if the surface moved to the points, for the penalty on roughness and too few functions
 //!   leave more than noise; and the same of held-out points, which see what the surface does between the others, as far
-//!   as it is more than they scatter;
+//!   as it is more than they scatter; and the same of the vertices alone, for the body bulges over faces that are chords;
 //! - what is [not resolved](Solved::unresolved): a tenth of it is taken to have the same sign everywhere;
 //! - of the area what second order brings: ripples of noise that the surface has, and of the grain that it has not;
 //! - of extents that the highest of many ripples is higher than the surface.
@@ -152,8 +152,8 @@ impl Solved<'_> {
         sum * self.held_out().powi(2)
     }
 
-    /// Squares and products of the changes of the figures if the surface moved to the samples, to those held out, or to
-    /// what is not resolved; `jacobian` leads from the integrals to the figures.
+    /// Squares and products of the changes of the figures if the surface moved to the samples, to those held out, to the
+    /// vertices alone, or to what is not resolved; `jacobian` leads from the integrals to the figures.
     fn left(
         &self,
         jacobian: &SMatrix<f64, INTEGRALS, INTEGRALS>,
@@ -162,16 +162,19 @@ impl Solved<'_> {
     ) -> SMatrix<f64, INTEGRALS, INTEGRALS> {
         let cloud = self.cloud;
         let without = self.distances(self.other);
-        let (mut fitted, mut even, mut held_out) =
-            (SVector::zeros(), SVector::zeros(), SVector::zeros());
+        let [mut fitted, mut even, mut held_out, mut at_vertices] = [SVector::zeros(); 4];
         let mut scatter = SMatrix::zeros();
-        let mut weights = [0.0; 2];
+        let mut weights = [0.0; 3];
         for at in (0..distances.len()).filter(|&at| cloud.is_scanned(at)) {
             let n = &cloud.directions[at];
             let change = jacobian * by_move(n, &self.surface.derivatives(n)) * cloud.weights[at];
             weights[0] += cloud.weights[at];
             fitted += change * distances[at];
             even += change;
+            if at < cloud.vertices() {
+                at_vertices += change * distances[at];
+                weights[2] += cloud.weights[at];
+            }
             if cloud.is_held_out(at) {
                 let moved = change * without[at];
                 weights[1] += cloud.weights[at];
@@ -179,10 +182,13 @@ impl Solved<'_> {
                 scatter += moved * moved.transpose();
             }
         }
-        let [all, some] = weights.map(|weight| cloud.area() / weight);
+        let [all, some, vertices] = weights.map(|weight| cloud.area() / weight);
         let square = |x: SVector<f64, INTEGRALS>| x * x.transpose();
         let mut squares = square(fitted * (all * self.held_out()));
         squares += square(even * (all * ONE_SIDED * unresolved));
+        if weights[2] > 0.0 {
+            squares += square(at_vertices * vertices);
+        }
         let beyond = (square(held_out) - scatter) * (some * some);
         for at in 0..INTEGRALS {
             squares[(at, at)] += beyond[(at, at)].max(0.0);
