@@ -4,8 +4,8 @@
 //! expansion (cement, aggregate, boxes), sampled clean and with noise: the model's radial distance to the truth, and
 //! its area and volume. The second is of scans, of whose points a tenth is hidden from the fit; the third of a
 //! batch of kernels, likewise. Their rival is the least-squares expansion of the whole sphere of the degree that suits
-//! the hidden points best. The last two are of kernels and particles of which volume, area and sizes were published. The
-//! shapes are read from `../shared/scans`; without that folder there is nothing to print.
+//! the hidden points best. The last two are of kernels and particles whose figures were published. The shapes
+//! are read from `../shared/scans`; without that folder there is nothing to print.
 //!
 //! Arguments: `truth`, `hidden`, `batch`, `kernels` or `particles` for one table, and a number to take every so many particles only.
 

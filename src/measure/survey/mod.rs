@@ -2,29 +2,24 @@
 
 mod body;
 mod error;
+mod unit_size;
 
 use super::angularity::angularity;
 use super::bounds::ratio;
-use super::elements::{Element, mesh_elements, surface_elements};
-use super::extents::{RESOLUTION, Reach, sorted};
+use super::elements::Element;
 use super::nodes::{Integrand, nodes};
 use super::unit::Unit;
 use super::{
     Ball, Convexity, CurvatureStatistics, EquivalentEllipsoid, Form, MassProperties, OrientedBox,
     Outline, PrincipalInertia, RadialExpansion, ScannedBody, SideRatios, Spectrum, Sphericity,
-    convex_hull, enclosing_ball, extents, inscribed_ball, minimum_box, project,
+    project,
 };
 use crate::Mesh;
-use crate::model::{Grain, Radial, StarSurface, Surface};
+use crate::model::{Grain, Radial, StarSurface};
 use body::{Body, Inside};
 pub use error::SurveyError;
 use nalgebra::{Matrix3, Vector3};
 use std::cell::OnceCell;
-use std::f64::consts::PI;
-
-/// Share of the directions from the centroid that may meet the surface more than once where the radius
-/// from there is expanded or compared.
-const LARGEST_OVERHANG: f64 = 0.01;
 
 /// A body, and what has been measured of it: each figure is computed when it is first asked for, and
 /// what others need is shared.
@@ -348,114 +343,6 @@ impl<'a> Survey<'a> {
         let seen = [along(0, "length"), along(1, "width"), along(2, "thickness")];
         let [length, width, thickness]: [Result<Outline, SurveyError>; 3] = seen;
         Ok([length?, width?, thickness?])
-    }
-
-    fn unit_properties(&self) -> Result<&MassProperties, SurveyError> {
-        let found = self.properties.get_or_init(|| self.body.properties());
-        found.as_ref().map_err(Clone::clone)
-    }
-
-    fn unit_principal(&self) -> Result<PrincipalInertia, SurveyError> {
-        self.unit_properties()?
-            .principal()
-            .ok_or(SurveyError::NotSolid)
-    }
-
-    fn unit_ellipsoid(&self) -> Result<EquivalentEllipsoid, SurveyError> {
-        self.one_body()?;
-        EquivalentEllipsoid::new(self.unit_properties()?).ok_or(SurveyError::NotSolid)
-    }
-
-    fn unit_dimensions(&self) -> Result<Vector3<f64>, SurveyError> {
-        let dimensions = || {
-            self.one_body()?;
-            let axes = self.unit_principal()?.axes;
-            Ok(match self.reach() {
-                Some(reach) => reach.dimensions(&axes),
-                None => sorted(extents(self.mesh(), &axes)),
-            })
-        };
-        self.extents.get_or_init(dimensions).clone()
-    }
-
-    fn unit_minimum_box(&self) -> Result<OrientedBox, SurveyError> {
-        let least = || {
-            let found = minimum_box(self.hull()?)?;
-            Ok(match self.reach() {
-                Some(reach) => reach.hold(&found.axes),
-                None => found,
-            })
-        };
-        self.minimum_box.get_or_init(least).clone()
-    }
-
-    fn unit_inscribed(&self) -> Result<Ball, SurveyError> {
-        let ball = || {
-            self.one_body()?;
-            Ok(inscribed_ball(self.mesh())?)
-        };
-        self.inscribed.get_or_init(ball).clone()
-    }
-
-    fn unit_enclosing(&self) -> Result<Ball, SurveyError> {
-        let ball = || Ok(enclosing_ball(&self.hull()?.vertices)?);
-        self.enclosing.get_or_init(ball).clone()
-    }
-
-    fn one_body(&self) -> Result<(), SurveyError> {
-        match self.body.count()? {
-            1 => Ok(()),
-            bodies => Err(SurveyError::Several { bodies }),
-        }
-    }
-
-    /// The mesh, or that of the grain.
-    fn mesh(&self) -> &Mesh {
-        match &self.body {
-            Body::Mesh(mesh, _) => mesh,
-            Body::Grain(grain, _) => self.mesh.get_or_init(|| grain.mesh(RESOLUTION)),
-            Body::Known(surface, _) => self.mesh.get_or_init(|| surface.mesh(RESOLUTION)),
-        }
-    }
-
-    /// The surface, if it has a formula, and where it reaches to.
-    fn reach(&self) -> Option<Reach<'_>> {
-        let surface = self.body.surface()?;
-        let mesh = self.mesh();
-        Some(Reach { surface, mesh })
-    }
-
-    fn hull(&self) -> Result<&Mesh, SurveyError> {
-        let hull = || Ok(convex_hull(&self.mesh().vertices)?);
-        self.hull.get_or_init(hull).as_ref().map_err(Clone::clone)
-    }
-
-    /// The elements of a surface that is seen once in each direction from the centroid.
-    fn star_shaped(&self) -> Result<&[Element], SurveyError> {
-        self.one_body()?;
-        let centroid = self.unit_properties()?.centroid;
-        let elements = self.elements.get_or_init(|| match self.body.surface() {
-            Some(surface) => {
-                let shift = surface.frame().centre - centroid;
-                surface_elements(surface, &nodes(surface, Integrand::Slopes), &shift)
-            }
-            None => mesh_elements(self.mesh(), &centroid),
-        });
-        let (mut front, mut back) = (0.0, 0.0);
-        for element in elements {
-            let (_, _, solid_angle) = element.seen();
-            *(if solid_angle > 0.0 {
-                &mut front
-            } else {
-                &mut back
-            }) += solid_angle.abs();
-        }
-        let share = ((front - 4.0 * PI).abs() + back) / (4.0 * PI);
-        // Written so that NaN fails.
-        match share <= LARGEST_OVERHANG {
-            true => Ok(elements),
-            false => Err(SurveyError::NotStarShaped { share }),
-        }
     }
 }
 
