@@ -2,8 +2,9 @@ use super::*;
 use crate::fit::context::Context;
 use crate::fit::estimate::estimate;
 use crate::fit::prepare::Sample;
+use crate::measure::Survey;
 use crate::model::{Family, Frame, StarGrain};
-use crate::shapes::{Body, Sampling};
+use crate::shapes::{Body, Sampling, SynthOptions, synthesize};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
@@ -282,4 +283,25 @@ fn errors_are_the_roots_of_variances_and_of_what_is_told_off() {
         let moments = found.errors(&mean).moments[i];
         close(moments, square + shift.powi(2) + found.repulsion(i).powi(2));
     }
+}
+
+/// Noise hides the last of a beak: the length lacks it, and its error says so.
+#[test]
+fn the_error_of_a_length_covers_what_is_missing_of_a_beak() {
+    let truth = synthesize(&SynthOptions::clean(Body::Chickpea))
+        .unwrap()
+        .truth;
+    let surface = Body::Chickpea.surface();
+    let survey = Survey::of_surface(surface.as_ref(), truth.properties);
+    let length = survey.dimensions().unwrap()[0];
+    let noise = 0.005 * truth.mean_radius;
+    let points = samples(&fibonacci(1538), |n| surface.radius(n), noise);
+    let found = best(&estimated(&points, Vector3::repeat(truth.mean_radius)));
+    let error = found.errors(&found.figures).dimensions[0];
+    let missing = length - found.figures.dimensions[0];
+    assert!(missing > 3.0 * noise, "{missing}");
+    assert!(
+        (0.5..2.0).contains(&(error / missing)),
+        "{error} for {missing}"
+    );
 }
