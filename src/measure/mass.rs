@@ -163,6 +163,19 @@ mod tests {
         }
     }
 
+    #[test]
+    fn the_largest_component_of_the_first_two_axes_is_positive() {
+        for turn in 0..12 {
+            let turn = Rotation3::from_euler_angles(0.5 * f64::from(turn), 0.4, 0.7);
+            let diagonal = Matrix3::from_diagonal(&Vector3::new(1.0, 2.0, 3.0));
+            let inertia = turn.matrix() * diagonal * turn.matrix().transpose();
+            let axes = with_inertia(inertia).principal().unwrap().axes;
+            for axis in [axes.column(0), axes.column(1)] {
+                assert_eq!(axis.amax(), axis.max(), "{axes}");
+            }
+        }
+    }
+
     proptest! {
         #[test]
         fn principal_axes_are_a_sorted_rotation(

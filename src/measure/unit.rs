@@ -157,3 +157,27 @@ impl Unit {
         lengths * self.length
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::Mesh;
+    use crate::measure::Survey;
+    use approx::assert_relative_eq;
+
+    #[test]
+    fn figures_of_a_body_so_many_times_as_large_are_powers_of_it_as_large() {
+        let meshes = [1.0, 300.0].map(|radius| Mesh::radial(8, |_| radius));
+        let [small, large] = meshes.each_ref().map(|mesh| Survey::of_mesh(mesh).unwrap());
+        let close = |large: f64, small: f64, power: i32| {
+            assert_relative_eq!(large, small * 300_f64.powi(power), max_relative = 1e-12);
+        };
+        close(large.area().unwrap(), small.area().unwrap(), 2);
+        close(large.volume().unwrap(), small.volume().unwrap(), 3);
+        let moments = [&large, &small].map(|survey| survey.principal().unwrap().moments[0]);
+        close(moments[0], moments[1], 5);
+        let spheres = |survey: &Survey| [survey.inscribed(), survey.enclosing()];
+        for (large, small) in spheres(&large).into_iter().zip(spheres(&small)) {
+            close(large.unwrap().radius, small.unwrap().radius, 1);
+        }
+    }
+}
