@@ -56,6 +56,26 @@ impl Console {
         put(wrap::to_width(&text, wrap::width(&io::stdout())))
     }
 
+    /// Tells a report: as JSON where that is asked for, else for a person, with the names of what was written and with
+    /// warnings.
+    pub(super) fn tell(
+        self,
+        report: &(impl Serialize + Display),
+        is_json: bool,
+        written: impl IntoIterator<Item = String>,
+        warnings: &[String],
+    ) -> Result<()> {
+        if is_json {
+            return put_json(report);
+        }
+        self.print(report)?;
+        for name in written {
+            self.wrote(&name)?;
+        }
+        self.warn(warnings);
+        Ok(())
+    }
+
     /// Prints that a file was written.
     pub(super) fn wrote(self, name: &str) -> Result<()> {
         self.print(format_args!("wrote {}", escaped(name)))

@@ -1,7 +1,7 @@
 //! `grainform contact`
 
 use super::args::ContactArgs;
-use super::console::{Console, put_json};
+use super::console::Console;
 use super::{inputs, placed, threads};
 use crate::contact::{Material, TouchError, effective_modulus_pa, touch};
 use crate::report::{ContactReport, Load, TouchRecord};
@@ -15,12 +15,7 @@ pub(super) fn run(args: ContactArgs, console: Console) -> Result<()> {
         return placed::run(&args, pose, console);
     }
     let report = contact(&args)?;
-    if args.json {
-        return put_json(&report);
-    }
-    console.print(&report)?;
-    console.warn(&report.warnings);
-    Ok(())
+    console.tell(&report, args.json, None, &report.warnings)
 }
 
 impl ContactArgs {

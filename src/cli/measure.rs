@@ -1,7 +1,7 @@
 //! `grainform measure`
 
 use super::args::MeasureArgs;
-use super::console::{Console, put_json};
+use super::console::Console;
 use super::{inputs, threads};
 use crate::fit::scanned_surface;
 use crate::measure::{Scheme, Survey, scanned_body};
@@ -14,12 +14,7 @@ pub(super) fn run(args: MeasureArgs, console: Console) -> Result<()> {
     progress.stage("Measuring");
     let report = measure(&args)?;
     drop(progress);
-    if args.json {
-        return put_json(&report);
-    }
-    console.print(&report)?;
-    console.warn(&report.warnings);
-    Ok(())
+    console.tell(&report, args.json, None, &report.warnings)
 }
 
 fn measure(args: &MeasureArgs) -> Result<MeasureReport> {

@@ -1,7 +1,7 @@
 //! `grainform contact A B --pose-b ...`
 
 use super::args::ContactArgs;
-use super::console::{Console, put_json};
+use super::console::Console;
 use super::values::{LawArg, PoseArg};
 use super::{inputs, outputs};
 use crate::annotate::{self, ContactFrame};
@@ -14,8 +14,6 @@ use crate::model::{Frame, Grain, Surface};
 use crate::report::{NormalLaw, PlacedReport, RegionsReport};
 use anyhow::{Context, Result, anyhow, bail};
 use nalgebra::{Isometry3, Translation3};
-use serde::Serialize;
-use std::fmt::Display;
 use std::path::Path;
 
 /// Cells along each edge of the cube of directions of a mesh of both bodies.
@@ -30,6 +28,7 @@ pub(super) fn run(args: &ContactArgs, pose: &PoseArg, console: Console) -> Resul
     };
     let output = (args.mesh.as_deref(), outputs::MESH);
     let console = console.beside(outputs::check(Some(&args.model), &[output], args.json)?);
+    let written = args.mesh.as_deref().map(outputs::name);
     let grains = [read(&args.model)?, read(other)?];
     let names = [inputs::name(&args.model), inputs::name(other)];
     let law = law(args, &grains)?;
@@ -39,7 +38,7 @@ pub(super) fn run(args: &ContactArgs, pose: &PoseArg, console: Console) -> Resul
         let touches = report.touches.iter();
         let frames = touches.map(|touch| frame(touch.point, touch.normal));
         draw(args, &grains, pose, &frames.collect::<Vec<_>>())?;
-        return tell(args, &report, &[], console);
+        return console.tell(&report, args.json, written, &[]);
     }
     let [one, two] = &grains;
     let found = contact_regions(&ContactBody::new(one), &ContactBody::new(two), &moved(pose))
@@ -51,25 +50,7 @@ pub(super) fn run(args: &ContactArgs, pose: &PoseArg, console: Console) -> Resul
         .iter()
         .map(|region| frame(region.point, region.normal));
     draw(args, &grains, pose, &frames.collect::<Vec<_>>())?;
-    tell(args, &report, &report.warnings, console)
-}
-
-/// Tells a report, and that the mesh was written if it was asked for.
-fn tell(
-    args: &ContactArgs,
-    report: &(impl Serialize + Display),
-    warnings: &[String],
-    console: Console,
-) -> Result<()> {
-    if args.json {
-        return put_json(report);
-    }
-    console.print(report)?;
-    if let Some(path) = &args.mesh {
-        console.wrote(&outputs::name(path))?;
-    }
-    console.warn(warnings);
-    Ok(())
+    console.tell(&report, args.json, written, &report.warnings)
 }
 
 fn moved(pose: &PoseArg) -> Isometry3<f64> {

@@ -1,7 +1,7 @@
 //! `grainform split`
 
 use super::args::SplitArgs;
-use super::console::{Console, put_json};
+use super::console::Console;
 use super::{inputs, outputs, threads};
 use crate::export::{save_mesh, write_points_ply};
 use crate::mesh::Mesh;
@@ -37,13 +37,8 @@ pub(super) fn run(args: SplitArgs, console: Console) -> Result<()> {
     }
     drop(progress);
     let report = SplitReport::new(name, &found, files).in_unit(args.unit);
-    if args.json {
-        return put_json(&report);
-    }
-    console.print(&report)?;
-    console.wrote(&args.output.display().to_string())?;
-    console.warn(&report.warnings);
-    Ok(())
+    let written = args.output.display().to_string();
+    console.tell(&report, args.json, [written], &report.warnings)
 }
 
 fn write(grain: &Scan, path: &std::path::Path) -> Result<()> {

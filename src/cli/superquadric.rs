@@ -1,7 +1,7 @@
 //! `grainform fit --surface superquadric` and the like.
 
 use super::args::FitArgs;
-use super::console::{Console, put_json};
+use super::console::Console;
 use super::values::SuperquadricArg;
 use super::{inputs, outputs};
 use crate::fit::{
@@ -35,15 +35,9 @@ pub(super) fn run(
         outputs::write_picture(path, &grain, Some(&scan), title, args.fitting.unit)?;
     }
     drop(progress);
-    if args.fitting.json {
-        return put_json(&report);
-    }
-    console.print(&report)?;
-    for path in [&args.output, &args.mesh, &args.png].into_iter().flatten() {
-        console.wrote(&outputs::name(path))?;
-    }
-    console.warn(&report.warnings);
-    Ok(())
+    let files = [&args.output, &args.mesh, &args.png];
+    let written = files.into_iter().flatten().map(|path| outputs::name(path));
+    console.tell(&report, args.fitting.json, written, &report.warnings)
 }
 
 /// Reads and fits the scan.

@@ -6,7 +6,7 @@ mod lammps;
 mod watch;
 
 use super::args::BedArgs;
-use super::console::{Console, put_json};
+use super::console::Console;
 use super::{inputs, outputs, threads};
 use crate::bed::{Bed, BedSettings, Container, Folder, Rest, picture};
 use crate::mesh::Mesh;
@@ -72,13 +72,8 @@ pub(super) fn run(args: BedArgs, console: Console) -> Result<()> {
     };
     let mut report = BedReport::new(names, args.unit, &bed, runs);
     report.warnings.append(&mut warnings);
-    if args.json {
-        return put_json(&report);
-    }
-    console.print(&report)?;
-    console.wrote(&args.output.display().to_string())?;
-    console.warn(&report.warnings);
-    Ok(())
+    let written = args.output.display().to_string();
+    console.tell(&report, args.json, [written], &report.warnings)
 }
 
 /// Lets a bed settle here, from the state in its folder on if there is one.

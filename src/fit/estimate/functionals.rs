@@ -187,7 +187,7 @@ impl RingSurface {
 }
 
 /// The sum of vectors of equal length times factors.
-pub(in crate::fit) fn combined<'a>(
+pub(super) fn combined<'a>(
     vectors: impl Iterator<Item = &'a Vec<f64>>,
     factors: impl Iterator<Item = &'a f64>,
 ) -> Vec<f64> {
@@ -201,7 +201,7 @@ pub(in crate::fit) fn combined<'a>(
     sum
 }
 
-pub(in crate::fit) fn dot(a: &[f64], b: &[f64]) -> f64 {
+pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
