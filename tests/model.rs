@@ -2,7 +2,8 @@
 
 use grainform::measure::{Moments, grain_properties, integrate, mesh_properties};
 use grainform::model::{
-    ModelError, Region, Segmented, StarGrain, StarSurface, Surface, grain_from_json, grain_to_json,
+    Frame, Grain, ModelError, Region, Segmented, StarGrain, StarSurface, Superquadric,
+    SuperquadricGrain, Surface, grain_from_json, grain_to_json,
 };
 use grainform::scan::Scan;
 use grainform::shapes::{Body, SynthOptions, synthesize};
@@ -118,6 +119,24 @@ fn the_gradient_is_the_derivative_of_the_radius_also_at_the_poles() {
         let h = 1e-5;
         let difference = (at(h) - at(-h)) / (2.0 * h);
         assert!((gradient.dot(&tangent) - difference).abs() < 1e-6 * radius);
+    }
+}
+
+#[test]
+fn directions_of_any_length_lead_to_the_same_places() {
+    let star = grain(3, 4);
+    let body = Superquadric::single([2.0, 1.5, 1.0], 4.0, 2.0).expect("a superquadric");
+    let box_like = SuperquadricGrain::single(Frame::SCAN, body).expect("a grain");
+    let n = Vector3::new(0.48, -0.6, 0.64);
+    assert!((star.radius(&(n * 3.0)) - star.radius(&n)).abs() < 1e-12);
+    assert!((star.normal(&(n * 3.0)) - star.normal(&n)).norm() < 1e-12);
+    for grain in [Grain::from(star), Grain::from(box_like)] {
+        let (place, slopes) = grain.place_and_slopes(&n);
+        let (long_place, long_slopes) = grain.place_and_slopes(&(n * 3.0));
+        assert!((long_place - place).norm() < 1e-12 && (long_slopes - slopes).norm() < 1e-12);
+        assert!((grain.point(&(n * 0.1)) - grain.point(&n)).norm() < 1e-12);
+        assert!((grain.places(&[n * 7.0])[0] - place).norm() < 1e-12);
+        assert!((grain.jet(&(n * 7.0)).bends[0] - grain.jet(&n).bends[0]).norm() < 1e-12);
     }
 }
 

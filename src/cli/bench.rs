@@ -1,7 +1,8 @@
 //! `grainform bench`
 
 use super::args::{BenchArgs, InputArgs};
-use super::console::{Console, put_json};
+use super::console::Console;
+use super::streams::put_json;
 use super::{inputs, outputs};
 use crate::bench::{
     self, BenchReport, BenchRow, BenchScan, Cost, Subject, find_rivals, plot, synthetic, write_csv,

@@ -1,7 +1,8 @@
 //! `grainform clump`
 
 use super::args::{ClumpArgs, SpheresArgs};
-use super::console::{Console, put_json};
+use super::console::Console;
+use super::streams::put_json;
 use super::{inputs, outputs, solid, threads};
 use crate::clump::{ClumpTarget, clump};
 use crate::report::ClumpReport;

@@ -1,7 +1,8 @@
 //! `grainform compare`
 
 use super::args::CompareArgs;
-use super::console::{Console, put_json};
+use super::console::Console;
+use super::streams::put_json;
 use crate::batch::{compare, read_lot};
 use crate::report::short;
 use anyhow::{Result, bail};

@@ -2,12 +2,13 @@
 //! to standard error.
 
 use super::progress::Progress;
+use super::streams::{put, put_json, say};
 use super::wrap;
 use crate::report::escaped;
-use anyhow::{Context, Result};
+use anyhow::Result;
 use serde::Serialize;
 use std::fmt::Display;
-use std::io::{self, Write};
+use std::io;
 
 /// How much is told, and where.
 #[derive(Debug, Clone, Copy)]
@@ -110,24 +111,4 @@ impl Console {
             false => wrap::width(&io::stdout()),
         }
     }
-}
-
-/// Prints text to standard output.
-pub(super) fn put(text: impl Display) -> Result<()> {
-    writeln!(io::stdout().lock(), "{text}").context("cannot write to standard output")
-}
-
-/// Prints a record to standard output as JSON.
-pub(super) fn put_json(record: &impl Serialize) -> Result<()> {
-    put(serde_json::to_string_pretty(record)?)
-}
-
-/// Tells the user something on standard error; where that is closed there is nobody to tell.
-pub(super) fn say(text: impl Display) {
-    let _ = writeln!(io::stderr().lock(), "{text}");
-}
-
-/// Tells why the command failed, on one line.
-pub(super) fn say_error(text: &str) {
-    say(format_args!("error: {}", escaped(text)));
 }

@@ -1,6 +1,7 @@
 //! How many of many are done, how fast, and how long the rest will take.
 
-use super::console::{Console, say};
+use super::console::Console;
+use super::streams::say;
 use indicatif::{HumanDuration, ProgressBar, ProgressStyle};
 use std::io::{IsTerminal, stderr};
 use std::sync::{Mutex, PoisonError};

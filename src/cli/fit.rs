@@ -1,8 +1,9 @@
 //! `grainform fit`
 
 use super::args::FitArgs;
-use super::console::{Console, put_json};
+use super::console::Console;
 use super::fitting::{ScanFit, fit_scan, say_stats};
+use super::streams::put_json;
 use super::values::SurfaceArg;
 use super::{outputs, superquadric};
 use crate::fit::Fitted;

@@ -1,8 +1,9 @@
 //! What `fit` and `search` do first: settle the options, read the scan, fit it.
 
 use super::args::FittingArgs;
-use super::console::{Console, say};
+use super::console::Console;
 use super::progress::Progress;
+use super::streams::say;
 use super::{inputs, threads};
 use crate::fit::{self, FitOptions, Fitted, Kind, Stage, Work, whole_or_largest};
 use crate::report::{Seconds, escaped};

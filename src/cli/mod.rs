@@ -26,6 +26,7 @@ mod shell;
 mod signals;
 mod solid;
 mod split;
+mod streams;
 mod superquadric;
 mod synth;
 mod threads;
@@ -34,9 +35,10 @@ mod values;
 mod wrap;
 
 use args::Command;
-use console::{Console, say_error};
+use console::Console;
 use std::io::{self, ErrorKind};
 use std::process::ExitCode;
+use streams::say_error;
 
 /// Bad usage or unusable input.
 const UNUSABLE: u8 = 2;

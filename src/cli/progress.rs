@@ -1,6 +1,6 @@
 //! What is being done, how far it is, and how long it takes.
 
-use super::console::say;
+use super::streams::say;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::fmt::Display;
 use std::time::{Duration, Instant};

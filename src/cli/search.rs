@@ -1,8 +1,9 @@
 //! `grainform search`
 
 use super::args::SearchArgs;
-use super::console::{Console, put_json};
+use super::console::Console;
 use super::fitting::{ScanFit, fit_scan, say_stats};
+use super::streams::put_json;
 use super::{candidates, outputs};
 use crate::fit::{FitOptions, Kind};
 use crate::report::SearchReport;

@@ -1,8 +1,9 @@
 //! `grainform synth`
 
 use super::args::SynthArgs;
-use super::console::{Console, put_json};
+use super::console::Console;
 use super::outputs;
+use super::streams::put_json;
 use super::values::{CloudFormat, SemiAxes, Subject};
 use crate::export::{MeshFormat, write_points_ply, write_points_xyz};
 use crate::model::Superquadric;

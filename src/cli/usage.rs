@@ -2,7 +2,7 @@
 
 use super::UNUSABLE;
 use super::args::Cli;
-use super::console::say_error;
+use super::streams::say_error;
 use clap::error::ErrorKind;
 use clap::{CommandFactory, Parser};
 use std::process::ExitCode;

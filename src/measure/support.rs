@@ -35,12 +35,13 @@ pub struct Support {
     pub is_smooth: bool,
 }
 
-/// The point of a surface farthest in the direction of the unit vector `towards`.
+/// The point of a surface farthest in the direction `towards`, of any length but zero.
 ///
 /// The best of a grid of directions is refined by Newton's iteration on the normal, and where that
 /// does not climb (on an edge or an apex) by a compass search. Error: rounding at a smooth point, 1e-12
 /// of the radius on an edge.
 pub fn support(surface: &(impl Surface + ?Sized), towards: &Vector3<f64>) -> Support {
+    let towards = &towards.normalize();
     let (directions, _) = cube_grid(START);
     let heights = surface.places(&directions).into_iter();
     let start = directions

@@ -8,7 +8,7 @@ use crate::mesh::Mesh;
 use crate::sphere::Symmetry;
 use nalgebra::{Matrix3, Vector3};
 
-/// A fitted grain: a [`Surface`] in the scan's frame and unit.
+/// A fitted grain: a [`Surface`] in the scan's frame and unit. Its directions may have any length but zero.
 ///
 /// Figures that only some kinds have are those of a view of it, such as [`star`](Self::star).
 #[derive(Debug, Clone)]
@@ -150,19 +150,20 @@ impl Surface for Grain {
     }
 
     fn place(&self, n: &Vector3<f64>) -> Vector3<f64> {
-        self.surface().place(n)
+        self.surface().place(&n.normalize())
     }
 
     fn place_and_slopes(&self, n: &Vector3<f64>) -> (Vector3<f64>, Matrix3<f64>) {
-        self.surface().place_and_slopes(n)
+        self.surface().place_and_slopes(&n.normalize())
     }
 
     fn jet(&self, n: &Vector3<f64>) -> SurfaceJet {
-        self.surface().jet(n)
+        self.surface().jet(&n.normalize())
     }
 
     fn places(&self, directions: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
-        self.surface().places(directions)
+        let directions: Vec<_> = directions.iter().map(Vector3::normalize).collect();
+        self.surface().places(&directions)
     }
 
     fn tiling(&self) -> Tiling {

@@ -16,7 +16,8 @@ const CHUNK: usize = 1 << 15;
 /// A star-shaped surface whose radius is made of expansions in spherical harmonics.
 ///
 /// Directions and positions are those of the scan. The radius is measured from [`Frame::centre`]. The
-/// expansions are those of the grain stretched along its own axes, see [`StarGrain::stretched`].
+/// expansions are those of the grain stretched along its own axes, see [`StarGrain::stretched`]. Directions of which a
+/// radius is asked for may have any length but zero.
 #[derive(Debug, Clone)]
 pub struct StarGrain {
     frame: Frame,
@@ -128,18 +129,21 @@ impl StarGrain {
         self.family.coefficients_touched()
     }
 
-    /// The outward unit normal in the direction of the unit vector `n`, in the scan's frame.
-    pub fn normal(&self, n: &Vector3<f64>) -> Vector3<f64> {
-        let (radius, gradient) = self.radius_and_gradient(n);
-        (n * radius - gradient).normalize()
+    /// The unit vector in a direction of the scan, along the grain's own axes.
+    fn local(&self, n: &Vector3<f64>) -> Vector3<f64> {
+        self.frame.axes.tr_mul(&n.normalize())
     }
 
-    /// The radii in the directions of many unit vectors, in the scan's frame: as
-    /// [`StarSurface::radius`], and faster.
+    /// The outward unit normal of the surface in the direction `n`, in the scan's frame.
+    pub fn normal(&self, n: &Vector3<f64>) -> Vector3<f64> {
+        let (radius, gradient) = self.radius_and_gradient(n);
+        (n.normalize() * radius - gradient).normalize()
+    }
+
+    /// The radii in many directions of the scan's frame: as [`StarSurface::radius`], and faster.
     pub fn radii(&self, directions: &[Vector3<f64>]) -> Vec<f64> {
-        let axes = self.frame.axes;
         let of_chunk = |directions: &[Vector3<f64>]| {
-            let local: Vec<_> = directions.iter().map(|n| axes.tr_mul(n)).collect();
+            let local: Vec<_> = directions.iter().map(|n| self.local(n)).collect();
             self.local_radii(&local)
         };
         let chunks = directions.par_chunks(CHUNK);
@@ -160,12 +164,12 @@ impl StarGrain {
 
 impl StarSurface for StarGrain {
     fn radius(&self, n: &Vector3<f64>) -> f64 {
-        let local = self.frame.axes.tr_mul(n);
+        let local = self.local(n);
         self.stretch.radius(&local, |q| self.family.radius(q))
     }
 
     fn radius_and_gradient(&self, n: &Vector3<f64>) -> (f64, Vector3<f64>) {
-        let local = self.frame.axes.tr_mul(n);
+        let local = self.local(n);
         let (radius, gradient) = self
             .stretch
             .radius_and_gradient(&local, |q| self.family.radius_and_gradient(q));
@@ -173,7 +177,7 @@ impl StarSurface for StarGrain {
     }
 
     fn derivatives(&self, n: &Vector3<f64>) -> Derivatives {
-        let local = self.frame.axes.tr_mul(n);
+        let local = self.local(n);
         let derivatives = self
             .stretch
             .derivatives(&local, |q| self.family.derivatives(q));

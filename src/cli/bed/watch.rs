@@ -1,7 +1,8 @@
 //! How far a bed is, told while it settles.
 
-use crate::cli::console::{Console, say};
+use crate::cli::console::Console;
 use crate::cli::progress::Progress;
+use crate::cli::streams::say;
 use indicatif::HumanDuration;
 use std::io::{IsTerminal, stderr};
 use std::time::{Duration, Instant};

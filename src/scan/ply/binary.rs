@@ -7,7 +7,7 @@ use ply_rs::ply::{
     ElementDef, Encoding, Property, PropertyAccess, PropertyAccessResult, PropertyType, ScalarType,
 };
 
-use super::header::Header;
+use super::header::{Header, Skipped};
 use crate::scan::error::{ParseError, Place};
 use crate::scan::polygon::{checked, fan};
 use crate::scan::{Scan, plural};
@@ -187,14 +187,5 @@ impl PropertyAccess for Face {
             _ => return PropertyAccessResult::Ignored,
         };
         PropertyAccessResult::Set
-    }
-}
-
-/// A row that only has to be passed over.
-pub(super) struct Skipped;
-
-impl PropertyAccess for Skipped {
-    fn new() -> Self {
-        Self
     }
 }

@@ -8,9 +8,8 @@
 use std::collections::HashSet;
 
 use ply_rs::parser::{Parser, Reader};
-use ply_rs::ply::{ElementDef, Encoding, PropertyType, Version};
+use ply_rs::ply::{ElementDef, Encoding, PropertyAccess, PropertyType, Version};
 
-use super::binary::Skipped;
 use crate::scan::error::{ParseError, Place};
 use crate::scan::text::{quote, unexpected, words};
 
@@ -32,6 +31,15 @@ pub(super) struct Header {
     pub(super) lines: usize,
     /// Whether the version is one that this reader was written for.
     pub(super) known_version: bool,
+}
+
+/// A row that only has to be passed over.
+pub(super) struct Skipped;
+
+impl PropertyAccess for Skipped {
+    fn new() -> Self {
+        Self
+    }
 }
 
 pub(super) fn read(bytes: &[u8]) -> Result<Header, ParseError> {
