@@ -35,11 +35,11 @@ pub(crate) fn medial_balls(mesh: &Mesh, places: &[EvenPlace]) -> Vec<Ball> {
 
 /// Where a ball may touch a surface.
 pub(super) struct Foot {
-    pub(super) place: Vector3<f64>,
+    place: Vector3<f64>,
     /// The unit vector to the side where the ball is.
-    pub(super) inward: Vector3<f64>,
+    inward: Vector3<f64>,
     /// The ball is not larger.
-    pub(super) most: f64,
+    most: f64,
 }
 
 /// Places of a surface as feet of balls no larger than `largest`.
