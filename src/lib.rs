@@ -44,6 +44,7 @@ pub mod picture;
 mod polygon_hull;
 #[cfg(feature = "cli")]
 pub mod portrait;
+mod predicates;
 pub mod report;
 pub mod scan;
 pub mod shapes;

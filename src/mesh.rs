@@ -1,9 +1,11 @@
 //! A triangle mesh: what a scan may bring, what a fitted grain is exported as.
 
+mod bounds_tree;
 mod contour;
 mod parts;
 mod relaxed;
 
+pub(crate) use bounds_tree::{Bounds, BoundsTree};
 pub(crate) use contour::{Grid, contour};
 pub(crate) use parts::{part, parts};
 pub(crate) use relaxed::relaxed;

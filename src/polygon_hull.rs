@@ -1,7 +1,7 @@
 //! The convex hull of points in the plane.
 
+use crate::predicates::orient2d;
 use nalgebra::Vector2;
-use robust::{Coord, orient2d};
 
 /// The corners of the convex hull of finite points, counter-clockwise and no three of them on one line: by the monotone
 /// chain (Andrew 1979) on an exact predicate, in O(n log n). Fewer than three where the points span no area.
@@ -14,7 +14,7 @@ pub(crate) fn polygon_hull(mut points: Vec<Vector2<f64>>) -> Vec<Vector2<f64>> {
     let mut corners: Vec<Vector2<f64>> = Vec::with_capacity(points.len() + 1);
     let mut append = |start: usize, point: &Vector2<f64>| {
         while let [.., p, q] = corners[start..]
-            && orient2d(coord(&p), coord(&q), coord(point)) <= 0.0
+            && orient2d([p, q, *point]) <= 0.0
         {
             corners.pop();
         }
@@ -30,8 +30,4 @@ pub(crate) fn polygon_hull(mut points: Vec<Vector2<f64>>) -> Vec<Vector2<f64>> {
     }
     corners.pop();
     corners
-}
-
-fn coord(p: &Vector2<f64>) -> Coord<f64> {
-    Coord { x: p.x, y: p.y }
 }

@@ -16,10 +16,9 @@ mod tests;
 mod union_volume;
 
 use crate::Mesh;
-use crate::measure::{Ball, MassProperties};
+use crate::measure::{Ball, MassProperties, equivalent_radius};
 pub use error::{ClumpError, MOST_SPHERES};
 use search::{Search, at_unit_size};
-use std::f64::consts::PI;
 pub use union_volume::union_volume;
 
 /// What ends the search.
@@ -57,10 +56,6 @@ impl Clump {
         let reach = |ball: &Ball| (ball.centre - self.grain.centroid).norm() + ball.radius;
         self.spheres.iter().map(reach).fold(0.0, f64::max)
     }
-}
-
-fn equivalent_radius(volume: f64) -> f64 {
-    (3.0 * volume / (4.0 * PI)).cbrt()
 }
 
 /// The clump of a grain, given by a closed mesh of it, wound counter-clockwise from outside, and its own volume,

@@ -1,6 +1,7 @@
 //! A normal force that keeps energy whatever the shapes: the gradient of an energy of the volume that two bodies share.
 
 use super::ContactRegion;
+use crate::measure::equivalent_radius;
 use nalgebra::Vector3;
 use std::f64::consts::PI;
 
@@ -23,7 +24,7 @@ pub struct VolumeLaw {
 impl VolumeLaw {
     /// Of two bodies by their volumes, whose unit of length is so many metres.
     pub fn new(volumes: [f64; 2], metres_per_unit: f64, effective_modulus_pa: f64) -> Self {
-        let [one, two] = volumes.map(|volume| (0.75 * volume / PI).cbrt());
+        let [one, two] = volumes.map(equivalent_radius);
         let radius = one * two / (one + two);
         Self {
             stiffness_pa: 8.0 / 15.0 * effective_modulus_pa * radius.powf(-0.75)

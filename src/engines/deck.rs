@@ -4,6 +4,7 @@ use super::error::InvalidDeck;
 use super::kind::Kind;
 use super::material::GrainMaterial;
 use crate::bed::{Bed, Container};
+use crate::measure::equivalent_radius;
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
@@ -226,7 +227,7 @@ impl Deck {
 
     /// The diameter of the ball of a mass, in metres.
     fn equal_diameter(&self, mass: f64) -> f64 {
-        (6.0 * mass / self.material.density / PI).cbrt()
+        2.0 * equivalent_radius(mass / self.material.density)
     }
 
     /// How often a step goes into that of the smallest grain as one ball, which is larger than its spheres.

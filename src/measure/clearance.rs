@@ -2,10 +2,9 @@
 
 use super::Ball;
 use microlp::{ComparisonOp, OptimizationDirection, Problem};
-use nalgebra::{Point3, Vector3};
+use nalgebra::Vector3;
 
-/// Obstacles added to the linear programme per round, and rounds.
-const PER_ROUND: usize = 16;
+/// Rounds in which obstacles are added to the linear programme.
 const ROUNDS: usize = 60;
 
 /// Slack that counts as none, relative to the largest shift; the solver itself holds 1e-7.
@@ -28,35 +27,30 @@ const PLANES_WORTH: f64 = 0.01;
 
 /// Convex and flat obstacles: triangles, say.
 pub(super) trait Obstacles {
-    /// How many there are.
-    fn count(&self) -> usize;
     /// The point of an obstacle nearest to a place.
     fn nearest(&self, index: usize, place: &Vector3<f64>) -> Vector3<f64>;
     /// Normal of the plane of an obstacle, of any length.
     fn normal(&self, index: usize) -> Vector3<f64>;
     /// Obstacles among which are all those that are not farther than `radius` from a place.
-    fn within(&self, _place: &Vector3<f64>, _radius: f64) -> Vec<usize> {
-        (0..self.count()).collect()
-    }
+    fn within(&self, place: &Vector3<f64>, radius: f64) -> Vec<usize>;
 }
 
-/// A ball that touches obstacles at most, from `start` on, and cannot grow by a small shift.
+/// A ball that touches obstacles at most, from one that does so on, and cannot grow by a small shift: it stays on the side
+/// of them where it is.
 ///
 /// The distance to an obstacle is at least that to its plane, and at least its own linearisation. Both
 /// bounds are linear in the shift, and so the best shift for them is found by a linear programme. Planes
 /// go first, those that the ball does not cross: where the surface is convex they are exact. When they
 /// allow little more, as on a rough surface, the linearisations decide.
 ///
-/// `None` if there are no obstacles, a distance is not finite, or the ball comes as near as the first shift to one of
-/// those `found` before, and is smaller: it would become that one.
-fn largest(obstacles: &impl Obstacles, start: &Point3<f64>, found: &[Ball]) -> Option<Ball> {
-    let count = obstacles.count();
+/// `None` if the ball comes as near as the first shift to one of those `found` before, and is smaller: it would become
+/// that one.
+fn largest(obstacles: &impl Obstacles, start: &Ball, found: &[Ball]) -> Option<Ball> {
     let distance = |index: usize, place: &Vector3<f64>| {
         let nearest = obstacles.nearest(index, place);
         (place - nearest).norm()
     };
-    let mut centre = start.coords;
-    let mut radius = least(count, &centre, &distance)?;
+    let (mut centre, mut radius) = (start.centre.coords, start.radius);
     let mut reach = FIRST_REACH * radius;
     let mut by_planes = true;
     let around = |radius: f64, centre: &Vector3<f64>| {
@@ -114,37 +108,15 @@ fn largest(obstacles: &impl Obstacles, start: &Point3<f64>, found: &[Ball]) -> O
     })
 }
 
-/// The largest of the balls that starts lead to, of those that are inside.
-pub(super) fn largest_from(
-    obstacles: &impl Obstacles,
-    starts: &[Ball],
-    is_inside: impl Fn(&Ball) -> bool,
-) -> Option<Ball> {
+/// The largest of the balls that starts lead to, which touch obstacles at most.
+pub(super) fn largest_from(obstacles: &impl Obstacles, starts: &[Ball]) -> Option<Ball> {
     let mut found = Vec::with_capacity(starts.len());
     for start in starts {
-        let ball = largest(obstacles, &start.centre, &found);
-        found.extend(ball.filter(&is_inside));
+        found.extend(largest(obstacles, start, &found));
     }
     found
         .into_iter()
         .max_by(|one, other| one.radius.total_cmp(&other.radius))
-}
-
-/// Distance to the nearest of `count` obstacles; `None` if there are none, or a distance is not finite.
-fn least(
-    count: usize,
-    centre: &Vector3<f64>,
-    distance: &impl Fn(usize, &Vector3<f64>) -> f64,
-) -> Option<f64> {
-    let mut least = f64::INFINITY;
-    for index in 0..count {
-        let distance = distance(index, centre);
-        if !distance.is_finite() {
-            return None;
-        }
-        least = least.min(distance);
-    }
-    least.is_finite().then_some(least)
 }
 
 /// The obstacles that are not farther than `radius` from `centre`.
@@ -210,26 +182,26 @@ struct Bound {
     room: f64,
 }
 
-/// The shift within the unit ball's inner cube that allows the largest growth.
+/// The shift within the unit ball's inner cube that allows the largest growth: that of the bounds that it breaks, of which
+/// those most broken are added in turns, one for each octant of gradients.
 fn best_shift(bounds: &[Bound]) -> Option<Vector3<f64>> {
     let (mut shift, mut growth) = (Vector3::zeros(), f64::INFINITY);
-    let mut used = vec![false; bounds.len()];
     let mut subset: Vec<&Bound> = Vec::new();
     for _ in 0..ROUNDS {
-        let mut violated: Vec<(f64, usize)> = bounds
-            .iter()
-            .enumerate()
-            .map(|(i, bound)| (bound.room + bound.gradient.dot(&shift), i))
-            .filter(|&(allowed, i)| !used[i] && allowed < growth - SLACK)
-            .collect();
-        if violated.is_empty() {
-            break;
+        let mut broken = [(growth - SLACK, None); 8];
+        for bound in bounds {
+            let allowed = bound.room + bound.gradient.dot(&shift);
+            let sides = bound.gradient.map(|along| usize::from(along > 0.0));
+            let most = &mut broken[sides.x + 2 * sides.y + 4 * sides.z];
+            if allowed < most.0 {
+                *most = (allowed, Some(bound));
+            }
         }
-        let kept = violated.len().min(PER_ROUND);
-        violated.select_nth_unstable_by(kept - 1, |a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        for &(_, i) in &violated[..kept] {
-            used[i] = true;
-            subset.push(&bounds[i]);
+        let added = broken.into_iter().filter_map(|(_, bound)| bound);
+        let known = subset.len();
+        subset.extend(added);
+        if subset.len() == known {
+            break;
         }
         (shift, growth) = solve(&subset)?;
     }

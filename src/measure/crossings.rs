@@ -1,82 +1,48 @@
 //! Where a mesh goes through itself.
 
 use crate::Mesh;
+use crate::mesh::{Bounds, BoundsTree};
+use crate::predicates::orient3d;
 use nalgebra::Point3;
-use robust::{Coord3D, orient3d};
 
 /// The pairs of triangles of a mesh, by their indices, that go through one another and share no vertex. What only
 /// touches does not count. All triangles must name vertices that exist.
 pub fn crossings(mesh: &Mesh) -> Vec<[usize; 2]> {
-    let triangles = mesh.triangles.iter().enumerate();
-    let mut sorted: Vec<Triangle> = triangles
-        .map(|(index, corners)| {
-            Triangle::new(index, *corners, corners.map(|i| mesh.vertices[i as usize]))
-        })
-        .collect();
-    sorted.sort_by(|one, other| one.low.x.total_cmp(&other.low.x));
+    let points = |corners: &[u32; 3]| corners.map(|i| mesh.vertices[i as usize]);
+    let triangles = mesh.triangles.iter().map(points);
+    let boxes: Vec<Bounds> = triangles.map(|points| Bounds::new(points, 0.0)).collect();
+    let tree = BoundsTree::new(boxes.clone());
     let mut found = Vec::new();
-    for (at, one) in sorted.iter().enumerate() {
-        let beside = sorted[at + 1..]
-            .iter()
-            .take_while(|other| other.low.x <= one.high.x);
-        let crossed = beside.filter(|other| one.crosses(other));
-        found.extend(crossed.map(|other| [one.index, other.index]));
+    for (one, bounds) in boxes.iter().enumerate() {
+        let corners = &mesh.triangles[one];
+        let crosses = |&two: &usize| {
+            let others = &mesh.triangles[two];
+            let is_joined = || corners.iter().any(|corner| others.contains(corner));
+            let [own, other] = [corners, others].map(points);
+            one < two && !is_joined() && (is_pierced(own, other) || is_pierced(other, own))
+        };
+        let beside = tree.meeting(bounds).map(|two| two as usize);
+        found.extend(beside.filter(crosses).map(|two| [one, two]));
     }
     found
 }
 
-struct Triangle {
-    index: usize,
-    corners: [u32; 3],
-    points: [Point3<f64>; 3],
-    low: Point3<f64>,
-    high: Point3<f64>,
-}
-
-impl Triangle {
-    fn new(index: usize, corners: [u32; 3], points: [Point3<f64>; 3]) -> Self {
-        let [a, b, c] = &points;
-        Self {
-            index,
-            corners,
-            low: a.inf(b).inf(c),
-            high: a.sup(b).sup(c),
-            points,
+/// Whether an edge of another triangle goes through a triangle.
+fn is_pierced([a, b, c]: [Point3<f64>; 3], [p, q, r]: [Point3<f64>; 3]) -> bool {
+    let sides = [p, q, r].map(|corner| is_left([a, b, c], corner));
+    let edges = [(p, q), (q, r), (r, p)];
+    (0..3).any(|edge| {
+        let (p, q) = edges[edge];
+        sides[edge] != sides[(edge + 1) % 3] && {
+            let side = is_left([p, q, a], b);
+            side == is_left([p, q, b], c) && side == is_left([p, q, c], a)
         }
-    }
-
-    fn crosses(&self, other: &Self) -> bool {
-        let is_apart = (0..3)
-            .any(|axis| self.low[axis] > other.high[axis] || other.low[axis] > self.high[axis]);
-        let is_joined = self
-            .corners
-            .iter()
-            .any(|corner| other.corners.contains(corner));
-        !is_apart && !is_joined && (self.is_pierced_by(other) || other.is_pierced_by(self))
-    }
-
-    /// Whether an edge of another triangle goes through this one.
-    fn is_pierced_by(&self, other: &Self) -> bool {
-        let [a, b, c] = self.points;
-        let [p, q, r] = other.points;
-        [(p, q), (q, r), (r, p)].into_iter().any(|(p, q)| {
-            is_left([a, b, c], p) != is_left([a, b, c], q) && {
-                let side = is_left([p, q, a], b);
-                side == is_left([p, q, b], c) && side == is_left([p, q, c], a)
-            }
-        })
-    }
+    })
 }
 
 /// The side of a plane on which a point lies; exact.
 fn is_left(plane: [Point3<f64>; 3], point: Point3<f64>) -> bool {
-    let coordinates = |v: Point3<f64>| Coord3D {
-        x: v.x,
-        y: v.y,
-        z: v.z,
-    };
-    let [a, b, c] = plane.map(coordinates);
-    orient3d(a, b, c, coordinates(point)) > 0.0
+    orient3d(plane, point) > 0.0
 }
 
 #[cfg(test)]

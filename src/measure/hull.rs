@@ -13,8 +13,8 @@
 //! sets, and takes a minute for a million points that are all on the hull; chull is quadratic.
 
 use crate::Mesh;
-use nalgebra::{Point3, Vector3};
-use robust::{Coord, Coord3D, orient2d, orient3d};
+use crate::predicates::{orient2d, orient3d};
+use nalgebra::{Point3, Vector2, Vector3};
 use thiserror::Error;
 
 #[cfg(test)]
@@ -180,8 +180,8 @@ impl<'a> Hull<'a> {
         if height < -facet.error {
             return None;
         }
-        let [a, b, c] = [a, b, c].map(|corner| coord(&self.points[corner as usize]));
-        (orient3d(a, b, c, coord(position)) < 0.0).then(|| height.max(0.0))
+        let corners = [a, b, c].map(|corner| self.points[corner as usize]);
+        (orient3d(corners, *position) < 0.0).then(|| height.max(0.0))
     }
 
     /// Keeps a point with the first of the facets that it is outside of, if any.
@@ -348,7 +348,7 @@ fn first_tetrahedron(points: &[Point3<f64>]) -> Option<[u32; 4]> {
         !is_collinear(&a, &b, p)
     })?;
     let normal = (b - a).cross(&(c - a));
-    let side = |p: &Point3<f64>| orient3d(coord(&a), coord(&b), coord(&c), coord(p));
+    let side = |p: &Point3<f64>| orient3d([a, b, c], *p);
     let d = largest(&|p| normal.dot(&(p - a)).abs(), &|p| side(p) != 0.0)?;
     let index = |q: Point3<f64>| Some(points.iter().position(|p| *p == q)? as u32);
     let [i, j, k, l] = [index(a)?, index(b)?, index(c)?, index(d)?];
@@ -363,18 +363,7 @@ fn first_tetrahedron(points: &[Point3<f64>]) -> Option<[u32; 4]> {
 /// Whether three points are on one line: they are in all three projections along the axes.
 fn is_collinear(a: &Point3<f64>, b: &Point3<f64>, c: &Point3<f64>) -> bool {
     (0..3).all(|axis| {
-        let [a, b, c] = [a, b, c].map(|p| Coord {
-            x: p[axis],
-            y: p[(axis + 1) % 3],
-        });
-        orient2d(a, b, c) == 0.0
+        let seen = |p: &Point3<f64>| Vector2::new(p[axis], p[(axis + 1) % 3]);
+        orient2d([a, b, c].map(seen)) == 0.0
     })
-}
-
-fn coord(point: &Point3<f64>) -> Coord3D<f64> {
-    Coord3D {
-        x: point.x,
-        y: point.y,
-        z: point.z,
-    }
 }

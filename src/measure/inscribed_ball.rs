@@ -3,7 +3,7 @@
 use super::Ball;
 use super::clearance::largest_from;
 use super::even_places::even_places;
-use super::medial::{deepest, medial_balls_of};
+use super::medial::{deepest, feet};
 use super::triangle_tree::TriangleTree;
 use super::winding::winding_number;
 use crate::Mesh;
@@ -63,9 +63,12 @@ pub fn inscribed_ball(mesh: &Mesh) -> Result<Ball, InscribedBallError> {
         return Err(InscribedBallError::NoSurface);
     }
     let tree = TriangleTree::new(mesh);
-    let medial = medial_balls_of(&tree, &even_places(mesh, FEET));
-    let is_inside = |ball: &Ball| winding_number(mesh, &ball.centre) > 0.5;
-    largest_from(&tree, &deepest(medial, is_inside), is_inside).ok_or(InscribedBallError::NoInside)
+    let starts = deepest(
+        feet(&even_places(mesh, FEET), tree.size()),
+        |place, limit| tree.nearest(place, limit),
+        |ball| winding_number(mesh, &ball.centre) > 0.5,
+    );
+    largest_from(&tree, &starts).ok_or(InscribedBallError::NoInside)
 }
 
 #[cfg(test)]

@@ -81,10 +81,13 @@ const GRID: usize = 10;
 /// The same of hulls of few facets: 3 degrees.
 const SMALL_GRID: usize = 30;
 
-/// Directions that are refined, and the least angle between them in radians: of smooth bodies, and of hulls of
-/// few facets, whose volume has more minima and is found faster.
-const STARTS: (usize, f64) = (4, 0.2);
-const SMALL_STARTS: (usize, f64) = (48, 0.06);
+/// Directions that are refined, the least angle between them in radians, and the size in radians of the simplex at which
+/// the refinement ends: of smooth bodies, and of hulls of few facets, whose volume has more minima and is found faster.
+const STARTS: (usize, f64, f64) = (4, 0.2, 1e-6);
+const SMALL_STARTS: (usize, f64, f64) = (48, 0.06, 1e-10);
+
+/// A box that is so many times as large as the least known, after the first searches, is not refined further.
+const HOPELESS: f64 = 1.02;
 
 /// Largest numbers of triangles whose normals, and of edges whose pairs, are tried as well.
 const SMALL_TRIANGLES: usize = 600;
@@ -119,7 +122,7 @@ pub fn minimum_box(hull: &Mesh) -> Result<OrientedBox, MeshIntegralError> {
         .filter_map(|direction| few.least_box(&direction))
         .collect();
     tried.sort_by(|a, b| a.volume.total_cmp(&b.volume));
-    let (most, apart) = match is_small {
+    let (most, apart, last) = match is_small {
         true => SMALL_STARTS,
         false => STARTS,
     };
@@ -136,7 +139,11 @@ pub fn minimum_box(hull: &Mesh) -> Result<OrientedBox, MeshIntegralError> {
     let principal = box_along(&unit.vertices, &frame);
     let mut least = (principal.volume(), frame);
     for start in starts {
-        let mut best = few.refine(start, apart / 2.0, 4);
+        let mut best = few.refine(start, apart / 2.0, 2, apart * 1e-3);
+        if best.volume > least.0 * HOPELESS {
+            continue;
+        }
+        best = few.refine(best, apart / 8.0, 2, last);
         for _ in 0..ROUNDS {
             // With more points it can only become larger.
             if best.volume >= least.0 {
@@ -153,7 +160,7 @@ pub fn minimum_box(hull: &Mesh) -> Result<OrientedBox, MeshIntegralError> {
             let Some(grown) = few.least_box(&best.axes.column(2).into_owned()) else {
                 break;
             };
-            best = few.refine(grown, NEARBY, 2);
+            best = few.refine(grown, NEARBY, 2, last);
         }
     }
     Ok(box_along(&hull.vertices, &least.1))
@@ -277,13 +284,13 @@ impl ExtremePoints {
     }
 
     /// A local minimum of the volume near a box: so many simplex searches, the first of the given size in
-    /// radians.
-    fn refine(&self, start: Candidate, size: f64, restarts: i32) -> Candidate {
+    /// radians and the last one ending at another.
+    fn refine(&self, start: Candidate, size: f64, restarts: i32, last: f64) -> Candidate {
         let mut best = start;
         for restart in 0..restarts {
             let size = size * SHRINK.powi(restart);
             let end = if restart + 1 == restarts {
-                LAST_SIMPLEX
+                last
             } else {
                 size.abs() * 1e-2
             };
@@ -351,6 +358,5 @@ impl ExtremePoints {
 /// for one that has collapsed in a crease does not find its way along it.
 const SHRINK: f64 = -0.5;
 
-/// Steps of a simplex search, and the size in radians at which the last one ends.
+/// Steps of a simplex search.
 const STEPS: usize = 120;
-const LAST_SIMPLEX: f64 = 1e-10;

@@ -69,6 +69,7 @@ pub use roundness::ROUNDNESS_ORDER;
 pub use scanned::{FacesDefect, Fill, ScannedBody, scanned_body};
 pub(crate) use scanned::{largest_part, without_dust};
 pub use spectrum::{RadialExpansion, SPECTRUM_DEGREE, Spectrum};
+pub(crate) use sphericity::equivalent_radius;
 pub use sphericity::{Sphericity, wadell};
 pub use superquadric::{SolidProperties, superquadric_properties, union_properties};
 pub(crate) use support::support_near;

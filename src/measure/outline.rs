@@ -3,7 +3,7 @@
 use super::bounds::{OutOfBounds, ratio};
 use super::clearance::{Obstacles, largest_from};
 use super::convex_polygon::ConvexPolygon;
-use super::medial::{deepest, free_radius, medial_ball};
+use super::medial::{Foot, deepest};
 use super::roundness::roundness;
 use super::winding::polygon_winding_number;
 use super::{Ball, enclosing_ball};
@@ -147,22 +147,21 @@ impl Outline {
 fn inscribed_circle(points: &[Vector2<f64>], largest: f64) -> Option<Ball> {
     let walls = Walls(points);
     let nearest = |place: &Vector3<f64>, limit: f64| {
-        let all = (0..walls.count()).map(|index| walls.nearest(index, place));
+        let all = (0..points.len()).map(|index| walls.nearest(index, place));
         let squares = all.map(|nearest| ((nearest - place).norm_squared(), nearest));
         let least = squares.min_by(|one, other| one.0.total_cmp(&other.0))?;
         (least.0 < limit * limit).then_some(least.1)
     };
     let step = points.len().div_ceil(FEET);
     let corners: Vec<Vector3<f64>> = points.iter().map(|p| in_space(p).coords).collect();
-    let medial = (0..points.len()).step_by(step).filter_map(|index| {
+    let feet = (0..points.len()).step_by(step).filter_map(|index| {
         let [start, along] = walls.edge(index);
         let inward = Vector3::new(-along.y, along.x, 0.0).try_normalize(0.0)?;
-        let foot = Vector3::new(start.x + along.x / 2.0, start.y + along.y / 2.0, 0.0);
-        let free = free_radius(&foot, &inward, largest, corners.iter());
-        Some(medial_ball(&foot, &inward, free, nearest))
+        let middle = Vector3::new(start.x + along.x / 2.0, start.y + along.y / 2.0, 0.0);
+        Some(Foot::new(middle, inward, largest, corners.iter()))
     });
     let is_inside = |ball: &Ball| polygon_winding_number(points, &ball.centre.coords.xy()) > 0.5;
-    largest_from(&walls, &deepest(medial.collect(), is_inside), is_inside)
+    largest_from(&walls, &deepest(feet.collect(), nearest, is_inside))
 }
 
 /// The edges of a polygon as walls across the plane, so that the distance to them is that in the plane.
@@ -176,10 +175,6 @@ impl Walls<'_> {
 }
 
 impl Obstacles for Walls<'_> {
-    fn count(&self) -> usize {
-        self.0.len()
-    }
-
     fn nearest(&self, index: usize, place: &Vector3<f64>) -> Vector3<f64> {
         let [start, along] = self.edge(index);
         let share = along.dot(&(place.xy() - start)) / along.norm_squared();
@@ -191,6 +186,10 @@ impl Obstacles for Walls<'_> {
     fn normal(&self, index: usize) -> Vector3<f64> {
         let [_, along] = self.edge(index);
         Vector3::new(-along.y, along.x, 0.0)
+    }
+
+    fn within(&self, _place: &Vector3<f64>, _radius: f64) -> Vec<usize> {
+        (0..self.0.len()).collect()
     }
 }
 

@@ -39,10 +39,9 @@ impl Sphericity {
         enclosing: f64,
     ) -> Self {
         let [length, width, thickness] = descending(dimensions);
-        let volume_radius = (0.75 / PI * properties.volume).cbrt();
         Self {
             wadell: wadell(properties.area, properties.volume),
-            operational: volume_radius / enclosing,
+            operational: equivalent_radius(properties.volume) / enclosing,
             inscribed_enclosing: inscribed / enclosing,
             inscribed_enclosing_root: (inscribed / enclosing).sqrt(),
             krumbein: (width * thickness / (length * length)).cbrt(),
@@ -62,6 +61,11 @@ impl Sphericity {
             maximum_projection: ratio("maximum projection sphericity", self.maximum_projection)?,
         })
     }
+}
+
+/// Radius of the sphere of equal volume.
+pub(crate) fn equivalent_radius(volume: f64) -> f64 {
+    (0.75 / PI * volume).cbrt()
 }
 
 /// Wadell's true sphericity of a body of this area and volume, see [`Sphericity::wadell`].

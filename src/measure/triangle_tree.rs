@@ -1,132 +1,56 @@
-//! A tree of boxes over the triangles of a mesh, to find the point nearest to a place.
+//! The triangles of a mesh in a tree, to find those near a place.
 
 use super::clearance::Obstacles;
 use crate::Mesh;
-use nalgebra::Vector3;
+use crate::mesh::{Bounds, BoundsTree};
+use nalgebra::{Point3, Vector3};
 
-/// Triangles per leaf.
-const LEAF: usize = 4;
-
-/// A bounding volume hierarchy: each node holds the box of its triangles and two halves of them.
+/// Triangles, in the order of a tree of their boxes.
 pub(super) struct TriangleTree {
     triangles: Vec<[Vector3<f64>; 3]>,
-    /// Depth first: the first child of a node follows it.
-    nodes: Vec<Node>,
-}
-
-struct Node {
-    low: Vector3<f64>,
-    high: Vector3<f64>,
-    /// Of a leaf, its triangles; of others, empty.
-    triangles: std::ops::Range<usize>,
-    /// The second child.
-    second: usize,
+    tree: BoundsTree,
 }
 
 impl TriangleTree {
     /// The tree of a mesh whose triangles all name vertices that exist.
     pub(super) fn new(mesh: &Mesh) -> Self {
-        let corners = |t: &[u32; 3]| t.map(|corner| mesh.vertices[corner as usize].coords);
-        let mut tree = Self {
-            triangles: mesh.triangles.iter().map(corners).collect(),
-            nodes: Vec::new(),
-        };
-        let count = tree.triangles.len();
-        if count > 0 {
-            tree.build(0..count);
+        let corners = |t: &[u32; 3]| t.map(|corner| mesh.vertices[corner as usize]);
+        let triangles = mesh.triangles.iter();
+        let boxes = triangles.map(|t| Bounds::new(corners(t), 0.0));
+        let tree = BoundsTree::new(boxes.collect());
+        let in_order = tree.order().iter().map(|&at| &mesh.triangles[at as usize]);
+        Self {
+            triangles: in_order
+                .map(|t| corners(t).map(|corner| corner.coords))
+                .collect(),
+            tree,
         }
-        tree
-    }
-
-    fn build(&mut self, range: std::ops::Range<usize>) {
-        let own = &mut self.triangles[range.clone()];
-        let mut low = Vector3::repeat(f64::INFINITY);
-        let mut high = -low;
-        for corner in own.iter().flatten() {
-            (low, high) = (low.inf(corner), high.sup(corner));
-        }
-        let node = self.nodes.len();
-        let is_leaf = range.len() <= LEAF;
-        self.nodes.push(Node {
-            low,
-            high,
-            triangles: if is_leaf { range.clone() } else { 0..0 },
-            second: 0,
-        });
-        if is_leaf {
-            return;
-        }
-        let axis = (high - low).imax();
-        let half = range.len() / 2;
-        let place = |t: &[Vector3<f64>; 3]| t[0][axis] + t[1][axis] + t[2][axis];
-        own.select_nth_unstable_by(half, |one, other| place(one).total_cmp(&place(other)));
-        let middle = range.start + half;
-        self.build(range.start..middle);
-        self.nodes[node].second = self.nodes.len();
-        self.build(middle..range.end);
-    }
-
-    /// Triangles whose boxes are not farther than `radius` from a place.
-    fn in_reach(&self, place: &Vector3<f64>, radius: f64) -> Vec<usize> {
-        let mut found = Vec::new();
-        let mut open: Vec<usize> = (0..self.nodes.len().min(1)).collect();
-        while let Some(index) = open.pop() {
-            let node = &self.nodes[index];
-            if node.squared_distance(place) <= radius * radius {
-                found.extend(node.triangles.clone());
-                if node.second > 0 {
-                    open.extend([index + 1, node.second]);
-                }
-            }
-        }
-        found
     }
 
     /// The diagonal of the box of the mesh.
     pub(super) fn size(&self) -> f64 {
-        self.nodes
-            .first()
-            .map_or(0.0, |root| (root.high - root.low).norm())
+        self.tree.bounds().map_or(0.0, Bounds::size)
     }
 
     /// The point of the mesh nearest to a place, if it is nearer than `limit`: the search keeps to that ball.
     pub(super) fn nearest(&self, place: &Vector3<f64>, limit: f64) -> Option<Vector3<f64>> {
         let mut best = (limit * limit, None);
-        let mut open: Vec<(f64, usize)> = Vec::with_capacity(64);
-        if let Some(root) = self.nodes.first() {
-            open.push((root.squared_distance(place), 0));
-        }
-        while let Some((bound, index)) = open.pop() {
-            if bound >= best.0 {
-                continue;
-            }
-            let node = &self.nodes[index];
-            for triangle in &self.triangles[node.triangles.clone()] {
+        self.tree.near(&Point3::from(*place), best.0, |span| {
+            for triangle in &self.triangles[span] {
                 let nearest = nearest_in_triangle(triangle, place);
                 let squared = (place - nearest).norm_squared();
                 if squared < best.0 {
                     best = (squared, Some(nearest));
                 }
             }
-            if node.second > 0 {
-                let mut children = [index + 1, node.second]
-                    .map(|child| (self.nodes[child].squared_distance(place), child));
-                if children[0].0 < children[1].0 {
-                    children.swap(0, 1);
-                }
-                open.extend(children);
-            }
-        }
+            best.0
+        });
         best.1
     }
 }
 
 /// Numbered in an order of the tree's own.
 impl Obstacles for TriangleTree {
-    fn count(&self) -> usize {
-        self.triangles.len()
-    }
-
     fn nearest(&self, index: usize, place: &Vector3<f64>) -> Vector3<f64> {
         nearest_in_triangle(&self.triangles[index], place)
     }
@@ -136,20 +60,18 @@ impl Obstacles for TriangleTree {
     }
 
     fn within(&self, place: &Vector3<f64>, radius: f64) -> Vec<usize> {
-        self.in_reach(place, radius)
+        let (mut found, limit) = (Vec::new(), radius * radius);
+        self.tree.near(&Point3::from(*place), limit, |span| {
+            found.extend(span);
+            limit
+        });
+        found
     }
 }
 
 /// The normal of a triangle, twice as long as its area is large.
 pub(super) fn normal([a, b, c]: &[Vector3<f64>; 3]) -> Vector3<f64> {
     (b - a).cross(&(c - a))
-}
-
-impl Node {
-    fn squared_distance(&self, place: &Vector3<f64>) -> f64 {
-        let outside = (self.low - place).sup(&(place - self.high));
-        outside.sup(&Vector3::zeros()).norm_squared()
-    }
 }
 
 /// The point of a triangle nearest to p (Ericson 2005, section 5.1.5).

@@ -6,8 +6,8 @@
 //! it crosses triangles of the other surface.
 
 use super::patch::sorted;
+use crate::predicates::orient3d;
 use nalgebra::{Point3, Vector3};
-use robust::{Coord3D, orient3d};
 use std::collections::HashMap;
 
 /// A closed surface, or a part of one whose rim lies outside the other.
@@ -122,7 +122,7 @@ fn piercing(one: &Side<'_>, edge: [u32; 2], two: &Side<'_>, triangle: u32) -> Op
     let [p, q] = edge.map(|end| one.vertices[end as usize]);
     let corners = two.triangles[triangle as usize];
     let [a, b, c] = corners.map(|i| two.vertices[i as usize]);
-    let (before, after) = (orientation(a, b, c, p), orientation(a, b, c, q));
+    let (before, after) = (orient3d([a, b, c], p), orient3d([a, b, c], q));
     if (before > 0.0) == (after > 0.0) {
         return None;
     }
@@ -130,7 +130,7 @@ fn piercing(one: &Side<'_>, edge: [u32; 2], two: &Side<'_>, triangle: u32) -> Op
     let passes = |from: usize, to: usize| {
         let ends = [corners[from], corners[to]];
         let [low, high] = sorted(ends).map(|i| two.vertices[i as usize]);
-        let is_left = orientation(p, q, low, high) > 0.0;
+        let is_left = orient3d([p, q, low], high) > 0.0;
         is_left == (ends[0] < ends[1])
     };
     let side = passes(0, 1);
@@ -143,17 +143,6 @@ fn piercing(one: &Side<'_>, edge: [u32; 2], two: &Side<'_>, triangle: u32) -> Op
         share,
         point: p + (q - p) * share,
     })
-}
-
-/// Six times the volume of a tetrahedron, its sign exact: above zero where d lies below the plane of a, b and c, that is
-/// on the side from which these run clockwise.
-fn orientation(a: Point3<f64>, b: Point3<f64>, c: Point3<f64>, d: Point3<f64>) -> f64 {
-    let [a, b, c, d] = [a, b, c, d].map(|v| Coord3D {
-        x: v.x,
-        y: v.y,
-        z: v.z,
-    });
-    orient3d(a, b, c, d)
 }
 
 /// Whether each vertex lies inside, and whether that is the same by every way.

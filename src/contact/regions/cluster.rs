@@ -6,9 +6,9 @@ use super::kept::Kept;
 use super::lens::lens;
 use super::patch::Patch;
 use super::sums::Sums;
-use super::tree::{Bounds, BoundsTree};
 use super::{ContactRegion, RegionError, RegionWork};
 use crate::disjoint_sets::DisjointSets;
+use crate::mesh::{Bounds, BoundsTree};
 use nalgebra::{Isometry3, Point3, UnitQuaternion, Vector3};
 use std::collections::BTreeMap;
 

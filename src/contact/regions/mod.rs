@@ -18,7 +18,6 @@ mod near;
 mod pair;
 mod patch;
 mod sums;
-mod tree;
 
 use crate::measure::Curvature;
 use crate::model::Surface;

@@ -2,7 +2,7 @@
 
 use super::deepest::{DeepestPair, Placed};
 use super::patch::Patch;
-use super::tree::BoundsTree;
+use crate::mesh::BoundsTree;
 use nalgebra::{Point3, Unit, Vector3};
 use std::collections::HashMap;
 

@@ -1,6 +1,6 @@
 //! A part of a surface as triangles that are made smaller where two bodies are near each other.
 
-use super::tree::Bounds;
+use crate::mesh::Bounds;
 use crate::model::Surface;
 use crate::sphere::cube_grid;
 use nalgebra::{Isometry3, Point3, Vector3};

@@ -9,7 +9,6 @@ use faer::linalg::cholesky::llt::factor::{
     LltParams, LltRegularization, cholesky_in_place, cholesky_in_place_scratch,
 };
 use faer::linalg::matmul::matmul;
-use faer::linalg::matmul::triangular::{self, BlockStructure};
 use faer::linalg::triangular_solve::{
     solve_lower_triangular_in_place, solve_upper_triangular_in_place,
 };
@@ -180,31 +179,34 @@ pub(super) fn copy(mut to: MatMut<'_, f64>, from: MatRef<'_, f64>) {
 impl Column {
     /// Subtracts B B^T from the columns of the rows that B has; `rest` begins at position `first`.
     fn update(&self, rest: &mut [Column], first: usize) {
-        let height = self.below.nrows();
-        let mut product = Mat::<f64>::zeros(height, height);
-        triangular::matmul(
-            product.as_mut(),
-            BlockStructure::TriangularLower,
-            Accum::Replace,
-            self.below.as_ref(),
-            BlockStructure::Rectangular,
-            self.below.transpose(),
-            BlockStructure::Rectangular,
-            1.0,
-            Par::Seq,
-        );
+        let ends: Vec<usize> = (1..self.rows.len())
+            .map(|row| self.starts[row])
+            .chain([self.below.nrows()])
+            .collect();
         for (k, &row) in self.rows.iter().enumerate() {
             let target = &mut rest[row - first];
-            let size = target.diagonal.nrows();
-            let columns = product.subcols(self.starts[k], size);
-            target.diagonal -= columns.subrows(self.starts[k], size);
-            for (l, &lower) in self.rows.iter().enumerate().skip(k + 1) {
-                let end = self.starts.get(l + 1).copied().unwrap_or(height);
-                let size = end - self.starts[l];
-                if let Some(start) = target.start_of(lower) {
-                    let mut part = target.below.subrows_mut(start, size);
-                    part -= columns.subrows(self.starts[l], size);
-                }
+            let own = self.below.subrows(self.starts[k], ends[k] - self.starts[k]);
+            let subtract = |part: MatMut<'_, f64>, rows: MatRef<'_, f64>| {
+                matmul(part, Accum::Add, rows, own.transpose(), -1.0, Par::Seq);
+            };
+            subtract(target.diagonal.as_mut(), own);
+            // Rows that follow each other there too, at once.
+            let mut next = k + 1;
+            while next < self.rows.len() {
+                let Some(start) = target.start_of(self.rows[next]) else {
+                    next += 1;
+                    continue;
+                };
+                let from = self.starts[next];
+                let follows = |&l: &usize| {
+                    target.start_of(self.rows[l]) == Some(start + self.starts[l] - from)
+                };
+                let last = (next..self.rows.len()).take_while(follows).last();
+                let last = last.unwrap_or(next);
+                let height = ends[last] - from;
+                let rows = self.below.subrows(from, height);
+                subtract(target.below.subrows_mut(start, height), rows);
+                next = last + 1;
             }
         }
     }

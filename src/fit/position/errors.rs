@@ -135,7 +135,7 @@ impl Solved<'_> {
         self.factor.solve(&mut solved);
         let mut influences = vec![Figures::zeros(); cloud.points.len()];
         let mut add = |figure: usize, rows: &Rows| {
-            let of_cell = |cell: u16| solved[usize::from(cell)].col_as_slice(figure).as_chunks().0;
+            let of_cell = |cell: u16| solved[usize::from(cell)].col_as_slice(figure);
             for (value, &member) in values(rows, of_cell).iter().zip(&rows.members) {
                 let at = member as usize;
                 let share = cloud.weights[at] * cloud.normals[at].dot(value);

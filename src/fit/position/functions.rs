@@ -46,6 +46,24 @@ pub(super) struct Rows {
     pub(super) values: Vec<f64>,
 }
 
+impl Rows {
+    /// Functions of one cell.
+    pub(super) fn per_cell(&self) -> usize {
+        self.values.len() / (self.members.len() * self.cells.len())
+    }
+
+    /// The values of every row times a weight of its member.
+    pub(super) fn times(&self, weight: impl Fn(u32) -> f64) -> Vec<f64> {
+        let weights: Vec<f64> = self.members.iter().map(|&member| weight(member)).collect();
+        let mut values = self.values.clone();
+        for column in values.chunks_exact_mut(weights.len()) {
+            let weighted = column.iter_mut().zip(&weights);
+            weighted.for_each(|(value, weight)| *value *= weight);
+        }
+        values
+    }
+}
+
 impl Functions {
     /// Harmonics of the whole sphere.
     pub(super) fn whole(degree: usize) -> Self {
@@ -86,8 +104,14 @@ impl Functions {
         self.cell_count() * self.per_cell()
     }
 
-    /// The surface with the given coefficients: per cell x, y, z of one function after the other.
+    /// The surface with the given coefficients: per cell x of all functions, then y, then z.
     pub(super) fn surface(&self, coefficients: Vec<Vec<f64>>) -> Result<Position, InvalidGrain> {
+        let size = self.per_cell();
+        let triples = |own: Vec<f64>| {
+            let triple = |function: usize| [0, 1, 2].map(|i| own[i * size + function]);
+            (0..size).flat_map(triple).collect()
+        };
+        let coefficients: Vec<Vec<f64>> = coefficients.into_iter().map(triples).collect();
         match self.cover() {
             None => Position::whole(coefficients.concat()),
             Some(cover) => Position::blended(cover.clone(), coefficients),

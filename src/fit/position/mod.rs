@@ -23,7 +23,7 @@ use super::options::{FitOptions, Tolerance};
 use super::prepare::{Reference, ReferenceKind, principal_axes, scanned_surface, usable};
 use super::standard_errors::{NoInterval, StandardErrors};
 use super::warning::FitWarning;
-use crate::measure::{Unit, mesh_properties};
+use crate::measure::{Unit, equivalent_radius, mesh_properties};
 use crate::mesh::Mesh;
 use crate::model::{Frame, Position};
 use crate::scan::Scan;
@@ -31,7 +31,6 @@ use cloud::Cloud;
 use map::spherical_map;
 use nalgebra::Point3;
 use search::search;
-use std::f64::consts::PI;
 
 /// A fitted surface, and what is known of it.
 #[derive(Debug, Clone)]
@@ -94,7 +93,7 @@ pub fn fit_position(
     if properties.volume.is_nan() || properties.volume <= 0.0 {
         return Err(FitError::NoVolume { points });
     }
-    let size = (3.0 * properties.volume / (4.0 * PI)).cbrt();
+    let size = equivalent_radius(properties.volume);
     let at_unit_frame = Frame {
         centre: properties.centroid,
         axes: principal_axes(&at_unit, &properties),

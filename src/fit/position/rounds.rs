@@ -8,7 +8,7 @@
 use super::cloud::{Cloud, Distances};
 use super::errors::Solved;
 use super::functions::{Functions, Rows};
-use super::least_squares::{Equations, Term, solve};
+use super::least_squares::{Equations, Roughness, Term};
 use crate::fit::context::{Cancelled, Context};
 use crate::fit::linear::BlockFactor;
 use crate::fit::standard_errors::{NoInterval, StandardErrors};
@@ -16,7 +16,7 @@ use crate::measure::crossings;
 use crate::mesh::Mesh;
 use crate::model::Position;
 use crate::sphere::cube_grid;
-use nalgebra::{Matrix3, Point3, Vector3};
+use nalgebra::{Matrix3, Point3};
 
 /// Weights of errors across the normal, beside 1 along it, round by round.
 const ACROSS: [f64; 5] = [0.3, 0.1, 0.03, 0.03, 0.03];
@@ -40,7 +40,7 @@ const RESOLUTION: usize = 48;
 /// Functions and what their roughness is made of.
 pub(super) struct Problem<'a> {
     pub(super) functions: &'a Functions,
-    roughness: Vec<Rows>,
+    roughness: Roughness,
 }
 
 /// Which samples a fit is made to.
@@ -67,7 +67,7 @@ pub(super) struct Fitted {
 impl<'a> Problem<'a> {
     pub(super) fn new(functions: &'a Functions) -> Self {
         Self {
-            roughness: functions.roughness(),
+            roughness: Roughness::new(functions),
             functions,
         }
     }
@@ -105,23 +105,12 @@ impl<'a> Problem<'a> {
             }
         };
         let terms: Vec<Term> = (0..cloud.points.len()).map(term).collect();
-        let smooth = Term {
-            target: Vector3::zeros(),
-            weight: Matrix3::identity() * roughness,
+        let equations = Equations {
+            rows,
+            terms: &terms,
+            roughness: (&self.roughness, roughness),
         };
-        let members = self.roughness.iter().flat_map(|rows| &rows.members);
-        let smooth = vec![smooth; members.max().map_or(0, |most| *most as usize + 1)];
-        let equations = [
-            Equations {
-                rows,
-                terms: &terms,
-            },
-            Equations {
-                rows: &self.roughness,
-                terms: &smooth,
-            },
-        ];
-        let (coefficients, factor) = solve(self.functions, &equations)?;
+        let (coefficients, factor) = equations.solve(self.functions)?;
         Some((self.functions.surface(coefficients).ok()?, factor))
     }
 

@@ -9,6 +9,7 @@ use crate::sphere::{CubeCell, GaussLegendre, coefficient_count, cube_grid, harmo
 use approx::assert_relative_eq;
 use nalgebra::{Rotation3, Vector3};
 use std::f64::consts::FRAC_PI_2;
+use std::f64::consts::PI;
 
 /// A mesh over the directions of a cube with so many cells per edge.
 fn mesh(resolution: usize, point: impl Fn(&Vector3<f64>) -> Vector3<f64>) -> Mesh {

@@ -8,9 +8,9 @@ use proptest::prelude::*;
 fn assert_holds(mesh: &Mesh, points: &[Point3<f64>]) {
     mesh.check_closed().expect("closed");
     for corners in &mesh.triangles {
-        let [a, b, c] = corners.map(|corner| coord(&mesh.vertices[corner as usize]));
+        let corners = corners.map(|corner| mesh.vertices[corner as usize]);
         for point in points {
-            assert!(orient3d(a, b, c, coord(point)) >= 0.0, "{point} is outside");
+            assert!(orient3d(corners, *point) >= 0.0, "{point} is outside");
         }
     }
 }

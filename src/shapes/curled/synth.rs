@@ -1,14 +1,13 @@
 //! Scans of bodies that no centre sees whole: a mesh over the sphere, or points all over the surface.
 
 use super::{Curled, CurledTruth, OverSphere};
-use crate::measure::MassProperties;
+use crate::measure::{MassProperties, equivalent_radius};
 use crate::mesh::Mesh;
 use crate::shapes::random::{Stream, random};
 use crate::shapes::{MAX_NOISE, MAX_POINTS, MIN_POINTS};
 use crate::sphere::cube_grid;
 use nalgebra::{Point3, Vector3};
 use rand_distr::{Distribution, StandardNormal, StandardUniform, UnitSphere};
-use std::f64::consts::PI;
 use thiserror::Error;
 
 /// Cells along an edge of the cube of directions of the mesh: 13 826 vertices.
@@ -121,7 +120,7 @@ pub fn synthesize_curled(options: &CurledOptions) -> Result<CurledScan, CurledEr
             )
         }
     };
-    let radius = (3.0 * truth.properties.volume / (4.0 * PI)).cbrt();
+    let radius = equivalent_radius(truth.properties.volume);
     let mut noise = random(options.seed, Stream::Noise);
     let vertex = |(place, area): (Vector3<f64>, Vector3<f64>)| {
         let error: f64 = StandardNormal.sample(&mut noise);
@@ -182,6 +181,7 @@ fn check(options: &CurledOptions) -> Result<(), CurledError> {
 mod tests {
     use super::*;
     use approx::assert_relative_eq;
+    use std::f64::consts::PI;
 
     #[test]
     fn points_are_laid_by_area() {

@@ -17,10 +17,10 @@ pub use error::MapError;
 
 use crate::fit::context::Context;
 use crate::mesh::Mesh;
+use crate::predicates::orient3d;
 use grow::{Sweeps, grow};
 use half_edges::HalfEdges;
 use nalgebra::{Matrix3, Point3, Vector3};
-use robust::Coord3D;
 use simplify::simplify;
 use std::f64::consts::PI;
 
@@ -124,13 +124,8 @@ fn certify(mesh: &Mesh, places: &[Vector3<f64>]) -> Result<(), MapError> {
 
 /// Whether a triangle on the sphere is seen counter-clockwise from outside; exact.
 pub(super) fn is_upright([a, b, c]: [Vector3<f64>; 3]) -> bool {
-    let coordinates = |v: Vector3<f64>| Coord3D {
-        x: v.x,
-        y: v.y,
-        z: v.z,
-    };
-    let [a, b, c, centre] = [a, b, c, Vector3::zeros()].map(coordinates);
-    robust::orient3d(a, b, c, centre) > 0.0
+    let [a, b, c] = [a, b, c].map(Point3::from);
+    orient3d([a, b, c], Point3::origin()) > 0.0
 }
 
 #[cfg(test)]

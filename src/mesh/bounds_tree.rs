@@ -1,0 +1,244 @@
+//! A tree of boxes: which of them meet, and which are near a place, without a look at most of them.
+
+use nalgebra::{Point3, Vector3};
+use std::ops::Range;
+
+/// Boxes in one leaf, at most.
+const LEAF: usize = 4;
+
+/// A box along the axes.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Bounds {
+    low: Point3<f64>,
+    high: Point3<f64>,
+}
+
+impl Bounds {
+    /// Round points, and so far beyond them.
+    pub(crate) fn new(points: impl IntoIterator<Item = Point3<f64>>, beyond: f64) -> Self {
+        let none = Self {
+            low: Point3::new(f64::INFINITY, f64::INFINITY, f64::INFINITY),
+            high: Point3::new(f64::NEG_INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY),
+        };
+        let round = points.into_iter().fold(none, |round, point| Self {
+            low: round.low.inf(&point),
+            high: round.high.sup(&point),
+        });
+        Self {
+            low: round.low.map(|x| x - beyond),
+            high: round.high.map(|x| x + beyond),
+        }
+    }
+
+    pub(crate) fn meets(&self, other: &Self) -> bool {
+        (0..3).all(|axis| self.low[axis] <= other.high[axis] && other.low[axis] <= self.high[axis])
+    }
+
+    pub(crate) fn holds(&self, point: &Point3<f64>) -> bool {
+        (0..3).all(|axis| (self.low[axis]..=self.high[axis]).contains(&point[axis]))
+    }
+
+    fn with(&self, other: &Self) -> Self {
+        Self {
+            low: self.low.inf(&other.low),
+            high: self.high.sup(&other.high),
+        }
+    }
+
+    /// Twice the middle.
+    fn middle(&self, axis: usize) -> f64 {
+        self.low[axis] + self.high[axis]
+    }
+
+    /// Length of the diagonal.
+    pub(crate) fn size(&self) -> f64 {
+        (self.high - self.low).norm()
+    }
+
+    fn squared_distance(&self, place: &Point3<f64>) -> f64 {
+        let outside = (self.low - place).sup(&(place - self.high));
+        outside.sup(&Vector3::zeros()).norm_squared()
+    }
+}
+
+/// Boxes, in a tree.
+pub(crate) struct BoundsTree {
+    boxes: Vec<Bounds>,
+    order: Vec<u32>,
+    /// Depth first: the first half of a node follows it.
+    nodes: Vec<Node>,
+}
+
+/// What lies in a span of the order; of a node that is no leaf, where its second half is.
+struct Node {
+    bounds: Bounds,
+    span: [usize; 2],
+    second: Option<usize>,
+}
+
+impl BoundsTree {
+    pub(crate) fn new(boxes: Vec<Bounds>) -> Self {
+        let mut tree = Self {
+            order: (0..boxes.len() as u32).collect(),
+            boxes,
+            nodes: Vec::new(),
+        };
+        if !tree.boxes.is_empty() {
+            tree.grow(0, tree.boxes.len());
+        }
+        tree
+    }
+
+    /// Adds the node of a span.
+    fn grow(&mut self, from: usize, to: usize) {
+        let boxes = &self.boxes;
+        let span = &mut self.order[from..to];
+        let first = boxes[span[0] as usize];
+        let bounds = span
+            .iter()
+            .fold(first, |round, &i| round.with(&boxes[i as usize]));
+        let half = (span.len() > LEAF).then(|| {
+            let axis = (bounds.high - bounds.low).imax();
+            let half = span.len() / 2;
+            span.select_nth_unstable_by(half, |&a, &b| {
+                let [a_at, b_at] = [a, b].map(|i| boxes[i as usize].middle(axis));
+                a_at.total_cmp(&b_at).then(a.cmp(&b))
+            });
+            from + half
+        });
+        let own = self.nodes.len();
+        self.nodes.push(Node {
+            bounds,
+            span: [from, to],
+            second: None,
+        });
+        if let Some(half) = half {
+            self.grow(from, half);
+            self.nodes[own].second = Some(self.nodes.len());
+            self.grow(half, to);
+        }
+    }
+
+    /// Round all boxes; `None` if there are none.
+    pub(crate) fn bounds(&self) -> Option<&Bounds> {
+        self.nodes.first().map(|root| &root.bounds)
+    }
+
+    /// The numbers of the boxes, in the order of the leaves.
+    pub(crate) fn order(&self) -> &[u32] {
+        &self.order
+    }
+
+    /// Looks at the boxes that are not farther from a place than the root of `limit`, leaf by leaf, near ones first.
+    /// `look` is given their places in the order, and returns the squared distance up to which to look from then on.
+    pub(crate) fn near(
+        &self,
+        place: &Point3<f64>,
+        mut limit: f64,
+        mut look: impl FnMut(Range<usize>) -> f64,
+    ) {
+        let mut open: Vec<(f64, usize)> = Vec::with_capacity(64);
+        let distance = |node: usize| (self.nodes[node].bounds.squared_distance(place), node);
+        open.extend(self.nodes.first().map(|_| distance(0)));
+        while let Some((squared, index)) = open.pop() {
+            let node = &self.nodes[index];
+            match node.second {
+                _ if squared > limit => {}
+                None => limit = look(node.span[0]..node.span[1]),
+                Some(second) => {
+                    let mut halves = [index + 1, second].map(distance);
+                    if halves[0].0 < halves[1].0 {
+                        halves.swap(0, 1);
+                    }
+                    open.extend(halves);
+                }
+            }
+        }
+    }
+
+    /// All pairs of boxes of two trees that meet, and how many boxes were compared.
+    pub(crate) fn pairs(&self, other: &Self) -> (Vec<[u32; 2]>, usize) {
+        let (mut found, mut compared) = (Vec::new(), 0);
+        let mut left = match self.nodes.is_empty() || other.nodes.is_empty() {
+            true => Vec::new(),
+            false => vec![[0, 0]],
+        };
+        while let Some([one, two]) = left.pop() {
+            let (near, far) = (&self.nodes[one], &other.nodes[two]);
+            compared += 1;
+            if !near.bounds.meets(&far.bounds) {
+                continue;
+            }
+            let is_larger = near.bounds.size() >= far.bounds.size();
+            match (near.second, far.second) {
+                (Some(second), None) => left.extend([one + 1, second].map(|half| [half, two])),
+                (Some(second), Some(_)) if is_larger => {
+                    left.extend([one + 1, second].map(|half| [half, two]));
+                }
+                (_, Some(second)) => left.extend([two + 1, second].map(|half| [one, half])),
+                (None, None) => {
+                    for &i in &self.order[near.span[0]..near.span[1]] {
+                        for &j in &other.order[far.span[0]..far.span[1]] {
+                            compared += 1;
+                            if self.boxes[i as usize].meets(&other.boxes[j as usize]) {
+                                found.push([i, j]);
+                            }
+                        }
+                    }
+                }
+            }
+        }
+        found.sort_unstable();
+        (found, compared)
+    }
+
+    /// All boxes that meet a box.
+    pub(crate) fn meeting(&self, bounds: &Bounds) -> impl Iterator<Item = u32> {
+        let mut open: Vec<usize> = (0..self.nodes.len().min(1)).collect();
+        let leaves = std::iter::from_fn(move || {
+            while let Some(index) = open.pop() {
+                let node = &self.nodes[index];
+                match node.second {
+                    _ if !node.bounds.meets(bounds) => {}
+                    None => return Some(&self.order[node.span[0]..node.span[1]]),
+                    Some(second) => open.extend([second, index + 1]),
+                }
+            }
+            None
+        });
+        let numbers = leaves.flatten().copied();
+        numbers.filter(|&i| self.boxes[i as usize].meets(bounds))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn boxes(most: usize) -> impl Strategy<Value = Vec<Bounds>> {
+        let place = || prop::array::uniform3(-1.0..1.0_f64);
+        let any = (place(), 0.01..0.3_f64)
+            .prop_map(|(place, beyond)| Bounds::new([Point3::from(place)], beyond));
+        prop::collection::vec(any, 0..most)
+    }
+
+    proptest! {
+        #[test]
+        fn the_pairs_are_those_of_all_boxes_against_all(some in boxes(60), others in boxes(60)) {
+            let mut all = Vec::new();
+            for (i, one) in (0..).zip(&some) {
+                all.extend((0..).zip(&others).filter(|(_, other)| one.meets(other)).map(|(j, _)| [i, j]));
+            }
+            let (one, two) = (BoundsTree::new(some.clone()), BoundsTree::new(others));
+            let (found, _) = one.pairs(&two);
+            let mut by_box: Vec<[u32; 2]> = Vec::new();
+            for (i, bounds) in (0..).zip(&some) {
+                by_box.extend(two.meeting(bounds).map(|j| [i, j]));
+            }
+            by_box.sort_unstable();
+            prop_assert_eq!(by_box, &all[..]);
+            prop_assert_eq!(found, all);
+        }
+    }
+}
