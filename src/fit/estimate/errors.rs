@@ -9,15 +9,18 @@
 //!   do not tell; those of the [extents](super::dimension_errors); the repulsion of nearly equal moments;
 //! - a floor, for rounding and quadrature.
 //!
-//! There are none where the prior cannot be trusted: beside a large hole, and where what is left of the points is no
-//! noise.
+//! Where what is left of the points is no noise, the variances grow by what [leaving them out](super::left_out) tells.
+//!
+//! There are none where neither can be trusted: beside a large hole, and of symmetric bodies with
+//! [edges](super::unresolved).
 
 use super::dimension_errors::dimensions;
 use super::dimensions::Reach;
 use super::functionals::{RingSurface, combined, dot};
+use super::left_out::LeftOut;
 use super::outcome::Estimate;
 use super::posterior::Posterior;
-use super::unresolved::{kurtosis, limit};
+use super::unresolved::{is_symmetric, kurtosis, limit};
 use crate::fit::figures::{
     Figures, INERTIA, INTEGRALS, MassList, derivatives, form, list, mass, unlist,
 };
@@ -51,10 +54,12 @@ impl Estimate {
     ) -> Result<StandardErrors, NoInterval> {
         let posterior = self.posterior();
         let kurtosis = kurtosis(&posterior.residuals(&self.coefficients));
-        if kurtosis > limit(self.cloud.len()) {
+        let is_rough = kurtosis > limit(self.cloud.len());
+        if is_rough && is_symmetric(&self.coefficients) {
             return Err(NoInterval::Unresolved { kurtosis });
         }
-        let best = Best::new(self, &posterior).ok_or(NoInterval::NotFinite)?;
+        let left_out = is_rough.then(|| LeftOut::new(self, &posterior));
+        let best = Best::new(self, &posterior, left_out.as_ref()).ok_or(NoInterval::NotFinite)?;
         Ok(best.errors(told))
     }
 }
@@ -81,8 +86,12 @@ pub(super) struct Best {
 }
 
 impl Best {
-    /// `None` if the figures are not finite.
-    pub(super) fn new(estimate: &Estimate, posterior: &Posterior<'_>) -> Option<Self> {
+    /// `None` if the figures are not finite. `left_out` are the points where residuals are no noise.
+    pub(super) fn new(
+        estimate: &Estimate,
+        posterior: &Posterior<'_>,
+        left_out: Option<&LeftOut<'_>>,
+    ) -> Option<Self> {
         let surface = RingSurface::new(estimate);
         let moments = surface.moments();
         let (mass, principal) = mass(&moments);
@@ -96,14 +105,17 @@ impl Best {
             .map(|row| combined(integrals.iter(), jacobian.row(row).iter()))
             .collect();
         let covariances = given.covariances(&gradients);
-        let covariance = covariance(&gradients, &covariances);
+        let mut covariance = covariance(&gradients, &covariances);
+        if let Some(left_out) = left_out {
+            covariance += left_out.covariance(&covariances);
+        }
 
         let nodes = surface.nodes.iter().zip(&surface.radii);
         let starts: Vec<_> = nodes.map(|((n, _), (r, _))| (*n, *r)).collect();
         let reach = Reach::new(estimate, starts)?;
         let sd = |i: usize, j: usize| turn_variance(&covariance, &principal.axes, i, j).sqrt();
         let mass_and = (&gradients[..], &covariances[..]);
-        let dimensions = dimensions(estimate, &given, &reach, &principal, mass_and, sd);
+        let dimensions = dimensions(estimate, &given, &reach, &principal, mass_and, sd, left_out);
         Some(Self {
             figures: Figures {
                 area: mass.area,
