@@ -58,9 +58,8 @@ fn row(
         let place = grain.point(&n).coords.normalize();
         let exact = Curvature::new(&place, &Radial(truth.as_ref()).jet(&place)).principal;
         let error = grain.curvature_error(&n).ok_or("an estimate")?;
-        let largest = |k: [f64; 2]| k[0].abs().max(k[1].abs());
-        sharpest = sharpest.max(largest(exact));
-        sharpest_told = sharpest_told.max(largest(told));
+        sharpest = sharpest.max(exact[0].max(exact[1]));
+        sharpest_told = sharpest_told.max(told[0].max(told[1]));
         for (told, exact) in told.into_iter().zip(exact) {
             within += usize::from((told - exact).abs() <= QUANTILE * error);
             radii = radii.max((exact / told - 1.0).abs());

@@ -38,7 +38,7 @@ const SYNTH: [(usize, f64, Layout, u64); 11] = [
     (6146, 0.0, Layout::Whole, 1),
     (6146, 0.005, Layout::Whole, 40),
     (1_000_000, 0.0, Layout::Whole, 1),
-    (1_000_000, 0.005, Layout::Whole, 5),
+    (1_000_000, 0.005, Layout::Whole, 12),
     (6146, 0.005, Layout::Thin, 40),
     (6146, 0.005, Layout::Hole, 40),
     (1538, 0.02, Layout::Whole, 20),

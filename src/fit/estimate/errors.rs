@@ -71,7 +71,8 @@ const AREA_FLOOR: f64 = 2e-5;
 const EXTENT_FLOOR: f64 = 1e-5;
 
 /// Share of the area's excess that the best value holds. Of spectra that end (band-limited grains) the prior
-/// expects too much of it, of those that go on about the right amount; the same share is the allowance.
+/// expects too much of it, of those that go on, as where residuals are no noise, about the right amount; this share is
+/// the allowance for both.
 const EXCESS_SHARE: f64 = 0.5;
 
 /// The best values of an estimate, and what their errors come from.
@@ -80,6 +81,8 @@ pub(super) struct Best {
     covariance: SMatrix<f64, INTEGRALS, INTEGRALS>,
     /// Excess of area, volume, centroid, inertia over those of the mean.
     excess: MassList,
+    /// How much of that of the area the best value holds.
+    share: f64,
     principal: PrincipalInertia,
     dimension_variances: Vector3<f64>,
     dimension_excess: Vector3<f64>,
@@ -127,6 +130,7 @@ impl Best {
             },
             covariance,
             excess,
+            share: left_out.map_or(EXCESS_SHARE, |_| 1.0),
             principal,
             dimension_variances: dimensions.variances,
             dimension_excess: dimensions.excess,
@@ -140,7 +144,8 @@ impl Best {
         let square = |x: f64| x * x;
         let shifts: Moments = unlist(&self.excess);
         let half = EXCESS_SHARE * shifts.area;
-        let area = square(best.area + half - told.area) + square(half) + variance(0);
+        let excess = self.share * shifts.area;
+        let area = square(best.area + excess - told.area) + square(half) + variance(0);
         let volume = square(best.volume + shifts.volume - told.volume) + variance(1);
         let centroid = Vector3::from_fn(|i, _| {
             square(best.centroid[i] + shifts.first[i] - told.centroid[i]) + variance(2 + i)

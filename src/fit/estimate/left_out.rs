@@ -23,7 +23,7 @@ use crate::fit::neighbours::Neighbours;
 use nalgebra::{SMatrix, Vector3};
 
 /// Points near an end that tell how far the surface may be off there.
-const VICINITY: usize = 40;
+const VICINITY: usize = 10;
 
 /// Points left out one by one.
 pub(super) struct LeftOut<'a> {
