@@ -1,10 +1,10 @@
 //! How often the truth lies within the stated 95 % intervals (figure ± 1.96 standard errors): prints the tables of
 //! docs/accuracy.md.
 //!
-//! `cargo run --release --example coverage` prints four tables: of the three synthetic grains; of particles whose radius
-//! is known as an expansion (`nist`); of bodies that no centre sees whole (`curled`); and of the hidden points of real
-//! scans (`hidden`). The second and the last are read from `../shared/scans`, and left out where that folder is absent.
-//! Arguments: `synth`, `nist`, `curled` or `hidden` for one table.
+//! `cargo run --release --example coverage` prints five tables: of the three synthetic grains; of particles whose radius
+//! is known as an expansion (`nist`); of kernels and stones (`scanned`); of bodies that no centre sees whole (`curled`); and
+//! of the hidden points of real scans (`hidden`). The second, third and last are read from `../shared/scans`, and left out
+//! where that folder is absent. Arguments: `synth`, `nist`, `scanned`, `curled` or `hidden` for one table.
 
 mod cloud;
 mod curled;
@@ -12,6 +12,7 @@ mod hidden;
 #[path = "../real/particle.rs"]
 #[allow(dead_code, reason = "the other example compares radii too")]
 mod particle;
+mod scanned;
 #[path = "../real/scans.rs"]
 mod scans;
 mod tally;
@@ -37,7 +38,7 @@ const SYNTH: [(usize, f64, Layout, u64); 11] = [
     (6146, 0.0, Layout::Whole, 1),
     (6146, 0.005, Layout::Whole, 40),
     (1_000_000, 0.0, Layout::Whole, 1),
-    (1_000_000, 0.005, Layout::Whole, 5),
+    (1_000_000, 0.005, Layout::Whole, 12),
     (6146, 0.005, Layout::Thin, 40),
     (6146, 0.005, Layout::Hole, 40),
     (1538, 0.02, Layout::Whole, 20),
@@ -84,6 +85,26 @@ fn main() -> Result<(), Box<dyn Error>> {
             row("particles", points, noise, layout, &tally);
         }
     }
+    if wants("scanned") && scans.exists() {
+        head();
+        let mut tally = Tally::default();
+        for (scan, truth) in scanned::kernels(&scans.join("barley_batch"))? {
+            tally.add(&truth, &scan)?;
+        }
+        row("barley kernels", 1538, 0.0, "whole", &tally);
+        widths(&mut tally);
+        for (points, seeds) in scanned::SCANNED {
+            let mut tally = Tally::default();
+            for name in scanned::MESHES {
+                let (mesh, truth) = scanned::mesh(&scans.join(name))?;
+                for seed in 0..seeds {
+                    tally.add(&truth, &scanned::scan(&mesh, points, seed)?)?;
+                }
+            }
+            row("kernels and stones", points, 0.0, "faces", &tally);
+            widths(&mut tally);
+        }
+    }
     if wants("curled") {
         head();
         for body in [Curled::Banana, Curled::Cup, Curled::Mushroom, Curled::Hook] {
@@ -111,6 +132,14 @@ fn head() {
         "\n| body | points | noise | layout | told of | {} |\n|---|---|---|---|---|{}",
         FIGURES.join(" | "),
         "---|".repeat(FIGURES.len())
+    );
+}
+
+fn widths(tally: &mut Tally) {
+    let medians = tally.medians().map(|share| format!("{share:.2} %"));
+    println!(
+        "| standard errors, median | | | | | {} |",
+        medians.join(" | ")
     );
 }
 

@@ -20,17 +20,23 @@ pub(crate) const FIGURES: [&str; 8] = [
 /// The figures of a body, in this order.
 pub(crate) type Figures = [f64; FIGURES.len()];
 
+/// Figures of which nothing is known.
+pub(crate) fn unknown() -> Figures {
+    [f64::NAN; FIGURES.len()]
+}
+
 /// Normal quantile of a two-sided interval of 95 %.
 const QUANTILE: f64 = 1.96;
 
-/// Of how many scans there are standard errors, how often the interval of each figure holds the truth, and the sum of
-/// errors over standard errors.
+/// Of how many scans there are standard errors, how often the interval of each figure holds the truth, the sum of
+/// errors over standard errors, and these as shares of the figure.
 #[derive(Default)]
 pub(crate) struct Tally {
     scans: usize,
     told: usize,
     covered: [usize; FIGURES.len()],
     bias: [f64; FIGURES.len()],
+    shares: [Vec<f64>; FIGURES.len()],
 }
 
 impl Tally {
@@ -62,8 +68,19 @@ impl Tally {
             let deviation = (found - truth[i]) / error;
             self.covered[i] += usize::from(deviation.abs() <= QUANTILE);
             self.bias[i] += deviation;
+            self.shares[i].push(error / found);
         }
         Ok(())
+    }
+}
+
+impl Tally {
+    /// Medians of the standard errors in % of their figures.
+    pub(crate) fn medians(&mut self) -> [f64; FIGURES.len()] {
+        self.shares.each_mut().map(|shares| {
+            shares.sort_unstable_by(f64::total_cmp);
+            100.0 * shares.get(shares.len() / 2).copied().unwrap_or(f64::NAN)
+        })
     }
 }
 
@@ -72,6 +89,10 @@ impl fmt::Display for Tally {
         write!(f, "{} of {}", self.told, self.scans)?;
         let of = self.told.max(1) as f64;
         for (covered, bias) in self.covered.iter().zip(self.bias) {
+            if bias.is_nan() {
+                write!(f, " | -")?;
+                continue;
+            }
             let share = 100.0 * *covered as f64 / of;
             write!(f, " | {share:.0} % ({:+.1})", bias / of)?;
         }

@@ -6,11 +6,14 @@
 //! - half of the excess of a largest value, by the variance at the end itself, for a scan may be thinner there;
 //! - the mean square of what is [missing](super::tips) at the ends, as far as the points tell it: the prior is the same
 //!   everywhere, and takes the last of a beak or a tip for noise;
+//! - where residuals are no noise, by how much the points near the ends are missed when they are
+//!   [left out](super::left_out);
 //! - what turning an axis by its standard deviation does to the extent beyond first order (of a box it grows whichever
 //!   way it turns), and the range of extents in the plane of two axes that are not told apart.
 
 use super::dimensions::{End, Extent, LARGEST_TURN, Reach};
 use super::functionals::{combined, dot};
+use super::left_out::LeftOut;
 use super::outcome::Estimate;
 use super::outcome::{slope_variance, variance};
 use super::posterior::Conditioned;
@@ -36,7 +39,8 @@ pub(super) struct Dimensions {
 }
 
 /// `mass` are the gradients of area, volume, centroid and inertia, `covariances` theirs with all coefficients, and `sd`
-/// tells how well an entry of the inertia tensor is known along the principal axes.
+/// tells how well an entry of the inertia tensor is known along the principal axes; `left_out` are the points where
+/// residuals are no noise.
 pub(super) fn dimensions(
     estimate: &Estimate,
     given: &Conditioned<'_>,
@@ -44,6 +48,7 @@ pub(super) fn dimensions(
     principal: &PrincipalInertia,
     (mass, covariances): (&[Vec<f64>], &[Vec<f64>]),
     sd: impl Fn(usize, usize) -> f64,
+    left_out: Option<&LeftOut<'_>>,
 ) -> Dimensions {
     let extents: [Extent; 3] = [0, 1, 2].map(|i| reach.along(&principal.axes.column(i).into()));
     let basis = HarmonicBasis::new(estimate.degree);
@@ -81,9 +86,10 @@ pub(super) fn dimensions(
         for (at, end) in (2 * i..).zip(&extent.ends) {
             let value = dot(&ends[at], &solved[at]).max(0.0);
             found.excess[i] += end.excess(value, slope_per_value * value);
+            let rough = left_out.map_or(0.0, |points| points.near(&end.direction));
             let at = tips.missing(&end.direction);
             missing += at.height * end.by_radius;
-            chance += at.variance * end.by_radius * end.by_radius;
+            chance += (at.variance + rough) * end.by_radius * end.by_radius;
         }
         squares += missing * missing + chance;
         squares += (0.5 * found.excess[i]).powi(2);

@@ -9,15 +9,18 @@
 //!   do not tell; those of the [extents](super::dimension_errors); the repulsion of nearly equal moments;
 //! - a floor, for rounding and quadrature.
 //!
-//! There are none where the prior cannot be trusted: beside a large hole, and where what is left of the points is no
-//! noise.
+//! Where what is left of the points is no noise, the variances grow by what [leaving them out](super::left_out) tells.
+//!
+//! There are none where neither can be trusted: beside a large hole, and of symmetric bodies with
+//! [edges](super::unresolved).
 
 use super::dimension_errors::dimensions;
 use super::dimensions::Reach;
 use super::functionals::{RingSurface, combined, dot};
+use super::left_out::LeftOut;
 use super::outcome::Estimate;
 use super::posterior::Posterior;
-use super::unresolved::{kurtosis, limit};
+use super::unresolved::{is_symmetric, kurtosis, limit};
 use crate::fit::figures::{
     Figures, INERTIA, INTEGRALS, MassList, derivatives, form, list, mass, unlist,
 };
@@ -51,10 +54,12 @@ impl Estimate {
     ) -> Result<StandardErrors, NoInterval> {
         let posterior = self.posterior();
         let kurtosis = kurtosis(&posterior.residuals(&self.coefficients));
-        if kurtosis > limit(self.cloud.len()) {
+        let is_rough = kurtosis > limit(self.cloud.len());
+        if is_rough && is_symmetric(&self.coefficients) {
             return Err(NoInterval::Unresolved { kurtosis });
         }
-        let best = Best::new(self, &posterior).ok_or(NoInterval::NotFinite)?;
+        let left_out = is_rough.then(|| LeftOut::new(self, &posterior));
+        let best = Best::new(self, &posterior, left_out.as_ref()).ok_or(NoInterval::NotFinite)?;
         Ok(best.errors(told))
     }
 }
@@ -66,7 +71,8 @@ const AREA_FLOOR: f64 = 2e-5;
 const EXTENT_FLOOR: f64 = 1e-5;
 
 /// Share of the area's excess that the best value holds. Of spectra that end (band-limited grains) the prior
-/// expects too much of it, of those that go on about the right amount; the same share is the allowance.
+/// expects too much of it, of those that go on, as where residuals are no noise, about the right amount; this share is
+/// the allowance for both.
 const EXCESS_SHARE: f64 = 0.5;
 
 /// The best values of an estimate, and what their errors come from.
@@ -75,14 +81,20 @@ pub(super) struct Best {
     covariance: SMatrix<f64, INTEGRALS, INTEGRALS>,
     /// Excess of area, volume, centroid, inertia over those of the mean.
     excess: MassList,
+    /// How much of that of the area the best value holds.
+    share: f64,
     principal: PrincipalInertia,
     dimension_variances: Vector3<f64>,
     dimension_excess: Vector3<f64>,
 }
 
 impl Best {
-    /// `None` if the figures are not finite.
-    pub(super) fn new(estimate: &Estimate, posterior: &Posterior<'_>) -> Option<Self> {
+    /// `None` if the figures are not finite. `left_out` are the points where residuals are no noise.
+    pub(super) fn new(
+        estimate: &Estimate,
+        posterior: &Posterior<'_>,
+        left_out: Option<&LeftOut<'_>>,
+    ) -> Option<Self> {
         let surface = RingSurface::new(estimate);
         let moments = surface.moments();
         let (mass, principal) = mass(&moments);
@@ -96,14 +108,17 @@ impl Best {
             .map(|row| combined(integrals.iter(), jacobian.row(row).iter()))
             .collect();
         let covariances = given.covariances(&gradients);
-        let covariance = covariance(&gradients, &covariances);
+        let mut covariance = covariance(&gradients, &covariances);
+        if let Some(left_out) = left_out {
+            covariance += left_out.covariance(&covariances);
+        }
 
         let nodes = surface.nodes.iter().zip(&surface.radii);
         let starts: Vec<_> = nodes.map(|((n, _), (r, _))| (*n, *r)).collect();
         let reach = Reach::new(estimate, starts)?;
         let sd = |i: usize, j: usize| turn_variance(&covariance, &principal.axes, i, j).sqrt();
         let mass_and = (&gradients[..], &covariances[..]);
-        let dimensions = dimensions(estimate, &given, &reach, &principal, mass_and, sd);
+        let dimensions = dimensions(estimate, &given, &reach, &principal, mass_and, sd, left_out);
         Some(Self {
             figures: Figures {
                 area: mass.area,
@@ -115,6 +130,7 @@ impl Best {
             },
             covariance,
             excess,
+            share: left_out.map_or(EXCESS_SHARE, |_| 1.0),
             principal,
             dimension_variances: dimensions.variances,
             dimension_excess: dimensions.excess,
@@ -128,7 +144,8 @@ impl Best {
         let square = |x: f64| x * x;
         let shifts: Moments = unlist(&self.excess);
         let half = EXCESS_SHARE * shifts.area;
-        let area = square(best.area + half - told.area) + square(half) + variance(0);
+        let excess = self.share * shifts.area;
+        let area = square(best.area + excess - told.area) + square(half) + variance(0);
         let volume = square(best.volume + shifts.volume - told.volume) + variance(1);
         let centroid = Vector3::from_fn(|i, _| {
             square(best.centroid[i] + shifts.first[i] - told.centroid[i]) + variance(2 + i)

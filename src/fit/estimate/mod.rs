@@ -20,6 +20,7 @@ mod draws;
 mod errors;
 mod functionals;
 mod information;
+mod left_out;
 mod likelihood;
 mod local;
 mod map;

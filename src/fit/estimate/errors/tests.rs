@@ -36,7 +36,7 @@ fn ellipsoid(axes: Vector3<f64>) -> impl Fn(&Vector3<f64>) -> f64 {
 }
 
 fn best(estimate: &Estimate) -> Best {
-    Best::new(estimate, &estimate.posterior()).unwrap()
+    Best::new(estimate, &estimate.posterior(), None).unwrap()
 }
 
 fn numbers(errors: &StandardErrors) -> Vec<f64> {
@@ -141,6 +141,33 @@ fn holes_and_edges_are_told() {
             );
         }
     }
+}
+
+/// A ball cut by a plane: no estimate resolves the edge, and the errors tell what it takes from the figures.
+#[test]
+fn errors_beside_an_edge_are_those_of_the_points_left_out() {
+    let cut: f64 = 0.6;
+    let radius = |n: &Vector3<f64>| if n.z > cut { cut / n.z } else { 1.0 };
+    let estimate = estimated(
+        &samples(&fibonacci(1538), radius, 0.0),
+        Vector3::repeat(1.0),
+    );
+    let surely = best(&estimate);
+    let told = surely.figures;
+    let surely = surely.errors(&told);
+    let errors = estimate.errors(&told).unwrap();
+    let volume = PI * (4.0 / 3.0 - (1.0 - cut).powi(2) * (2.0 + cut) / 3.0);
+    let area = PI * (2.0 * (1.0 + cut) + 1.0 - cut * cut);
+    for (told, truth, error) in [
+        (told.volume, volume, errors.volume),
+        (told.area, area, errors.area),
+        (told.dimensions[2], 1.0 + cut, errors.dimensions[2]),
+    ] {
+        let off = (told - truth) / error;
+        assert!(off.abs() < 2.5, "{told} {truth}: {off}");
+        assert!(error < 0.02 * truth, "{told} {truth}: {error}");
+    }
+    assert!((told.area - area).abs() > 4.0 * surely.area, "{surely:?}");
 }
 
 /// Few points, a direction given twice, a perfect sphere: numbers or a reason.

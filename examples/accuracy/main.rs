@@ -1,6 +1,8 @@
-//! How near fits come to the truth: prints the table of docs/accuracy.md.
+//! How near fits come to the truth: prints tables of docs/accuracy.md.
 //!
-//! `cargo run --release --example accuracy`
+//! `cargo run --release --example accuracy`; with the argument `curvature` that of curvatures and contacts.
+
+mod curvature;
 
 use grainform::measure::{Deviation, grain_properties};
 use grainform::scan::Scan;
@@ -12,6 +14,9 @@ use nalgebra::Point3;
 const PLACES: usize = 20_000;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
+    if std::env::args().any(|argument| argument == "curvature") {
+        return curvature::print();
+    }
     println!("| body | points | sampling | noise | cells | coefficients | area | volume | RMS |");
     println!("|---|---|---|---|---|---|---|---|---|");
     for body in [Body::Bean, Body::Chickpea, Body::Maize] {
