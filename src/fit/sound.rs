@@ -5,7 +5,9 @@ use super::options::FitOptions;
 use super::outcome::Fitted;
 use super::warning::FitWarning;
 use crate::measure::grain_properties;
-use crate::model::InvalidGrain;
+use crate::model::{Grain, InvalidGrain};
+use crate::sphere::RingGrid;
+use nalgebra::Vector3;
 
 /// How far points may be from the surface that was asked for, as a share of the mean radius (RMS); ...
 const FAR: f64 = 0.25;
@@ -20,6 +22,12 @@ const LARGEST_VOLUME: f64 = 1.5;
 
 /// ... With fewer points it may hold anything.
 const FEW_POINTS: usize = 50;
+
+/// Rings of directions whose radii tell the volume to some percent, ...
+const RINGS: usize = 48;
+
+/// ... which is enough where it is at most so many times that of the polyhedron.
+const CLEARLY_FINE: f64 = 1.2;
 
 /// Refuses a radius that is not above zero everywhere, which is proved and not sampled, and a surface far from its
 /// points. With such a radius the volume and the moments are above zero too.
@@ -40,8 +48,7 @@ pub(super) fn check(fitted: &Fitted, options: &FitOptions) -> Result<Option<FitW
         return Err(FitError::FarFromPoints { share });
     }
     if fitted.grain.unseen().is_none() && fitted.points > FEW_POINTS && !is_asked_for {
-        let volume = grain_properties(&fitted.grain).properties.volume;
-        let times = volume / fitted.reference.volume;
+        let times = times_as_large(&fitted.grain, fitted.reference.volume);
         if times > LARGEST_VOLUME {
             return Err(FitError::FarBeyondPoints { times });
         }
@@ -64,4 +71,20 @@ pub(super) fn check(fitted: &Fitted, options: &FitOptions) -> Result<Option<FitW
             size: fitted.mean_radius,
         }),
     }
+}
+
+/// The volume of a grain over another: to some percent where that is enough.
+fn times_as_large(grain: &Grain, volume: f64) -> f64 {
+    let coarse = grain.star().map(|star| {
+        let nodes = RingGrid::new(0, RINGS).nodes();
+        let (directions, weights): (Vec<Vector3<f64>>, Vec<f64>) = nodes.into_iter().unzip();
+        let radii = star.local_radii(&directions).into_iter();
+        let cones = radii
+            .zip(weights)
+            .map(|(r, weight)| weight * r.powi(3) / 3.0);
+        cones.sum::<f64>() / volume
+    });
+    coarse
+        .filter(|times| *times <= CLEARLY_FINE)
+        .unwrap_or_else(|| grain_properties(grain).properties.volume / volume)
 }

@@ -87,6 +87,11 @@ impl Forest {
         forest
     }
 
+    /// The degrees that cells may have.
+    pub(super) fn degrees(&self) -> RangeInclusive<usize> {
+        self.degrees.clone()
+    }
+
     fn add(&mut self, target: &dyn Target, fits: &mut LocalFits, cells: &[CubeCell]) {
         let errors = fits.errors(target, cells);
         let nodes = cells.iter().zip(errors).map(|(&cell, errors)| Node {

@@ -61,8 +61,6 @@ pub(super) struct Search<'a> {
 /// A quadtree and what is known of its covers.
 struct Tree {
     forest: Forest,
-    /// Squared error of the joint fit per sum of the cells' own.
-    ratio: f64,
     /// The cheapest cover that is forecast to be good enough.
     plan: Plan,
     fitted: Vec<Plan>,
@@ -177,7 +175,6 @@ impl<'a> Search<'a> {
         let plan = forest.within(self.target, &mut self.fits, goal, &bounds);
         self.trees.push(Tree {
             forest,
-            ratio: FIRST_RATIO,
             plan,
             fitted: Vec::new(),
         });
@@ -201,20 +198,29 @@ impl<'a> Search<'a> {
         rms <= self.settings.limit
     }
 
-    /// Fits the plan of a tree, and makes its next one.
+    /// Fits the plan of a tree, and makes its next one. What a first fit tells of cells goes for those of the other trees
+    /// too.
     fn fit(&mut self, at: usize) -> Option<()> {
         let plan = self.trees[at].plan.clone();
         let rms = self.solve(&plan.cells, &plan.degrees)?;
         let (goal, bounds) = (self.goal(), self.bounds());
-        let tree = &mut self.trees[at];
-        if plan.error > 0.0 {
-            tree.ratio = 4.0 * PI * rms * rms / plan.error;
-            let goal = AIM * goal / tree.ratio;
-            tree.plan = tree
-                .forest
-                .within(self.target, &mut self.fits, goal, &bounds);
+        let error = plan.error;
+        self.trees[at].fitted.push(plan);
+        if error > 0.0 {
+            let ratio = 4.0 * PI * rms * rms / error;
+            let degrees = self.trees[at].forest.degrees();
+            for (other, tree) in self.trees.iter_mut().enumerate() {
+                let is_alike = tree.fitted.is_empty() && tree.forest.degrees() == degrees;
+                if other == at || is_alike {
+                    tree.plan = tree.forest.within(
+                        self.target,
+                        &mut self.fits,
+                        AIM * goal / ratio,
+                        &bounds,
+                    );
+                }
+            }
         }
-        tree.fitted.push(plan);
         Some(())
     }
 

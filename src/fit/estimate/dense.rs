@@ -4,7 +4,6 @@ use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::{
     LltParams, LltRegularization, cholesky_in_place, cholesky_in_place_scratch,
 };
-use faer::linalg::triangular_inverse::invert_lower_triangular;
 use faer::linalg::triangular_solve::{
     solve_lower_triangular_in_place, solve_upper_triangular_in_place,
 };
@@ -52,16 +51,5 @@ impl Factor {
         let lower = self.0.as_ref();
         solve_lower_triangular_in_place(lower, columns.as_mut(), Par::Seq);
         solve_upper_triangular_in_place(lower.transpose(), columns, Par::Seq);
-    }
-
-    /// The diagonal of the inverse: as much work as the factor.
-    pub(super) fn inverse_diagonal(&self) -> Vec<f64> {
-        let count = self.0.nrows();
-        let mut inverse = Mat::zeros(count, count);
-        invert_lower_triangular(inverse.as_mut(), self.0.as_ref(), Par::Seq);
-        let squares = |column: &[f64]| column.iter().map(|x| x * x).sum();
-        (0..count)
-            .map(|j| squares(&inverse.col_as_slice(j)[j..]))
-            .collect()
     }
 }

@@ -115,21 +115,18 @@ pub(super) fn rounder(
     if is_open {
         for map in &mut maps {
             context.check()?;
-            let start = match is_small(samples.len()) {
-                true => map.fit.spectrum.raised(compared, first),
-                false => map.fit.spectrum,
+            map.fit = match is_small(samples.len()) {
+                true => {
+                    let posterior = Posterior::new(&map.cloud, first, true);
+                    first_step(&posterior, map.fit.spectrum.raised(compared, first))
+                }
+                false => fitted(&map.cloud, first, map.fit.spectrum),
             };
-            map.fit = fitted(&map.cloud, first, start);
         }
     }
     let strength = best(&maps).strength;
     let found = maps.into_iter().find(|map| map.strength == strength);
-    let Mapped { cloud, mut fit, .. } = found.expect("one of them is the best");
-    if let Some(factor) = &fit.factor {
-        let posterior = Posterior::with(&cloud, Arc::clone(&fit.sums));
-        let given = posterior.given_factored(&fit.spectrum, Some(Arc::clone(factor)));
-        fit.unlearnt = given.unlearnt();
-    }
+    let Mapped { cloud, fit, .. } = found.expect("one of them is the best");
     Ok(Rounder {
         cloud,
         fit,

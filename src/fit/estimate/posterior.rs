@@ -221,18 +221,15 @@ impl Conditioned<'_> {
             .collect()
     }
 
-    /// Per degree, the share of the prior variance that the points leave: the mean of C_mm / v_l. Exact where the matrix
-    /// is factored.
+    /// Per degree, the share of the prior variance that the points leave: the mean of C_mm / v_l, by probes of the variances
+    /// themselves, where the matrix is factored. The mean variance of the radius is then good to a percent.
     pub(crate) fn unlearnt(&self) -> Vec<f64> {
-        match &self.factor {
-            Some(factor) => self.per_degree(&factor.inverse_diagonal()),
-            None => self.probed_unlearnt(),
-        }
+        self.per_degree(&self.probed_diagonal(|_| 1.0))
     }
 
-    /// The same, good to what random probes scatter: enough for a step of a search.
-    pub(super) fn probed_unlearnt(&self) -> Vec<f64> {
-        self.per_degree(&self.probed_diagonal())
+    /// The same by probes of the shares: their sum is good to a percent, and so is a step of a search.
+    pub(super) fn unlearnt_shares(&self) -> Vec<f64> {
+        self.per_degree(&self.probed_diagonal(|v| 1.0 / v.sqrt()))
     }
 
     /// The same, as of an even cloud.
@@ -253,17 +250,18 @@ impl Conditioned<'_> {
             .collect()
     }
 
-    /// Estimates of C_jj / v_j whose means are right: h'C h of random signs h over the roots of v.
-    fn probed_diagonal(&self) -> Vec<f64> {
+    /// Estimates of C_jj / v_j whose means are right: h_j (C h)_j over the square of h_j, where h has random signs and a
+    /// size by the variance v_j. Its scatter is that of all variances in units of these sizes.
+    fn probed_diagonal(&self, size: impl Fn(&f64) -> f64) -> Vec<f64> {
         let mut random = ChaCha8Rng::seed_from_u64(0);
         let count = self.variances.len();
         let probes = match self.factor {
             Some(_) => FACTORED_PROBES,
             None => PROBES,
         };
+        let sizes: Vec<f64> = self.variances.iter().map(size).collect();
         let probes: Vec<Vec<f64>> = (0..probes)
             .map(|_| {
-                let roots = self.variances.iter().map(|v| v.sqrt());
                 let mut sign = || {
                     if random.next_u32() & 1 == 0 {
                         1.0
@@ -271,7 +269,7 @@ impl Conditioned<'_> {
                         -1.0
                     }
                 };
-                roots.map(|root| sign() / root).collect()
+                sizes.iter().map(|size| sign() * size).collect()
             })
             .collect();
         let settled = Enough::Energy(PROBES_SETTLED * count as f64);
@@ -285,8 +283,11 @@ impl Conditioned<'_> {
         let mut diagonal = vec![0.0; count];
         for (probe, solution) in probes.iter().zip(&solved) {
             for ((diagonal, h), z) in diagonal.iter_mut().zip(probe).zip(solution) {
-                *diagonal += h * z / probes.len() as f64;
+                *diagonal += z / (h * probes.len() as f64);
             }
+        }
+        for (diagonal, v) in diagonal.iter_mut().zip(&self.variances) {
+            *diagonal /= v;
         }
         diagonal
     }

@@ -28,6 +28,9 @@ pub(crate) const STEPS: [f64; 4] = [4.0, 0.5, 0.7, 1.5];
 /// of proportions as of a grain of which nothing is known (the middle of the hyperprior).
 const FREE: [f64; 3] = [100.0, 1.0, 0.06];
 
+/// Detail of textured kernels falls more slowly with the degree than a lower one tells: of that one's noise so much is left.
+const LEFT_BY_TEXTURE: f64 = 0.8;
+
 /// Least share of the noise's variance that is left when a higher degree takes its part.
 const LEAST_LEFT: f64 = 0.5;
 
@@ -59,15 +62,19 @@ impl Spectrum {
         2.0 * self.0[1].exp()
     }
 
-    /// The same for an expansion of a higher degree: what that adds was noise to the lower one, unless it would be most
-    /// of it, more than such a spectrum can tell.
+    /// Where to start the search for that of an expansion of a higher degree: what this adds was noise to the lower one,
+    /// unless it would be most of it, more than such a spectrum can tell.
     pub(crate) fn raised(&self, from: usize, to: usize) -> Self {
+        if from == to {
+            return *self;
+        }
         let [pivot, exponent, knee, noise] = self.0;
         let left = 1.0 - self.power(from, to) / self.noise().powi(2);
         let noise = match left > LEAST_LEFT {
             true => noise + 0.5 * left.ln(),
             false => noise,
         };
+        let noise = (noise + LEFT_BY_TEXTURE.ln()).max(BOUNDS[3][0]);
         Self([pivot, exponent, knee, noise])
     }
 

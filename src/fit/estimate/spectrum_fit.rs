@@ -92,7 +92,7 @@ pub(crate) fn fit_spectrum(
             false => search.next(look.place),
         };
         match next {
-            Next::Here if counted == count => return look.fit(count),
+            Next::Here if counted == count => return look.fit(),
             Next::Here => {
                 counted = count;
                 newton = None;
@@ -108,12 +108,14 @@ pub(crate) fn fit_spectrum(
     unreachable!("rounds end")
 }
 
-/// The first step of that search: where it leads to, and the cost that it promises there.
+/// The first step of that search: where it leads to, and the cost that it promises there. Coefficients are those of the
+/// start, and nothing is factored yet.
 pub(crate) fn first_step(posterior: &Posterior<'_>, start: Spectrum) -> SpectrumFit {
     let look = Look::new(posterior, &start, None, Count::Even);
     let mut search = look.search();
     let next = search.next(look.place);
-    let mut fit = look.fit(Count::Even);
+    let mut fit = look.fit();
+    fit.factor = None;
     if let Next::Try(next) = next {
         fit.cost -= search.promise();
         fit.spectrum = next;
@@ -167,7 +169,7 @@ impl<'a> Look<'a> {
         Newton::new(self.told.evidence.curvature(&self.place.spectrum))
     }
 
-    fn fit(self, count: Count) -> SpectrumFit {
+    fn fit(self) -> SpectrumFit {
         let Self {
             given,
             place,
@@ -179,9 +181,9 @@ impl<'a> Look<'a> {
             cost: place.cost.unwrap_or_else(value) - given.posterior.cloud.compression,
             spectrum: place.spectrum,
             coefficients: mean,
-            unlearnt: match count {
-                Count::Probed if given.factor.is_some() => given.unlearnt(),
-                _ => told.unlearnt,
+            unlearnt: match given.factor {
+                Some(_) => given.unlearnt(),
+                None => told.unlearnt,
             },
             sums: Arc::clone(&given.posterior.sums),
             factor: given.factor,
@@ -214,7 +216,7 @@ fn told(
     let noise = spectrum.noise().powi(2);
     let variances = spectrum.variances(posterior.degree());
     let unlearnt = match posterior.is_factored() || count == Count::Probed {
-        true => given.probed_unlearnt(),
+        true => given.unlearnt_shares(),
         false => given.even_unlearnt(),
     };
     let residuals = posterior.residuals(mean);

@@ -1,6 +1,7 @@
 //! An expansion on an oversampled grid of the doubled sphere, ready to be interpolated from.
 
 use super::kept::Kept;
+use super::kernel::KernelPolynomials;
 use super::oversampled::oversampled;
 use super::polar::PolarTable;
 use crate::sphere::azimuth_fft::{AzimuthFft, even_smooth_number};
@@ -20,6 +21,7 @@ pub(super) struct Grid {
     around: usize,
     orders: usize,
     halo: usize,
+    kernel: KernelPolynomials,
 }
 
 impl Grid {
@@ -39,7 +41,13 @@ impl Grid {
             around,
             orders: degree + 1,
             halo: width / 2,
+            kernel: KernelPolynomials::new(width),
         }
+    }
+
+    /// The kernel to interpolate with.
+    pub(super) fn kernel(&self) -> &KernelPolynomials {
+        &self.kernel
     }
 
     /// Length of a row with its halo.

@@ -1,7 +1,6 @@
 //! Interpolation from a grid at places that do not change, and its transpose.
 
 use super::grid::Grid;
-use super::kernel::weights;
 use crate::vectorize::vectorize;
 use nalgebra::Vector3;
 use std::f64::consts::PI;
@@ -40,6 +39,18 @@ impl<const WIDTH: usize> Places<WIDTH> {
             .collect();
         visits.sort_unstable_by_key(|(key, _)| *key);
         let stride = grid.stride();
+        let mut weights = vec![[[0.0; WIDTH]; 2]; visits.len()];
+        vectorize(
+            #[inline(always)]
+            || {
+                for ((_, at), weights) in visits.iter().zip(&mut weights) {
+                    *weights = at.map(
+                        #[inline(always)]
+                        |t| grid.kernel().weights(t),
+                    );
+                }
+            },
+        );
         Self {
             stride,
             places: visits
@@ -49,7 +60,7 @@ impl<const WIDTH: usize> Places<WIDTH> {
                     corner: (row * stride + column) as u32,
                 })
                 .collect(),
-            weights: visits.iter().map(|(_, at)| at.map(weights)).collect(),
+            weights,
         }
     }
 
