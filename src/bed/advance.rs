@@ -47,7 +47,7 @@ impl Bed {
         self.state.steps += 1;
     }
 
-    /// Whether a part may have moved by half a skin since pairs were listed.
+    /// Whether a part may have moved by half a skin since encounters were listed.
     fn is_outdated(&self) -> bool {
         let bodies = self.state.bodies.iter().zip(&self.state.listed);
         bodies

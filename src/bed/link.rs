@@ -1,4 +1,4 @@
-//! Pairs that may touch: what is kept of each from step to step, and the forces of a pair of bodies.
+//! Parts that may touch: what is kept of each two from step to step, and the forces of a pair of bodies.
 
 use super::record;
 use crate::contact::law::{Contact, Law};
