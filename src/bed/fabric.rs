@@ -69,23 +69,21 @@ pub struct GrainContact {
 
 /// How a bed carries.
 pub fn fabric(bed: &Bed) -> Fabric {
-    let grains = |link: &Link| [link.key.first, link.key.other];
-    let pairs = bed
-        .state
-        .links
-        .chunk_by(|one, other| grains(one) == grains(other));
-    let contacts = pairs.flat_map(|links| {
-        let grains = grains(&links[0]);
-        let [one, other] = grains.map(|grain| {
-            let body = &bed.bodies()[grain as usize];
-            bed.kinds()[body.kind].radius
+    let contacts = bed.state.encounters.iter().flat_map(|encounter| {
+        let touches = encounter.other.map(|other| {
+            let grains = [encounter.first, other];
+            let [one, other] = grains.map(|grain| {
+                let body = &bed.bodies()[grain as usize];
+                bed.kinds()[body.kind].radius
+            });
+            let touches = Link::told(&encounter.links, one * other / (one + other));
+            touches.into_iter().map(move |touch| GrainContact {
+                grains,
+                overlap: touch.overlap,
+                force: -touch.force.dot(&touch.normal),
+            })
         });
-        let touches = Link::told(links, one * other / (one + other));
-        touches.into_iter().map(move |touch| GrainContact {
-            grains,
-            overlap: touch.overlap,
-            force: -touch.force.dot(&touch.normal),
-        })
+        touches.into_iter().flatten()
     });
     Fabric::of(bed, &contacts.collect::<Vec<_>>())
 }

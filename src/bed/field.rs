@@ -1,6 +1,7 @@
 //! Where grains touch each other and walls in one step, and what that does.
 
 use super::body::Body;
+use super::encounter::Encounter;
 use super::grain::GrainKind;
 use super::link::{Last, Link, Motion, Pair, Touch};
 use super::wall::Wall;
@@ -29,46 +30,52 @@ pub(super) struct Field<'a> {
 }
 
 impl Field<'_> {
-    /// Finds the touches of two grains, and lets them act.
-    pub(super) fn act_between(&self, links: &mut [Link]) {
-        let numbers = [links[0].key.first as usize, links[0].key.other as usize];
-        let nearer = self.nearer(numbers);
-        let mut is_touching = false;
-        for link in links.iter_mut() {
-            link.gap -= nearer;
-            link.touch = match link.gap > 0.0 {
-                true => None,
-                false => self.between(link),
-            };
-            is_touching |= link.touch.is_some();
+    /// Finds the touches of an encounter, and lets them act.
+    pub(super) fn act(&self, encounter: &mut Encounter) {
+        match encounter.other {
+            Some(other) => self.act_between([encounter.first, other], encounter),
+            None => self.act_on_walls(encounter),
         }
-        let [one, two] = numbers.map(|number| &self.kinds[self.bodies[number].kind]);
+    }
+
+    fn act_between(&self, numbers: [u32; 2], encounter: &mut Encounter) {
+        let grains = numbers.map(|number| number as usize);
+        encounter.nearer += self.nearer(grains);
+        if !encounter.is_close() {
+            return;
+        }
+        let nearer = encounter.nearer;
+        let links = &mut encounter.links;
+        for link in links.iter_mut().filter(|link| nearer >= link.until) {
+            link.touch = self.between(grains, nearer, link);
+        }
+        let [one, two] = grains.map(|number| &self.kinds[self.bodies[number].kind]);
         let pair = Pair {
             law: self.law,
             radius: one.radius * two.radius / (one.radius + two.radius),
             mass: one.mass * two.mass / (one.mass + two.mass),
-            motions: numbers.map(|number| self.placed[number].motion),
+            motions: grains.map(|number| self.placed[number].motion),
             step: self.step,
         };
-        if is_touching || links.iter().any(|link| link.slip != Vector3::zeros()) {
+        let is_known = |link: &Link| link.touch.is_some() || link.slip != Vector3::zeros();
+        if links.iter().any(is_known) {
             Link::act(links, &pair);
         }
+        encounter.look_again();
     }
 
-    /// Finds the touches of a grain and all walls, and lets them act.
-    pub(super) fn act_on_walls(&self, links: &mut [Link]) {
-        let number = links[0].key.first as usize;
+    /// Triangles beside each other may be touched at one place: all walls act together.
+    fn act_on_walls(&self, encounter: &mut Encounter) {
+        let number = encounter.first as usize;
         let kind = &self.kinds[self.bodies[number].kind];
         let placed = &self.placed[number];
-        for link in links.iter_mut() {
-            let (wall, part) = (
-                &self.walls[link.key.other as usize],
-                usize::from(link.key.part),
-            );
+        for link in &mut encounter.links {
+            let part = usize::from(link.key.part);
+            let wall = &self.walls[link.key.other as usize];
             let (shape, frame) = (&kind.parts[part], &placed.frames[part]);
             let is_near = wall.is_near(&frame.centre, shape.reach);
             link.touch = match is_near {
-                true => wall.touch(link.key.other_part, &shape.part.shape, frame),
+                true => wall.touch(link.key.place, &shape.part.shape, frame),
                 false => None,
             };
         }
@@ -84,7 +91,7 @@ impl Field<'_> {
             motions: [placed.motion, still],
             step: self.step,
         };
-        Link::act(links, &pair);
+        Link::act(&mut encounter.links, &pair);
     }
 
     /// How far points of two grains may have come nearer to each other in this step.
@@ -94,21 +101,19 @@ impl Field<'_> {
         moved + one.turned + two.turned
     }
 
-    /// The touch of two parts of grains; how far they are apart if they do not touch.
-    fn between(&self, link: &mut Link) -> Option<Touch> {
-        let sides = [
-            (link.key.first, link.key.part),
-            (link.key.other, link.key.other_part),
-        ];
-        let [(one, here), (two, there)] = sides.map(|(number, part)| {
-            let kind = &self.kinds[self.bodies[number as usize].kind];
-            let frames = &self.placed[number as usize].frames;
-            (&kind.parts[usize::from(part)], &frames[usize::from(part)])
+    /// The touch of two parts of grains that have come so much nearer; how much more it takes if they do not touch.
+    fn between(&self, grains: [usize; 2], nearer: f64, link: &mut Link) -> Option<Touch> {
+        let parts = [usize::from(link.key.part), link.key.other as usize];
+        let [(one, here), (two, there)] = [0, 1].map(|side| {
+            let kind = &self.kinds[self.bodies[grains[side]].kind];
+            let frames = &self.placed[grains[side]].frames;
+            (&kind.parts[parts[side]], &frames[parts[side]])
         });
+        link.until = nearer;
         let between = there.centre - here.centre;
         let (squared, reach) = (between.norm_squared(), one.reach + two.reach);
         if squared >= reach * reach {
-            link.gap = squared.sqrt() - reach;
+            link.until += squared.sqrt() - reach;
             return None;
         }
         if one.is_sphere && two.is_sphere {
@@ -118,7 +123,7 @@ impl Field<'_> {
             let point = here.centre + normal * (one.reach - 0.5 * overlap);
             return Some(Touch::new(point, normal, overlap));
         }
-        let centre = self.bodies[link.key.first as usize].position;
+        let centre = self.bodies[grains[0]].position;
         let pair = ConvexPair::new((&one.part.shape, here), (&two.part.shape, there));
         let warm = link.last.map(|last| Warm {
             point: centre + last.aside,
@@ -131,7 +136,7 @@ impl Field<'_> {
         });
         if contact.ratio >= 1.0 {
             if contact.status == ConvexStatus::Apart {
-                link.gap = -pair.overlap(&contact);
+                link.until -= pair.overlap(&contact);
             }
             return None;
         }

@@ -1,4 +1,4 @@
-//! Pairs that may touch: what is kept of each from step to step, and the forces of a pair of bodies.
+//! Parts that may touch: what is kept of each two from step to step, and the forces of a pair of bodies.
 
 use super::record;
 use crate::contact::law::{Contact, Law};
@@ -17,23 +17,22 @@ pub(super) struct Link {
     /// Tangential displacement since they touch.
     #[serde(with = "record::vector")]
     pub(super) slip: Vector3<f64>,
-    /// The parts are apart by so much at least, in metres.
-    pub(super) gap: f64,
-    /// The touch of this step, which is found anew in each.
+    /// How much nearer both bodies must have come, as [`Encounter::nearer`](super::encounter::Encounter) counts, before
+    /// the parts can touch.
+    pub(super) until: f64,
+    /// The touch when it was last looked for.
     pub(super) touch: Option<Touch>,
 }
 
-/// What touches what. Of two grains the first has the smaller number.
+/// What of two bodies touches what.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub(super) struct Key {
-    /// The grain.
-    pub(super) first: u32,
-    /// The other grain, or the wall.
-    pub(super) other: u32,
-    /// The part of the first.
+    /// The part of the first grain.
     pub(super) part: u16,
-    /// The part of the other; of a wall, the place where its contact is looked for.
-    pub(super) other_part: u16,
+    /// The part of the other grain, or the wall.
+    pub(super) other: u32,
+    /// Of a wall, where its contact is looked for.
+    pub(super) place: u16,
 }
 
 /// A contact, from the position of the first body.
@@ -103,7 +102,7 @@ impl Link {
             key,
             last: None,
             slip: Vector3::zeros(),
-            gap: 0.0,
+            until: 0.0,
             touch: None,
         }
     }

@@ -3,7 +3,9 @@
 //! All is in SI units. Grains are made of convex parts, superquadrics; where two of them touch is found with proof by
 //! [`contact`](crate::contact), and what that does is its [law](crate::contact::law).
 
+mod advance;
 mod body;
+mod encounter;
 mod fabric;
 mod field;
 mod folder;

@@ -1,8 +1,9 @@
 //! Which grains and walls may touch before anything has moved by half a skin.
 
 use super::body::Body;
+use super::encounter::Encounter;
 use super::grain::GrainKind;
-use super::link::{Key, Link};
+use super::link::Key;
 use super::wall::Wall;
 use nalgebra::Point3;
 use rayon::prelude::*;
@@ -30,9 +31,15 @@ pub(super) fn skin(kinds: &[GrainKind], bodies: &[Body]) -> f64 {
 
 type Cell = [i64; 3];
 
+/// A part where the bed has it: its centre, and how far its points are from there.
+type Place = (Point3<f64>, f64);
+
+/// The bodies of an encounter, and which links it is to have.
+type Listed = ((u32, Option<u32>), Vec<Key>);
+
 impl Neighbourhood<'_> {
-    /// The links of grains, in order of their keys; what `old` links know is kept.
-    pub(super) fn grain_links(&self, old: &[Link]) -> Vec<Link> {
+    /// All encounters, in order of the grains, those with walls first; what `earlier` ones know is kept.
+    pub(super) fn encounters(&self, earlier: Vec<Encounter>) -> Vec<Encounter> {
         let reach = self.bodies.iter().map(|body| self.kinds[body.kind].reach);
         let size = 2.0 * reach.fold(0.0, f64::max) + self.skin;
         let cell = |point: &Point3<f64>| -> Cell {
@@ -42,7 +49,8 @@ impl Neighbourhood<'_> {
         for (number, body) in self.bodies.iter().enumerate() {
             cells.entry(cell(&body.position)).or_default().push(number);
         }
-        let keys: Vec<Vec<Key>> = (0..self.bodies.len())
+        let places: Vec<Vec<Place>> = self.bodies.iter().map(|body| self.places(body)).collect();
+        let found: Vec<Vec<Listed>> = (0..self.bodies.len())
             .into_par_iter()
             .with_min_len(LEAST_GRAINS)
             .map(|first| {
@@ -55,39 +63,35 @@ impl Neighbourhood<'_> {
                     others.extend(found.filter(|&&other| self.is_near(first, other)));
                 }
                 others.sort_unstable();
-                let keys = others.iter().flat_map(|&other| self.parts(first, other));
-                keys.collect()
+                let grains = others.into_iter().map(|other| {
+                    let keys = self.between(&places[first], &places[other]);
+                    ((first as u32, Some(other as u32)), keys)
+                });
+                let walls = self.on_walls(&self.bodies[first]);
+                std::iter::once(((first as u32, None), walls))
+                    .chain(grains)
+                    .filter(|(_, keys)| !keys.is_empty())
+                    .collect()
             })
             .collect();
-        with_memory(keys.concat(), old)
+        let mut earlier = earlier.into_iter().peekable();
+        let encounters = found.into_iter().flatten().map(|(bodies, keys)| {
+            while earlier.next_if(|old| old.bodies() < bodies).is_some() {}
+            match earlier.next_if(|old| old.bodies() == bodies) {
+                Some(old) => old.relisted(&keys),
+                None => Encounter::new(bodies.0, bodies.1, &keys),
+            }
+        });
+        encounters.collect()
     }
 
-    /// The links of grains and walls, likewise.
-    pub(super) fn wall_links(&self, old: &[Link]) -> Vec<Link> {
-        let keys: Vec<Vec<Key>> = (0..self.bodies.len())
-            .into_par_iter()
-            .with_min_len(LEAST_GRAINS)
-            .map(|first| {
-                let body = &self.bodies[first];
-                let kind = &self.kinds[body.kind];
-                let mut keys = Vec::new();
-                for (other, wall) in self.walls.iter().enumerate() {
-                    if !wall.is_near(&body.position, kind.reach + self.skin) {
-                        continue;
-                    }
-                    for part in 0..kind.parts.len() {
-                        keys.extend((0..wall.places()).map(|other_part| Key {
-                            first: first as u32,
-                            other: other as u32,
-                            part: part as u16,
-                            other_part,
-                        }));
-                    }
-                }
-                keys
-            })
-            .collect();
-        with_memory(keys.concat(), old)
+    fn places(&self, body: &Body) -> Vec<Place> {
+        let kind = &self.kinds[body.kind];
+        let frames = kind.placed(body.position, body.axes());
+        let parts = frames.zip(&kind.parts);
+        parts
+            .map(|(frame, part)| (frame.centre, part.reach))
+            .collect()
     }
 
     /// Whether two grains may come to touch; the first has the smaller number.
@@ -98,39 +102,40 @@ impl Neighbourhood<'_> {
     }
 
     /// The parts of two grains that may come to touch.
-    fn parts(&self, first: usize, other: usize) -> Vec<Key> {
-        let placed = [first, other].map(|number| {
-            let body = &self.bodies[number];
-            let kind = &self.kinds[body.kind];
-            let frames = kind.placed(body.position, body.axes());
-            let parts = frames.zip(&kind.parts);
-            let parts = parts.map(|(frame, part)| (frame.centre, part.reach));
-            parts.collect::<Vec<_>>()
-        });
+    fn between(&self, first: &[Place], other: &[Place]) -> Vec<Key> {
         let mut keys = Vec::new();
-        for (part, (here, reach)) in placed[0].iter().enumerate() {
-            for (other_part, (there, other_reach)) in placed[1].iter().enumerate() {
-                if (here - there).norm() < reach + other_reach + self.skin {
+        for (part, (here, reach)) in first.iter().enumerate() {
+            for (other, (there, other_reach)) in other.iter().enumerate() {
+                let reach = reach + other_reach + self.skin;
+                if (here - there).norm_squared() < reach * reach {
                     keys.push(Key {
-                        first: first as u32,
-                        other: other as u32,
                         part: part as u16,
-                        other_part: other_part as u16,
+                        other: other as u32,
+                        place: 0,
                     });
                 }
             }
         }
         keys
     }
-}
 
-/// Links of these keys, with what old links of the same keys know; both are in order.
-fn with_memory(keys: Vec<Key>, old: &[Link]) -> Vec<Link> {
-    let mut old = old.iter().peekable();
-    let link = |key: Key| {
-        while old.next_if(|link| link.key < key).is_some() {}
-        let known = old.next_if(|link| link.key == key);
-        known.cloned().unwrap_or_else(|| Link::new(key))
-    };
-    keys.into_iter().map(link).collect()
+    /// The parts of a grain and the walls that may come to touch.
+    fn on_walls(&self, body: &Body) -> Vec<Key> {
+        let kind = &self.kinds[body.kind];
+        let walls = self.walls.iter().enumerate();
+        let near: Vec<_> = walls
+            .filter(|(_, wall)| wall.is_near(&body.position, kind.reach + self.skin))
+            .collect();
+        let mut keys = Vec::new();
+        for part in 0..kind.parts.len() {
+            for (other, wall) in &near {
+                keys.extend((0..wall.places()).map(|place| Key {
+                    part: part as u16,
+                    other: *other as u32,
+                    place,
+                }));
+            }
+        }
+        keys
+    }
 }

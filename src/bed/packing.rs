@@ -165,9 +165,10 @@ fn surface(bodies: &[Body]) -> f64 {
 struct Grid<'a> {
     kinds: &'a [GrainKind],
     bodies: Vec<(&'a Body, Matrix3<f64>)>,
-    /// The width of a cell: no grain reaches farther than to the next.
+    /// The width of a cell.
     width: f64,
-    cells: HashMap<[i64; 3], Vec<usize>>,
+    /// The grains whose reach a cell is in, wholly or not.
+    cells: HashMap<[i64; 3], Vec<u32>>,
 }
 
 impl<'a> Grid<'a> {
@@ -181,8 +182,16 @@ impl<'a> Grid<'a> {
             cells: HashMap::new(),
         };
         for (number, body) in bed.bodies().iter().enumerate() {
-            let cell = grid.cell(&body.position);
-            grid.cells.entry(cell).or_default().push(number);
+            let reach = Vector3::repeat(grid.kinds[body.kind].reach);
+            let [from, to] = [-reach, reach].map(|aside| grid.cell(&(body.position + aside)));
+            for x in from[0]..=to[0] {
+                for y in from[1]..=to[1] {
+                    for z in from[2]..=to[2] {
+                        let cell = grid.cells.entry([x, y, z]).or_default();
+                        cell.push(number as u32);
+                    }
+                }
+            }
         }
         grid
     }
@@ -193,17 +202,12 @@ impl<'a> Grid<'a> {
 
     /// Whether a grain holds a point.
     fn is_filled(&self, point: &Point3<f64>) -> bool {
-        let own = self.cell(point);
-        (0..27_i64).any(|at| {
-            let beside = [at % 3 - 1, at / 3 % 3 - 1, at / 9 - 1];
-            let near = [0, 1, 2].map(|axis| own[axis].saturating_add(beside[axis]));
-            let numbers = self.cells.get(&near).into_iter().flatten();
-            numbers.into_iter().any(|&number| {
-                let (body, axes) = &self.bodies[number];
-                let kind = &self.kinds[body.kind];
-                let aside: Vector3<f64> = point - body.position;
-                aside.norm_squared() < kind.reach * kind.reach && kind.holds(&axes.tr_mul(&aside))
-            })
+        let near = self.cells.get(&self.cell(point)).into_iter().flatten();
+        near.into_iter().any(|&number| {
+            let (body, axes) = &self.bodies[number as usize];
+            let kind = &self.kinds[body.kind];
+            let aside: Vector3<f64> = point - body.position;
+            aside.norm_squared() < kind.reach * kind.reach && kind.holds(&axes.tr_mul(&aside))
         })
     }
 

@@ -235,7 +235,11 @@ fn a_part_that_is_there_twice_touches_once() {
 #[test]
 fn the_bytes_are_the_same_for_any_number_of_threads() {
     let beds = [1, 2, 4].map(|threads| few_at(3000, threads).state);
-    assert!(beds[0].links.iter().any(|link| link.touch.is_some()));
+    let links = beds[0]
+        .encounters
+        .iter()
+        .flat_map(|encounter| &encounter.links);
+    assert!(links.into_iter().any(|link| link.touch.is_some()));
     assert!(beds[0] == beds[1] && beds[0] == beds[2]);
 }
 
@@ -290,11 +294,10 @@ fn a_settled_bed_carries_its_weight_and_its_figures_hold() {
         .iter()
         .map(|body| bed.kinds()[body.kind].mass * 9.81);
     let weight: f64 = weights.sum();
-    let floor = bed
-        .state
-        .wall_links
-        .iter()
-        .filter(|link| link.key.other == 0);
+    let on_walls = bed.state.encounters.iter();
+    let on_walls = on_walls.filter(|encounter| encounter.other.is_none());
+    let links = on_walls.flat_map(|encounter| &encounter.links);
+    let floor = links.filter(|link| link.key.other == 0);
     let carried: f64 = floor.filter_map(|link| Some(link.touch?.force.z)).sum();
     assert!(carried > 0.5 * weight && carried < 1.01 * weight);
     let found = fabric(&bed);

@@ -2,7 +2,6 @@
 
 use super::args::{ClumpArgs, SpheresArgs};
 use super::console::Console;
-use super::streams::put_json;
 use super::{inputs, outputs, solid, threads};
 use crate::clump::{ClumpTarget, clump};
 use crate::report::ClumpReport;
@@ -28,15 +27,8 @@ pub(super) fn run(args: ClumpArgs, console: Console) -> Result<()> {
         write(path, &report)?;
     }
     drop(progress);
-    if args.json {
-        return put_json(&report);
-    }
-    console.print(&report)?;
-    console.warn(&report.warnings);
-    match &args.output {
-        Some(path) => console.wrote(&outputs::name(path)),
-        None => Ok(()),
-    }
+    let written = args.output.as_deref().map(outputs::name);
+    console.tell(&report, args.json, written, &report.warnings)
 }
 
 /// By the extension; standard output as JSON.

@@ -89,6 +89,7 @@ fn deck(args: &ExportDemArgs, subjects: &[Subject]) -> Result<(Deck, Vec<String>
         youngs_modulus: 1e6 * args.youngs_modulus_mpa,
         poissons_ratio: args.poissons_ratio,
         friction: args.friction,
+        rolling_friction: 0.0,
         restitution: args.restitution,
         density: args.density,
     };

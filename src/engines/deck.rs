@@ -52,8 +52,11 @@ pub struct Deck {
     pub kinds: Vec<Kind>,
     /// The grains, the lowest first.
     pub grains: Vec<Placed>,
-    /// Sides of the floor from the origin along x and y, in metres.
+    /// Sides of the floor along x and y, in metres: from the origin on, or about it in a cylinder.
     pub floor: [f64; 2],
+    /// Radius of an upright cylinder about the z axis that holds the grains in place of a box, in metres; for LAMMPS
+    /// alone.
+    pub cylinder: Option<f64>,
     /// Height of the column, in metres.
     pub height: f64,
     /// What they are made of.
@@ -112,6 +115,7 @@ impl Deck {
             kinds,
             grains,
             floor: [side; 2],
+            cylinder: None,
             height,
             material,
             rest: AT_REST,
@@ -119,7 +123,7 @@ impl Deck {
         })
     }
 
-    /// The bed as it is, of grains made of spheres, in a box, at the gravity of the Earth. What damps along the normal
+    /// The bed as it is, of grains made of spheres, at the gravity of the Earth. What damps along the normal
     /// becomes the restitution that it leaves.
     ///
     /// # Errors
@@ -127,12 +131,10 @@ impl Deck {
     /// [`InvalidDeck`].
     pub fn of_bed(bed: &Bed) -> Result<Self, InvalidDeck> {
         let settings = bed.settings();
-        let Container::Box(floor) = settings.container else {
-            return Err(InvalidDeck::NoBox);
+        let (floor, cylinder) = match settings.container {
+            Container::Box(sides) => (sides, None),
+            Container::Cylinder(radius) => ([2.0 * radius; 2], Some(radius)),
         };
-        if settings.rolling_friction > 0.0 {
-            return Err(InvalidDeck::Rolling);
-        }
         let kinds = bed.kinds().iter().enumerate().map(|(index, kind)| {
             Ok(Kind {
                 name: format!("kind_{index}"),
@@ -147,6 +149,7 @@ impl Deck {
             youngs_modulus: settings.youngs_modulus_pa,
             poissons_ratio: settings.poissons_ratio,
             friction: settings.friction,
+            rolling_friction: settings.rolling_friction,
             restitution: settings.restitution()?,
             density: settings.density,
         };
@@ -166,6 +169,7 @@ impl Deck {
             kinds,
             grains,
             floor,
+            cylinder,
             material,
             rest: settings.rest,
             seconds: settings.most_seconds,
@@ -225,8 +229,8 @@ impl Deck {
         self.rest * self.grains.iter().map(lost).sum::<f64>()
     }
 
-    /// The diameter of the ball of a mass, in metres.
-    fn equal_diameter(&self, mass: f64) -> f64 {
+    /// The diameter of the ball of a mass in kilograms, in metres.
+    pub fn equal_diameter(&self, mass: f64) -> f64 {
         2.0 * equivalent_radius(mass / self.material.density)
     }
 

@@ -22,12 +22,6 @@ pub enum InvalidDeck {
     /// The grains of a bed are no spheres.
     #[error("engines take grains of spheres only")]
     NoSpheres,
-    /// The container of a bed.
-    #[error("engines take grains into a box only")]
-    NoBox,
-    /// Grains of a bed that resist rolling.
-    #[error("engines are not told of rolling friction: leave it at zero")]
-    Rolling,
     /// The material of a bed.
     #[error(transparent)]
     Bed(#[from] BedError),

@@ -12,6 +12,8 @@ pub struct GrainMaterial {
     pub poissons_ratio: f64,
     /// Coefficient of sliding friction.
     pub friction: f64,
+    /// Coefficient of rolling friction, of the radius of a sphere; for LAMMPS alone.
+    pub rolling_friction: f64,
     /// Coefficient of restitution of a normal impact.
     pub restitution: f64,
     /// Density, in kg/m³.
@@ -39,6 +41,12 @@ impl GrainMaterial {
                 "zero or above",
                 self.friction,
                 self.friction >= 0.0 && self.friction.is_finite(),
+            ),
+            (
+                "the coefficient of rolling friction",
+                "zero or above",
+                self.rolling_friction,
+                self.rolling_friction >= 0.0 && self.rolling_friction.is_finite(),
             ),
             (
                 "the coefficient of restitution",

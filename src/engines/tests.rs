@@ -33,6 +33,7 @@ fn deck() -> Deck {
         youngs_modulus: 1e7,
         poissons_ratio: 0.3,
         friction: 0.4,
+        rolling_friction: 0.0,
         restitution: 0.6,
         density: 2500.0,
     };
@@ -263,11 +264,36 @@ fn a_bed_becomes_a_deck_of_the_same_grains() {
         let [place, velocity] = [2, 11].map(|at| Vector3::from_column_slice(&row[at..at + 3]));
         assert_eq!((place, velocity), (body.position.coords, body.velocity));
     }
-    let mut rolling = bed.settings().clone();
-    rolling.rolling_friction = 0.1;
-    let kinds = bed.kinds().to_vec();
-    let rolling = crate::bed::Bed::loose(rolling, kinds, &[1.0], None).unwrap();
-    assert_eq!(Deck::of_bed(&rolling), Err(InvalidDeck::Rolling));
+}
+
+#[test]
+fn lammps_is_told_of_a_cylinder_and_of_rolling() {
+    use crate::bed::{Bed, BedSettings, Container};
+    let settings = BedSettings {
+        container: Container::Cylinder(0.02),
+        rolling_friction: 0.1,
+        ..bed().settings().clone()
+    };
+    let bed = Bed::loose(settings, bed().kinds().to_vec(), &[1.0], None).unwrap();
+    let deck = Deck::of_bed(&bed).unwrap();
+    let data = written(Engine::Lammps, &deck, "data.clumps");
+    assert!(data.contains("-2e-2 2e-2 xlo xhi\n-2e-2 2e-2 ylo yhi"));
+    let script = written(Engine::Lammps, &deck, "in.settle");
+    let walls = script.lines().filter(|line| line.contains("wall/gran"));
+    let ends: Vec<_> = walls.map(|line| line.rsplit("tsuji ").next()).collect();
+    assert_eq!(ends, [Some("zcylinder 2e-2"), Some("zplane 0 NULL")]);
+    let rolling = script.lines().find_map(|line| line.split_once(" sds "));
+    let [stiffness, damping, coefficient] =
+        numbers(rolling.unwrap().1.split(" damping").next().unwrap())[..]
+    else {
+        panic!()
+    };
+    // A thousandth of a diameter, times the stiffness, is the coefficient times the weight.
+    let mass = deck.kinds[0].mass;
+    let rolled = 1e-3 * 2.0 * bed.kinds()[0].radius();
+    assert_relative_eq!(stiffness * rolled, 0.1 * mass * 9.81, max_relative = 1e-9);
+    assert_relative_eq!(damping.powi(2), 4.0 * stiffness * mass, max_relative = 1e-9);
+    assert_eq!(coefficient, 0.1);
 }
 
 #[test]

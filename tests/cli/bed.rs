@@ -215,6 +215,16 @@ fn lammps_settles_the_same_bed_and_it_is_told_alike() {
         );
     }
     let files = names(&folder.path().join("bed"));
+    // And in a cylinder, with rolling friction.
+    let inside = words.iter().position(|word| *word == "--box").unwrap();
+    let round = [
+        &words[..inside],
+        &["--cylinder", "34", "--rolling-friction", "0.1"],
+        &words[inside + 2..],
+    ];
+    let report = json(&folder, &[&round.concat()[..], &["-o", "round"]].concat());
+    assert_eq!(report["runs"][0]["is_at_rest"], true);
+    assert_eq!(report["runs"][0]["fabric"]["loose"], 0);
     for name in [
         "bed.png",
         "bed.vtk",

@@ -201,7 +201,8 @@ pub(super) struct MeasureArgs {
 /// --pose-b, where two bodies touch
 ///
 /// The force follows from the curvature where they touch, which asks more of a fit than size does: fit
-/// with --segments 1.
+/// with --segments 1. Bodies are prepared and their contacts looked for from nothing in each run, in milliseconds; of
+/// bodies that move, `contact::ContactPair` of the library keeps both, and follows a contact in microseconds.
 #[derive(Args)]
 pub(super) struct ContactArgs {
     /// A model written by `fit`

@@ -10,12 +10,15 @@ const MAX_STEPS: usize = 50;
 /// A step below this share of the way from the centre is the last.
 const LAST_STEP: f64 = 1e-10;
 
-/// How far the first body reaches beyond where the second begins, along the line through `point`: Newton's iteration
-/// on both gauges, which are convex along the line, outwards from the point.
+/// How far the first body reaches beyond where the second begins, along the line through `point`: of ellipsoids a closed
+/// form, otherwise Newton's iteration on both gauges, which are convex along the line, outwards from the point.
 pub(super) fn overlap(pair: &ConvexPair<'_>, point: &Vector3<f64>, normal: &Vector3<f64>) -> f64 {
     let bodies = [pair.first, pair.second];
     let from = [*point, pair.seen_from_second(point)];
     let along = [*normal, -pair.turn.tr_mul(normal)];
+    if let [Some(first), Some(second)] = bodies.map(Superquadric::ellipsoid) {
+        return way_out(first, &from[0], &along[0]) + way_out(second, &from[1], &along[1]);
+    }
     let mut ways = [0.0; 2];
     for _ in 0..MAX_STEPS {
         let places = [0, 1].map(|i| from[i] + along[i] * ways[i]);
@@ -29,4 +32,17 @@ pub(super) fn overlap(pair: &ConvexPair<'_>, point: &Vector3<f64>, normal: &Vect
         }
     }
     ways[0] + ways[1]
+}
+
+/// How far along a unit vector it is to where a line through a point leaves an ellipsoid.
+fn way_out(semi_axes: [f64; 3], from: &Vector3<f64>, along: &Vector3<f64>) -> f64 {
+    let semi_axes = Vector3::from(semi_axes);
+    let [from, along] = [from, along].map(|v| v.component_div(&semi_axes));
+    let (square, half) = (along.norm_squared(), from.dot(&along));
+    let rest = from.norm_squared() - 1.0;
+    let root = (half * half - square * rest).max(0.0).sqrt();
+    match half > 0.0 {
+        true => -rest / (half + root),
+        false => (root - half) / square,
+    }
 }

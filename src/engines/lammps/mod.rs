@@ -32,11 +32,16 @@ pub(super) fn files(deck: &Deck) -> Vec<InputFile<'_>> {
 /// `bodies.in`.
 fn data(deck: &Deck, file: &mut dyn Write) -> io::Result<()> {
     let count = deck.spheres();
-    let ([width, depth], height) = (deck.floor, deck.height);
+    let [low, high] = match deck.cylinder {
+        None => [[0.0; 2], deck.floor],
+        Some(radius) => [[-radius; 2], [radius; 2]],
+    };
+    let height = deck.height;
     write!(
         file,
-        "# clumps by grainform, SI units\n\n{count} atoms\n1 atom types\n0 {width:e} xlo xhi\n0 {depth:e} ylo yhi\n\
+        "# clumps by grainform, SI units\n\n{count} atoms\n1 atom types\n{:e} {:e} xlo xhi\n{:e} {:e} ylo yhi\n\
          0 {height:e} zlo zhi\n\nAtoms # sphere\n\n",
+        low[0], high[0], low[1], high[1],
     )?;
     let balls = || {
         let grains = deck.grains.iter().enumerate();

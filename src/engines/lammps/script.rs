@@ -9,6 +9,9 @@ const LOOK: f64 = 50.0;
 /// Looks between two lines of the log.
 const LINE: usize = 10;
 
+/// How far a grain rolls, in its diameters, before the spring against it yields under the grain's own weight.
+const ROLLED: f64 = 1e-3;
+
 /// Simulated seconds between two frames.
 const FRAME: f64 = 0.05;
 
@@ -17,13 +20,27 @@ const FRAME: f64 = 0.05;
 pub(super) fn script(deck: &Deck) -> String {
     let material = &deck.material;
     let contact = format!(
-        "hertz/material {:e} {:e} {:e} tangential mindlin NULL 1.0 {:e} damping tsuji",
-        material.youngs_modulus, material.restitution, material.poissons_ratio, material.friction
+        "hertz/material {:e} {:e} {:e} tangential mindlin NULL 1.0 {:e}{} damping tsuji",
+        material.youngs_modulus,
+        material.restitution,
+        material.poissons_ratio,
+        material.friction,
+        rolling(deck),
     );
+    let walls = match deck.cylinder {
+        None => {
+            let [width, depth] = deck.floor;
+            format!(
+                "fix wx all wall/gran granular {contact} xplane 0 {width:e}
+fix wy all wall/gran granular {contact} yplane 0 {depth:e}"
+            )
+        }
+        Some(radius) => format!("fix ws all wall/gran granular {contact} zcylinder {radius:e}"),
+    };
     let step = deck.time_step();
     let look = (LOOK * deck.steps_of_a_grain()).ceil() as usize;
     format!(
-        "# Clumps fall into a box and come to rest. SI units: m, kg, s, J.
+        "# Clumps fall and come to rest. SI units: m, kg, s, J.
 units si
 atom_style sphere
 atom_modify map array
@@ -40,8 +57,7 @@ pair_coeff * * {contact}
 timestep {step:e}
 fix grav all gravity {GRAVITY} vector 0 0 -1 disable
 fix grains all rigid/small molecule infile bodies.in gravity grav
-fix wx all wall/gran granular {contact} xplane 0 {width:e}
-fix wy all wall/gran granular {contact} yplane 0 {depth:e}
+{walls}
 fix wz all wall/gran granular {contact} zplane 0 NULL
 compute moving all ke/rigid grains
 compute turning all erotate/rigid grains
@@ -83,11 +99,23 @@ write_dump all custom settled.dump id mol type x y z radius modify sort id
 ",
         cutoff = 1.1 * deck.largest_diameter(),
         skin = 0.3 * deck.least_radius(),
-        width = deck.floor[0],
-        depth = deck.floor[1],
         line = LINE * look,
         frame = (FRAME / step).ceil(),
         most = deck.most_steps(),
         rest = deck.rest_energy(),
     )
+}
+
+/// A spring of the stiffness k and a dashpot gamma at each contact, that yield where they come to the coefficient times
+/// the normal force (Luding 2008). k is for the weight of the lightest grain; gamma damps that critically.
+fn rolling(deck: &Deck) -> String {
+    let coefficient = deck.material.rolling_friction;
+    if coefficient == 0.0 {
+        return String::new();
+    }
+    let masses = deck.kinds.iter().map(|kind| kind.mass);
+    let mass = masses.fold(f64::INFINITY, f64::min);
+    let stiffness = coefficient * mass * GRAVITY / (ROLLED * deck.equal_diameter(mass));
+    let damping = 2.0 * (stiffness * mass).sqrt();
+    format!(" rolling sds {stiffness:e} {damping:e} {coefficient:e}")
 }

@@ -7,6 +7,9 @@ use std::collections::BTreeMap;
 /// Cells of directions along an edge of the cube from which points are taken to begin with.
 const CELLS: usize = 12;
 
+/// Points that fits begin with.
+const FEW: usize = 6 * CELLS * CELLS;
+
 /// Flatter than this, as a ratio of standard deviations, points lie in a plane.
 const LEAST_THICKNESS: f64 = 1e-6;
 
@@ -85,7 +88,8 @@ impl Cloud {
         ]
     }
 
-    /// One point in each of many cells of directions, that of the median distance: whatever the order of the points.
+    /// Some [`FEW`] points, as dense everywhere as all are, whatever their order: every so many of them, cell by cell of
+    /// directions and by their distance in each. Of few points all.
     pub(super) fn thinned(&self) -> Vec<Vector3<f64>> {
         let mut cells: BTreeMap<[usize; 3], Vec<Vector3<f64>>> = BTreeMap::new();
         for point in &self.points {
@@ -94,11 +98,12 @@ impl Cloud {
                 .or_default()
                 .push(*point);
         }
-        let median = |mut points: Vec<Vector3<f64>>| {
+        for points in cells.values_mut() {
             points.sort_by(|p, q| p.norm_squared().total_cmp(&q.norm_squared()));
-            points[points.len() / 2]
-        };
-        cells.into_values().map(median).collect()
+        }
+        let every = (self.points.len() / FEW).max(1);
+        let ordered = cells.into_values().flatten();
+        ordered.skip(every / 2).step_by(every).collect()
     }
 }
 

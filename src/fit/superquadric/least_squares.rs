@@ -17,9 +17,17 @@ const SAME: f64 = 0.1;
 /// The damping to begin with, and beyond which no step helps.
 const DAMPING: [f64; 2] = [1e-3, 1e12];
 
-/// A fit ends when a step changes no parameter by more, or the loss by no larger share.
+/// A fit ends when a step changes no parameter by more.
 const SMALL_STEP: f64 = 1e-9;
-const SMALL_GAIN: f64 = 1e-5;
+
+/// When else a fit ends.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct End {
+    /// After so many steps.
+    pub(super) steps: usize,
+    /// When a step lowers the loss by no larger share.
+    pub(super) gain: f64,
+}
 
 /// What a fit came to.
 #[derive(Debug, Clone)]
@@ -48,18 +56,18 @@ pub(super) fn weighed(bodies: &[Body], points: &[Vector3<f64>], like: &Weighing)
 }
 
 /// Fits bodies, again and again with the weighing that their distances then ask for, until it does not change; each
-/// time with `limit` steps at most.
+/// time to the same end.
 pub(super) fn minimised(
     mut bodies: Vec<Body>,
     points: &[Vector3<f64>],
     like: &Weighing,
-    limit: usize,
+    end: End,
     context: &Context<'_>,
 ) -> Result<Minimum, Cancelled> {
     let mut weighing = weighed(&bodies, points, like);
     let mut iterations = 0;
     for _ in 1..MAX_PASSES {
-        let found = descended(bodies, points, weighing, limit, context)?;
+        let found = descended(bodies, points, weighing, end, context)?;
         iterations += found.iterations;
         bodies = found.bodies;
         let before = weighing.prior;
@@ -68,7 +76,7 @@ pub(super) fn minimised(
             break;
         }
     }
-    let mut found = descended(bodies, points, weighing, limit, context)?;
+    let mut found = descended(bodies, points, weighing, end, context)?;
     found.iterations += iterations;
     Ok(found)
 }
@@ -88,14 +96,14 @@ pub(super) fn descended(
     mut bodies: Vec<Body>,
     points: &[Vector3<f64>],
     weighing: Weighing,
-    limit: usize,
+    end: End,
     context: &Context<'_>,
 ) -> Result<Minimum, Cancelled> {
     let mut here = NormalEquations::new(&bodies, points, &weighing);
     let [mut damping, no_more] = DAMPING;
     let mut growth = 2.0;
     let mut iterations = 0;
-    while iterations < limit && damping < no_more {
+    while iterations < end.steps && damping < no_more {
         context.check()?;
         iterations += 1;
         let Some((step, foretold)) = damped_step(&bodies, &here, &weighing, damping) else {
@@ -118,7 +126,7 @@ pub(super) fn descended(
             growth *= 2.0;
             continue;
         }
-        let is_last = step.amax() < SMALL_STEP || gain < SMALL_GAIN * here.loss;
+        let is_last = step.amax() < SMALL_STEP || gain < end.gain * here.loss;
         (bodies, here) = (moved, there);
         if is_last {
             break;

@@ -5,7 +5,7 @@ use super::cloud::Cloud;
 use super::clusters::{SEEDINGS, ellipsoids};
 use super::error::SuperquadricFitError;
 use super::form::Form;
-use super::least_squares::{Minimum, descended, least, weighed};
+use super::least_squares::{End, Minimum, descended, least, weighed};
 use super::normal_equations::{Weighing, distances};
 use super::single::best;
 use super::standard_errors::{ParameterErrors, standard_errors};
@@ -23,9 +23,12 @@ pub const MAX_UNION_PARTS: usize = 12;
 /// How sharply the least distance is taken, in one over mean radii, stage by stage.
 const SHARPNESS: [f64; 3] = [8.0, 30.0, 120.0];
 
-/// Steps of each stage, and of the last with all points.
-const STEPS: usize = 25;
-const LAST_STEPS: usize = 60;
+/// How long each stage goes on, and the last with all points.
+const STAGE: End = End {
+    steps: 25,
+    gain: 1e-5,
+};
+const LAST: End = End { steps: 60, ..STAGE };
 
 /// Cells of directions along an edge of the cube, of which every fifth is held out.
 const HELD_OUT_CELLS: usize = 24;
@@ -80,7 +83,7 @@ pub fn fit_multi_superquadric(
     context.run(|| {
         let (chosen, held_out) = chosen(&cloud, most, context)?;
         let weighing = weighed(&chosen.bodies, &cloud.points, &chosen.weighing);
-        let found = descended(chosen.bodies, &cloud.points, weighing, LAST_STEPS, context)?;
+        let found = descended(chosen.bodies, &cloud.points, weighing, LAST, context)?;
         told(&cloud, &found, held_out)
     })
 }
@@ -136,7 +139,7 @@ fn with_parts(
         found.bodies,
         &cloud.points,
         weighing,
-        STEPS,
+        STAGE,
         context,
     )?)
 }
@@ -151,10 +154,10 @@ fn sharpened(
     let [first, second, last] = SHARPNESS.map(|sharpness| Weighing { sharpness, ..*like });
     for stage in [first, second] {
         let weighing = weighed(&bodies, points, &stage);
-        bodies = descended(bodies, points, weighing, STEPS, context)?.bodies;
+        bodies = descended(bodies, points, weighing, STAGE, context)?.bodies;
     }
     let weighing = weighed(&bodies, points, &last);
-    Ok(descended(bodies, points, weighing, STEPS, context)?)
+    Ok(descended(bodies, points, weighing, STAGE, context)?)
 }
 
 /// The union about the centre of the cloud, or where that is outside about that of the largest part.

@@ -4,7 +4,7 @@ use super::bodies::Body;
 use super::cloud::Cloud;
 use super::error::SuperquadricFitError;
 use super::form::Form;
-use super::least_squares::{Minimum, descended, deviation, least, minimised, weighed};
+use super::least_squares::{End, Minimum, descended, deviation, least, minimised, weighed};
 use super::normal_equations::{Reach, Weighing, distances};
 use super::standard_errors::{ParameterErrors, standard_errors};
 use crate::fit::Residuals;
@@ -12,8 +12,15 @@ use crate::fit::context::Context;
 use crate::model::{Frame, Grain, InvalidGrain, Superquadric, SuperquadricGrain};
 use nalgebra::{Matrix3, Point3, Vector3};
 
-/// Steps with few points, and with all of them.
-const STEPS: [usize; 2] = [20, 40];
+/// How long fits go on with few points, and with all of them.
+const ROUGH: End = End {
+    steps: 20,
+    gain: 1e-4,
+};
+const FINE: End = End {
+    steps: 40,
+    gain: 1e-5,
+};
 
 /// Half the points this near, in mean radii, are of the body.
 const NEAR: f64 = 0.01;
@@ -104,7 +111,7 @@ pub(super) fn best(
         }
     };
     let weighing = weighed(&start.bodies, &cloud.points, &start.weighing);
-    let mut found = descended(start.bodies, &cloud.points, weighing, STEPS[1], context)?;
+    let mut found = descended(start.bodies, &cloud.points, weighing, FINE, context)?;
     found.iterations += start.iterations;
     Ok(found)
 }
@@ -125,7 +132,7 @@ fn best_within(
         sharpness: 1.0,
     };
     let tried = starts(cloud)
-        .map(|start| minimised(vec![start], points, &like, STEPS[0], context))
+        .map(|start| minimised(vec![start], points, &like, ROUGH, context))
         .collect::<Result<Vec<_>, _>>()?;
     let iterations = tried.iter().map(|found| found.iterations).sum();
     let best = least(tried, points).ok_or(SuperquadricFitError::NoVolume)?;
