@@ -9,13 +9,14 @@ use super::estimate::{Estimate, estimate};
 use super::mirrored;
 use super::options::{FitOptions, Seams, Tolerance};
 use super::outcome::{EstimateSummary, Fitted, KindChoice, Residuals};
-use super::prepare::{CellGrid, PreparedScan, Sample};
+use super::prepare::{PreparedScan, Sample};
 use super::segments;
 use super::sound;
 use super::warning::FitWarning;
 use crate::model::{Family, Frame, Grain, StarGrain, Stretch};
 use crate::sphere::Symmetry;
 use nalgebra::Vector3;
+use rayon::prelude::*;
 
 /// An expansion of the whole sphere with no more coefficients than this needs no cells: they would touch as many.
 const FEW_COEFFICIENTS: usize = 64;
@@ -23,9 +24,6 @@ const FEW_COEFFICIENTS: usize = 64;
 /// Difference from the estimate that is always good enough, as a share of the estimate's own standard deviation:
 /// it adds 5 % to the error.
 const GOOD_ENOUGH: f64 = 1.0 / 3.0;
-
-/// Parts per angle of the grid in which samples are sorted.
-const SORTED_PARTS: usize = 32;
 
 impl PreparedScan<'_> {
     /// Fits the model that the options ask for.
@@ -129,7 +127,7 @@ fn estimated(
     context: &Context<'_>,
 ) -> Result<Fitted, FitError> {
     context.enter(Stage::Estimating)?;
-    let samples = prepared.samples(&CellGrid::new([SORTED_PARTS]));
+    let samples = prepared.sorted_samples();
     let estimate = estimate(samples.rows(), prepared.semi_axes, context)?;
     let tolerance = options.tolerance.length(prepared.mean_radius);
     let limit = tolerance.max(GOOD_ENOUGH * estimate.deviation());
@@ -260,17 +258,20 @@ fn grain(frame: &Frame, stretch: Stretch, family: Family) -> StarGrain {
     StarGrain::stretched(*frame, stretch, family).expect("the axes are orthonormal")
 }
 
+/// Samples whose residuals are found at once.
+const CHUNK: usize = 1 << 15;
+
 /// Residuals of all samples, in the grain's own frame.
 fn residuals(grain: &StarGrain, samples: &[Sample]) -> Residuals {
-    let directions: Vec<Vector3<f64>> = samples
-        .iter()
-        .map(|&[x, y, z, _]| Vector3::new(x, y, z))
-        .collect();
-    let fitted = grain.local_radii(&directions);
-    Residuals::of(
-        samples
-            .iter()
-            .zip(fitted)
-            .map(|(sample, radius)| sample[3] - radius),
-    )
+    let of_chunk = |samples: &[Sample]| {
+        let direction = |&[x, y, z, _]: &Sample| Vector3::new(x, y, z);
+        let directions: Vec<_> = samples.iter().map(direction).collect();
+        let mut radii = grain.local_radii(&directions);
+        for (radius, sample) in radii.iter_mut().zip(samples) {
+            *radius = sample[3] - *radius;
+        }
+        radii
+    };
+    let all: Vec<f64> = samples.par_chunks(CHUNK).flat_map_iter(of_chunk).collect();
+    Residuals::of(all.into_iter())
 }

@@ -49,7 +49,6 @@ use nalgebra::Vector3;
 use outliers::{ROUNDS, alone};
 use patches::{Patches, WHOLE_CLOUD};
 use posterior::{Posterior, is_small};
-use rayon::prelude::*;
 use spectrum_fit::{Count, SpectrumFit, fit_spectrum};
 use std::sync::Arc;
 use stopping::SETTLED;
@@ -90,7 +89,9 @@ pub(crate) fn estimate(
         }
         fit.spectrum = fit.spectrum.raised(compared, degree);
     }
-    let mut outliers = patches.as_ref().map_or(rounder.outliers, Patches::left_out);
+    let mut outliers = patches
+        .as_ref()
+        .map_or(rounder.outliers, |patches| patches.left_out);
     let mut rounds = 0;
     let mut lower: Option<(usize, SpectrumFit)> = None;
     // The comparison of maps may have found the exact likelihood at this degree.
@@ -136,7 +137,7 @@ pub(crate) fn estimate(
         }
     }
     if let Some(patches) = &patches {
-        correct(&mut cloud, samples, patches, degree, &mut fit);
+        correct(&mut cloud, patches, degree, &mut fit);
     }
     Ok(Estimate {
         cloud,
@@ -176,43 +177,20 @@ fn next_degree(
     carries.then_some(next)
 }
 
-/// Points evaluated at once.
-const CHUNK: usize = 1 << 15;
-
-/// Adds the patch means of the points' residuals, and solves again.
-fn correct(
-    cloud: &mut Cloud,
-    samples: &[Sample],
-    patches: &Patches,
-    degree: usize,
-    fit: &mut SpectrumFit,
-) {
-    let chunks = samples.par_chunks(CHUNK);
-    let residuals: Vec<Vec<f64>> = chunks
-        .map(|samples| {
-            let points = Cloud::mapped(samples, cloud.stretch, cloud.mean);
-            let (directions, measured): (Vec<_>, Vec<_>) = points.into_iter().unzip();
-            let mut fitted = vec![0.0; samples.len()];
-            ScatteredHarmonics::new(degree, &directions).synthesis(&fit.coefficients, &mut fitted);
-            let pairs = measured.iter().zip(fitted);
-            pairs.map(|(measured, fitted)| measured - fitted).collect()
-        })
-        .collect();
-    let mut sums = vec![0.0; patches.means.len()];
-    for (patch, residual) in patches.patch_of.iter().zip(residuals.iter().flatten()) {
-        if let Some(patch) = patch {
-            sums[*patch as usize] += residual;
-        }
-    }
+/// Adds the patch means of the residuals, and solves again.
+fn correct(cloud: &mut Cloud, patches: &Patches, degree: usize, fit: &mut SpectrumFit) {
+    let residuals = patches.means_of(|places| {
+        let mapped = Cloud::mapped(places, cloud.stretch, cloud.mean);
+        let (directions, measured): (Vec<_>, Vec<_>) = mapped.into_iter().unzip();
+        let mut fitted = vec![0.0; places.len()];
+        ScatteredHarmonics::new(degree, &directions).synthesis(&fit.coefficients, &mut fitted);
+        let pairs = measured.iter().zip(fitted);
+        pairs.map(|(measured, fitted)| measured - fitted).collect()
+    });
     let posterior = Posterior::with(cloud, Arc::clone(&fit.sums));
-    let fitted = posterior.radii(&fit.coefficients);
-    for ((radius, fitted), (sum, count)) in cloud
-        .radii
-        .iter_mut()
-        .zip(fitted)
-        .zip(sums.iter().zip(&patches.counts))
-    {
-        *radius = fitted + sum / count;
+    cloud.radii = posterior.radii(&fit.coefficients);
+    for (radius, residual) in cloud.radii.iter_mut().zip(residuals) {
+        *radius += residual;
     }
     let posterior = Posterior::with(cloud, Arc::clone(&fit.sums));
     let given = posterior.given(&fit.spectrum);

@@ -1,6 +1,7 @@
 //! From the points of a scan to samples of the radius: reference surface, centre, axes.
 
 mod axes;
+mod bin;
 mod centre;
 mod facets;
 mod gap;
@@ -135,7 +136,12 @@ impl<'a> PreparedScan<'a> {
         &self.points
     }
 
-    /// Distinct samples of the radius in the grain's own frame, in the cells of a grid.
+    /// Distinct samples of the radius in the grain's own frame, sorted by place.
+    pub(crate) fn sorted_samples(&self) -> Samples {
+        Samples::by_place(&self.points, &self.frame)
+    }
+
+    /// The same, in the cells of a grid.
     pub(crate) fn samples(&self, grid: &CellGrid) -> Samples {
         Samples::new(&self.points, &self.frame, grid)
     }

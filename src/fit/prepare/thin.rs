@@ -1,18 +1,16 @@
 //! A dense cloud's stand-in: one sample per small patch of directions.
 //!
 //! The triangulation of the directions, the centre, the axes and the held-out error do not need
-//! millions of points. Directions are binned on the faces of a cube turned by a fixed odd rotation
+//! millions of points. Directions are [binned](super::bin) on the faces of a cube turned by a fixed odd rotation
 //! (so that no symmetry plane of a body runs along the bins), and each bin is represented by its
 //! point of median radius, which also drops outliers.
 
+use super::bin::{BINS, bin};
 use super::samples::{Sample, order};
-use nalgebra::{Point3, Rotation3, Vector3};
+use nalgebra::{Point3, Rotation3};
 
 /// Clouds up to this size are used whole.
 pub(crate) const WHOLE_CLOUD: usize = 16_384;
-
-/// Bins along an edge of the cube: 6 x 48^2 = 13 824 in all, 1.9 degrees apart.
-const BINS: usize = 48;
 
 /// A representative of each bin that holds a point, and the points that stand apart from theirs.
 pub(crate) struct Thinned {
@@ -30,7 +28,7 @@ pub(crate) fn thin(points: &[Point3<f64>], centre: &Point3<f64>, apart: f64) -> 
         .iter()
         .map(|p| bin(&(turn * (p - centre))) as u16)
         .collect();
-    let mut starts = vec![0usize; 6 * BINS * BINS + 1];
+    let mut starts = vec![0usize; BINS + 1];
     for &b in &bins {
         starts[b as usize + 1] += 1;
     }
@@ -68,15 +66,4 @@ pub(crate) fn thin(points: &[Point3<f64>], centre: &Point3<f64>, apart: f64) -> 
     }
     thinned.strays.sort_unstable();
     thinned
-}
-
-/// The bin of a direction: face of the cube, row, column.
-fn bin(d: &Vector3<f64>) -> usize {
-    let axis = d.iamax();
-    let face = 2 * axis + usize::from(d[axis] < 0.0);
-    let place = |t: f64| {
-        let unit = 0.5 * (t / d[axis].abs() + 1.0);
-        ((unit * BINS as f64) as usize).min(BINS - 1)
-    };
-    (face * BINS + place(d[(axis + 1) % 3])) * BINS + place(d[(axis + 2) % 3])
 }
