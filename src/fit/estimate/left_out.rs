@@ -12,8 +12,8 @@
 //! jackknife: Quenouille, Tukey), and the sum of d tells what they do together where they are of one sign: so the area
 //! lacks its edges. Both are added to the posterior variance. For h stands its mean over the points.
 //!
-//! Measured, with 1538 and 3000 points: of 87 barley kernels the area is off by a root mean square of 1.0 such errors, the
-//! volume by 1.0; of stones, a stone core and kernels scanned at random on their faces by .9 and .5.
+//! Measured: 95 % intervals hold the volume of 86 and the area of all of 87 barley kernels, with standard errors of .09 and
+//! 1.0 % (medians), and 100 and 94 to 100 % of those of stones and kernels scanned at random on their faces.
 
 use super::functionals::dot;
 use super::outcome::{Estimate, spare};

@@ -2,7 +2,7 @@
 //!
 //! Maps are compared at a low degree, which does not follow points that stand alone, as a high one does with nearly as
 //! many coefficients as points. So these are left out here. Only maps that this does not tell apart are compared at the
-//! full degree, whose matrices of small clouds take ten times as long.
+//! full degree, those of small clouds by what a first step promises there: their matrices take ten times as long.
 
 use super::cloud::Cloud;
 use super::outliers::{ROUNDS, alone};

@@ -15,7 +15,7 @@
 //! its centre, as made ones are: an odd part of the radius of 0 to .7 % of the mean radius (cube, cylinder, bicone,
 //! octahedron, cuboid), where kernels and stones have 3 to 12. Its edges may all lie alike among the points, and errors
 //! that are all of one sign leave nothing in the residuals: of a cube whose edges hold points of the lattice the volume is
-//! .9 % off, of one turned against it .03.
+//! .9 % off, with other points .03 to .07.
 
 use std::f64::consts::PI;
 
