@@ -219,7 +219,7 @@ fn lammps_settles_the_same_bed_and_it_is_told_alike() {
     let inside = words.iter().position(|word| *word == "--box").unwrap();
     let round = [
         &words[..inside],
-        &["--cylinder", "34", "--rolling-friction", "0.1"],
+        &["--cylinder", "44", "--rolling-friction", "0.1"],
         &words[inside + 2..],
     ];
     let report = json(&folder, &[&round.concat()[..], &["-o", "round"]].concat());
