@@ -273,5 +273,5 @@ fn residuals(grain: &StarGrain, samples: &[Sample]) -> Residuals {
         radii
     };
     let all: Vec<f64> = samples.par_chunks(CHUNK).flat_map_iter(of_chunk).collect();
-    Residuals::of(all.into_iter())
+    Residuals::of(all)
 }
