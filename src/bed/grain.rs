@@ -1,7 +1,9 @@
 //! A kind of grain as it moves: convex parts about its centre of mass, along its principal axes.
 
 use crate::clump::Clump;
-use crate::measure::{Ball, MassProperties, superquadric_properties, union_properties};
+use crate::measure::{
+    Ball, MassProperties, equivalent_radius, superquadric_properties, union_properties,
+};
 use crate::model::{Frame, InvalidSuperquadric, MultiSuperquadric, Part, Superquadric};
 use nalgebra::{Matrix3, Point3, Vector3};
 use std::f64::consts::PI;
@@ -139,7 +141,7 @@ impl GrainKind {
         Ok(Self {
             mass: density * solid.volume,
             inertia: principal.moments * density,
-            radius: (solid.volume * 0.75 / PI).cbrt(),
+            radius: equivalent_radius(solid.volume),
             reach: largest(&|part| distance(part) + part.reach),
             arm: largest(&distance),
             parts,

@@ -1,16 +1,16 @@
-//! The nearest points of each point of a cloud, by direction.
+//! The nearest points of each point of a cloud, by direction or by place.
 
 use kiddo::{ImmutableKdTree, SquaredEuclidean};
 use nalgebra::Vector3;
 use std::num::NonZero;
 
-/// The directions of a cloud, ready to be asked for the nearest ones.
+/// The directions, or the places, of a cloud, ready to be asked for the nearest ones.
 pub(crate) struct Neighbours {
     tree: Option<ImmutableKdTree<f64, 3>>,
 }
 
 impl Neighbours {
-    /// Sorts unit vectors.
+    /// Sorts vectors.
     pub(crate) fn new(directions: &[Vector3<f64>]) -> Self {
         let points: Vec<[f64; 3]> = directions.iter().map(|&n| n.into()).collect();
         Self {
@@ -21,7 +21,7 @@ impl Neighbours {
         }
     }
 
-    /// Positions of the `count` directions nearest to `n`, nearest first.
+    /// Positions of the `count` vectors nearest to `n`, nearest first.
     pub(crate) fn nearest(&self, n: &Vector3<f64>, count: usize) -> Vec<usize> {
         let (Some(tree), Some(count)) = (&self.tree, NonZero::new(count)) else {
             return Vec::new();

@@ -1,7 +1,6 @@
 //! Extents along axes.
 
-use super::OrientedBox;
-use super::minimum_box::oriented;
+use super::oriented_box::{OrientedBox, oriented};
 use super::support::support_near;
 use crate::Mesh;
 use crate::model::{Frame, Surface};
@@ -24,6 +23,11 @@ pub(super) fn bounds(points: &[Point3<f64>], axes: &Matrix3<f64>) -> [Vector3<f6
         high = high.sup(&place);
     }
     [low, high]
+}
+
+/// The smallest box with the given orthonormal axes (columns, in any order) that holds all points.
+pub(crate) fn box_along(points: &[Point3<f64>], axes: &Matrix3<f64>) -> OrientedBox {
+    oriented(bounds(points, axes), axes)
 }
 
 /// A surface with places all over it.

@@ -5,31 +5,12 @@
 //! estimate on a smooth surface. A piece is done when its error is within its share, by solid angle, of the
 //! tolerance, so the errors add up to at most the tolerance; else it is cut in four.
 
+use super::MassProperties;
 use super::rings::integrate_rings;
-use super::{MassProperties, Moments};
-use crate::model::{Node, Parts, Piece, Radial, StarSurface, Surface, SurfaceElement, Tiling};
+use super::sums::{Integrals, MAX_EVALUATIONS, Sums};
+use crate::model::{Node, Parts, Piece, Radial, StarSurface, Surface, Tiling};
 use crate::sphere::{GaussLegendre, Symmetry};
-use nalgebra::Point3;
 use std::f64::consts::PI;
-
-/// Surface evaluations after which [`integrate`] stops and returns what it has.
-pub const MAX_EVALUATIONS: usize = 4_000_000;
-
-/// What [`integrate`] found, and how well.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Integrals {
-    /// Area, volume, centroid and inertia.
-    pub properties: MassProperties,
-    /// Mean of |X(n)| over all directions n: of a star-shaped surface the mean radius, (1/4 pi) ∫ r dΩ.
-    pub mean_radius: f64,
-    /// Estimated error, an upper bound on smooth surfaces: the largest of those of the mean radius
-    /// R, the area and the volume V, each relative to itself, of the first moments relative to V R
-    /// and of the second moments relative to V R². Above the tolerance when [`MAX_EVALUATIONS`] did
-    /// not suffice, not finite when the surface is not.
-    pub relative_error: f64,
-    /// Evaluations of the surface.
-    pub evaluations: usize,
-}
 
 /// Integrates a star-shaped surface, in its own frame, to a relative tolerance, see [`Integrals::relative_error`].
 ///
@@ -134,72 +115,6 @@ fn sums(
     pieces.iter().map(|_| orders.map(&mut of_rule)).collect()
 }
 
-/// The integrals over a part of the sphere.
-#[derive(Clone, Copy, Default)]
-pub(super) struct Sums {
-    /// ∫ |X| dΩ.
-    length: f64,
-    moments: Moments,
-}
-
-impl Sums {
-    /// Those over parts of a surface.
-    pub(super) fn of(elements: impl IntoIterator<Item = SurfaceElement>) -> Self {
-        let mut sums = Self::default();
-        for element in elements {
-            sums.length += element.place.norm() * element.solid_angle;
-            sums.moments.add_element(&element.place, &element.area);
-        }
-        sums
-    }
-
-    /// What they make over all directions.
-    pub(super) fn integrals(&self, relative_error: f64, evaluations: usize) -> Integrals {
-        Integrals {
-            properties: self.moments.about_centroid(&Point3::origin()),
-            mean_radius: self.length / (4.0 * PI),
-            relative_error,
-            evaluations,
-        }
-    }
-
-    /// Largest difference to `other`, relative to `scale`; NaN when any difference is.
-    pub(super) fn difference(&self, other: &Self, scale: &Self) -> f64 {
-        let length = scale.length / (4.0 * PI);
-        let volume = scale.moments.volume;
-        let difference = self.moments - other.moments;
-        [
-            (self.length - other.length) / scale.length,
-            difference.area / scale.moments.area,
-            difference.volume / volume,
-        ]
-        .into_iter()
-        .chain(difference.first.iter().map(|d| d / (volume * length)))
-        .chain(
-            difference
-                .second
-                .iter()
-                .map(|d| d / (volume * length * length)),
-        )
-        .map(f64::abs)
-        .fold(
-            0.0,
-            |worst, d| if d > worst || d.is_nan() { d } else { worst },
-        )
-    }
-}
-
-impl std::ops::Add for Sums {
-    type Output = Self;
-
-    fn add(self, other: Self) -> Self {
-        Self {
-            length: self.length + other.length,
-            moments: self.moments + other.moments,
-        }
-    }
-}
-
 impl Integrals {
     /// Those of a body that is mirrored in these planes.
     fn with_mirrors(mut self, mirrors: &Symmetry) -> Self {
@@ -223,6 +138,7 @@ mod tests {
     use crate::model::Derivatives;
     use crate::shapes::{Body, Ellipsoid, Sphere};
     use approx::{assert_abs_diff_eq, assert_relative_eq};
+    use nalgebra::Point3;
     use nalgebra::{Matrix3, Vector3};
     use proptest::prelude::*;
 

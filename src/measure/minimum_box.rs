@@ -23,7 +23,8 @@
 //! beside it, a box is known that is smaller by 1.5e-3 (tests/trimesh/compare.py).
 
 use super::convex_polygon::ConvexPolygon;
-use super::extents::bounds;
+use super::extents::{bounds, box_along};
+use super::oriented_box::OrientedBox;
 use super::{MeshIntegralError, mesh_properties};
 use crate::Mesh;
 use crate::sphere::cube_grid;
@@ -31,46 +32,6 @@ use nalgebra::{Matrix3, Point3, Vector2, Vector3};
 
 #[cfg(test)]
 mod tests;
-
-/// A box of any orientation.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct OrientedBox {
-    /// Centre.
-    pub centre: Point3<f64>,
-    /// Unit axes in the columns, in the order of the extents: a rotation. The largest component of the
-    /// first and of the second axis is positive.
-    pub axes: Matrix3<f64>,
-    /// Length, width and thickness: the sides of the box, descending.
-    pub extents: Vector3<f64>,
-}
-
-impl OrientedBox {
-    /// Product of the extents.
-    pub fn volume(&self) -> f64 {
-        self.extents.product()
-    }
-}
-
-/// The smallest box with the given orthonormal axes (columns, in any order) that holds all points.
-pub(crate) fn box_along(points: &[Point3<f64>], axes: &Matrix3<f64>) -> OrientedBox {
-    oriented(bounds(points, axes), axes)
-}
-
-/// The box between least and greatest coordinates along orthonormal axes.
-pub(super) fn oriented([low, high]: [Vector3<f64>; 2], axes: &Matrix3<f64>) -> OrientedBox {
-    let extents = high - low;
-    let mut order = [0, 1, 2];
-    order.sort_by(|&i, &j| extents[j].total_cmp(&extents[i]));
-    let [first, second] = [order[0], order[1]].map(|i| {
-        let axis = axes.column(i).into_owned();
-        axis * axis[axis.iamax()].signum()
-    });
-    OrientedBox {
-        centre: Point3::from(axes * ((low + high) / 2.0)),
-        axes: Matrix3::from_columns(&[first, second, first.cross(&second)]),
-        extents: Vector3::from_fn(|i, _| extents[order[i]]),
-    }
-}
 
 /// Cells per cube edge of the grid of directions whose extreme points stand for the hull at first.
 const EXTREMES: usize = 6;

@@ -3,8 +3,7 @@
 //! N Gauss nodes in z and 2 N equal steps of azimuth on each ring integrate harmonics of degree <= 2N - 1
 //! exactly (dΩ = dz dphi).
 
-use super::Integrals;
-use super::integrals::{MAX_EVALUATIONS, Sums};
+use super::sums::{Integrals, MAX_EVALUATIONS, Sums};
 use crate::model::{Node, Surface};
 use crate::sphere::GaussLegendre;
 use nalgebra::Vector3;

@@ -198,7 +198,7 @@ impl fmt::Display for NoInterval {
             Self::Unresolved { .. } => write!(
                 f,
                 "the points stand off from the estimate as no noise does, and the body is alike on both sides of its \
-                 centre: what its edges hide may be all of one sign"
+                 centre or has flat sides: what its edges hide may be all of one sign"
             ),
             Self::NotFinite => write!(f, "the figures are not finite"),
             Self::OutOfRange => write!(

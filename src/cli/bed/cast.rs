@@ -5,9 +5,9 @@ use crate::bed::GrainKind;
 use crate::cli::args::BedArgs;
 use crate::cli::{inputs, solid};
 use crate::clump::{ClumpTarget, clump};
+use crate::measure::equivalent_radius;
 use crate::report::short;
 use anyhow::{Context, Result, anyhow, bail};
-use std::f64::consts::PI;
 use std::path::Path;
 
 /// Spheres of a grain where none are asked for.
@@ -117,5 +117,7 @@ fn sizes(path: &Path, grains: usize) -> Result<Vec<f64>> {
     let place = |at: &usize| (*at as f64 * GOLDEN).fract();
     order.sort_by(|one, other| place(one).total_cmp(&place(other)));
     let diameters = order.into_iter().map(quantile);
-    Ok(diameters.map(|volume| (6.0 * volume / PI).cbrt()).collect())
+    Ok(diameters
+        .map(|volume| 2.0 * equivalent_radius(volume))
+        .collect())
 }

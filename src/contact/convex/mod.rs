@@ -11,6 +11,7 @@
 //!
 //! Whatever method finds a point and a normal, the difference of these two, the *gap*, tells how good they are.
 
+mod contact;
 mod ellipsoids;
 mod midway;
 mod minimax;
@@ -22,5 +23,6 @@ mod positive;
 mod tests;
 mod union;
 
-pub use pair::{ConvexContact, ConvexPair, ConvexStatus, Method, Warm};
+pub use contact::{ConvexContact, ConvexStatus, Method, Warm};
+pub use pair::ConvexPair;
 pub use union::{UnionContact, union_contacts};

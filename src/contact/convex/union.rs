@@ -1,6 +1,7 @@
 //! Contacts of unions: of all their parts, each touch told once.
 
-use super::pair::{ConvexPair, ConvexStatus};
+use super::contact::ConvexStatus;
+use super::pair::ConvexPair;
 use crate::model::{Frame, MultiSuperquadric, Part};
 use nalgebra::{Point3, Vector3};
 

@@ -59,6 +59,12 @@ impl Cloud {
         mapped.collect()
     }
 
+    /// The points themselves, in units of `mean`.
+    pub(crate) fn points(&self) -> Vec<Vector3<f64>> {
+        let rays = self.directions.iter().zip(&self.radii);
+        rays.map(|(n, radius)| n * *radius).collect()
+    }
+
     /// Number of points.
     pub(crate) fn len(&self) -> usize {
         self.radii.len()

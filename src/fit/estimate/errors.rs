@@ -11,8 +11,8 @@
 //!
 //! Where what is left of the points is no noise, the variances grow by what [leaving them out](super::left_out) tells.
 //!
-//! There are none where neither can be trusted: beside a large hole, and of symmetric bodies with
-//! [edges](super::unresolved).
+//! There are none where neither can be trusted: beside a large hole, and of bodies with
+//! [edges](super::unresolved) that are symmetric or have flat sides.
 
 use super::dimension_errors::dimensions;
 use super::dimensions::Reach;
@@ -20,7 +20,7 @@ use super::functionals::{RingSurface, combined, dot};
 use super::left_out::LeftOut;
 use super::outcome::Estimate;
 use super::posterior::Posterior;
-use super::unresolved::{is_symmetric, kurtosis, limit};
+use super::unresolved::{are_many, is_flat_sided, is_symmetric, kurtosis, limit};
 use crate::fit::figures::{
     Figures, INERTIA, INTEGRALS, MassList, derivatives, form, list, mass, unlist,
 };
@@ -55,7 +55,9 @@ impl Estimate {
         let posterior = self.posterior();
         let kurtosis = kurtosis(&posterior.residuals(&self.coefficients));
         let is_rough = kurtosis > limit(self.cloud.len());
-        if is_rough && is_symmetric(&self.coefficients) {
+        let may_have_edges = is_rough || are_many(self.outliers, self.cloud.len());
+        let is_made = || is_symmetric(&self.coefficients) || is_flat_sided(&self.cloud.points());
+        if may_have_edges && is_made() {
             return Err(NoInterval::Unresolved { kurtosis });
         }
         let left_out = is_rough.then(|| LeftOut::new(self, &posterior));

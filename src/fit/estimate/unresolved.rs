@@ -15,8 +15,12 @@
 //! its centre, as made ones are: an odd part of the radius of 0 to .7 % of the mean radius (cube, cylinder, bicone,
 //! octahedron, cuboid), where kernels and stones have 3 to 12. Its edges may all lie alike among the points, and errors
 //! that are all of one sign leave nothing in the residuals: of a cube whose edges hold points of the lattice the volume is
-//! .9 % off, with other points .03 to .07.
+//! .9 % off, with other points .03 to .07. So may those of a body that is not symmetric, but has flat sides: of a wedge or a
+//! pyramid on a lattice the volume is .3 to .7 % off. Beside edges points may also seem to stand alone, and be left out:
+//! of a bicone 4 %.
 
+use crate::fit::neighbours::Neighbours;
+use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::PI;
 
 /// Kurtosis of normal noise on a smooth body, whose smoothest and sharpest parts need not be fitted equally well.
@@ -30,6 +34,46 @@ const FLOOR: f64 = 3e-4;
 
 /// Odd part of the radius, as RMS in units of the mean radius, below which a body is alike on both sides of its centre.
 const LEAST_ODD: f64 = 0.015;
+
+/// Share of points left out beyond which they are a part of the body, as along a rim.
+const MOST_OUTLIERS: f64 = 0.03;
+
+/// Points near one by which it is told whether it lies on a flat side, itself one of them.
+const VICINITY: usize = 7;
+
+/// RMS distance of these from a plane, over their mean square distance from their middle, in units of the mean radius, on
+/// flat sides: of a ball it is some 0.3.
+const FLAT: f64 = 0.01;
+
+/// Points that are looked at, at least.
+const LOOKED_AT: usize = 1000;
+
+/// Share of points on flat sides from which on a body is a made one.
+const FLAT_SHARE: f64 = 0.1;
+
+/// Whether so many points were left out that they may be no strays.
+pub(super) fn are_many(outliers: usize, points: usize) -> bool {
+    outliers as f64 > MOST_OUTLIERS * (outliers + points) as f64
+}
+
+/// Whether a good part of the points, in units of the mean radius, lies on flat sides.
+pub(super) fn is_flat_sided(points: &[Vector3<f64>]) -> bool {
+    let neighbours = Neighbours::new(points);
+    let looked_at = points.iter().step_by((points.len() / LOOKED_AT).max(1));
+    let count = looked_at.len();
+    let is_flat = |point: &&Vector3<f64>| {
+        let near = neighbours.nearest(point, VICINITY);
+        let middle = near.iter().map(|&i| points[i]).sum::<Vector3<f64>>() / near.len() as f64;
+        let squares = near.iter().map(|&i| {
+            let off = points[i] - middle;
+            off * off.transpose()
+        });
+        let spread = squares.sum::<Matrix3<f64>>() / near.len() as f64;
+        let least = spread.symmetric_eigenvalues().min();
+        least.max(0.0).sqrt() < FLAT * spread.trace()
+    };
+    looked_at.filter(is_flat).count() as f64 > FLAT_SHARE * count as f64
+}
 
 /// Whether the surface of these coefficients is alike on both sides of its centre.
 pub(super) fn is_symmetric(coefficients: &[f64]) -> bool {
@@ -57,6 +101,7 @@ pub(super) fn limit(points: usize) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::shapes::Sampling;
     use rand_chacha::ChaCha8Rng;
     use rand_chacha::rand_core::SeedableRng;
     use rand_distr::{Distribution, StandardNormal};
@@ -71,6 +116,25 @@ mod tests {
         assert!(!is_symmetric(&coefficients));
         coefficients[12] *= 0.5;
         assert!(is_symmetric(&coefficients));
+    }
+
+    #[test]
+    fn half_a_ball_has_a_flat_side_and_a_ball_has_none() {
+        let ball = Sampling::Fibonacci.directions(2000, 0).unwrap();
+        assert!(!is_flat_sided(&ball));
+        // Its lower half moved up along the axis, into a disc.
+        let half: Vec<_> = ball
+            .iter()
+            .map(|n| Vector3::new(n.x, n.y, n.z.max(0.0)))
+            .collect();
+        assert!(is_flat_sided(&half));
+        let rough: Vec<_> = half
+            .iter()
+            .enumerate()
+            .map(|(i, n)| n + Vector3::z() * (2e-3 * (i % 2) as f64))
+            .collect();
+        assert!(!is_flat_sided(&rough));
+        assert!(!are_many(2, 98) && are_many(4, 96));
     }
 
     #[test]

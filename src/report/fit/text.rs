@@ -196,7 +196,7 @@ impl FitReport {
         let [area, volume] = [area, volume].map(percent);
         writeln!(
             f,
-            "              the surface has {area} area, {volume} volume beside it, whose facets are off themselves"
+            "              the surface has {area} area, {volume} volume beside it, whose facets may be off themselves"
         )
     }
 }
