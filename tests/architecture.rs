@@ -211,6 +211,8 @@ fn only_the_dispatch_knows_more_than_one_family() {
         let known: BTreeSet<String> = targets.iter().chain([&module]).filter_map(family).collect();
         let may = match module.join("::").as_str() {
             "fit" | "fit::dispatch" => FAMILIES.len(),
+            // Cells that approximate an estimate.
+            "fit::estimated" if known.iter().eq(["blended", "estimate"]) => 2,
             _ if known.iter().eq(["mirrored", "segments"]) => 2,
             _ => 1,
         };
@@ -224,7 +226,12 @@ fn what_takes_a_surface_knows_no_family() {
     let files = ["family", "blended", "segmented", "mirrored", "whole"];
     for (module, targets) in edges() {
         let room = module.first().map(String::as_str);
-        let makes = ["fit::dispatch", "fit::estimate::curvature"].contains(&&*module.join("::"));
+        let makers = [
+            "fit::dispatch",
+            "fit::estimated",
+            "fit::estimate::curvature",
+        ];
+        let makes = makers.contains(&&*module.join("::"));
         for target in targets.iter().filter(|target| target[0] == "model") {
             let known = target
                 .get(1)

@@ -16,6 +16,7 @@ mod crust;
 mod dispatch;
 mod error;
 mod estimate;
+mod estimated;
 mod figures;
 mod gaps;
 mod kind;

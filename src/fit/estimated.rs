@@ -1,0 +1,218 @@
+//! The radius estimated, and the estimate approximated: by blended cells, or by one expansion where that is enough.
+
+use super::blended::{self, Outcome, Round, Settings, Target};
+use super::candidate::{Candidate, Search, Work};
+use super::context::{Context, Stage};
+use super::error::FitError;
+use super::estimate::{Estimate, estimate};
+use super::options::{FitOptions, Seams, Tolerance};
+use super::outcome::{EstimateSummary, Fitted, Residuals};
+use super::prepare::{PreparedScan, Sample};
+use super::warning::FitWarning;
+use crate::model::{Family, StarGrain};
+use crate::sphere::coefficient_count;
+use nalgebra::Vector3;
+use rayon::prelude::*;
+use std::iter::once;
+
+/// An expansion of the whole sphere with no more coefficients than this needs no cells: they would touch as many.
+const FEW_COEFFICIENTS: usize = 64;
+
+/// Difference from the estimate that is always good enough, as a share of the estimate's own standard deviation:
+/// it adds 5 % to the error.
+const GOOD_ENOUGH: f64 = 1.0 / 3.0;
+
+/// A cell on each face of the cube.
+const FEWEST_CELLS: usize = 6;
+
+/// What the estimate is made to.
+struct Aim {
+    /// Difference from the estimate that is near enough, as RMS.
+    limit: f64,
+    /// Degree at which one expansion is as near.
+    degree: usize,
+    /// Whether that expansion is the model, and not cells.
+    is_whole: bool,
+}
+
+impl Aim {
+    fn new(
+        prepared: &PreparedScan<'_>,
+        options: &FitOptions,
+        estimate: &Estimate,
+    ) -> Result<Self, FitError> {
+        let tolerance = options.tolerance.length(prepared.mean_radius);
+        let limit = tolerance.max(GOOD_ENOUGH * estimate.deviation());
+        let most = options.max_degree.unwrap_or(estimate.degree);
+        if options.segments == Some(1) {
+            // The estimate itself, unless a tolerance asks for less of it.
+            let limit = match options.tolerance {
+                Tolerance::Auto => estimate.resolution(),
+                _ => limit,
+            };
+            let least = || estimate.least_degree(limit).min(most);
+            let degree = options.degree.unwrap_or_else(least);
+            if degree > estimate.degree {
+                return Err(FitError::DegreeOfEstimate {
+                    asked: degree,
+                    reached: estimate.degree,
+                });
+            }
+            return Ok(Self {
+                limit,
+                degree,
+                is_whole: true,
+            });
+        }
+        let degree = estimate.least_degree(limit);
+        let are_cells_asked = options.segments.is_some();
+        if !are_cells_asked && options.most_segments() < FEWEST_CELLS {
+            let degree = options.degree.unwrap_or(degree.min(most));
+            return Ok(Self {
+                limit,
+                degree: degree.min(estimate.degree),
+                is_whole: true,
+            });
+        }
+        let is_small = degree <= most && coefficient_count(degree) <= FEW_COEFFICIENTS;
+        Ok(Self {
+            limit,
+            degree,
+            is_whole: is_small && !are_cells_asked && options.degree.is_none(),
+        })
+    }
+}
+
+/// Estimates the radius, then approximates the estimate.
+pub(super) fn estimated(
+    prepared: &PreparedScan<'_>,
+    options: &FitOptions,
+    context: &Context<'_>,
+) -> Result<Fitted, FitError> {
+    context.enter(Stage::Estimating)?;
+    let samples = prepared.sorted_samples();
+    let estimate = estimate(samples.rows(), prepared.semi_axes, context)?;
+    let aim = Aim::new(prepared, options, &estimate)?;
+    let cut = match aim.is_whole {
+        true => None,
+        false => {
+            context.enter(Stage::Searching { done: 0, all: None })?;
+            Some(cut(&estimate, options, aim.limit)?)
+        }
+    };
+    let search = search(&estimate, &aim, cut.as_ref());
+    let not_met = cut
+        .as_ref()
+        .filter(|cut| options.segments.is_none() && !cut.met);
+    let not_met = not_met.map(|cut| FitWarning::LimitNotMet {
+        rms: cut.rms,
+        limit: aim.limit,
+    });
+    let largest_difference = cut.as_ref().map(|cut| cut.max);
+    let grain = |family: Family| {
+        StarGrain::stretched(*prepared.frame(), estimate.stretch(), family)
+            .expect("the axes are orthonormal")
+    };
+    let whole = grain(Family::Whole(estimate.expansion(aim.degree)));
+    let (grain, whole) = match cut {
+        Some(cut) => (grain(Family::Blended(cut.surface)), Some(whole)),
+        None => (whole, None),
+    };
+
+    let residuals = residuals(&grain, samples.rows());
+    let outliers = estimate.outliers;
+    let mut fitted = prepared.fitted(grain, search, residuals, samples.rows().len() - outliers);
+    fitted.whole = whole;
+    fitted.warnings.extend(not_met);
+    if outliers > 0 {
+        fitted.warnings.push(FitWarning::Outliers { outliers });
+    }
+    fitted.estimate = Some(EstimateSummary {
+        degree: estimate.degree,
+        deviation: estimate.deviation(),
+        noise: estimate.noise(),
+        slope: estimate.spectrum.slope(),
+        outliers,
+        largest_difference,
+    });
+    fitted.posterior = Some(Box::new(estimate));
+    Ok(fitted)
+}
+
+/// Blended cells that are within a limit of the estimate.
+fn cut(estimate: &Estimate, options: &FitOptions, limit: f64) -> Result<Outcome, FitError> {
+    let settings = Settings {
+        degree: options.degree,
+        max_degree: options.top_degree(),
+        segments: options.segments,
+        max_segments: options.most_segments(),
+        limit,
+    };
+    blended::approximate(&Plain(estimate), &settings).ok_or(FitError::NoEstimate)
+}
+
+/// What was tried: one expansion, and the rounds in which cells were cut.
+fn search(estimate: &Estimate, aim: &Aim, cut: Option<&Outcome>) -> Search {
+    let held_out = estimate.held_out();
+    let near = |degree: usize, segments: usize, coefficients: usize, rms: f64| Candidate {
+        estimate_rms: Some(rms),
+        heldout_rms: Some(rms.hypot(held_out)),
+        ..Candidate::unfitted(degree, segments, coefficients)
+    };
+    let size = coefficient_count(aim.degree);
+    let whole = near(aim.degree, 1, size, estimate.truncation(aim.degree));
+    let rounds = cut.map_or(&[][..], |cut| &cut.rounds);
+    let cells = rounds
+        .iter()
+        .map(|round| near(round.degree, round.cells, round.coefficients, round.rms));
+    Search {
+        seams: Seams::Blended,
+        chosen: cut.map_or(0, |cut| 1 + last_of_size(cut)),
+        candidates: once(whole).chain(cells).collect(),
+        limit: aim.limit,
+        noise: Some(estimate.noise()),
+        work: Work {
+            candidates: rounds.len(),
+            segments: rounds.iter().map(|round| round.cells).sum(),
+            ..Work::default()
+        },
+    }
+}
+
+/// The round that gave the surface.
+fn last_of_size(cut: &Outcome) -> usize {
+    let size: usize = cut.surface.coefficients().iter().map(Vec::len).sum();
+    let is_it = |round: &Round| round.coefficients == size;
+    cut.rounds.iter().rposition(is_it).unwrap_or(0)
+}
+
+/// The estimate in its stretched space, its errors weighed as those of the plain radius over all plain directions.
+struct Plain<'a>(&'a Estimate);
+
+impl Target for Plain<'_> {
+    fn radii(&self, directions: &[Vector3<f64>]) -> Vec<f64> {
+        self.0.stretched_radii(directions)
+    }
+
+    fn weight(&self, n: &Vector3<f64>) -> f64 {
+        self.0.weight(n)
+    }
+}
+
+/// Samples whose residuals are found at once.
+const CHUNK: usize = 1 << 15;
+
+/// Residuals of all samples, in the grain's own frame.
+fn residuals(grain: &StarGrain, samples: &[Sample]) -> Residuals {
+    let of_chunk = |samples: &[Sample]| {
+        let direction = |&[x, y, z, _]: &Sample| Vector3::new(x, y, z);
+        let directions: Vec<_> = samples.iter().map(direction).collect();
+        let mut radii = grain.local_radii(&directions);
+        for (radius, sample) in radii.iter_mut().zip(samples) {
+            *radius = sample[3] - *radius;
+        }
+        radii
+    };
+    let all: Vec<f64> = samples.par_chunks(CHUNK).flat_map_iter(of_chunk).collect();
+    Residuals::of(all)
+}
