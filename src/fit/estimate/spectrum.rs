@@ -28,8 +28,10 @@ pub(crate) const STEPS: [f64; 4] = [4.0, 0.5, 0.7, 1.5];
 /// of proportions as of a grain of which nothing is known (the middle of the hyperprior).
 const FREE: [f64; 3] = [100.0, 1.0, 0.06];
 
-/// Detail of textured kernels falls more slowly with the degree than a lower one tells: of that one's noise so much is left.
+/// Detail of textured kernels falls more slowly with the degree than a lower one tells: of that one's noise so much is left,
+/// where it is above this share of the mean radius.
 const LEFT_BY_TEXTURE: f64 = 0.8;
+const TEXTURE: f64 = 1e-3;
 
 /// Least share of the noise's variance that is left when a higher degree takes its part.
 const LEAST_LEFT: f64 = 0.5;
@@ -74,7 +76,10 @@ impl Spectrum {
             true => noise + 0.5 * left.ln(),
             false => noise,
         };
-        let noise = (noise + LEFT_BY_TEXTURE.ln()).max(BOUNDS[3][0]);
+        let noise = match noise > TEXTURE.ln() {
+            true => noise + LEFT_BY_TEXTURE.ln(),
+            false => noise,
+        };
         Self([pivot, exponent, knee, noise])
     }
 
