@@ -220,9 +220,10 @@ fn lammps_settles_the_same_bed_and_it_is_told_alike() {
     let round = [
         &words[..inside],
         &["--cylinder", "44", "--rolling-friction", "0.1"],
-        &words[inside + 2..],
+        &words[inside + 2..words.len() - 1],
+        &["round"],
     ];
-    let report = json(&folder, &[&round.concat()[..], &["-o", "round"]].concat());
+    let report = json(&folder, &round.concat());
     assert_eq!(report["runs"][0]["is_at_rest"], true);
     assert_eq!(report["runs"][0]["fabric"]["loose"], 0);
     for name in [
