@@ -1,4 +1,6 @@
-//! Middle and spread of values, which a few wild ones do not move.
+//! Middle and spread of values, which a few wild ones do not move, and of points.
+
+use nalgebra::{Matrix3, Vector3};
 
 /// Standard deviation over median absolute deviation of a normal distribution.
 pub(crate) const PER_MEDIAN: f64 = 1.4826;
@@ -7,6 +9,16 @@ pub(crate) const PER_MEDIAN: f64 = 1.4826;
 pub(crate) fn robust_deviation(values: impl Iterator<Item = f64>) -> f64 {
     let mut sizes: Vec<f64> = values.map(f64::abs).collect();
     PER_MEDIAN * median(&mut sizes).unwrap_or(0.0)
+}
+
+/// The mean of points, and their covariance about it.
+pub(crate) fn covariance(
+    points: impl ExactSizeIterator<Item = Vector3<f64>> + Clone,
+) -> (Vector3<f64>, Matrix3<f64>) {
+    let count = points.len() as f64;
+    let mean = points.clone().sum::<Vector3<f64>>() / count;
+    let squares = points.map(|point| (point - mean) * (point - mean).transpose());
+    (mean, squares.sum::<Matrix3<f64>>() / count)
 }
 
 /// The median, the upper one of two.

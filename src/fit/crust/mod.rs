@@ -11,8 +11,9 @@ mod voxels;
 use super::error::FitError;
 use super::neighbours::Neighbours;
 use crate::mesh::{Grid, Mesh, contour, part, parts};
+use crate::spread::covariance;
 use field::harmonic;
-use nalgebra::{Matrix3, Point3, Vector3};
+use nalgebra::{Point3, Vector3};
 use voxels::Voxels;
 
 /// Points that the crust is made of; of more, so many are drawn by a hash of their coordinates.
@@ -122,10 +123,7 @@ fn squeezes(points: &[Point3<f64>]) -> Vec<Vector3<f64>> {
     let near = Neighbours::new(&places);
     let squeeze = |place: &Vector3<f64>| {
         let own = near.nearest(place, AROUND);
-        let count = own.len() as f64;
-        let mean = own.iter().map(|&at| places[at]).sum::<Vector3<f64>>() / count;
-        let spread = own.iter().map(|&at| places[at] - mean);
-        let spread: Matrix3<f64> = spread.map(|x| x * x.transpose()).sum();
+        let (_, spread) = covariance(own.iter().map(|&at| places[at]));
         let eigen = spread.symmetric_eigen();
         let mut order = [0, 1, 2];
         order.sort_by(|&i, &j| eigen.eigenvalues[i].total_cmp(&eigen.eigenvalues[j]));

@@ -7,7 +7,7 @@
 
 use crate::fit::prepare::Sample;
 use crate::sphere::CubeCell;
-use crate::spread::{median, robust_deviation};
+use crate::spread::{covariance, median, robust_deviation};
 use nalgebra::{Matrix3, Vector3};
 
 /// Clouds up to this size are used point by point.
@@ -120,14 +120,8 @@ impl Patches {
 /// covariance's Cholesky factor.
 fn places(samples: &[Sample]) -> [Sample; PLACES] {
     let point = |[x, y, z, r]: &Sample| Vector3::new(*x, *y, *z) * *r;
-    let count = samples.len() as f64;
-    let mean = samples.iter().map(point).sum::<Vector3<f64>>() / count;
-    let mut covariance = Matrix3::zeros();
-    for sample in samples {
-        let off = point(sample) - mean;
-        covariance += off * off.transpose();
-    }
-    let columns = factor(covariance * (3.0 / count));
+    let (mean, covariance) = covariance(samples.iter().map(point));
+    let columns = factor(covariance * 3.0);
     std::array::from_fn(|i| {
         let column = columns.column(i / 2);
         let place = mean + column * [1.0, -1.0][i % 2];

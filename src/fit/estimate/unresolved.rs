@@ -20,7 +20,8 @@
 //! of a bicone 4 %.
 
 use crate::fit::neighbours::Neighbours;
-use nalgebra::{Matrix3, Vector3};
+use crate::spread::covariance;
+use nalgebra::Vector3;
 use std::f64::consts::PI;
 
 /// Kurtosis of normal noise on a smooth body, whose smoothest and sharpest parts need not be fitted equally well.
@@ -63,12 +64,7 @@ pub(super) fn is_flat_sided(points: &[Vector3<f64>]) -> bool {
     let count = looked_at.len();
     let is_flat = |point: &&Vector3<f64>| {
         let near = neighbours.nearest(point, VICINITY);
-        let middle = near.iter().map(|&i| points[i]).sum::<Vector3<f64>>() / near.len() as f64;
-        let squares = near.iter().map(|&i| {
-            let off = points[i] - middle;
-            off * off.transpose()
-        });
-        let spread = squares.sum::<Matrix3<f64>>() / near.len() as f64;
+        let (_, spread) = covariance(near.iter().map(|&i| points[i]));
         let least = spread.symmetric_eigenvalues().min();
         least.max(0.0).sqrt() < FLAT * spread.trace()
     };
