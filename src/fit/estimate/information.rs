@@ -109,7 +109,7 @@ mod tests {
         let at = |moves: [(usize, f64); 2]| {
             let mut moved = truth;
             for (i, by) in moves {
-                moved.0[i] += by;
+                moved.logarithms[i] += by;
             }
             cost(&moved)
         };

@@ -10,13 +10,15 @@
 //!
 //! The sum of the squares of d over the points is the variance of the functional whatever the sizes of the misfits (the
 //! jackknife: Quenouille, Tukey), and the sum of d tells what they do together where they are of one sign: so the area
-//! lacks its edges. Both are added to the posterior variance. For h stands its mean over the points.
+//! lacks its edges. Both are added to the posterior variance. For h stands its mean over the points, or over those
+//! of one polar angle.
 //!
 //! Measured: 95 % intervals hold the volume of 86 and the area of all of 87 barley kernels, with standard errors of .09 and
 //! 1.0 % (medians), and 100 and 94 to 100 % of those of stones and kernels scanned at random on their faces.
 
 use super::functionals::dot;
-use super::outcome::{Estimate, spare};
+use super::leverage::spares;
+use super::outcome::Estimate;
 use super::posterior::Posterior;
 use crate::fit::figures::{INTEGRALS, MassList};
 use crate::fit::neighbours::Neighbours;
@@ -37,12 +39,14 @@ pub(super) struct LeftOut<'a> {
 
 impl<'a> LeftOut<'a> {
     pub(super) fn new(estimate: &Estimate, posterior: &'a Posterior<'a>) -> Self {
-        let spare = spare(&estimate.unlearnt, posterior.cloud.len() as f64);
-        let residuals = posterior.residuals(&estimate.coefficients);
+        let residuals = posterior.residuals(&estimate.coefficients).into_iter();
         Self {
             posterior,
             neighbours: Neighbours::new(&posterior.cloud.directions),
-            errors: residuals.into_iter().map(|e| e / spare).collect(),
+            errors: residuals
+                .zip(spares(estimate))
+                .map(|(e, spare)| e / spare)
+                .collect(),
             noise: estimate.spectrum.noise().powi(2),
         }
     }

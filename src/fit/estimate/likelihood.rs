@@ -39,7 +39,7 @@ pub(crate) fn hyperprior(points: f64, spectrum: &Spectrum) -> (f64, [f64; 4]) {
     let (mut value, mut gradient) = (0.0, [0.0; 4]);
     if points <= FEW_POINTS {
         let (amplitude, by) = spectrum.amplitude();
-        let [_, exponent, knee, noise] = spectrum.0;
+        let [_, exponent, knee, noise] = spectrum.logarithms;
         let logarithms = [amplitude, exponent, knee, noise].into_iter().enumerate();
         for ((at, logarithm), [mean, sd]) in logarithms.zip(HYPERPRIOR) {
             let z = (logarithm - mean) / sd;
@@ -103,7 +103,7 @@ impl Evidence {
     /// (Levenberg, Marquardt).
     pub(crate) fn most_likely(&self, start: &Spectrum) -> (Spectrum, f64) {
         let bounds: Bounds = std::array::from_fn(|i| {
-            let ([low, high], at, step) = (BOUNDS[i], start.0[i], STEPS[i]);
+            let ([low, high], at, step) = (BOUNDS[i], start.logarithms[i], STEPS[i]);
             [(at - step).max(low), (at + step).min(high)]
         });
         let first = self.value(start).0;
@@ -144,7 +144,7 @@ impl Evidence {
         for i in 0..4 {
             let moved = |by: f64| {
                 let mut moved = *spectrum;
-                moved.0[i] += by;
+                moved.logarithms[i] += by;
                 gradient(moved)
             };
             let column = (moved(DIFFERENCE) - moved(-DIFFERENCE)) / (2.0 * DIFFERENCE);
@@ -168,8 +168,8 @@ impl Step {
         let mut gradient = Vector4::from(evidence.value(at).1);
         let mut hessian = evidence.curvature(at);
         for (i, &[low, high]) in bounds.iter().enumerate() {
-            let is_held =
-                at.0[i] <= low && gradient[i] > 0.0 || at.0[i] >= high && gradient[i] < 0.0;
+            let is_held = at.logarithms[i] <= low && gradient[i] > 0.0
+                || at.logarithms[i] >= high && gradient[i] < 0.0;
             if is_held {
                 hessian.fill_row(i, 0.0);
                 hessian.fill_column(i, 0.0);
@@ -185,8 +185,8 @@ impl Step {
         let scale = self.hessian.diagonal() * damping;
         let damped = self.hessian + Matrix4::from_diagonal(&scale);
         let step = damped.cholesky()?.solve(&self.gradient);
-        Some(Spectrum(std::array::from_fn(|i| {
-            (at.0[i] - step[i]).clamp(bounds[i][0], bounds[i][1])
+        Some(at.moved_to(std::array::from_fn(|i| {
+            (at.logarithms[i] - step[i]).clamp(bounds[i][0], bounds[i][1])
         })))
     }
 }
@@ -236,7 +236,7 @@ mod tests {
             for (i, slope) in gradient.into_iter().enumerate() {
                 let moved = |by: f64| {
                     let mut moved = at;
-                    moved.0[i] += by;
+                    moved.logarithms[i] += by;
                     evidence.value(&moved).0
                 };
                 let difference = (moved(1e-5) - moved(-1e-5)) / 2e-5;
@@ -257,7 +257,7 @@ mod tests {
         for _ in 0..5 {
             at = evidence.most_likely(&at).0;
         }
-        for (have, want) in at.0.iter().zip(truth.0) {
+        for (have, want) in at.logarithms.iter().zip(truth.logarithms) {
             assert!((have - want).abs() < 0.01, "{at:?}");
         }
     }

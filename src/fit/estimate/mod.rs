@@ -21,6 +21,7 @@ mod errors;
 mod functionals;
 mod information;
 mod left_out;
+mod leverage;
 mod likelihood;
 mod local;
 mod map;
@@ -34,6 +35,7 @@ mod spectrum_fit;
 mod stopping;
 mod sums;
 mod surface;
+mod tilt;
 mod tips;
 mod unresolved;
 
@@ -52,6 +54,7 @@ use posterior::{Posterior, is_small};
 use spectrum_fit::{Count, SpectrumFit, fit_spectrum};
 use std::sync::Arc;
 use stopping::SETTLED;
+use tilt::most_likely;
 
 /// Degrees that are tried one after the other, as long as the last degrees carry something.
 const DEGREES: [usize; 5] = [36, 48, 60, 72, 80];
@@ -96,6 +99,10 @@ pub(crate) fn estimate(
     let mut lower: Option<(usize, SpectrumFit)> = None;
     // The comparison of maps may have found the exact likelihood at this degree.
     let mut is_found = fit.factor.is_some() && compared == first;
+    if !is_found {
+        let tilt = most_likely(&fit.coefficients, &fit.unlearnt, &fit.spectrum);
+        fit.spectrum = fit.spectrum.tilted(tilt);
+    }
     loop {
         context.check()?;
         let is_factored = is_small(cloud.len());

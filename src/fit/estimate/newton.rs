@@ -112,7 +112,7 @@ impl Newton {
 
     /// The spectrum that a step from a place leads to.
     fn step(&self, place: &Place) -> Spectrum {
-        let at = &place.spectrum.0;
+        let at = &place.spectrum.logarithms;
         let mut matrix = place.information.unwrap_or(self.curvature);
         let mut right = place.gradient;
         for i in 0..4 {
@@ -132,7 +132,7 @@ impl Newton {
             .map_or_else(Vector4::zeros, |factor| -factor.solve(&right));
         let too_far = step.iter().zip(STEPS).map(|(step, most)| step.abs() / most);
         let shorter = self.share / too_far.fold(1.0, f64::max);
-        Spectrum(std::array::from_fn(|i| {
+        place.spectrum.moved_to(std::array::from_fn(|i| {
             (at[i] + shorter * step[i]).clamp(BOUNDS[i][0], BOUNDS[i][1])
         }))
     }
@@ -158,7 +158,7 @@ impl Newton {
 }
 
 fn difference(to: &Spectrum, from: &Spectrum) -> Vector4<f64> {
-    Vector4::from(to.0) - Vector4::from(from.0)
+    Vector4::from(to.logarithms) - Vector4::from(from.logarithms)
 }
 
 fn is_settled(from: &Spectrum, to: &Spectrum) -> bool {

@@ -43,11 +43,15 @@ impl Estimate {
 /// Floor of the share of the points that is not spent on coefficients.
 const LEAST_SPARE: f64 = 0.3;
 
+/// Number of coefficients that the points tell: the sum of their leverages.
+pub(super) fn learnt(unlearnt: &[f64]) -> f64 {
+    let orders = unlearnt.iter().enumerate();
+    orders.map(|(l, q)| (2 * l + 1) as f64 * (1.0 - q)).sum()
+}
+
 /// Share of the points that is not spent on coefficients: 1 - the mean leverage.
 pub(super) fn spare(unlearnt: &[f64], points: f64) -> f64 {
-    let orders = unlearnt.iter().enumerate();
-    let learnt: f64 = orders.map(|(l, q)| (2 * l + 1) as f64 * (1.0 - q)).sum();
-    (1.0 - learnt / points).max(LEAST_SPARE)
+    (1.0 - learnt(unlearnt) / points).max(LEAST_SPARE)
 }
 
 /// Mean posterior variance of the radius: sum of (2l + 1) C_l / 4 pi.

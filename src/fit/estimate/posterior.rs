@@ -81,14 +81,16 @@ impl<'a> Posterior<'a> {
         factor: Option<Arc<Factor>>,
     ) -> Conditioned<'_> {
         let degrees = spectrum.variances(self.degree());
-        let variances = degrees
-            .iter()
-            .enumerate()
-            .flat_map(|(l, &v)| std::iter::repeat_n(v, 2 * l + 1));
+        let orders: Vec<f64> = (0..degrees.len())
+            .flat_map(|l| spectrum.orders(l))
+            .collect();
+        let own = degrees.iter().enumerate();
+        let own = own.flat_map(|(l, &v)| std::iter::repeat_n(v, 2 * l + 1));
         Conditioned {
             posterior: self,
-            variances: variances.collect(),
+            variances: own.zip(&orders).map(|(v, share)| v * share).collect(),
             degrees,
+            orders,
             noise: spectrum.noise().powi(2),
             factor,
         }
@@ -131,8 +133,9 @@ impl<'a> Posterior<'a> {
 /// The posterior for a spectrum.
 pub(crate) struct Conditioned<'a> {
     pub(super) posterior: &'a Posterior<'a>,
-    /// v_l per degree, and of every coefficient.
+    /// v_l per degree, the share of every coefficient in it, and its own variance.
     pub(super) degrees: Vec<f64>,
+    pub(super) orders: Vec<f64>,
     pub(super) variances: Vec<f64>,
     /// s^2.
     pub(super) noise: f64,
@@ -221,8 +224,9 @@ impl Conditioned<'_> {
             .collect()
     }
 
-    /// Per degree, the share of the prior variance that the points leave: the mean of C_mm / v_l, by probes of the variances
-    /// themselves, where the matrix is factored. The mean variance of the radius is then good to a percent.
+    /// Per degree, the share of the prior variance that the points leave: the mean of C_mm over the variance of the order,
+    /// by probes of the variances themselves, where the matrix is factored. The mean variance of the radius is then good
+    /// to a percent.
     pub(crate) fn unlearnt(&self) -> Vec<f64> {
         self.per_degree(&self.probed_diagonal(|_| 1.0))
     }

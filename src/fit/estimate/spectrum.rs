@@ -5,13 +5,22 @@
 //! (size, place and proportions) are free: proportions are taken by the stretch, which is found from the same
 //! points, so that what is left of degree 2 in the stretched space says nothing of what may be left. (With a variance
 //! learnt from it, the extents of noisy ellipsoids were 5 standard errors off.)
+//!
+//! Along a kernel's crease the radius varies less than across it: of one degree the orders m do not vary alike about the
+//! grain's longest axis, its z. The variance of order m is that of its degree times a share, exp(t |m| / l) over the mean
+//! of these, with the tilt t: 0 where no direction differs from another, above 0 where furrows lie along the axis.
 
-/// Logarithms of the variance of degree [`PIVOT`], exponent nu, knee l0, and standard deviation s of the noise.
-///
-/// The points tell the variance in the middle of the degrees far better than the amplitude A, which a low knee and a
-/// steep slope leave open: a search among amplitudes creeps along a valley.
+/// The spectrum of a grain.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Spectrum(pub(crate) [f64; 4]);
+pub(crate) struct Spectrum {
+    /// Logarithms of the variance of degree [`PIVOT`], exponent nu, knee l0, and standard deviation s of the noise.
+    ///
+    /// The points tell the variance in the middle of the degrees far better than the amplitude A, which a low knee and a
+    /// steep slope leave open: a search among amplitudes creeps along a valley.
+    pub(crate) logarithms: [f64; 4],
+    /// The tilt t.
+    pub(crate) tilt: f64,
+}
 
 /// The degree whose variance stands for the amplitude: grains are told from noise up to degrees 10 to 40.
 const PIVOT: usize = 12;
@@ -44,24 +53,52 @@ impl Spectrum {
 
     /// From the logarithms of A, nu, l0 and s.
     pub(crate) fn with_amplitude([amplitude, exponent, knee, noise]: [f64; 4]) -> Self {
-        let (fall, _) = Self([0.0, exponent, knee, noise]).fall(PIVOT);
-        Self([amplitude - fall, exponent, knee, noise])
+        let even = |pivot: f64| Self {
+            logarithms: [pivot, exponent, knee, noise],
+            tilt: 0.0,
+        };
+        even(amplitude - even(0.0).fall(PIVOT).0)
+    }
+
+    /// Other logarithms, the same tilt.
+    pub(crate) fn moved_to(&self, logarithms: [f64; 4]) -> Self {
+        Self {
+            logarithms,
+            ..*self
+        }
+    }
+
+    /// Another tilt.
+    pub(crate) fn tilted(&self, tilt: f64) -> Self {
+        Self { tilt, ..*self }
+    }
+
+    /// The variances of the orders -l to l of degree l over that of the degree; their mean is 1.
+    pub(crate) fn orders(&self, l: usize) -> impl Iterator<Item = f64> {
+        let tilt = match l < FREE.len() {
+            true => 0.0,
+            false => self.tilt / l as f64,
+        };
+        let share = move |order: usize| (tilt * order as f64).exp();
+        let sum: f64 = share(0) + 2.0 * (1..=l).map(share).sum::<f64>();
+        let mean = sum / (2 * l + 1) as f64;
+        (0..=2 * l).map(move |at| share(at.abs_diff(l)) / mean)
     }
 
     /// log A, and its derivatives by the logarithms.
     pub(crate) fn amplitude(&self) -> (f64, [f64; 4]) {
         let (fall, [by_exponent, by_knee]) = self.fall(PIVOT);
-        (self.0[0] + fall, [1.0, by_exponent, by_knee, 0.0])
+        (self.logarithms[0] + fall, [1.0, by_exponent, by_knee, 0.0])
     }
 
     /// Standard deviation of the noise of one point, in units of the mean radius.
     pub(crate) fn noise(&self) -> f64 {
-        self.0[3].exp()
+        self.logarithms[3].exp()
     }
 
     /// The exponent of the power law that the variances end in: v_l ~ l^-slope.
     pub(crate) fn slope(&self) -> f64 {
-        2.0 * self.0[1].exp()
+        2.0 * self.logarithms[1].exp()
     }
 
     /// Where to start the search for that of an expansion of a higher degree: what this adds was noise to the lower one,
@@ -70,7 +107,7 @@ impl Spectrum {
         if from == to {
             return *self;
         }
-        let [pivot, exponent, knee, noise] = self.0;
+        let [pivot, exponent, knee, noise] = self.logarithms;
         let left = 1.0 - self.power(from, to) / self.noise().powi(2);
         let noise = match left > LEAST_LEFT {
             true => noise + 0.5 * left.ln(),
@@ -80,7 +117,7 @@ impl Spectrum {
             true => noise + LEFT_BY_TEXTURE.ln(),
             false => noise,
         };
-        Self([pivot, exponent, knee, noise])
+        self.moved_to([pivot, exponent, knee, noise])
     }
 
     /// Expected square of what the degrees above `from`, up to `to`, add to the radius.
@@ -113,8 +150,8 @@ impl Spectrum {
 
     /// log A - log v_l = nu log(1 + (l / l0)^2), and its derivatives by the logarithms of exponent and knee.
     fn fall(&self, l: usize) -> (f64, [f64; 2]) {
-        let nu = self.0[1].exp();
-        let q = (l as f64 / self.0[2].exp()).powi(2);
+        let nu = self.logarithms[1].exp();
+        let q = (l as f64 / self.logarithms[2].exp()).powi(2);
         let fall = nu * q.ln_1p();
         (fall, [fall, -2.0 * nu * q / (1.0 + q)])
     }

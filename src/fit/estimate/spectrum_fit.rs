@@ -228,7 +228,9 @@ fn told(
     let mut degrees = Vec::with_capacity(variances.len());
     for (l, (v, unlearnt)) in variances.iter().zip(&unlearnt).enumerate() {
         let orders = (2 * l + 1) as f64;
-        let power: f64 = mean[l * l..(l + 1) * (l + 1)].iter().map(|x| x * x).sum();
+        let range = l * l..(l + 1) * (l + 1);
+        let own = mean[range.clone()].iter().zip(&given.orders[range]);
+        let power: f64 = own.map(|(x, share)| x * x / share).sum();
         let slope = 0.5 * (orders * (1.0 - unlearnt) - power / v);
         for (gradient, by) in gradient.iter_mut().zip(spectrum.slopes(l)) {
             *gradient += by * slope;

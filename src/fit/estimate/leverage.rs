@@ -1,0 +1,75 @@
+//! Leverage of points: how much of each the estimate follows.
+//!
+//! Their mean is told by what the points leave of the prior variances. Where orders differ by a tilt, they depend on the
+//! polar angle: as of an even cloud, as sum of (1 - q_lm) Y_lm^2.
+
+use super::outcome::{Estimate, learnt};
+use crate::sphere::{HarmonicBasis, coefficient_count};
+use nalgebra::Vector3;
+use std::f64::consts::FRAC_PI_2;
+
+/// Floor of 1 - h, which is told by a mean over points.
+const LEAST: f64 = 0.1;
+
+/// 1 - h of every point.
+pub(super) fn spares(estimate: &Estimate) -> Vec<f64> {
+    let profile = Profile::new(estimate);
+    let leverages: Vec<f64> = estimate
+        .cloud
+        .directions
+        .iter()
+        .map(|n| profile.at(n))
+        .collect();
+    let scale = learnt(&estimate.unlearnt) / leverages.iter().sum::<f64>();
+    let spares = leverages.iter().map(|leverage| 1.0 - scale * leverage);
+    spares.map(|spare| spare.max(LEAST)).collect()
+}
+
+/// Newton steps to what is told of a degree.
+const STEPS: usize = 6;
+
+/// 1 - q_m of the orders of a degree whose variances are in proportion to `orders`, and whose q have this mean.
+fn shares(mean: f64, orders: Vec<f64>) -> Vec<f64> {
+    let mut told = (1.0 - mean) / mean;
+    for _ in 0..STEPS {
+        let left = orders.iter().map(|order| 1.0 / (1.0 + told * order));
+        let (excess, slope) = left.fold((0.0, 0.0), |(excess, slope), q| {
+            (excess + q - mean, slope + q * (1.0 - q))
+        });
+        told *= (excess / slope).exp();
+    }
+    let shares = orders
+        .iter()
+        .map(|order| told * order / (1.0 + told * order));
+    shares.collect()
+}
+
+/// Leverage against polar angle, in any unit: both halves of the sphere are alike.
+struct Profile(Vec<f64>);
+
+impl Profile {
+    fn new(estimate: &Estimate) -> Self {
+        let degree = estimate.degree;
+        let basis = HarmonicBasis::new(degree);
+        let learnt: Vec<f64> = (0..=degree)
+            .flat_map(|l| shares(estimate.unlearnt[l], estimate.spectrum.orders(l).collect()))
+            .collect();
+        let mut values = vec![0.0; coefficient_count(degree)];
+        // At azimuth 0 an order's cosine stands for both of its harmonics.
+        let angles = (0..=2 * degree).map(|i| FRAC_PI_2 * i as f64 / (2 * degree) as f64);
+        let leverages = angles.map(|polar| {
+            basis.evaluate(&Vector3::new(polar.sin(), 0.0, polar.cos()), &mut values);
+            let terms = values.iter().zip(&learnt);
+            terms.map(|(y, learnt)| learnt * y * y).sum()
+        });
+        Self(leverages.collect())
+    }
+
+    /// Between the angles, linearly.
+    fn at(&self, n: &Vector3<f64>) -> f64 {
+        let place = n.z.abs().min(1.0).acos() / FRAC_PI_2 * (self.0.len() - 1) as f64;
+        let below = (place as usize).min(self.0.len() - 2);
+        let share = place - below as f64;
+        self.0[below] * (1.0 - share) + self.0[below + 1] * share
+    }
+}
