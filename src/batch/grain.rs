@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 
 /// What is asked of every grain of a batch.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Settings {
+pub(crate) struct Settings {
     /// How scans are fitted.
     pub fit: FitOptions,
     /// Of several bodies in a scan, fit the largest.
@@ -116,7 +116,7 @@ fn row(fitted: &Fitted, warnings: &[String], settings: &Settings) -> Row {
     let fit = FitReport::new(String::new(), None, fitted, &settings.fit, warnings);
     // Where much was not seen, the whole surface is a guess that the fit withholds.
     let is_withheld = fitted.grain.unseen().is_some() && !settings.fit.extrapolate;
-    let measured = (!is_withheld).then(|| {
+    let mut measured = (!is_withheld).then(|| {
         let survey = Survey::of_grain(&fitted.grain, Scheme::Exact);
         MeasureReport::new(
             String::new(),
@@ -126,6 +126,9 @@ fn row(fitted: &Fitted, warnings: &[String], settings: &Settings) -> Row {
             Vec::new(),
         )
     });
+    if let Some(measured) = &mut measured {
+        measured.withhold(&fit.not_measured);
+    }
     let missing = match &measured {
         Some(measured) => &measured.not_measured,
         None => &fit.not_measured,

@@ -4,7 +4,7 @@ use super::paint::painted;
 use super::settings::Container;
 use super::settle::Bed;
 use crate::mesh::Mesh;
-use crate::picture::{Camera, Ground, Image, Line, Scene, render};
+use crate::picture::{Camera, Image, Line, Scene, render};
 use nalgebra::{Point3, Vector3};
 use std::f64::consts::TAU;
 
@@ -46,7 +46,7 @@ pub fn picture(bed: &Bed) -> Image {
         colour: OUTLINE,
         width: 1.5,
     }));
-    render(&scene, &camera(&scene), SIZE, Ground::Light)
+    render(&scene, &camera(&scene), SIZE)
 }
 
 fn cells(bed: &Bed) -> usize {
