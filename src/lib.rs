@@ -8,7 +8,7 @@
 //!                  \-> clump -> engines
 //! ```
 //!
-//! A scan of many grains is first [split](scan::split), and many scans are gone through in a `batch`.
+//! A scan of many grains is first [split](scan::split).
 //!
 //! # Conventions
 //!

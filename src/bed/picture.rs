@@ -30,7 +30,7 @@ const RIM: usize = 96;
 const OUTLINE: [u8; 3] = [120, 120, 120];
 
 /// The grains of a bed in their container, seen aslant from above, without perspective.
-pub fn picture(bed: &Bed) -> Image {
+pub(crate) fn picture(bed: &Bed) -> Image {
     let mut scene = Scene::default();
     for grain in painted(bed, cells(bed)) {
         let colours = vec![grain.colour; grain.mesh.vertices.len()];

@@ -104,3 +104,31 @@ impl Figures {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn of_edges() -> Figures {
+        Figures {
+            area: Some(10.3),
+            volume: Some(2.1),
+            no_standard_errors: Some("edges".into()),
+            ..Figures::default()
+        }
+    }
+
+    #[test]
+    fn what_closed_faces_contradict_and_no_error_vouches_for_is_withheld() {
+        let mut figures = of_edges();
+        figures.withhold_contradicted([Some(0.094), Some(-0.004)]);
+        assert_eq!((figures.area, figures.volume), (None, Some(2.1)));
+        let missing = &figures.not_measured[0];
+        assert_eq!(missing.measure, "area");
+        assert!(missing.reason.contains("+9.400 %"), "{}", missing.reason);
+
+        let mut figures = of_edges();
+        figures.withhold_contradicted([Some(-0.04), None]);
+        assert!(figures.area.is_some() && figures.not_measured.is_empty());
+    }
+}
