@@ -6,7 +6,9 @@ use crate::export::{SaveError, save_grain, save_mesh};
 use crate::fit::{Context, FitOptions, Fitted, fit_scan, whole_or_largest};
 use crate::measure::{Scheme, Survey};
 use crate::model::Surface;
-use crate::report::{FitReport, Measure, MeasureReport, Measured, Unit, sentences};
+use crate::report::{
+    FitReport, Measure, MeasureReport, Measured, Measures, NotMeasured, Unit, sentences,
+};
 use crate::scan::{parse_file, read_stream};
 use serde_json::Value;
 use std::error::Error;
@@ -127,7 +129,7 @@ fn row(fitted: &Fitted, warnings: &[String], settings: &Settings) -> Row {
         )
     });
     if let Some(measured) = &mut measured {
-        measured.withhold(&fit.not_measured);
+        withhold(measured, &fit.not_measured);
     }
     let missing = match &measured {
         Some(measured) => &measured.not_measured,
@@ -159,6 +161,18 @@ fn row(fitted: &Fitted, warnings: &[String], settings: &Settings) -> Row {
         warnings: sentences(warnings, &fitted.warnings, settings.unit),
         figures,
         ..Row::default()
+    }
+}
+
+/// Withholds area and volume where they are among `missing`, a fit's.
+fn withhold(measured: &mut MeasureReport, missing: &[NotMeasured]) {
+    let Measures { area, volume, .. } = &mut measured.measures;
+    for (name, figure) in [("area", area), ("volume", volume)] {
+        if let Some(missing) = missing.iter().find(|missing| missing.measure == name)
+            && figure.take().is_some()
+        {
+            measured.not_measured.push(missing.clone());
+        }
     }
 }
 

@@ -206,18 +206,6 @@ impl MeasureReport {
         Self { unit, ..self }
     }
 
-    /// Withholds area and volume where they are among `missing`, a fit's.
-    pub(crate) fn withhold(&mut self, missing: &[NotMeasured]) {
-        let Measures { area, volume, .. } = &mut self.measures;
-        for (name, figure) in [("area", area), ("volume", volume)] {
-            if let Some(missing) = missing.iter().find(|missing| missing.measure == name)
-                && figure.take().is_some()
-            {
-                self.not_measured.push(missing.clone());
-            }
-        }
-    }
-
     /// The same with what the faces of the scan enclose.
     pub fn with_faces(mut self, scanned: &ScannedBody) -> Self {
         let faces = FacesRecord::new(scanned);
