@@ -8,7 +8,7 @@
 //!                  \-> clump -> engines
 //! ```
 //!
-//! A scan of many grains is first [split](scan::split), and many scans are gone through in a `batch`.
+//! A scan of many grains is first [split](scan::split).
 //!
 //! # Conventions
 //!
@@ -20,7 +20,7 @@
 
 pub mod annotate;
 #[cfg(feature = "cli")]
-pub mod batch;
+mod batch;
 pub mod bed;
 #[cfg(feature = "cli")]
 pub mod bench;
@@ -38,12 +38,12 @@ pub mod measure;
 pub mod mesh;
 pub mod model;
 #[cfg(feature = "cli")]
-pub mod page;
+mod page;
 #[cfg(feature = "cli")]
-pub mod picture;
+mod picture;
 mod polygon_hull;
 #[cfg(feature = "cli")]
-pub mod portrait;
+mod portrait;
 mod predicates;
 pub mod report;
 pub mod scan;

@@ -1,12 +1,12 @@
 //! The best models that a few well-placed and well-weighted samples give.
 //!
-//! The samples are Gauss points that respect the edges ([`edge_gauss`]); searched are the three exponents
+//! The samples are Gauss points that respect the edges ([`SamplingDensity`]); searched are the three exponents
 //! of their density, over a fixed grid, and for each pair of the others the exponent of the radius at
 //! which the volume is exact.
 
 use super::study::{Figures, Study};
 use grainform::fit::MirroredFitError;
-use grainform::shapes::{SamplingDensity, edge_gauss};
+use grainform::shapes::SamplingDensity;
 use rayon::prelude::*;
 
 /// Steps of the false position at the end of which the volume is exact to some 1e-6.
@@ -62,7 +62,7 @@ pub(crate) fn found(
     [polar, azimuth]: [usize; 2],
     density: SamplingDensity,
 ) -> Result<Found, MirroredFitError> {
-    let samples = edge_gauss(study.shape.as_ref(), polar, azimuth, density);
+    let samples = density.sample(study.shape.as_ref(), polar, azimuth);
     let figures = study.figures(&study.model(&samples)?);
     Ok(Found { density, figures })
 }

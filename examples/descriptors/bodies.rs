@@ -6,7 +6,7 @@ use crate::study::{Figures, Study};
 use grainform::fit::MirroredFitError;
 use grainform::measure::{MassProperties, integrate, wadell};
 use grainform::model::Mirrored;
-use grainform::shapes::{Body, SamplingDensity, Spacing, edge_gauss};
+use grainform::shapes::{Body, SamplingDensity, Spacing};
 use nalgebra::Vector3;
 use std::error::Error;
 
@@ -73,12 +73,9 @@ impl Placing {
     fn model(self, study: &Study) -> Result<Mirrored, MirroredFitError> {
         let [polar, azimuth] = SAMPLES;
         match self {
-            Self::OfTheArea => study.model(&edge_gauss(
-                study.shape.as_ref(),
-                polar,
-                azimuth,
-                SamplingDensity::AREA,
-            )),
+            Self::OfTheArea => {
+                study.model(&SamplingDensity::AREA.sample(study.shape.as_ref(), polar, azimuth))
+            }
             Self::Equiangular => study.model(&study.directions),
         }
     }

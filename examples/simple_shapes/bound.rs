@@ -8,13 +8,14 @@
 use crate::best::Rival;
 use crate::chapter_3::search::Goal;
 use crate::chapter_3::study::Study;
-use grainform::sphere::GaussLegendre;
+use gauss_quad::GaussLegendre;
 use nalgebra::{Matrix3, Vector3};
 use rayon::prelude::*;
-use std::f64::consts::FRAC_PI_2;
+use std::f64::consts::FRAC_PI_4;
+use std::num::NonZeroUsize;
 
 /// Gauss points per angle.
-const NODES: usize = 12;
+const NODES: NonZeroUsize = NonZeroUsize::new(12).unwrap();
 
 /// Steps of the grid to either side of the least LS error.
 const STEPS: i32 = 40;
@@ -88,9 +89,11 @@ impl Space {
         // Three functions that are far from dependent: the normal equations lose three digits.
         let best = form.try_inverse().unwrap_or_default() * side;
         let rule = GaussLegendre::new(NODES);
+        // From [-1, 1] to an angle of the octant, and its step.
+        let on_octant = |&(x, w): &(f64, f64)| (FRAC_PI_4 * (x + 1.0), FRAC_PI_4 * w);
         let mut nodes = Vec::new();
-        for (theta, height) in rule.on(0.0, FRAC_PI_2) {
-            for (phi, width) in rule.on(0.0, FRAC_PI_2) {
+        for (theta, height) in rule.iter().map(on_octant) {
+            for (phi, width) in rule.iter().map(on_octant) {
                 let (sin, cos) = theta.sin_cos();
                 let n = Vector3::new(sin * phi.cos(), sin * phi.sin(), cos);
                 nodes.push((n, 8.0 * sin * height * width));

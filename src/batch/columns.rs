@@ -4,7 +4,7 @@ use crate::report::Measure;
 
 /// What the cells of a column hold. An empty cell is one that is not known.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kind {
+pub(crate) enum Kind {
     /// Text.
     Text,
     /// A whole number.
@@ -16,7 +16,7 @@ pub enum Kind {
 /// A column of results.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
-pub struct Column {
+pub(crate) struct Column {
     /// Its name.
     pub name: String,
     /// What its cells hold.
@@ -84,7 +84,7 @@ const OUTLINE: [&str; 17] = [
 const SPECTRUM: std::ops::RangeInclusive<usize> = 2..=12;
 
 /// The columns of results of these measures.
-pub fn columns(measures: &[Measure]) -> Vec<Column> {
+pub(crate) fn columns(measures: &[Measure]) -> Vec<Column> {
     let first = FIRST.iter().map(|&(name, kind)| Column {
         name: name.into(),
         kind,

@@ -14,7 +14,7 @@ const NORMAL: f64 = 1.959_963_984_540_054;
 /// One measure of two lots.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
-pub struct Comparison {
+pub(crate) struct Comparison {
     /// Name of the column.
     pub measure: String,
     /// Grains of each lot of which it is known.
@@ -35,7 +35,7 @@ pub struct Comparison {
 }
 
 /// Compares two lots by every measure that at least two grains of each have.
-pub fn compare(first: &Lot, second: &Lot) -> Vec<Comparison> {
+pub(crate) fn compare(first: &Lot, second: &Lot) -> Vec<Comparison> {
     let columns = first.names.iter().zip(&first.values);
     columns
         .filter_map(|(name, values)| {

@@ -8,7 +8,7 @@ use thiserror::Error;
 /// Why a batch cannot go on. What is wrong with one scan is told in its row.
 #[derive(Debug, Error)]
 #[non_exhaustive]
-pub enum BatchError {
+pub(crate) enum BatchError {
     /// A pattern of paths is none.
     #[error("{pattern} is no pattern of paths: {source}")]
     Pattern {
@@ -76,7 +76,7 @@ pub enum BatchError {
 /// Why results cannot be read.
 #[derive(Debug, Error)]
 #[non_exhaustive]
-pub enum TableError {
+pub(crate) enum TableError {
     /// The folder holds no results.
     #[error("{} holds neither results.parquet nor results.csv; make them with grainform batch", folder.display())]
     NoResults {

@@ -6,7 +6,9 @@ use crate::export::{SaveError, save_grain, save_mesh};
 use crate::fit::{Context, FitOptions, Fitted, fit_scan, whole_or_largest};
 use crate::measure::{Scheme, Survey};
 use crate::model::Surface;
-use crate::report::{FitReport, Measure, MeasureReport, Measured, Unit, sentences};
+use crate::report::{
+    FitReport, Measure, MeasureReport, Measured, Measures, NotMeasured, Unit, sentences,
+};
 use crate::scan::{parse_file, read_stream};
 use serde_json::Value;
 use std::error::Error;
@@ -14,7 +16,7 @@ use std::path::{Path, PathBuf};
 
 /// What is asked of every grain of a batch.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Settings {
+pub(crate) struct Settings {
     /// How scans are fitted.
     pub fit: FitOptions,
     /// Of several bodies in a scan, fit the largest.
@@ -116,7 +118,7 @@ fn row(fitted: &Fitted, warnings: &[String], settings: &Settings) -> Row {
     let fit = FitReport::new(String::new(), None, fitted, &settings.fit, warnings);
     // Where much was not seen, the whole surface is a guess that the fit withholds.
     let is_withheld = fitted.grain.unseen().is_some() && !settings.fit.extrapolate;
-    let measured = (!is_withheld).then(|| {
+    let mut measured = (!is_withheld).then(|| {
         let survey = Survey::of_grain(&fitted.grain, Scheme::Exact);
         MeasureReport::new(
             String::new(),
@@ -126,6 +128,9 @@ fn row(fitted: &Fitted, warnings: &[String], settings: &Settings) -> Row {
             Vec::new(),
         )
     });
+    if let Some(measured) = &mut measured {
+        withhold(measured, &fit.not_measured);
+    }
     let missing = match &measured {
         Some(measured) => &measured.not_measured,
         None => &fit.not_measured,
@@ -156,6 +161,18 @@ fn row(fitted: &Fitted, warnings: &[String], settings: &Settings) -> Row {
         warnings: sentences(warnings, &fitted.warnings, settings.unit),
         figures,
         ..Row::default()
+    }
+}
+
+/// Withholds area and volume where they are among `missing`, a fit's.
+fn withhold(measured: &mut MeasureReport, missing: &[NotMeasured]) {
+    let Measures { area, volume, .. } = &mut measured.measures;
+    for (name, figure) in [("area", area), ("volume", volume)] {
+        if let Some(missing) = missing.iter().find(|missing| missing.measure == name)
+            && figure.take().is_some()
+        {
+            measured.not_measured.push(missing.clone());
+        }
     }
 }
 

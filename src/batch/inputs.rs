@@ -16,7 +16,7 @@ const EXTENSIONS: [&str; 12] = [
 /// # Errors
 /// [`BatchError`] where a folder or list cannot be read, or where nothing is found. A file that is not there is told in
 /// its row.
-pub fn inputs(paths: &[PathBuf]) -> Result<Vec<PathBuf>, BatchError> {
+pub(crate) fn inputs(paths: &[PathBuf]) -> Result<Vec<PathBuf>, BatchError> {
     let mut all = Vec::new();
     for path in paths {
         all.extend(named(path)?);

@@ -21,7 +21,7 @@ const CHECKSUM: usize = 16;
 /// What is known of a grain, or why nothing is.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
-pub struct Row {
+pub(crate) struct Row {
     /// The scan, as it was named.
     pub path: String,
     /// Hash (BLAKE3) of its bytes; none where they could not be read.

@@ -32,7 +32,7 @@ const LEAST_GRAINS: usize = 8;
 /// What the grains of a batch are like together.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
-pub struct Population {
+pub(crate) struct Population {
     /// Number of grains with a result.
     pub grains: usize,
     /// The main measures.
@@ -55,7 +55,7 @@ pub struct Population {
 /// One measure over all grains.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
-pub struct Statistics {
+pub(crate) struct Statistics {
     /// Name of the column.
     pub measure: String,
     /// Grains of which it is known.
@@ -71,7 +71,7 @@ pub struct Statistics {
 /// A grain that is unlike most others.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
-pub struct Outlier {
+pub(crate) struct Outlier {
     /// The scan.
     pub path: String,
     /// The measure by which it is.
@@ -241,7 +241,7 @@ fn correlation(one: &[Option<f64>], other: &[Option<f64>]) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::batch::columns;
+    use crate::batch::columns::columns;
     use crate::report::Measure;
 
     #[test]

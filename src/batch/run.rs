@@ -19,7 +19,7 @@ use std::time::Instant;
 
 /// What a batch does.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Batch {
+pub(crate) struct Batch {
     /// The scans, see [`inputs`](super::inputs()).
     pub inputs: Vec<PathBuf>,
     /// The folder for results. It is made if it is not there.
@@ -32,7 +32,7 @@ pub struct Batch {
 
 /// How far a batch is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Progress {
+pub(crate) struct Progress {
     /// Grains done, those of earlier runs included.
     pub done: usize,
     /// Of these, grains of earlier runs.
@@ -44,7 +44,7 @@ pub struct Progress {
 /// A batch that is done.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
-pub struct Done {
+pub(crate) struct Done {
     /// Number of scans.
     pub all: usize,
     /// Of these, scans whose rows earlier runs left.
@@ -65,7 +65,7 @@ pub struct Done {
 /// # Errors
 /// [`BatchError`] if another batch works on the folder, it cannot be written to, or is removed. What is wrong with a scan is told
 /// in its row.
-pub fn run(batch: &Batch, progress: &(dyn Fn(Progress) + Sync)) -> Result<Done, BatchError> {
+pub(crate) fn run(batch: &Batch, progress: &(dyn Fn(Progress) + Sync)) -> Result<Done, BatchError> {
     let folder = &batch.folder;
     std::fs::create_dir_all(folder).map_err(|source| BatchError::Write {
         folder: folder.clone(),

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 /// The figures of a lot of grains: names of columns of numbers, and what is known in each.
 #[derive(Debug, Clone, Default, PartialEq)]
 #[non_exhaustive]
-pub struct Lot {
+pub(crate) struct Lot {
     /// Names of the columns, in their order.
     pub names: Vec<String>,
     /// What is known of the grains, a list for each column.
@@ -21,7 +21,7 @@ pub struct Lot {
 ///
 /// # Errors
 /// [`TableError`] where there are none.
-pub fn read_lot(path: &Path) -> Result<Lot, TableError> {
+pub(crate) fn read_lot(path: &Path) -> Result<Lot, TableError> {
     let path = match path.is_dir() {
         true => table_in(path)?,
         false => path.to_path_buf(),

@@ -33,7 +33,7 @@ pub use grain::{GrainError, GrainKind};
 pub use packing::{Fraction, Layer, Packing, packing};
 pub use paint::{PaintedGrain, painted};
 #[cfg(feature = "cli")]
-pub use picture::picture;
+pub(crate) use picture::picture;
 pub use rest::Rest;
 pub use settings::{BED_GRAINS, BedError, BedSettings, Container};
 pub use settle::Bed;

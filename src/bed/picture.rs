@@ -4,7 +4,7 @@ use super::paint::painted;
 use super::settings::Container;
 use super::settle::Bed;
 use crate::mesh::Mesh;
-use crate::picture::{Camera, Ground, Image, Line, Scene, render};
+use crate::picture::{Camera, Image, Line, Scene, render};
 use nalgebra::{Point3, Vector3};
 use std::f64::consts::TAU;
 
@@ -30,7 +30,7 @@ const RIM: usize = 96;
 const OUTLINE: [u8; 3] = [120, 120, 120];
 
 /// The grains of a bed in their container, seen aslant from above, without perspective.
-pub fn picture(bed: &Bed) -> Image {
+pub(crate) fn picture(bed: &Bed) -> Image {
     let mut scene = Scene::default();
     for grain in painted(bed, cells(bed)) {
         let colours = vec![grain.colour; grain.mesh.vertices.len()];
@@ -46,7 +46,7 @@ pub fn picture(bed: &Bed) -> Image {
         colour: OUTLINE,
         width: 1.5,
     }));
-    render(&scene, &camera(&scene), SIZE, Ground::Light)
+    render(&scene, &camera(&scene), SIZE)
 }
 
 fn cells(bed: &Bed) -> usize {

@@ -205,11 +205,6 @@ impl Bed {
         self.state.steps as f64 * self.step
     }
 
-    /// Seconds of a step.
-    pub fn step_seconds(&self) -> f64 {
-        self.step
-    }
-
     /// Kinetic energy per grain, as a share of the mean m g d of its weight times its diameter.
     pub fn liveliness(&self) -> f64 {
         let (mut energy, mut scale) = (0.0, 0.0);

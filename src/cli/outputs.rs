@@ -5,7 +5,7 @@ use super::inputs::is_stream;
 use crate::engines::InputFile;
 use crate::export::{MeshFormat, WriteError, sweep, write_atomically};
 use crate::model::{Grain, Surface, grain_to_json};
-use crate::picture::{Ground, Image};
+use crate::picture::Image;
 use crate::portrait::{Caption, portrait};
 use crate::report::Unit;
 use crate::scan::Scan;
@@ -123,7 +123,7 @@ pub(super) fn write_picture(
         title,
         unit: unit.map_or(String::new(), |unit| unit.to_string()),
     };
-    write_image(path, &portrait(grain, scan, &caption, Ground::Light))
+    write_image(path, &portrait(grain, scan, &caption))
 }
 
 /// Writes a picture as PNG.

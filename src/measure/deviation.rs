@@ -103,12 +103,6 @@ impl Deviation {
     pub fn greatest_absolute(&self) -> f64 {
         self.largest.max(-self.least)
     }
-
-    /// |LS - LS of the threshold| / LS of the threshold: the source's measure of a sampling, the
-    /// threshold being the fit to all the directions that deviations are taken in.
-    pub fn against_threshold(&self, threshold: &Self) -> f64 {
-        (self.sum_of_squares - threshold.sum_of_squares).abs() / threshold.sum_of_squares
-    }
 }
 
 #[cfg(test)]
@@ -126,8 +120,6 @@ mod tests {
         assert_abs_diff_eq!(norms.mean_absolute, 1.25, epsilon = 1e-15);
         assert_eq!((norms.largest, norms.least), (3.0, -4.0));
         assert_eq!(norms.greatest_absolute(), 4.0);
-        let threshold = Deviation::of([(2.0, 5.0)]);
-        assert_abs_diff_eq!(norms.against_threshold(&threshold), 0.15, epsilon = 1e-15);
     }
 
     #[test]

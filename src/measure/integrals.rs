@@ -110,7 +110,7 @@ fn sums(
     let by_rules = |piece: &Piece| rules.each_ref().map(|rule| piece.nodes(rule));
     let nodes: Vec<Node> = pieces.iter().flat_map(by_rules).flatten().collect();
     let mut elements = surface.elements(&nodes).into_iter();
-    let orders = rules.each_ref().map(|rule| rule.nodes().len());
+    let orders = rules.each_ref().map(|rule| rule.len());
     let mut of_rule = |order: usize| Sums::of(elements.by_ref().take(order * order));
     pieces.iter().map(|_| orders.map(&mut of_rule)).collect()
 }

@@ -29,7 +29,7 @@ const SCRIPTS: [&str; 6] = [
 ///
 /// # Errors
 /// Those of the writer.
-pub fn write_page(page: &Page, writer: &mut dyn Write) -> io::Result<()> {
+pub(crate) fn write_page(page: &Page, writer: &mut dyn Write) -> io::Result<()> {
     let steps = |colour: fn(f64) -> [u8; 3], low: f64| -> Vec<[u8; 3]> {
         let share = |step| f64::from(step) / f64::from(STEPS - 1);
         (0..STEPS)

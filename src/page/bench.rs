@@ -5,7 +5,7 @@ use serde::Serialize;
 
 /// Cost and error of every model fitted, by family.
 #[derive(Debug, Clone, Serialize)]
-pub struct BenchPart {
+pub(crate) struct BenchPart {
     families: Vec<&'static str>,
     segments: Vec<usize>,
     coefficients: Vec<usize>,

@@ -26,7 +26,7 @@ const COLUMNS: usize = 180;
 
 /// A grain that is reported on.
 #[derive(Debug)]
-pub struct Subject<'a> {
+pub(crate) struct Subject<'a> {
     /// What it is called.
     pub name: String,
     /// The surface.
@@ -49,7 +49,7 @@ pub struct Subject<'a> {
 
 /// What a page shows of a grain. Places are seen from the middle of the grain.
 #[derive(Debug, Clone, Serialize)]
-pub struct GrainPart {
+pub(crate) struct GrainPart {
     name: String,
     unit: String,
     facts: Vec<(&'static str, String)>,
@@ -81,7 +81,7 @@ struct FieldPart {
 
 impl GrainPart {
     /// The part about a grain.
-    pub fn new(subject: Subject) -> Self {
+    pub(crate) fn new(subject: Subject) -> Self {
         let grain = subject.grain;
         let deviation = subject.scan.map(|scan| ScanDeviation::new(grain, scan));
         let surface = Annotated::new(grain, RESOLUTION);

@@ -15,7 +15,7 @@ const RESOLUTIONS: [(usize, usize); 2] = [(200, 14), (1000, 8)];
 /// Why a folder of results is not shown.
 #[derive(Debug, Error)]
 #[non_exhaustive]
-pub enum LotError {
+pub(crate) enum LotError {
     /// There is no table.
     #[error("{} holds no results.csv; make one with grainform batch", folder.display())]
     NoTable {
@@ -42,7 +42,7 @@ struct Truth {
 
 /// What a page shows of a folder of results.
 #[derive(Debug, Clone, Serialize)]
-pub struct LotPart {
+pub(crate) struct LotPart {
     name: String,
     columns: Vec<String>,
     rows: Vec<Vec<String>>,
@@ -63,7 +63,7 @@ impl LotPart {
     ///
     /// # Errors
     /// [`LotError`] where there is no table.
-    pub fn read(folder: &Path, truth: Option<&Path>) -> Result<Self, LotError> {
+    pub(crate) fn read(folder: &Path, truth: Option<&Path>) -> Result<Self, LotError> {
         let path = folder.join("results.csv");
         if !path.is_file() {
             return Err(LotError::NoTable {

@@ -7,7 +7,7 @@ use serde_json::Value;
 
 /// A row of the table of measures.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub struct MeasureRow {
+pub(crate) struct MeasureRow {
     /// Its key in the record of measures, such as `sphericity.wadell`.
     pub name: String,
     /// Its value, or values.
@@ -25,7 +25,7 @@ const MOST_ENTRIES: usize = 12;
 
 impl MeasureRow {
     /// The rows of a record of measures. A record's own parts come in the order of their names.
-    pub fn of(
+    pub(crate) fn of(
         measures: &impl Serialize,
         errors: Option<&StandardErrorsRecord>,
         unit: Option<Unit>,

@@ -12,18 +12,18 @@ mod measures;
 mod packed;
 mod search;
 
-pub use assemble::write_page;
-pub use bench::BenchPart;
-pub use grain::{GrainPart, Subject};
-pub use lot::{LotError, LotPart};
-pub use measures::MeasureRow;
-pub use search::SearchPart;
+pub(crate) use assemble::write_page;
+pub(crate) use bench::BenchPart;
+pub(crate) use grain::{GrainPart, Subject};
+pub(crate) use lot::LotPart;
+pub(crate) use measures::MeasureRow;
+pub(crate) use search::SearchPart;
 
 use serde::Serialize;
 
 /// What a page shows.
 #[derive(Debug, Clone, Serialize)]
-pub struct Page {
+pub(crate) struct Page {
     /// Version of grainform.
     pub version: &'static str,
     /// The command that made it.

@@ -5,7 +5,7 @@ use serde::Serialize;
 
 /// Errors of all candidates.
 #[derive(Debug, Clone, Serialize)]
-pub struct SearchPart {
+pub(crate) struct SearchPart {
     degrees: Vec<usize>,
     segments: Vec<usize>,
     coefficients: Vec<usize>,

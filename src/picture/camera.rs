@@ -4,7 +4,7 @@ use nalgebra::{Matrix3, Point3, Vector3};
 
 /// An orthographic view.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Camera {
+pub(crate) struct Camera {
     /// The place in the middle of the picture.
     pub target: Point3<f64>,
     /// Rows: unit vectors that point right, up and towards the eye in the picture.
@@ -16,7 +16,7 @@ pub struct Camera {
 impl Camera {
     /// A camera that looks at `target` against `towards_eye`, with `up` upwards as far as it can be, and shows a length
     /// of one as so many pixels. Directions of any length; an `up` along the view gives way to any other.
-    pub fn new(
+    pub(crate) fn new(
         target: Point3<f64>,
         towards_eye: Vector3<f64>,
         up: Vector3<f64>,
@@ -34,7 +34,7 @@ impl Camera {
     }
 
     /// Pixels right and up of the middle of the picture, and towards the eye.
-    pub fn seen(&self, place: &Point3<f64>) -> Vector3<f64> {
+    pub(crate) fn seen(&self, place: &Point3<f64>) -> Vector3<f64> {
         self.axes * (place - self.target) * self.scale
     }
 }

@@ -3,44 +3,23 @@
 use colorous::Gradient;
 
 /// Red, green and blue in sRGB.
-pub type Colour = [u8; 3];
+pub(crate) type Colour = [u8; 3];
 
 /// What a picture is drawn on.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Ground {
-    /// White, with dark labels.
-    Light,
-    /// Nearly black, with light labels.
-    Dark,
-}
+pub(crate) const GROUND: Colour = [255; 3];
 
-impl Ground {
-    /// The colour behind everything.
-    pub fn colour(self) -> Colour {
-        match self {
-            Self::Light => [255; 3],
-            Self::Dark => [18, 20, 24],
-        }
-    }
-
-    /// The colour of labels and lines.
-    pub fn ink(self) -> Colour {
-        match self {
-            Self::Light => [45; 3],
-            Self::Dark => [225; 3],
-        }
-    }
-}
+/// The colour of labels and lines.
+pub(crate) const INK: Colour = [45; 3];
 
 /// The colour of a share from 0 to 1 of a range: viridis (Smith, van der Walt 2015), in which equal steps look equal,
 /// to colour-blind eyes too.
-pub fn sequential(share: f64) -> Colour {
+pub(crate) fn sequential(share: f64) -> Colour {
     of(colorous::VIRIDIS, share)
 }
 
 /// The colour of a number from -1 (blue) by 0 (white) to 1 (red), in steps that colour-blind eyes tell apart (Brewer's
 /// RdBu).
-pub fn diverging(value: f64) -> Colour {
+pub(crate) fn diverging(value: f64) -> Colour {
     of(colorous::RED_BLUE, 0.5 - 0.5 * value)
 }
 

@@ -11,9 +11,9 @@ mod render;
 mod scene;
 mod text;
 
-pub use camera::Camera;
-pub use colour::{Colour, Ground, diverging, sequential};
-pub use image::{Image, PngError};
-pub use render::render;
-pub use scene::{Corner, Dot, Line, Scene};
-pub use text::{Anchor, Size};
+pub(crate) use camera::Camera;
+pub(crate) use colour::{Colour, GROUND, INK, diverging, sequential};
+pub(crate) use image::Image;
+pub(crate) use render::render;
+pub(crate) use scene::{Corner, Dot, Line, Scene};
+pub(crate) use text::{Anchor, Size};

@@ -1,7 +1,7 @@
 //! From a scene to pixels.
 
 use super::raster::{Band, Light};
-use super::{Camera, Colour, Corner, Ground, Image, Scene};
+use super::{Camera, Colour, Corner, GROUND, Image, Scene};
 use nalgebra::Vector3;
 use rayon::prelude::*;
 
@@ -25,16 +25,11 @@ const AMBIENT: f64 = 0.30;
 const MOST_PIXELS: usize = 10_000;
 
 /// Draws a scene in so many pixels, width and height; at most 10 000 of each.
-pub fn render(
-    scene: &Scene,
-    camera: &Camera,
-    [width, height]: [usize; 2],
-    ground: Ground,
-) -> Image {
+pub(crate) fn render(scene: &Scene, camera: &Camera, [width, height]: [usize; 2]) -> Image {
     let [width, height] = [width, height].map(|pixels| pixels.clamp(1, MOST_PIXELS));
     let fine = [width, height].map(|pixels| pixels * FINENESS);
     let seen = Seen::new(scene, camera, fine);
-    let mut light = vec![linear(ground.colour()); fine[0] * fine[1]];
+    let mut light = vec![linear(GROUND); fine[0] * fine[1]];
     let mut depth = vec![f32::NEG_INFINITY; light.len()];
     let bands = light.par_chunks_mut(BAND * fine[0]);
     let bands = bands.zip(depth.par_chunks_mut(BAND * fine[0])).enumerate();
@@ -204,8 +199,8 @@ mod tests {
 
     #[test]
     fn a_ball_is_a_disk_lit_from_above_and_left() {
-        let image = render(&ball(), &camera(), [40, 40], Ground::Light);
-        let is_ground = |x: usize, y: usize| image.pixel(x, y) == Ground::Light.colour();
+        let image = render(&ball(), &camera(), [40, 40]);
+        let is_ground = |x: usize, y: usize| image.pixel(x, y) == GROUND;
         let covered = (0..40 * 40).filter(|i| !is_ground(i % 40, i / 40)).count();
         let edge = 2.0 * 10.0 * std::f64::consts::PI;
         assert!(
@@ -232,10 +227,10 @@ mod tests {
             width: 4.0,
         };
         scene.dots.push(dot(-2.0));
-        let hidden = render(&scene, &camera(), [40, 40], Ground::Dark);
+        let hidden = render(&scene, &camera(), [40, 40]);
         assert_ne!(hidden.pixel(20, 20), [0, 0, 255]);
         scene.dots.push(dot(1.0));
-        let shown = render(&scene, &camera(), [40, 40], Ground::Dark);
+        let shown = render(&scene, &camera(), [40, 40]);
         assert_eq!(shown.pixel(20, 20), [0, 0, 255]);
     }
 
@@ -250,7 +245,7 @@ mod tests {
             lines: vec![line(1e3), line(f64::NAN)],
             ..Scene::default()
         };
-        let image = render(&scene, &camera(), [40, 30], Ground::Light);
+        let image = render(&scene, &camera(), [40, 30]);
         assert_eq!(image.pixel(0, 15), [255, 0, 0]);
         assert_eq!(image.pixel(0, 2), [255; 3]);
     }

@@ -6,7 +6,7 @@ use nalgebra::{Point3, Vector3};
 
 /// Surfaces, points and lines. Lengths are those of the scene; widths are in pixels.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Scene {
+pub(crate) struct Scene {
     /// Corners of the triangles.
     pub corners: Vec<Corner>,
     /// Three indices into `corners` per triangle, either way round.
@@ -19,7 +19,7 @@ pub struct Scene {
 
 /// A corner of triangles, between which normal and colour are interpolated.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Corner {
+pub(crate) struct Corner {
     /// Where it is.
     pub place: Point3<f64>,
     /// The surface's own unit normal, by which it is lit.
@@ -30,7 +30,7 @@ pub struct Corner {
 
 /// A round point.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Dot {
+pub(crate) struct Dot {
     /// Where it is.
     pub place: Point3<f64>,
     /// Its colour, not lit.
@@ -41,7 +41,7 @@ pub struct Dot {
 
 /// A line through some places.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Line {
+pub(crate) struct Line {
     /// The places.
     pub places: Vec<Point3<f64>>,
     /// Its colour, not lit.
@@ -52,7 +52,7 @@ pub struct Line {
 
 impl Scene {
     /// Adds a surface: a mesh, with a unit normal and a colour for every vertex. What has no partner is left out.
-    pub fn add_mesh(&mut self, mesh: &Mesh, normals: &[Vector3<f64>], colours: &[Colour]) {
+    pub(crate) fn add_mesh(&mut self, mesh: &Mesh, normals: &[Vector3<f64>], colours: &[Colour]) {
         let first = self.corners.len();
         let parts = mesh.vertices.iter().zip(normals).zip(colours);
         self.corners

@@ -4,18 +4,16 @@ use noto_sans_mono_bitmap::{FontWeight, RasterHeight, get_raster, get_raster_wid
 
 /// Which part of a label stands at its place, in height always its middle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Anchor {
+pub(crate) enum Anchor {
     /// Its left end.
     Left,
     /// Its middle.
     Middle,
-    /// Its right end.
-    Right,
 }
 
 /// How large letters are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Size {
+pub(crate) enum Size {
     /// Of notes and numbers.
     Small,
     /// Of titles.
@@ -28,7 +26,6 @@ impl Anchor {
         match self {
             Self::Left => 0,
             Self::Middle => width / 2,
-            Self::Right => width,
         }
     }
 }
@@ -42,12 +39,12 @@ impl Size {
     }
 
     /// Height of a line, in pixels.
-    pub fn height(self) -> usize {
+    pub(crate) fn height(self) -> usize {
         self.raster().val()
     }
 
     /// Width of a text, in pixels.
-    pub fn width(self, text: &str) -> usize {
+    pub(crate) fn width(self, text: &str) -> usize {
         text.chars().count() * get_raster_width(FontWeight::Regular, self.raster())
     }
 

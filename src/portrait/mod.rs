@@ -6,7 +6,8 @@ mod views;
 use crate::annotate::{Annotated, ScanDeviation};
 use crate::model::{Grain, Surface};
 use crate::picture::{
-    Anchor, Camera, Colour, Dot, Ground, Image, Line, Scene, Size, diverging, render, sequential,
+    Anchor, Camera, Colour, Dot, GROUND, INK, Image, Line, Scene, Size, diverging, render,
+    sequential,
 };
 use crate::scan::Scan;
 use nalgebra::{Point3, Vector3};
@@ -32,7 +33,7 @@ const PLAIN: Colour = [232, 205, 150];
 
 /// What stands above and beside a picture.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Caption {
+pub(crate) struct Caption {
     /// What is shown, on one line.
     pub title: String,
     /// The unit of lengths, or empty where it is not known.
@@ -44,7 +45,7 @@ pub struct Caption {
 ///
 /// Colours tell the signed distance of the scan from the surface, or without a scan the mean curvature. The range of
 /// the colours holds all but one in a hundred.
-pub fn portrait(grain: &Grain, scan: Option<&Scan>, caption: &Caption, ground: Ground) -> Image {
+pub(crate) fn portrait(grain: &Grain, scan: Option<&Scan>, caption: &Caption) -> Image {
     let surface = Annotated::new(grain, RESOLUTION);
     let surface = match scan {
         Some(scan) => surface.with_deviation(&ScanDeviation::new(grain, scan)),
@@ -53,19 +54,18 @@ pub fn portrait(grain: &Grain, scan: Option<&Scan>, caption: &Caption, ground: G
     let colouring = Colouring::new(&surface);
     let views = Views::new(&surface.mesh, VIEW);
     let width = VIEW[0] * 4 + BAR;
-    let mut image = Image::new([width, ABOVE + VIEW[1] + BELOW], ground.colour());
-    let ink = ground.ink();
-    image.label(&caption.title, [24, 26], Anchor::Left, Size::Large, ink);
+    let mut image = Image::new([width, ABOVE + VIEW[1] + BELOW], GROUND);
+    image.label(&caption.title, [24, 26], Anchor::Left, Size::Large, INK);
 
     let plain = vec![PLAIN; surface.mesh.vertices.len()];
     let mut scene = Scene::default();
     scene.add_mesh(&surface.mesh, &surface.normals, &plain);
     scene.dots = scan.map_or_else(Vec::new, dots);
     let mut lay = |scene: &Scene, camera: &Camera, at: usize, label: &str| {
-        let view = render(scene, camera, VIEW, ground);
+        let view = render(scene, camera, VIEW);
         image.lay(&view, [at * VIEW[0], ABOVE]);
         let below = [at * VIEW[0] + VIEW[0] / 2, ABOVE + VIEW[1] + 14];
-        image.label(label, below, Anchor::Middle, Size::Small, ink);
+        image.label(label, below, Anchor::Middle, Size::Small, INK);
     };
     let points = match scan {
         Some(_) => "scan and surface",
@@ -81,14 +81,14 @@ pub fn portrait(grain: &Grain, scan: Option<&Scan>, caption: &Caption, ground: G
     lay(&scene, &views.side, 3, "from the side");
 
     let left = 4 * VIEW[0] + 16;
-    colouring.draw_bar(&mut image, left, &caption.unit, ink);
-    draw_scale(&mut image, &views, &caption.unit, ink);
+    colouring.draw_bar(&mut image, left, &caption.unit);
+    draw_scale(&mut image, &views, &caption.unit);
     image
 }
 
 /// The colours of the vertices of a surface, as in its portrait: by how far the scan is off where that is known, else by
 /// mean curvature.
-pub fn colours(surface: &Annotated) -> Vec<Colour> {
+pub(crate) fn colours(surface: &Annotated) -> Vec<Colour> {
     Colouring::new(surface).colours
 }
 
@@ -113,13 +113,13 @@ fn outlines(grain: &Grain) -> Vec<Line> {
 }
 
 /// A length of one, two or five times a power of ten, drawn below the first view.
-fn draw_scale(image: &mut Image, views: &Views, unit: &str, ink: Colour) {
+fn draw_scale(image: &mut Image, views: &Views, unit: &str) {
     let length = range::round_down(0.4 * VIEW[0] as f64 / views.scale);
     let pixels = (length * views.scale).round() as usize;
     let [left, top] = [24, ABOVE + VIEW[1] + 40];
-    image.fill([left, top], [pixels, 3], ink);
+    image.fill([left, top], [pixels, 3], INK);
     for end in [left, left + pixels - 1] {
-        image.fill([end, top - 4], [1, 11], ink);
+        image.fill([end, top - 4], [1, 11], INK);
     }
     let unit = if unit.is_empty() {
         "units of the scan"
@@ -132,7 +132,7 @@ fn draw_scale(image: &mut Image, views: &Views, unit: &str, ink: Colour) {
         [left + pixels + 12, top + 1],
         Anchor::Left,
         Size::Small,
-        ink,
+        INK,
     );
 }
 
@@ -180,7 +180,7 @@ impl Colouring {
         }
     }
 
-    fn draw_bar(&self, image: &mut Image, left: usize, unit: &str, ink: Colour) {
+    fn draw_bar(&self, image: &mut Image, left: usize, unit: &str) {
         let [top, height, width] = [ABOVE + 40, VIEW[1] - 80, 22];
         for row in 0..height {
             let share = 1.0 - (row as f64 + 0.5) / height as f64;
@@ -189,7 +189,7 @@ impl Colouring {
         }
         for mark in self.range.marks() {
             let row = ((1.0 - self.range.share(mark)) * height as f64).round() as usize;
-            image.fill([left + width, top + row.min(height - 1)], [5, 1], ink);
+            image.fill([left + width, top + row.min(height - 1)], [5, 1], INK);
             let label = match self.is_curvature || mark == 0.0 {
                 true => range::label(mark),
                 false => format!(
@@ -203,7 +203,7 @@ impl Colouring {
                 [left + width + 10, top + row],
                 Anchor::Left,
                 Size::Small,
-                ink,
+                INK,
             );
         }
         let unit = match (unit, self.is_curvature) {
@@ -212,13 +212,13 @@ impl Colouring {
             (unit, false) => unit.to_owned(),
             (unit, true) => format!("1/{unit}"),
         };
-        image.label(self.title, [left, top - 24], Anchor::Left, Size::Small, ink);
+        image.label(self.title, [left, top - 24], Anchor::Left, Size::Small, INK);
         image.label(
             &unit,
             [left, top + height + 22],
             Anchor::Left,
             Size::Small,
-            ink,
+            INK,
         );
     }
 }

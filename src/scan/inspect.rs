@@ -1,9 +1,10 @@
-//! Looks over the triangles of a scan: drops degenerate ones, turns the mesh right side out, and
+//! Looks over the triangles of a scan: drops degenerate and repeated ones, turns the mesh right side out, and
 //! warns of what a closed surface of one body would not have.
 
 use super::topology::Topology;
 use super::weld::first_at_same_place;
 use super::{Scan, plural};
+use std::collections::HashSet;
 
 /// Fills in `topology` and the warnings. All indices must be in range.
 pub(super) fn inspect(scan: &mut Scan) {
@@ -13,9 +14,14 @@ pub(super) fn inspect(scan: &mut Scan) {
     }
     let own: Vec<u32> = (0..scan.points.len() as u32).collect();
     let mut topology = Topology::new(&scan.points, &scan.triangles, &own);
-    if !topology.closed {
+    if !topology.closed || topology.bodies > 1 {
         let same = first_at_same_place(&scan.points);
-        topology = Topology::new(&scan.points, &scan.triangles, &same);
+        if drop_repeated(scan, &same) {
+            topology = Topology::new(&scan.points, &scan.triangles, &own);
+        }
+        if !topology.closed {
+            topology = Topology::new(&scan.points, &scan.triangles, &same);
+        }
     }
     if topology.volume < 0.0 && topology.twisted_edges == 0 {
         for [_, b, c] in &mut scan.triangles {
@@ -41,6 +47,24 @@ fn drop_degenerate(scan: &mut Scan) {
         scan.warnings
             .push(format!("Dropped {triangles} with coinciding corners."));
     }
+}
+
+/// Drops triangles with the places and the sense of one before them, which would count what they enclose twice.
+fn drop_repeated(scan: &mut Scan, same: &[u32]) -> bool {
+    let before = scan.triangles.len();
+    let mut seen = HashSet::with_capacity(before);
+    scan.triangles.retain(|corners| {
+        let [a, b, c] = corners.map(|corner| same[corner as usize]);
+        let from_least = [[a, b, c], [b, c, a], [c, a, b]].into_iter().min();
+        seen.insert(from_least)
+    });
+    let dropped = before - scan.triangles.len();
+    if dropped > 0 {
+        let triangles = plural(dropped, "triangle");
+        let warning = format!("Dropped {triangles} that repeat others.");
+        scan.warnings.push(warning);
+    }
+    dropped > 0
 }
 
 fn warnings(topology: &Topology) -> impl Iterator<Item = String> {
@@ -117,6 +141,25 @@ mod tests {
         inspect(&mut scan);
         assert!(scan.topology.unwrap().closed);
         assert_eq!(scan.warnings, [""; 0]);
+    }
+
+    #[test]
+    fn triangles_that_repeat_others_are_dropped_with_points_of_their_own_or_not() {
+        let mut scan = tetrahedron();
+        scan.triangles.extend([[2, 1, 0], [1, 2, 3]]);
+        inspect(&mut scan);
+        assert_eq!(scan.triangles, tetrahedron().triangles);
+        assert_eq!(scan.warnings, ["Dropped 2 triangles that repeat others."]);
+
+        let mut scan = tetrahedron();
+        scan.points.extend(tetrahedron().points);
+        let again = tetrahedron().triangles.into_iter();
+        scan.triangles
+            .extend(again.map(|corners| corners.map(|corner| corner + 4)));
+        inspect(&mut scan);
+        let topology = scan.topology.unwrap();
+        assert!(topology.closed && topology.bodies == 1);
+        assert!((topology.volume - 1.0 / 6.0).abs() < 1e-15);
     }
 
     #[test]

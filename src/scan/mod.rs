@@ -205,7 +205,7 @@ pub fn parse_file(path: &Path, bytes: &[u8], format: Option<&str>) -> Result<Sca
 /// fans of triangles, and the repeated corners of STL become shared points.
 ///
 /// Points that are the centres of the outermost voxels of a grain become the boundary of these voxels, with a warning.
-/// Triangles with coinciding corners are dropped and a mesh wound inwards is turned outwards;
+/// Triangles with coinciding corners or that repeat others are dropped and a mesh wound inwards is turned outwards;
 /// these and whatever else is odd, such as holes or several bodies, leave a warning.
 ///
 /// # Errors

@@ -43,7 +43,7 @@ struct Step {
 
 /// The recurrences of the cap basis up to some degree; the cap itself is an argument.
 #[derive(Debug, Clone)]
-pub struct CapBasis {
+pub(crate) struct CapBasis {
     degree: usize,
     /// Per order m: the value of the scaled P_0, and the steps to P_1 .. P_(L-m).
     orders: Vec<(f64, Vec<Step>)>,
@@ -51,7 +51,7 @@ pub struct CapBasis {
 
 impl CapBasis {
     /// The basis of all harmonics of degree <= `degree`.
-    pub fn new(degree: usize) -> Self {
+    pub(crate) fn new(degree: usize) -> Self {
         let orders = (0..=degree)
             .map(|m| {
                 let scale =
@@ -64,7 +64,7 @@ impl CapBasis {
     }
 
     /// The largest degree this basis can evaluate.
-    pub fn degree(&self) -> usize {
+    pub(crate) fn degree(&self) -> usize {
         self.degree
     }
 
@@ -73,7 +73,7 @@ impl CapBasis {
     ///
     /// # Panics
     /// If `stride` is below the number of places or `out` below (L+1)^2 columns.
-    pub fn evaluate(&self, places: &Places, out: &mut [f64], stride: usize) {
+    pub(crate) fn evaluate(&self, places: &Places, out: &mut [f64], stride: usize) {
         let columns = coefficient_count(self.degree);
         assert!(places.len() <= stride && out.len() + stride >= columns * stride + places.len());
         vectorize(
@@ -137,7 +137,7 @@ impl CapBasis {
 
     /// The value of the expansion with the given coefficients in the direction of the unit vector
     /// `n`. The number of coefficients sets the degree, at most that of the basis.
-    pub fn value(&self, cap: &Cap, coefficients: &[f64], n: &Vector3<f64>) -> f64 {
+    pub(crate) fn value(&self, cap: &Cap, coefficients: &[f64], n: &Vector3<f64>) -> f64 {
         let [u, v, x] = cap.coordinates((*n).into());
         let [value] = self.expand(coefficients, [u], [v], [x]);
         value
@@ -190,7 +190,7 @@ impl CapBasis {
     }
 
     /// Values of an expansion at many places.
-    pub fn values(&self, coefficients: &[f64], places: &Places, out: &mut [f64]) {
+    pub(crate) fn values(&self, coefficients: &[f64], places: &Places, out: &mut [f64]) {
         vectorize(
             #[inline(always)]
             || {

@@ -84,7 +84,7 @@ impl AngleRectangle {
             .on(self.phi[0], self.phi[1])
             .map(|(phi, weight)| (phi.sin_cos(), weight))
             .collect();
-        let mut nodes = Vec::with_capacity(polar.nodes().len() * turns.len());
+        let mut nodes = Vec::with_capacity(polar.len() * turns.len());
         for (theta, polar_weight) in polar.on(self.theta[0], self.theta[1]) {
             let (st, ct) = theta.sin_cos();
             for &((sp, cp), weight) in &turns {

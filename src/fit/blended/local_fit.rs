@@ -119,7 +119,7 @@ impl LocalFits {
             })
             .collect();
         let mut radii = target.radii(&directions);
-        let per_cell = self.rule.nodes().len().pow(2);
+        let per_cell = self.rule.len().pow(2);
         radii
             .par_chunks_mut(per_cell)
             .zip(&images)

@@ -7,6 +7,8 @@ mod reduce;
 mod row;
 mod search;
 mod segment;
+#[cfg(test)]
+mod stability;
 
 pub(crate) use held_out::{HeldOut, leave_one_out};
 pub(crate) use level::{FittedLevel, LARGEST_MISS};

@@ -8,7 +8,7 @@ use super::measure::{Dimensions, NotMeasured, Principal, rows};
 use super::rule::{kind_rule, rule};
 use super::unit::Unit;
 use super::warning::sentences;
-use crate::fit::{FitOptions, Fitted, Reference, StandardErrors, Tolerance};
+use crate::fit::{FitOptions, Fitted, Reference, ReferenceKind, StandardErrors, Tolerance};
 use crate::model::StarGrain;
 use crate::sphere::Symmetry;
 use figures::Figures;
@@ -51,7 +51,8 @@ pub struct FitReport {
     pub principal: Option<Principal>,
     /// Extents of the fitted surface along the principal axes, descending.
     pub dimensions: Option<Dimensions>,
-    /// Figures that cannot be told: those of what was not seen, unless asked for, and those that no number holds.
+    /// Figures that cannot be told: those of what was not seen, unless asked for, those that no number holds, and area
+    /// and volume more than 5 % off those of the scan's closed faces, where they have no standard errors.
     pub not_measured: Vec<NotMeasured>,
     /// Standard errors of the figures above; `null` where none can be trusted.
     pub standard_errors: Option<StandardErrorsRecord>,
@@ -61,9 +62,9 @@ pub struct FitReport {
     pub coefficients_touched: f64,
     /// What the fit is compared with; `null` where much of the surface was not seen.
     pub reference: Option<ReferenceRecord>,
-    /// `area` against the reference, which is itself off.
+    /// Area of the surface against the reference, which is itself off; told also where `area` is not.
     pub area_error: Option<f64>,
-    /// `volume` against the reference, which is itself off.
+    /// Volume against the reference, likewise.
     pub volume_error: Option<f64>,
     /// Root mean square of the residuals of all points: along rays, of positions along normals.
     pub rms: f64,
@@ -176,11 +177,16 @@ impl FitReport {
         let search = &fitted.search;
         let symmetry = Some(fitted.grain.symmetry()).filter(|mirrors| *mirrors != Symmetry::NONE);
         let choice = search.choice();
-        let figures = Figures::new(fitted, options);
+        let mut figures = Figures::new(fitted, options);
         let reference = fitted.grain.unseen().is_none().then_some(fitted.reference);
         let beside = |found: Option<f64>, of: fn(&Reference) -> f64| {
             Some(found? / of(reference.as_ref()?) - 1.0)
         };
+        let area_error = beside(figures.area, |reference| reference.area);
+        let volume_error = beside(figures.volume, |reference| reference.volume);
+        if fitted.reference.kind == ReferenceKind::Faces {
+            figures.withhold_contradicted([area_error, volume_error]);
+        }
         Self {
             input,
             unit,
@@ -200,8 +206,8 @@ impl FitReport {
             standard_errors: figures.standard_errors,
             no_standard_errors: figures.no_standard_errors,
             coefficients_touched: fitted.grain.coefficients_touched(),
-            area_error: beside(figures.area, |reference| reference.area),
-            volume_error: beside(figures.volume, |reference| reference.volume),
+            area_error,
+            volume_error,
             reference: reference.map(Into::into),
             rms: fitted.residuals.rms,
             max: fitted.residuals.max,

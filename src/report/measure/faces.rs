@@ -45,8 +45,9 @@ impl FacesRecord {
         }
     }
 
-    /// What a reader of the figures must know, in whole sentences.
-    pub(super) fn sentences(&self, labels: Labels) -> Vec<String> {
+    /// What a reader of the figures must know, in whole sentences; of sums over bodies and inner surfaces only where
+    /// these are told.
+    pub(super) fn sentences(&self, labels: Labels, sums_are_told: bool) -> Vec<String> {
         let filled = self.filled.map(|filled| {
             format!(
                 "Small holes were closed: {} with {}; the area holds {}{} for their fill.",
@@ -56,13 +57,13 @@ impl FacesRecord {
                 labels.area()
             )
         });
-        let several = (self.bodies > 1).then(|| {
+        let several = (sums_are_told && self.bodies > 1).then(|| {
             format!(
                 "Area, volume, centroid and moments are those of all {} bodies together.",
                 self.bodies
             )
         });
-        let hollow = (self.cavities > 0).then(|| {
+        let hollow = (sums_are_told && self.cavities > 0).then(|| {
             format!(
                 "The scan has {}, whose volume is subtracted and whose area is part of the area.",
                 plural(self.cavities, "inner surface")

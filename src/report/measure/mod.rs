@@ -209,7 +209,10 @@ impl MeasureReport {
     /// The same with what the faces of the scan enclose.
     pub fn with_faces(mut self, scanned: &ScannedBody) -> Self {
         let faces = FacesRecord::new(scanned);
-        self.warnings.extend(faces.sentences(Labels(self.unit)));
+        let is_sum = |missing: &NotMeasured| ["area", "volume"].contains(&missing.measure);
+        let sums_are_told = !self.not_measured.iter().any(is_sum);
+        let sentences = faces.sentences(Labels(self.unit), sums_are_told);
+        self.warnings.extend(sentences);
         self.faces = Some(faces);
         self
     }

@@ -6,9 +6,9 @@
 
 use super::links::{nearest, nearest_distance};
 use crate::polygon_hull::polygon_hull;
-use crate::spread::robust_deviation;
+use crate::spread::{covariance, robust_deviation};
 use kiddo::ImmutableKdTree;
-use nalgebra::{Matrix3, Point3, Unit, Vector2, Vector3};
+use nalgebra::{Point3, Unit, Vector2, Vector3};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use rayon::prelude::*;
@@ -142,23 +142,14 @@ impl Plane {
             if on.len() < 3 {
                 return None;
             }
-            let count = on.len() as f64;
-            let shift = on
-                .iter()
-                .map(|point| *point - self.point)
-                .sum::<Vector3<f64>>()
-                / count;
-            let middle = self.point + shift;
-            let moments: Matrix3<f64> = on
-                .iter()
-                .map(|point| (*point - middle) * (*point - middle).transpose())
-                .sum();
-            let axes = (moments / count).symmetric_eigen();
+            let from = self.point;
+            let (shift, moments) = covariance(on.iter().map(|point| *point - from));
+            let axes = moments.symmetric_eigen();
             let least = axes.eigenvalues.imin();
             let normal = Unit::try_new(axes.eigenvectors.column(least).into_owned(), 0.0)?;
             let is_turned = normal.dot(&self.normal) < 0.0;
             self.normal = if is_turned { -normal } else { normal };
-            self.point = middle;
+            self.point = from + shift;
             let reach = DEVIATIONS * robust_deviation(on.iter().map(|point| self.height(point)));
             self.reach = reach.clamp(LEAST_REACH * size, LARGEST_REACH * size);
         }

@@ -32,7 +32,7 @@ impl GaussGrid {
     fn new(degree: usize, exact: usize) -> Self {
         let rule = GaussLegendre::new(exact / 2 + 1);
         let fft = AzimuthFft::new(even_smooth_number(exact + 1));
-        let rings = rule.nodes().len();
+        let rings = rule.len();
         let basis = HarmonicBasis::new(degree);
         let mut values = vec![0.0; (degree + 1) * (degree + 1)];
         let northern: Vec<Vec<f64>> = rule
@@ -53,7 +53,7 @@ impl GaussGrid {
         Self {
             polar,
             orders: degree + 1,
-            weights: rule.weights().iter().map(|w| w * per_node).collect(),
+            weights: rule.on(-1.0, 1.0).map(|(_, w)| w * per_node).collect(),
             fft,
         }
     }

@@ -6,8 +6,7 @@ use grainform::measure::{Deviation, four_triangles, integrate};
 use grainform::model::Mirrored;
 use grainform::scan::Scan;
 use grainform::shapes::{
-    Body, Cuboid, Sampling, SamplingDensity, Solid, Spacing, Strategy, SynthOptions, edge_gauss,
-    synthesize,
+    Body, Cuboid, Sampling, SamplingDensity, Solid, Spacing, Strategy, SynthOptions, synthesize,
 };
 use grainform::sphere::Symmetry;
 use grainform::{FitOptions, fit};
@@ -153,7 +152,7 @@ fn check(case: &Better) {
         radius,
         slope,
     };
-    let samples = edge_gauss(shape.as_ref(), polar, azimuth, density);
+    let samples = density.sample(shape.as_ref(), polar, azimuth);
     let ours = model(shape.as_ref(), case.degree, &samples);
     let found = integrate(&ours, 1e-8).properties;
     let exact = shape.integrals().properties;

@@ -1,10 +1,10 @@
 //! Expansions of the whole sphere against other ways to the same radius.
 
-use crate::derivatives::check;
-use crate::grains::{
+use super::derivatives::check;
+use super::grains::{
     RADIUS, anywhere, critical, numbers, plain, segmented, tangents, towards, turned, whole,
 };
-use crate::integrals;
+use super::integrals;
 use grainform::measure::{Scheme, Survey, grain_properties, integrate, mesh_properties};
 use grainform::model::{Family, InvalidGrain, Region, Stretch, Whole};
 use grainform::report::{Measure, MeasureReport, Measured};

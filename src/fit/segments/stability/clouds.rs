@@ -3,9 +3,9 @@
 //! An error of the least squares shows in proportion to the residual, so a smooth cloud would hide
 //! what a bad condition costs.
 
-use grainform::StarSurface;
-use grainform::shapes::{Body, Ellipsoid, Sampling, SynthOptions, synthesize};
-use grainform::sphere::coefficient_count;
+use crate::model::StarSurface;
+use crate::shapes::{Body, Ellipsoid, Sampling, SynthOptions, synthesize};
+use crate::sphere::coefficient_count;
 use nalgebra::{Point3, Vector3};
 
 /// Standard deviation of the roughness, as a share of the radius.
@@ -15,7 +15,7 @@ const ROUGHNESS: f64 = 0.005;
 const LEAST_POINTS: usize = 1000;
 
 /// A chickpea of about so many points.
-pub(crate) fn chickpea(points: usize, sampling: Sampling) -> Vec<Point3<f64>> {
+pub(super) fn chickpea(points: usize, sampling: Sampling) -> Vec<Point3<f64>> {
     let options = SynthOptions::clean(Body::Chickpea)
         .with_points(points)
         .with_sampling(sampling)
@@ -25,7 +25,7 @@ pub(crate) fn chickpea(points: usize, sampling: Sampling) -> Vec<Point3<f64>> {
 
 /// About four samples per coefficient in every one of k x k segments, the poles' too: rings of even
 /// polar angles on an ellipsoid whose axes are those of the scan.
-pub(crate) fn even_in_angles(k: usize, degree: usize) -> Vec<Point3<f64>> {
+pub(super) fn even_in_angles(k: usize, degree: usize) -> Vec<Point3<f64>> {
     let points = 4 * coefficient_count(degree) * k * k;
     let ellipsoid = Ellipsoid {
         semi_axes: Vector3::new(3.0, 4.0, 6.0),

@@ -36,32 +36,32 @@ impl SamplingDensity {
         slope: -1.0,
     };
 
+    /// Directions in the octant of positive x, y, z and their weights: `azimuth` Gauss points, shared
+    /// evenly among the pieces between singular azimuths, and on the meridian of each `polar` Gauss
+    /// points, shared likewise. `polar` x `azimuth` directions, all inside the octant.
+    pub fn sample(
+        &self,
+        body: &dyn Solid,
+        polar: usize,
+        azimuth: usize,
+    ) -> Vec<(Vector3<f64>, f64)> {
+        let mut samples = Vec::with_capacity(polar * azimuth);
+        for (phi, width) in nodes(&body.singular_azimuths(), azimuth) {
+            for (theta, height) in nodes(&body.singular_polar_angles(phi), polar) {
+                let (sin, cos) = theta.sin_cos();
+                let n = Vector3::new(sin * phi.cos(), sin * phi.sin(), cos);
+                samples.push((n, width * height * self.at(body, &n)));
+            }
+        }
+        samples
+    }
+
     /// The density in a direction of a body.
     fn at(&self, body: &dyn Solid, n: &Vector3<f64>) -> f64 {
         let (r, gradient) = body.radius_and_gradient(n);
         let cosine = r / r.hypot(gradient.norm());
         n.x.hypot(n.y).powf(self.sine) * r.powf(self.radius) * cosine.powf(self.slope)
     }
-}
-
-/// Directions in the octant of positive x, y, z and their weights: `azimuth` Gauss points, shared
-/// evenly among the pieces between singular azimuths, and on the meridian of each `polar` Gauss points,
-/// shared likewise. `polar` x `azimuth` directions, all inside the octant.
-pub fn edge_gauss(
-    body: &dyn Solid,
-    polar: usize,
-    azimuth: usize,
-    density: SamplingDensity,
-) -> Vec<(Vector3<f64>, f64)> {
-    let mut samples = Vec::with_capacity(polar * azimuth);
-    for (phi, width) in nodes(&body.singular_azimuths(), azimuth) {
-        for (theta, height) in nodes(&body.singular_polar_angles(phi), polar) {
-            let (sin, cos) = theta.sin_cos();
-            let n = Vector3::new(sin * phi.cos(), sin * phi.sin(), cos);
-            samples.push((n, width * height * density.at(body, &n)));
-        }
-    }
-    samples
 }
 
 /// Gauss points and weights on the pieces between singular angles.
@@ -96,8 +96,8 @@ mod tests {
         for body in [Body::Ellipsoid, Body::Cylinder, Body::Cuboid] {
             let shape = body.surface();
             let exact = shape.integrals().properties;
-            let sum = |density, polar, azimuth, f: &dyn Fn(f64) -> f64| {
-                let samples = edge_gauss(shape.as_ref(), polar, azimuth, density);
+            let sum = |density: SamplingDensity, polar, azimuth, f: &dyn Fn(f64) -> f64| {
+                let samples = density.sample(shape.as_ref(), polar, azimuth);
                 assert_eq!(samples.len(), polar * azimuth);
                 8.0 * samples
                     .iter()
@@ -119,7 +119,7 @@ mod tests {
     fn all_directions_asked_for_come_however_many_the_pieces() {
         let cuboid = Body::Cuboid.surface();
         for (polar, azimuth) in [(0, 5), (1, 1), (5, 7)] {
-            let samples = edge_gauss(cuboid.as_ref(), polar, azimuth, SOLID_ANGLE);
+            let samples = SOLID_ANGLE.sample(cuboid.as_ref(), polar, azimuth);
             assert_eq!(samples.len(), polar * azimuth);
         }
     }

@@ -3,8 +3,8 @@
 use std::path::Path;
 use std::process::Command;
 
-const README: &str = include_str!("../README.md");
-const BEDS: &str = include_str!("../docs/beds.md");
+const README: &str = include_str!("../../README.md");
+const BEDS: &str = include_str!("../../docs/beds.md");
 
 /// The content of the fenced blocks of a language.
 fn blocks(text: &'static str, language: &str) -> impl Iterator<Item = &'static str> {

@@ -1,7 +1,8 @@
 //! Surfaces whose points are given over the sphere: an ellipsoid, whose figures are closed, and a banana, which is
 //! seen whole from nowhere.
 
-use crate::grains::{plain, turned};
+use super::grains::{plain, turned};
+use gauss_quad::GaussLegendre;
 use grainform::contact::{TouchError, touch};
 use grainform::measure::{
     Curvature, Deviation, Scheme, Survey, crossings, feet, grain_properties, mesh_properties,
@@ -11,9 +12,7 @@ use grainform::model::{
     grain_to_json,
 };
 use grainform::shapes::{Ellipsoid, Solid};
-use grainform::sphere::{
-    CapBasis, Cover, CubeCell, GaussLegendre, HarmonicBasis, coefficient_count, cube_grid,
-};
+use grainform::sphere::{Cover, CubeCell, HarmonicBasis, coefficient_count, cube_grid};
 use grainform::{Grain, Surface};
 use nalgebra::{Matrix3, Matrix4, Point3, Vector3, Vector4};
 use serde_json::{Value, json};
@@ -30,14 +29,19 @@ fn ellipsoids(frame: Frame) -> [Grain; 2] {
     let mut cells = CubeCell::uniform(2);
     let quarters = cells.swap_remove(5).quarters();
     cells.extend(quarters);
-    let cover = Cover::new(cells).expect("a cover");
-    let basis = CapBasis::new(1);
-    let of_cell = |cell: usize| -> Vec<f64> {
-        let cap = cover.cap(cell);
-        let places = [[0.0, 0.0], [0.3, 0.0], [0.0, 0.4], [-0.4, -0.2]]
-            .map(|[u, v]| (cap.centre + (cap.tangents[0] * u + cap.tangents[1] * v)).normalize());
-        let unit = |j: usize| Vec::from_iter((0..4).map(|i| f64::from(i == j)));
-        let design = Matrix4::from_fn(|i, j| basis.value(cap, &unit(j), &places[i]));
+    let cover = Cover::with_margin(cells, 0.2).expect("a cover");
+    // Of each function its values are those of a position that has it as x in every cell.
+    let functions = [0, 1, 2, 3].map(|j| {
+        let mut unit = vec![0.0; 12];
+        unit[3 * j] = 1.0;
+        let all = vec![unit; cover.cells().len()];
+        Position::blended(cover.clone(), all).expect("finite coefficients")
+    });
+    let of_cell = |cell: &CubeCell| -> Vec<f64> {
+        // So near the middle no other cell has a weight.
+        let places =
+            [[0.5, 0.5], [0.55, 0.5], [0.5, 0.56], [0.46, 0.48]].map(|[s, t]| cell.at(s, t));
+        let design = Matrix4::from_fn(|i, j| functions[j].point(&places[i]).x);
         let design = design.lu();
         let axes = [0, 1, 2].map(|axis| {
             let values = Vector4::from_fn(|i, _| at(&places[i])[axis]);
@@ -45,7 +49,7 @@ fn ellipsoids(frame: Frame) -> [Grain; 2] {
         });
         (0..4).flat_map(|j| axes.map(|own| own[j])).collect()
     };
-    let coefficients = (0..cover.cells().len()).map(of_cell).collect();
+    let coefficients = cover.cells().iter().map(of_cell).collect();
     let blended = Position::blended(cover.clone(), coefficients).expect("a position");
     [harmonics(1, at), blended].map(|position| {
         let grain = PositionGrain::new(frame, position).expect("a frame");
@@ -60,7 +64,7 @@ fn harmonics(degree: usize, at: impl Fn(&Vector3<f64>) -> Vector3<f64>) -> Posit
     let mut values = vec![0.0; coefficient_count(degree)];
     let mut coefficients = vec![0.0; 3 * values.len()];
     let turns = 4 * degree + 8;
-    for (z, weight) in GaussLegendre::new(turns / 2).on(-1.0, 1.0) {
+    for &(z, weight) in GaussLegendre::new((turns / 2).try_into().expect("a count")).iter() {
         for turn in 0..turns {
             let (sin, cos) = (TAU * turn as f64 / turns as f64).sin_cos();
             let s = (1.0 - z * z).sqrt();

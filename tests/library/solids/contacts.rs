@@ -1,7 +1,7 @@
 //! Contacts of random and of hard pairs of superquadrics: none stays unresolved, and two methods that share no
 //! function agree.
 
-use crate::pairs::sets;
+use super::pairs::sets;
 use grainform::contact::{ConvexStatus, Method};
 
 /// Pairs of each set.

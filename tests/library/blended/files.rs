@@ -1,6 +1,6 @@
 //! Blended grains as JSON.
 
-use crate::grains::{all, blended, blended_within, plain, ragged, segmented, turned, whole};
+use super::grains::{all, blended, blended_within, plain, ragged, segmented, turned, whole};
 use grainform::model::{ModelError, Stretch, grain_from_json, grain_to_json};
 use grainform::sphere::CubeCell;
 use grainform::{StarGrain, StarSurface, Surface};

@@ -1,13 +1,13 @@
 //! The same segment fitted in double precision in four ways: two bases, two ways to solve.
 
-use crate::extended::Sample;
+use super::extended::Sample;
+use crate::sphere::{Cap, CapBasis, Places, coefficient_count, harmonics};
 use faer::linalg::solvers::{Solve, SolveLstsq};
 use faer::{Mat, MatRef, Side};
-use grainform::sphere::{Cap, CapBasis, Places, coefficient_count, harmonics};
 
 /// What spans the harmonics of degree <= L on a segment.
 #[derive(Clone, Copy, PartialEq)]
-pub(crate) enum Basis {
+pub(super) enum Basis {
     /// The library's, made for the cap round the segment.
     Cap,
     /// The real orthonormal harmonics, as the dissertation has them.
@@ -16,7 +16,7 @@ pub(crate) enum Basis {
 
 /// How the least squares are solved.
 #[derive(Clone, Copy, PartialEq)]
-pub(crate) enum Solver {
+pub(super) enum Solver {
     /// B^T B a = B^T r, by the factorization of Cholesky.
     NormalEquations,
     /// B = Q R, by the reflections of Householder.
@@ -24,7 +24,7 @@ pub(crate) enum Solver {
 }
 
 /// The functions at the samples: one column per function.
-pub(crate) fn design(basis: Basis, degree: usize, cap: &Cap, samples: &[Sample]) -> Mat<f64> {
+pub(super) fn design(basis: Basis, degree: usize, cap: &Cap, samples: &[Sample]) -> Mat<f64> {
     let (rows, columns) = (samples.len(), coefficient_count(degree));
     match basis {
         Basis::Harmonics => {
@@ -50,7 +50,7 @@ pub(crate) fn design(basis: Basis, degree: usize, cap: &Cap, samples: &[Sample])
 
 /// The fitted radii at the samples; `None` where the factorization breaks down or the radii are not
 /// finite.
-pub(crate) fn fitted_radii(
+pub(super) fn fitted_radii(
     solver: Solver,
     design: &Mat<f64>,
     samples: &[Sample],
@@ -67,4 +67,13 @@ pub(crate) fn fitted_radii(
     fitted
         .is_all_finite()
         .then(|| fitted.col(0).iter().copied().collect())
+}
+
+/// Largest over least singular value of a design, its columns scaled to unit length.
+pub(super) fn condition(design: &Mat<f64>) -> f64 {
+    let scaled = Mat::from_fn(design.nrows(), design.ncols(), |i, j| {
+        design[(i, j)] / design.col(j).norm_l2()
+    });
+    let values = scaled.singular_values().expect("finite columns");
+    values[0] / values[values.len() - 1]
 }

@@ -1,10 +1,10 @@
 //! Grains stretched along their axes, against closed forms and differences of the radius.
 
-use crate::derivatives::check;
-use crate::grains::{
+use super::derivatives::check;
+use super::grains::{
     RADIUS, all, anywhere, blended, critical, plain, ragged, segmented, turned, whole,
 };
-use crate::integrals;
+use super::integrals;
 use grainform::measure::{Curvature, MassProperties, grain_properties, integrate};
 use grainform::model::{Family, Frame, InvalidGrain, Mirrored, Radial, Stretch, Whole};
 use grainform::shapes::{Ellipsoid, Solid};

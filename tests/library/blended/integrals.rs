@@ -1,11 +1,11 @@
 //! Area, volume and inertia of the blended surface against routes that know nothing of cells.
 
-use crate::grains::{all, plain, turned};
+use super::grains::{all, plain, turned};
+use gauss_quad::GaussLegendre;
 use grainform::fit::fit;
 use grainform::measure::{Moments, grain_properties, mesh_properties};
 use grainform::scan::Scan;
 use grainform::shapes::{Body, SynthOptions, synthesize};
-use grainform::sphere::GaussLegendre;
 use grainform::{FitOptions, StarGrain, StarSurface, Surface};
 use nalgebra::{Point3, Vector3};
 use std::f64::consts::{PI, TAU};
@@ -15,13 +15,14 @@ pub(crate) fn check(grain: &StarGrain, bound: f64) {
     let found = grain_properties(grain).properties;
     let mut moments = Moments::default();
     let turns = 720;
-    for (theta, weight) in GaussLegendre::new(360).on(0.0, PI) {
-        let (s, c) = theta.sin_cos();
+    for &(x, weight) in GaussLegendre::new(360.try_into().expect("a count")).iter() {
+        let (s, c) = (0.5 * PI * (x + 1.0)).sin_cos();
         for turn in 0..turns {
             let (sp, cp) = (TAU * (turn as f64 + 0.5) / turns as f64).sin_cos();
             let n = Vector3::new(s * cp, s * sp, c);
             let (radius, gradient) = grain.radius_and_gradient(&n);
-            let area = (n * radius - gradient) * (radius * weight * s * TAU / turns as f64);
+            let area =
+                (n * radius - gradient) * (radius * 0.5 * PI * weight * s * TAU / turns as f64);
             moments.add_element(&(n * radius), &area);
         }
     }

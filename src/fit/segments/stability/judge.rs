@@ -1,14 +1,14 @@
 //! A fitted grain against the same fits in extended precision, segment by segment.
 
-use crate::extended::{Sample, fitted_radii, largest_radius};
-use grainform::model::Segmented;
-use grainform::sphere::{Cap, CapBasis, coefficient_count};
-use grainform::{FitOptions, Fitted, Seams, StarGrain, Surface};
+use super::extended::{Sample, fitted_radii, largest_radius};
+use crate::fit::{FitOptions, Fitted, Seams};
+use crate::model::{Segmented, StarGrain, Surface};
+use crate::sphere::{Cap, CapBasis, coefficient_count};
 use nalgebra::Point3;
 use rayon::prelude::*;
 
 /// Asks for the segments' own, independent expansions: k x k of them, all of one degree.
-pub(crate) fn options(k: usize, degree: usize) -> FitOptions {
+pub(super) fn options(k: usize, degree: usize) -> FitOptions {
     FitOptions::default()
         .with_seams(Seams::None)
         .with_degree(degree)
@@ -17,26 +17,23 @@ pub(crate) fn options(k: usize, degree: usize) -> FitOptions {
 
 /// Agreement with extended precision, relative to the radius, that the fit promises wherever
 /// the samples determine the answer.
-pub(crate) const PROMISE: f64 = 1e-12;
+pub(super) const PROMISE: f64 = 1e-12;
 
 /// What became of the segments of a grain.
 #[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Verdict {
+pub(super) struct Verdict {
     /// Largest distance between the radii fitted in double and in extended precision, at the
     /// samples fitted, relative to the largest radius among them.
-    pub(crate) error: f64,
-    /// Segments fitted at a lower degree than was asked for.
-    pub(crate) lowered: usize,
-    /// Segments fitted to the samples of the whole cap round them, because their own do not
-    /// determine the answer.
-    pub(crate) widened: usize,
+    pub(super) error: f64,
+    /// Whether any segment was fitted at a lower degree than was asked for.
+    pub(super) lowered: bool,
 }
 
 /// The distinct points of a scan in the frame of its grain, by segment.
 ///
 /// # Panics
 /// If the fit left points out as strays: a judge must see what the fit has seen.
-pub(crate) fn samples_by_segment(fitted: &Fitted, points: &[Point3<f64>]) -> Vec<Vec<Sample>> {
+pub(super) fn samples_by_segment(fitted: &Fitted, points: &[Point3<f64>]) -> Vec<Vec<Sample>> {
     let grain = fitted.grain.star().expect("a radius");
     let mut points: Vec<[f64; 3]> = points.iter().map(|&p| p.into()).collect();
     points.sort_unstable_by(|a, b| a.partial_cmp(b).expect("finite points"));
@@ -52,7 +49,7 @@ pub(crate) fn samples_by_segment(fitted: &Fitted, points: &[Point3<f64>]) -> Vec
 }
 
 /// The surface of a grain, made of independent segments.
-pub(crate) fn segmented(grain: &StarGrain) -> &Segmented {
+pub(super) fn segmented(grain: &StarGrain) -> &Segmented {
     grain.family().segmented().expect("independent segments")
 }
 
@@ -60,29 +57,23 @@ pub(crate) fn segmented(grain: &StarGrain) -> &Segmented {
 ///
 /// Which samples those were, the grain does not say: its segment's own, or those of the cap round
 /// it where the former leave the answer open. The fit that comes nearer tells.
-pub(crate) fn judge(grain: &StarGrain, degree: usize, segments: &[Vec<Sample>]) -> Verdict {
+pub(super) fn judge(grain: &StarGrain, degree: usize, segments: &[Vec<Sample>]) -> Verdict {
     let all: Vec<&Sample> = segments.iter().flatten().collect();
     let verdict = |(segment, own): (usize, &Vec<Sample>)| {
         let cap = segmented(grain).partition().cap(segment);
         let coefficients = &grain.coefficients()[segment];
         let own = error(coefficients, &cap, own);
-        let (error, widened) = if own <= PROMISE {
-            (own, 0)
+        let error = if own <= PROMISE {
+            own
         } else {
-            let of_cap = error(coefficients, &cap, &samples_of_cap(&cap, &all));
-            (own.min(of_cap), usize::from(of_cap < own))
+            own.min(error(coefficients, &cap, &samples_of_cap(&cap, &all)))
         };
-        let lowered = usize::from(coefficients.len() < coefficient_count(degree));
-        Verdict {
-            error,
-            lowered,
-            widened,
-        }
+        let lowered = coefficients.len() < coefficient_count(degree);
+        Verdict { error, lowered }
     };
     let worse = |a: Verdict, b: Verdict| Verdict {
         error: a.error.max(b.error),
-        lowered: a.lowered + b.lowered,
-        widened: a.widened + b.widened,
+        lowered: a.lowered || b.lowered,
     };
     segments
         .par_iter()

@@ -5,22 +5,22 @@
 //! squares are solved by Gram and Schmidt's orthogonalization. With so many digits the simplest way
 //! is exact enough: a condition of 1e10 leaves 20 of them.
 
-use grainform::model::Frame;
-use grainform::sphere::{Cap, coefficient_count};
+use crate::model::Frame;
+use crate::sphere::{Cap, coefficient_count};
 use nalgebra::{Point3, Vector3};
 use qd::Quad;
 
 /// A point of a scan as a fit sees it, in the frame of a grain.
 #[derive(Clone)]
-pub(crate) struct Sample {
+pub(super) struct Sample {
     /// Unit vector to the point.
-    pub(crate) direction: Vector3<f64>,
+    pub(super) direction: Vector3<f64>,
     exact: [Quad; 3],
     radius: Quad,
 }
 
 impl Sample {
-    pub(crate) fn new(point: &Point3<f64>, frame: &Frame) -> Self {
+    pub(super) fn new(point: &Point3<f64>, frame: &Frame) -> Self {
         let offset: [Quad; 3] =
             std::array::from_fn(|i| Quad::from(point[i]).sub_accurate(frame.centre[i].into()));
         let local = frame
@@ -37,13 +37,13 @@ impl Sample {
     }
 
     /// Distance from the centre of the frame.
-    pub(crate) fn radius(&self) -> f64 {
+    pub(super) fn radius(&self) -> f64 {
         self.radius.0
     }
 }
 
 /// The largest radius of the samples.
-pub(crate) fn largest_radius(samples: &[Sample]) -> f64 {
+pub(super) fn largest_radius(samples: &[Sample]) -> f64 {
     samples.iter().map(Sample::radius).fold(0.0, f64::max)
 }
 
@@ -51,7 +51,7 @@ pub(crate) fn largest_radius(samples: &[Sample]) -> f64 {
 ///
 /// The columns (u + iv)^m x^j, m + j <= L, span the harmonics of degree <= L on any cap. They are
 /// made orthogonal one by one, the radius last: what is left of it is the residual.
-pub(crate) fn fitted_radii(degree: usize, cap: &Cap, samples: &[Sample]) -> Vec<f64> {
+pub(super) fn fitted_radii(degree: usize, cap: &Cap, samples: &[Sample]) -> Vec<f64> {
     let mut columns = powers(degree, cap, samples);
     let mut residual: Vec<Quad> = samples.iter().map(|sample| sample.radius).collect();
     for j in 0..columns.len() {

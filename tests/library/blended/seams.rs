@@ -1,6 +1,6 @@
 //! Continuity across all borders: of cells, of margins, of faces, at corners and poles.
 
-use crate::grains::{RADIUS, all, critical, plain, tangents, towards};
+use super::grains::{RADIUS, all, critical, plain, tangents, towards};
 use grainform::{StarGrain, StarSurface};
 use nalgebra::Vector3;
 

@@ -3,7 +3,7 @@
 
 mod bodies;
 mod contacts;
-#[path = "../../benches/pairs/mod.rs"]
+#[path = "../../../benches/pairs/mod.rs"]
 mod pairs;
 
 use bodies::{banana, cup, torus, u_shape};

@@ -1,6 +1,6 @@
 //! Derivatives from the formulas of the model against differences of the radius.
 
-use crate::grains::{RADIUS, all, anywhere, critical, plain, segmented, tangents, towards, turned};
+use super::grains::{RADIUS, all, anywhere, critical, plain, segmented, tangents, towards, turned};
 use grainform::model::{Blended, Family};
 use grainform::sphere::{Cover, CubeCell};
 use grainform::{StarGrain, StarSurface};

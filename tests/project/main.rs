@@ -1,0 +1,5 @@
+//! The project's own rules: its architecture, its README and its list of mutants.
+
+mod architecture;
+mod mutants;
+mod readme;
