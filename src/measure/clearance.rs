@@ -4,9 +4,12 @@ use super::Ball;
 use microlp::{ComparisonOp, OptimizationDirection, Problem};
 use nalgebra::Vector3;
 
-/// Shifts tried at most, and the first largest one, relative to the radius.
+/// Shifts tried at most.
 const SHIFTS: usize = 300;
-const FIRST_REACH: f64 = 0.5;
+
+/// Share of the radius that no shift is longer than: the centre stays within the ball that touches nothing, and so on its
+/// side of the obstacles.
+const LONGEST: f64 = 0.5;
 
 /// The search ends where a shift promises to make the ball larger by no more than this share of its radius.
 const ENOUGH: f64 = 1e-8;
@@ -65,7 +68,7 @@ impl<F: Fn(&Vector3<f64>, f64) -> Option<Vector3<f64>>> Climb<F> {
     /// Where the obstacles curve round the ball, a plane across the line of contact is no nearer than they are: `by_planes`,
     /// points whose planes the ball does not cross stand for them, so that few are needed. Then others decide.
     fn climb(&mut self, by_planes: bool, found: &[Ball]) -> bool {
-        let mut reach = FIRST_REACH * self.ball.radius;
+        let mut reach = LONGEST * self.ball.radius;
         for _ in 0..SHIFTS {
             let Ball { centre, radius } = self.ball;
             let is_found =
@@ -92,12 +95,10 @@ impl<F: Fn(&Vector3<f64>, f64) -> Option<Vector3<f64>>> Climb<F> {
                     radius: radius + grown,
                 };
             }
-            if !by_planes {
-                reach *= match grown {
-                    _ if grown > TRUSTED * promised => 2.0,
-                    _ if grown > KEPT * promised => 1.0,
-                    _ => 0.5,
-                };
+            if !by_planes && grown > TRUSTED * promised {
+                reach = (2.0 * reach).min(LONGEST * radius);
+            } else if !by_planes && grown <= KEPT * promised {
+                reach /= 2.0;
             }
         }
         true
