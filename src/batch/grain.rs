@@ -115,11 +115,12 @@ fn told(error: &dyn Error) -> String {
 }
 
 fn row(fitted: &Fitted, warnings: &[String], settings: &Settings) -> Row {
-    let fit = FitReport::new(String::new(), None, fitted, &settings.fit, warnings);
+    let survey = Survey::of_grain(&fitted.grain, Scheme::Exact);
+    let (name, options) = (String::new(), &settings.fit);
+    let fit = FitReport::with_survey(name, None, fitted, &survey, options, warnings);
     // Where much was not seen, the whole surface is a guess that the fit withholds.
     let is_withheld = fitted.grain.unseen().is_some() && !settings.fit.extrapolate;
     let mut measured = (!is_withheld).then(|| {
-        let survey = Survey::of_grain(&fitted.grain, Scheme::Exact);
         MeasureReport::new(
             String::new(),
             Measured::Model,

@@ -75,7 +75,7 @@ fn grain_part(path: &Path, args: &ReportArgs) -> Result<GrainPart> {
     let hash = ("BLAKE3 of the input", blake3::hash(&bytes).to_string());
     if bytes.trim_ascii_start().starts_with(b"{") {
         let grain = inputs::parse_model(path, &bytes)?;
-        let (measures, warnings) = measured(&grain, args);
+        let (measures, warnings) = measured(&Survey::of_grain(&grain, Scheme::Exact), args);
         draw(args, &name, &grain, None)?;
         return Ok(GrainPart::new(Subject {
             name,
@@ -106,7 +106,8 @@ fn grain_part(path: &Path, args: &ReportArgs) -> Result<GrainPart> {
         true => Some(costs(&scan, &name).with_context(failed)?),
         false => None,
     };
-    let told = FitReport::new(name.clone(), args.unit, &fitted, &options, &[]);
+    let survey = Survey::of_grain(&fitted.grain, Scheme::Exact);
+    let told = FitReport::with_survey(name.clone(), args.unit, &fitted, &survey, &options, &[]);
     let mut warnings = sentences(scan.warnings(), &fitted.warnings, args.unit);
     let measures =
         match fitted.grain.unseen() {
@@ -118,7 +119,7 @@ fn grain_part(path: &Path, args: &ReportArgs) -> Result<GrainPart> {
                 Vec::new()
             }
             None => {
-                let (measures, missing) = measured(&fitted.grain, args);
+                let (measures, missing) = measured(&survey, args);
                 warnings.extend(missing);
                 MeasureRow::of(&measures.measures, told.standard_errors.as_ref(), args.unit)
             }
@@ -140,12 +141,11 @@ fn grain_part(path: &Path, args: &ReportArgs) -> Result<GrainPart> {
 }
 
 /// All measures of a grain, and those that cannot be had, as sentences.
-fn measured(grain: &Grain, args: &ReportArgs) -> (MeasureReport, Vec<String>) {
-    let survey = Survey::of_grain(grain, Scheme::Exact);
+fn measured(survey: &Survey, args: &ReportArgs) -> (MeasureReport, Vec<String>) {
     let report = MeasureReport::new(
         String::new(),
         Measured::Model,
-        &survey,
+        survey,
         &Measure::ALL,
         Vec::new(),
     );

@@ -1,7 +1,7 @@
 //! The outline of a body as seen from one side, and its shape in two dimensions.
 
 use super::bounds::{OutOfBounds, ratio};
-use super::clearance::{Obstacles, largest_from};
+use super::clearance::largest_from;
 use super::convex_polygon::ConvexPolygon;
 use super::medial::{Foot, deepest};
 use super::roundness::roundness;
@@ -161,7 +161,7 @@ fn inscribed_circle(points: &[Vector2<f64>], largest: f64) -> Option<Ball> {
         Some(Foot::new(middle, inward, largest, corners.iter()))
     });
     let is_inside = |ball: &Ball| polygon_winding_number(points, &ball.centre.coords.xy()) > 0.5;
-    largest_from(&walls, &deepest(feet.collect(), nearest, is_inside))
+    largest_from(nearest, &deepest(feet.collect(), nearest, is_inside))
 }
 
 /// The edges of a polygon as walls across the plane, so that the distance to them is that in the plane.
@@ -172,24 +172,14 @@ impl Walls<'_> {
         let start = self.0[index];
         [start, self.0[(index + 1) % self.0.len()] - start]
     }
-}
 
-impl Obstacles for Walls<'_> {
+    /// The point of an edge nearest to a place.
     fn nearest(&self, index: usize, place: &Vector3<f64>) -> Vector3<f64> {
         let [start, along] = self.edge(index);
         let share = along.dot(&(place.xy() - start)) / along.norm_squared();
         // Written so that an edge of no length has its start as nearest point.
         let nearest = start + along * if share > 0.0 { share.min(1.0) } else { 0.0 };
         Vector3::new(nearest.x, nearest.y, place.z)
-    }
-
-    fn normal(&self, index: usize) -> Vector3<f64> {
-        let [_, along] = self.edge(index);
-        Vector3::new(-along.y, along.x, 0.0)
-    }
-
-    fn within(&self, _place: &Vector3<f64>, _radius: f64) -> Vec<usize> {
-        (0..self.0.len()).collect()
     }
 }
 

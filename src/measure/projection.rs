@@ -81,7 +81,9 @@ pub fn project(
                 for azimuth in span {
                     let azimuth = azimuth % OUTLINE_AZIMUTHS;
                     let radius = &mut radii[azimuth];
-                    *radius = radius.max(from.crossing(to, &directions[azimuth]));
+                    if from.distance.max(to.distance) > *radius {
+                        *radius = radius.max(from.crossing(to, &directions[azimuth]));
+                    }
                 }
             }
         }
@@ -108,6 +110,8 @@ pub fn project(
 /// A projected vertex.
 struct Place {
     position: Vector2<f64>,
+    /// From the centre.
+    distance: f64,
     /// In steps of the azimuths, from 0 up to their number.
     azimuth: f64,
 }
@@ -118,6 +122,7 @@ impl Place {
         let turns = if turns < 0.0 { turns + 1.0 } else { turns };
         Self {
             position: Vector2::new(x, y),
+            distance: Vector2::new(x, y).norm(),
             azimuth: turns * OUTLINE_AZIMUTHS as f64,
         }
     }
@@ -140,7 +145,7 @@ impl Place {
     /// Distance from the centre at which a ray crosses the edge to another place, no farther than the
     /// farther end.
     fn crossing(&self, other: &Self, direction: &Vector2<f64>) -> f64 {
-        let farther = self.position.norm().max(other.position.norm());
+        let farther = self.distance.max(other.distance);
         let edge = other.position - self.position;
         let radius = self.position.perp(&edge) / direction.perp(&edge);
         if radius.is_finite() {

@@ -40,28 +40,11 @@ pub struct RadialExpansion {
 impl RadialExpansion {
     /// That of the surface made of these elements, seen from the centroid.
     pub(super) fn new(elements: &[Element], degree: usize) -> Self {
-        let count = coefficient_count(degree);
+        let coefficients = coefficients(elements, degree);
         let basis = HarmonicBasis::new(degree);
-        let sums: Vec<Vec<f64>> = elements
-            .par_chunks(PER_TASK)
-            .map(|elements| {
-                let (mut sums, mut values) = (vec![0.0; count], vec![0.0; count]);
-                for element in elements {
-                    let (direction, distance, solid_angle) = element.seen();
-                    basis.evaluate(&direction, &mut values);
-                    let weight = distance * solid_angle;
-                    for (sum, value) in sums.iter_mut().zip(&values) {
-                        *sum += value * weight;
-                    }
-                }
-                sums
-            })
-            .collect();
-        let coefficient = |j: usize| sums.iter().map(|sums| sums[j]).sum::<f64>();
-        let coefficients: Vec<f64> = (0..count).map(coefficient).collect();
         let missed = |element: &Element| {
             let (direction, distance, solid_angle) = element.seen();
-            let mut values = vec![0.0; count];
+            let mut values = vec![0.0; coefficients.len()];
             basis.evaluate(&direction, &mut values);
             let found: f64 = values.iter().zip(&coefficients).map(|(y, a)| y * a).sum();
             (found - distance).powi(2) * solid_angle
@@ -77,7 +60,7 @@ impl RadialExpansion {
 impl Spectrum {
     /// That of the surface made of these elements, seen from the centroid.
     pub(super) fn new(elements: &[Element]) -> Self {
-        let found = RadialExpansion::new(elements, SPECTRUM_DEGREE).coefficients;
+        let found = coefficients(elements, SPECTRUM_DEGREE);
         let power: Vec<f64> = (0..=SPECTRUM_DEGREE)
             .map(|degree| {
                 let own = degree * degree..coefficient_count(degree);
@@ -89,6 +72,29 @@ impl Spectrum {
             power,
         }
     }
+}
+
+/// Coefficients of the radius up to a degree.
+fn coefficients(elements: &[Element], degree: usize) -> Vec<f64> {
+    let count = coefficient_count(degree);
+    let basis = HarmonicBasis::new(degree);
+    let sums: Vec<Vec<f64>> = elements
+        .par_chunks(PER_TASK)
+        .map(|elements| {
+            let (mut sums, mut values) = (vec![0.0; count], vec![0.0; count]);
+            for element in elements {
+                let (direction, distance, solid_angle) = element.seen();
+                basis.evaluate(&direction, &mut values);
+                let weight = distance * solid_angle;
+                for (sum, value) in sums.iter_mut().zip(&values) {
+                    *sum += value * weight;
+                }
+            }
+            sums
+        })
+        .collect();
+    let coefficient = |j: usize| sums.iter().map(|sums| sums[j]).sum::<f64>();
+    (0..count).map(coefficient).collect()
 }
 
 #[cfg(test)]

@@ -1,6 +1,5 @@
 //! The triangles of a mesh in a tree, to find those near a place.
 
-use super::clearance::Obstacles;
 use crate::Mesh;
 use crate::mesh::{Bounds, BoundsTree};
 use nalgebra::{Point3, Vector3};
@@ -47,31 +46,6 @@ impl TriangleTree {
         });
         best.1
     }
-}
-
-/// Numbered in an order of the tree's own.
-impl Obstacles for TriangleTree {
-    fn nearest(&self, index: usize, place: &Vector3<f64>) -> Vector3<f64> {
-        nearest_in_triangle(&self.triangles[index], place)
-    }
-
-    fn normal(&self, index: usize) -> Vector3<f64> {
-        normal(&self.triangles[index])
-    }
-
-    fn within(&self, place: &Vector3<f64>, radius: f64) -> Vec<usize> {
-        let (mut found, limit) = (Vec::new(), radius * radius);
-        self.tree.near(&Point3::from(*place), limit, |span| {
-            found.extend(span);
-            limit
-        });
-        found
-    }
-}
-
-/// The normal of a triangle, twice as long as its area is large.
-pub(super) fn normal([a, b, c]: &[Vector3<f64>; 3]) -> Vector3<f64> {
-    (b - a).cross(&(c - a))
 }
 
 /// The point of a triangle nearest to p (Ericson 2005, section 5.1.5).

@@ -1,7 +1,7 @@
 //! How often a closed surface goes round a point: whether the point is inside.
 
 use crate::Mesh;
-use nalgebra::{Point3, Vector2};
+use nalgebra::{Point3, Vector2, Vector3};
 use std::f64::consts::TAU;
 
 /// The winding number of a mesh about a point off it: the sum of the solid angles of its triangles over
@@ -9,14 +9,35 @@ use std::f64::consts::TAU;
 /// from outside, zero outside and in cavities; of an open one, a fraction (Jacobson, Kavan and
 /// Sorkine-Hornung 2013). All triangles must name vertices that exist.
 pub(super) fn winding_number(mesh: &Mesh, point: &Point3<f64>) -> f64 {
+    let away = |vertex: &Point3<f64>| (vertex - point, (vertex - point).norm());
+    let seen: Vec<(Vector3<f64>, f64)> = mesh.vertices.iter().map(away).collect();
     let half_angles = mesh.triangles.iter().map(|corners| {
-        let [a, b, c] = corners.map(|corner| mesh.vertices[corner as usize] - point);
-        let [la, lb, lc] = [a, b, c].map(|v| v.norm());
+        let [(a, la), (b, lb), (c, lc)] = corners.map(|corner| seen[corner as usize]);
         let volume = a.dot(&b.cross(&c));
         let across = la * lb * lc + a.dot(&b) * lc + b.dot(&c) * la + c.dot(&a) * lb;
-        volume.atan2(across)
+        Vector2::new(across, volume)
     });
-    half_angles.sum::<f64>() / TAU
+    sum_of_angles(half_angles) / TAU
+}
+
+/// The sum of the angles of vectors from the x-axis, each between -pi and pi. Those of acute angles are multiplied as complex
+/// numbers as long as the product's angle is acute too, for that is cheaper than to find each angle.
+fn sum_of_angles(vectors: impl Iterator<Item = Vector2<f64>>) -> f64 {
+    let angle = |v: Vector2<f64>| v.y.atan2(v.x);
+    let (mut sum, mut product) = (0.0, Vector2::x());
+    for v in vectors {
+        if v.x > 0.0 && product.x > 0.0 {
+            let next = Vector2::new(
+                product.x * v.x - product.y * v.y,
+                product.x * v.y + product.y * v.x,
+            );
+            product = next / next.amax();
+        } else {
+            sum += angle(product);
+            product = v;
+        }
+    }
+    sum + angle(product)
 }
 
 /// The winding number of a closed polygon about a point of the plane.
@@ -24,9 +45,9 @@ pub(super) fn polygon_winding_number(corners: &[Vector2<f64>], point: &Vector2<f
     let next = corners.iter().cycle().skip(1);
     let angles = corners.iter().zip(next).map(|(from, to)| {
         let (from, to) = (from - point, to - point);
-        from.perp(&to).atan2(from.dot(&to))
+        Vector2::new(from.dot(&to), from.perp(&to))
     });
-    angles.sum::<f64>() / TAU
+    sum_of_angles(angles) / TAU
 }
 
 #[cfg(test)]

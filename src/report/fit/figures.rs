@@ -2,7 +2,7 @@
 
 use super::StandardErrorsRecord;
 use crate::fit::{FitOptions, Fitted, NoInterval};
-use crate::measure::{Scheme, Survey, SurveyError};
+use crate::measure::{Survey, SurveyError};
 use crate::model::Unseen;
 use crate::report::measure::{Dimensions, NotMeasured, Principal};
 use crate::report::number::percent;
@@ -28,10 +28,10 @@ pub(super) struct Figures {
 }
 
 impl Figures {
-    pub(super) fn new(fitted: &Fitted, options: &FitOptions) -> Self {
+    pub(super) fn new(fitted: &Fitted, survey: &Survey, options: &FitOptions) -> Self {
         match fitted.grain.unseen().filter(|_| !options.extrapolate) {
             Some(unseen) => Self::withheld(&unseen),
-            None => Self::told(fitted),
+            None => Self::told(fitted, survey),
         }
     }
 
@@ -70,8 +70,7 @@ impl Figures {
         }
     }
 
-    fn told(fitted: &Fitted) -> Self {
-        let survey = Survey::of_grain(&fitted.grain, Scheme::Exact);
+    fn told(fitted: &Fitted, survey: &Survey) -> Self {
         let mut not_measured = Vec::new();
         fn known<T>(
             measure: &'static str,

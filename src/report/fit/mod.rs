@@ -9,6 +9,7 @@ use super::rule::{kind_rule, rule};
 use super::unit::Unit;
 use super::warning::sentences;
 use crate::fit::{FitOptions, Fitted, Reference, ReferenceKind, StandardErrors, Tolerance};
+use crate::measure::{Scheme, Survey};
 use crate::model::StarGrain;
 use crate::sphere::Symmetry;
 use figures::Figures;
@@ -174,10 +175,23 @@ impl FitReport {
         options: &FitOptions,
         scan_warnings: &[String],
     ) -> Self {
+        let survey = Survey::of_grain(&fitted.grain, Scheme::Exact);
+        Self::with_survey(input, unit, fitted, &survey, options, scan_warnings)
+    }
+
+    /// The same, with a survey of the fitted grain, of which more may be asked: what is measured is measured once.
+    pub fn with_survey(
+        input: String,
+        unit: Option<Unit>,
+        fitted: &Fitted,
+        survey: &Survey,
+        options: &FitOptions,
+        scan_warnings: &[String],
+    ) -> Self {
         let search = &fitted.search;
         let symmetry = Some(fitted.grain.symmetry()).filter(|mirrors| *mirrors != Symmetry::NONE);
         let choice = search.choice();
-        let mut figures = Figures::new(fitted, options);
+        let mut figures = Figures::new(fitted, survey, options);
         let reference = fitted.grain.unseen().is_none().then_some(fitted.reference);
         let beside = |found: Option<f64>, of: fn(&Reference) -> f64| {
             Some(found? / of(reference.as_ref()?) - 1.0)
