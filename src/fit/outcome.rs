@@ -142,6 +142,9 @@ impl Fitted {
         if let Some(errors) = self.errors {
             return errors;
         }
+        if self.warnings.contains(&FitWarning::Neck) {
+            return Err(NoInterval::Neck);
+        }
         let frame = self.grain.frame();
         let principal = told.principal().ok_or(NoInterval::NotFinite)?;
         let figures = Figures {

@@ -54,6 +54,8 @@ pub enum NoInterval {
         /// Kurtosis of the residuals: 3 of normal noise.
         kurtosis: f64,
     },
+    /// The points have a neck: if these are two grains that touch, a radius rounds off what lies between them.
+    Neck,
     /// The figures are not finite.
     NotFinite,
     /// Squares of the figures are beyond the range of numbers.

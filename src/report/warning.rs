@@ -205,6 +205,7 @@ impl fmt::Display for NoInterval {
                 f,
                 "in this unit squares of the figures are beyond the range of numbers; change the unit"
             ),
+            Self::Neck => write!(f, "the points have a neck, as of two grains that touch"),
             Self::Crossing => write!(f, "the surface crosses itself or turns over"),
             Self::NotEstimated => write!(f, "the model is fitted to the points themselves"),
         }

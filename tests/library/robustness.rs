@@ -1,5 +1,6 @@
 //! Faults of real scans: outliers, holes, uneven density.
 
+use grainform::fit::NoInterval;
 use grainform::measure::grain_properties;
 use grainform::scan::Scan;
 use grainform::shapes::{Body, Sampling, SynthOptions, synthesize};
@@ -50,6 +51,24 @@ fn outliers_of_few_points_are_not_followed() {
         let error = area / truth.area - 1.0;
         assert!(error.abs() < 1e-4, "seed {seed}: {error}");
     }
+}
+
+/// An ellipsoid that a small ball touches: what lies between them is rounded off.
+#[test]
+fn of_points_with_a_neck_no_standard_errors_are_told() {
+    let directions = |count| {
+        Sampling::Fibonacci
+            .directions(count, 0)
+            .expect("directions")
+    };
+    let large = directions(3000).into_iter();
+    let large = large.map(|n| Point3::new(2.0 * n.x, 1.2 * n.y, n.z));
+    let small = directions(1000).into_iter();
+    let small = small.map(|n| Point3::new(2.45, 0.0, 0.0) + 0.5 * n);
+    let fitted = fitted(large.chain(small).collect());
+    let told = grain_properties(&fitted.grain).properties;
+    let errors = fitted.standard_errors(&told, &Vector3::new(5.0, 2.4, 2.0));
+    assert_eq!(errors, Err(NoInterval::Neck));
 }
 
 /// Half-opening angle of the holes.
