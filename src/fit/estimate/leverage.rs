@@ -25,25 +25,6 @@ pub(super) fn spares(estimate: &Estimate) -> Vec<f64> {
     spares.map(|spare| spare.max(LEAST)).collect()
 }
 
-/// Newton steps to what is told of a degree.
-const STEPS: usize = 6;
-
-/// 1 - q_m of the orders of a degree whose variances are in proportion to `orders`, and whose q have this mean.
-fn shares(mean: f64, orders: Vec<f64>) -> Vec<f64> {
-    let mut told = (1.0 - mean) / mean;
-    for _ in 0..STEPS {
-        let left = orders.iter().map(|order| 1.0 / (1.0 + told * order));
-        let (excess, slope) = left.fold((0.0, 0.0), |(excess, slope), q| {
-            (excess + q - mean, slope + q * (1.0 - q))
-        });
-        told *= (excess / slope).exp();
-    }
-    let shares = orders
-        .iter()
-        .map(|order| told * order / (1.0 + told * order));
-    shares.collect()
-}
-
 /// Leverage against polar angle, in any unit: both halves of the sphere are alike.
 struct Profile(Vec<f64>);
 
@@ -51,9 +32,8 @@ impl Profile {
     fn new(estimate: &Estimate) -> Self {
         let degree = estimate.degree;
         let basis = HarmonicBasis::new(degree);
-        let learnt: Vec<f64> = (0..=degree)
-            .flat_map(|l| shares(estimate.unlearnt[l], estimate.spectrum.orders(l).collect()))
-            .collect();
+        let left = (0..=degree).flat_map(|l| estimate.spectrum.left(l, estimate.unlearnt[l]));
+        let learnt: Vec<f64> = left.map(|q| 1.0 - q).collect();
         let mut values = vec![0.0; coefficient_count(degree)];
         // At azimuth 0 an order's cosine stands for both of its harmonics.
         let angles = (0..=2 * degree).map(|i| FRAC_PI_2 * i as f64 / (2 * degree) as f64);

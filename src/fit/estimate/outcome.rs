@@ -74,7 +74,11 @@ fn moment(spectrum: &Spectrum, unlearnt: &[f64], power: i32) -> f64 {
     let variances = spectrum.variances(unlearnt.len() - 1);
     let terms = variances.iter().zip(unlearnt).enumerate();
     let sum: f64 = terms
-        .map(|(l, (v, q))| (2 * l + 1) as f64 * ((l * (l + 1)) as f64).powi(power) * v * q)
+        .map(|(l, (v, q))| {
+            let left = spectrum.orders(l).zip(spectrum.left(l, *q));
+            let left: f64 = left.map(|(share, q)| share * q).sum();
+            ((l * (l + 1)) as f64).powi(power) * v * left
+        })
         .sum();
     sum / (4.0 * std::f64::consts::PI)
 }

@@ -45,6 +45,9 @@ const TEXTURE: f64 = 1e-3;
 /// Least share of the noise's variance that is left when a higher degree takes its part.
 const LEAST_LEFT: f64 = 0.5;
 
+/// Newton steps to what points tell of a degree, from what they would tell without a tilt.
+const NEWTON_STEPS: usize = 6;
+
 impl Spectrum {
     /// Where a search starts: the slope and knee of a kernel, noise of one percent.
     pub(crate) fn start() -> Self {
@@ -89,6 +92,23 @@ impl Spectrum {
     pub(crate) fn amplitude(&self) -> (f64, [f64; 4]) {
         let (fall, [by_exponent, by_knee]) = self.fall(PIVOT);
         (self.logarithms[0] + fall, [1.0, by_exponent, by_knee, 0.0])
+    }
+
+    /// The shares of their variances that even points leave of the orders -l to l of degree l, where these have this mean.
+    pub(crate) fn left(&self, l: usize, mean: f64) -> Vec<f64> {
+        let orders: Vec<f64> = self.orders(l).collect();
+        let mut told = (1.0 - mean) / mean;
+        for _ in 0..NEWTON_STEPS {
+            let left = orders.iter().map(|order| 1.0 / (1.0 + told * order));
+            let (excess, slope) = left.fold((0.0, 0.0), |(excess, slope), q| {
+                (excess + q - mean, slope + q * (1.0 - q))
+            });
+            told *= (excess / slope).exp();
+        }
+        orders
+            .iter()
+            .map(|order| 1.0 / (1.0 + told * order))
+            .collect()
     }
 
     /// Standard deviation of the noise of one point, in units of the mean radius.

@@ -10,7 +10,7 @@ const STEP: f64 = 0.25;
 const STEPS: i32 = 8;
 
 /// A tilt is kept if it lowers the negative log likelihood by this.
-const WORTH: f64 = 3.0;
+const WORTH: f64 = 6.0;
 
 /// The most likely tilt behind the coefficients of a fit without one; 0 where none is much more likely. `unlearnt`: q per
 /// degree.
@@ -78,5 +78,11 @@ mod tests {
         assert!((shares[0] / shares[5] - 1.0_f64.exp()).abs() < 1e-12);
         assert!((shares[10] / shares[5] - 1.0_f64.exp()).abs() < 1e-12);
         assert!(spectrum.orders(2).all(|share| share == 1.0));
+        for mean in [1e-9, 0.3, 0.999] {
+            let left = spectrum.left(5, mean);
+            assert!((left.iter().sum::<f64>() / 11.0 / mean - 1.0).abs() < 1e-9);
+            // The orders of most variance are told best.
+            assert!(left[0] < left[5]);
+        }
     }
 }
