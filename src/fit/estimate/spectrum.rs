@@ -94,9 +94,13 @@ impl Spectrum {
         (self.logarithms[0] + fall, [1.0, by_exponent, by_knee, 0.0])
     }
 
-    /// The shares of their variances that even points leave of the orders -l to l of degree l, where these have this mean.
+    /// The shares of their variances that even points leave of the orders -l to l of degree l, where these have this mean,
+    /// between 0 and 1.
     pub(crate) fn left(&self, l: usize, mean: f64) -> Vec<f64> {
         let orders: Vec<f64> = self.orders(l).collect();
+        if self.tilt == 0.0 {
+            return vec![mean; orders.len()];
+        }
         let mut told = (1.0 - mean) / mean;
         for _ in 0..NEWTON_STEPS {
             let left = orders.iter().map(|order| 1.0 / (1.0 + told * order));
