@@ -6,9 +6,7 @@ use crate::export::{SaveError, save_grain, save_mesh};
 use crate::fit::{Context, FitOptions, Fitted, fit_scan, whole_or_largest};
 use crate::measure::{Scheme, Survey};
 use crate::model::Surface;
-use crate::report::{
-    FitReport, Measure, MeasureReport, Measured, Measures, NotMeasured, Unit, sentences,
-};
+use crate::report::{FitReport, Measure, MeasureReport, Measured, Unit, sentences};
 use crate::scan::{parse_file, read_stream};
 use serde_json::Value;
 use std::error::Error;
@@ -120,7 +118,7 @@ fn row(fitted: &Fitted, warnings: &[String], settings: &Settings) -> Row {
     let fit = FitReport::with_survey(name, None, fitted, &survey, options, warnings);
     // Where much was not seen, the whole surface is a guess that the fit withholds.
     let is_withheld = fitted.grain.unseen().is_some() && !settings.fit.extrapolate;
-    let mut measured = (!is_withheld).then(|| {
+    let measured = (!is_withheld).then(|| {
         MeasureReport::new(
             String::new(),
             Measured::Model,
@@ -128,10 +126,8 @@ fn row(fitted: &Fitted, warnings: &[String], settings: &Settings) -> Row {
             &settings.measures,
             Vec::new(),
         )
+        .without(&fit.not_measured)
     });
-    if let Some(measured) = &mut measured {
-        withhold(measured, &fit.not_measured);
-    }
     let missing = match &measured {
         Some(measured) => &measured.not_measured,
         None => &fit.not_measured,
@@ -162,18 +158,6 @@ fn row(fitted: &Fitted, warnings: &[String], settings: &Settings) -> Row {
         warnings: sentences(warnings, &fitted.warnings, settings.unit),
         figures,
         ..Row::default()
-    }
-}
-
-/// Withholds area and volume where they are among `missing`, a fit's.
-fn withhold(measured: &mut MeasureReport, missing: &[NotMeasured]) {
-    let Measures { area, volume, .. } = &mut measured.measures;
-    for (name, figure) in [("area", area), ("volume", volume)] {
-        if let Some(missing) = missing.iter().find(|missing| missing.measure == name)
-            && figure.take().is_some()
-        {
-            measured.not_measured.push(missing.clone());
-        }
     }
 }
 

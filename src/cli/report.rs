@@ -13,7 +13,8 @@ use crate::page::{
     BenchPart, GrainPart, LotPart, MeasureRow, Page, SearchPart, Subject, write_page,
 };
 use crate::report::{
-    FitReport, Measure, MeasureReport, Measured, SearchReport, escaped, sentences, short,
+    FitReport, Measure, MeasureReport, Measured, NotMeasured, SearchReport, escaped, sentences,
+    short,
 };
 use crate::scan::{Scan, plural};
 use anyhow::{Context, Result, bail};
@@ -75,7 +76,7 @@ fn grain_part(path: &Path, args: &ReportArgs) -> Result<GrainPart> {
     let hash = ("BLAKE3 of the input", blake3::hash(&bytes).to_string());
     if bytes.trim_ascii_start().starts_with(b"{") {
         let grain = inputs::parse_model(path, &bytes)?;
-        let (measures, warnings) = measured(&Survey::of_grain(&grain, Scheme::Exact), args);
+        let (measures, warnings) = measured(&Survey::of_grain(&grain, Scheme::Exact), &[], args);
         draw(args, &name, &grain, None)?;
         return Ok(GrainPart::new(Subject {
             name,
@@ -109,21 +110,17 @@ fn grain_part(path: &Path, args: &ReportArgs) -> Result<GrainPart> {
     let survey = Survey::of_grain(&fitted.grain, Scheme::Exact);
     let told = FitReport::with_survey(name.clone(), args.unit, &fitted, &survey, &options, &[]);
     let mut warnings = sentences(scan.warnings(), &fitted.warnings, args.unit);
-    let measures =
-        match fitted.grain.unseen() {
-            Some(_) => {
-                let missing = told.not_measured.iter();
-                warnings.extend(missing.map(|missing| {
-                    format!("Not measured: {}, {}.", missing.measure, missing.reason)
-                }));
-                Vec::new()
-            }
-            None => {
-                let (measures, missing) = measured(&survey, args);
-                warnings.extend(missing);
-                MeasureRow::of(&measures.measures, told.standard_errors.as_ref(), args.unit)
-            }
-        };
+    let measures = match fitted.grain.unseen() {
+        Some(_) => {
+            warnings.extend(not_measured(&told.not_measured));
+            Vec::new()
+        }
+        None => {
+            let (measures, missing) = measured(&survey, &told.not_measured, args);
+            warnings.extend(missing);
+            MeasureRow::of(&measures.measures, told.standard_errors.as_ref(), args.unit)
+        }
+    };
     draw(args, &name, &fitted.grain, Some(&scan))?;
     let mut facts = facts(&told, &fitted);
     facts.push(hash);
@@ -140,20 +137,28 @@ fn grain_part(path: &Path, args: &ReportArgs) -> Result<GrainPart> {
     }))
 }
 
-/// All measures of a grain, and those that cannot be had, as sentences.
-fn measured(survey: &Survey, args: &ReportArgs) -> (MeasureReport, Vec<String>) {
+/// All measures of a grain, and those that cannot be had or are `withheld` by its fit, as sentences.
+fn measured(
+    survey: &Survey,
+    withheld: &[NotMeasured],
+    args: &ReportArgs,
+) -> (MeasureReport, Vec<String>) {
     let report = MeasureReport::new(
         String::new(),
         Measured::Model,
         survey,
         &Measure::ALL,
         Vec::new(),
-    );
-    let missing = report.not_measured.iter();
-    let missing =
-        missing.map(|missing| format!("Not measured: {}, {}.", missing.measure, missing.reason));
-    let missing = missing.collect();
+    )
+    .without(withheld);
+    let missing = not_measured(&report.not_measured).collect();
     (report.in_unit(args.unit), missing)
+}
+
+fn not_measured(missing: &[NotMeasured]) -> impl Iterator<Item = String> {
+    missing
+        .iter()
+        .map(|missing| format!("Not measured: {}, {}.", missing.measure, missing.reason))
 }
 
 /// Fits all independent segments, as the source does.

@@ -201,6 +201,21 @@ impl MeasureReport {
         }
     }
 
+    /// The same without area and volume where they are among `missing`, those that a fit of the body withholds.
+    #[must_use]
+    pub fn without(mut self, missing: &[NotMeasured]) -> Self {
+        let Measures { area, volume, .. } = &mut self.measures;
+        for (name, figure) in [("area", area), ("volume", volume)] {
+            if let Some(missing) = missing.iter().find(|missing| missing.measure == name)
+                && figure.take().is_some()
+            {
+                self.nulls.insert(name, ());
+                self.not_measured.push(missing.clone());
+            }
+        }
+        self
+    }
+
     /// The same with the unit of its lengths.
     pub fn in_unit(self, unit: Option<Unit>) -> Self {
         Self { unit, ..self }
