@@ -281,3 +281,26 @@ impl Measures {
         Ok(())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::Mesh;
+
+    #[test]
+    fn what_a_fit_withholds_is_null_and_told_why() {
+        let ball = Mesh::radial(4, |_| 1.0);
+        let survey = Survey::of_mesh(&ball).unwrap();
+        let of = Measured::Model;
+        let asked = [Measure::Area, Measure::Volume];
+        let report = MeasureReport::new(String::new(), of, &survey, &asked, Vec::new());
+        let missing = NotMeasured {
+            measure: "area",
+            reason: "of slivers".into(),
+        };
+        let report = report.without(std::slice::from_ref(&missing));
+        assert!(report.measures.area.is_none() && report.measures.volume.is_some());
+        assert_eq!(report.not_measured[0].reason, missing.reason);
+        assert!(serde_json::to_value(&report).unwrap()["measures"]["area"].is_null());
+    }
+}
