@@ -29,8 +29,9 @@ pub(super) fn run(args: ExportDemArgs, console: Console) -> Result<()> {
     let (files, told) = match args.engine {
         EngineArg::Anm => shapes(&args, &subjects)?,
         EngineArg::Deck(engine) => {
-            let (deck, told) = deck(&args, &subjects)?;
+            let (deck, mut told) = deck(&args, &subjects)?;
             column = deck;
+            told.extend(engine.remarks(&column));
             (engine.files(&column), told)
         }
     };

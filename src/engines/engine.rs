@@ -5,10 +5,11 @@ use super::file::InputFile;
 use super::{lammps, liggghts, mercury, yade};
 use std::str::FromStr;
 
-/// An engine that spheres of clumps are written for.
+/// An engine that grains are written for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Engine {
-    /// LAMMPS, from 2021 on: clumps as rigid bodies, with a data file, their inertia and an input script.
+    /// LAMMPS, from 2021 on: clumps as rigid bodies, with a data file, their inertia and an input script; of superquadrics
+    /// of equal octants a second script and data file, for versions from 30 March 2026 on.
     Lammps,
     /// YADE: clumps, and a script that is run by it.
     Yade,
@@ -26,6 +27,14 @@ impl Engine {
             Self::Yade => yade::files(deck),
             Self::Liggghts => liggghts::files(deck),
             Self::MercuryDpm => mercury::files(deck),
+        }
+    }
+
+    /// What the grains of a deck lose in the files, beside what they lose as clumps: parts of sentences.
+    pub fn remarks(self, deck: &Deck) -> Vec<String> {
+        match self {
+            Self::Lammps => lammps::remarks(deck),
+            Self::Yade | Self::Liggghts | Self::MercuryDpm => Vec::new(),
         }
     }
 }

@@ -79,10 +79,12 @@ impl Kind {
         }
     }
 
-    /// The radius of the ball about the centre of mass that holds all of it, in metres.
+    /// The radius of the ball about the centre of mass that holds all of it, as spheres and as a superquadric, in metres.
     pub fn bounding_radius(&self) -> f64 {
         let reach = |ball: &Ball| ball.centre.coords.norm() + ball.radius;
-        self.spheres.iter().map(reach).fold(0.0, f64::max)
+        let spheres = self.spheres.iter().map(reach);
+        let superquadric = self.superquadric.iter().map(Superquadric::bounding_radius);
+        spheres.chain(superquadric).fold(0.0, f64::max)
     }
 
     /// The radius of its smallest sphere, in metres.

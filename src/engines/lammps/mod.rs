@@ -1,9 +1,11 @@
-//! LAMMPS: clumps as rigid bodies.
+//! LAMMPS: clumps as rigid bodies, and superellipsoids for versions that know them.
 //!
-//! What is read by the versions of 2021 as well as those of 2025: no overlap keywords, no kinetic energy of atoms.
+//! Clumps are written as the versions of 2021 and those of 2025 read them: no overlap keywords, no kinetic energy of
+//! atoms.
 
 mod script;
 mod settled;
+mod superellipsoid;
 
 use super::deck::Deck;
 use super::file::{InputFile, row};
@@ -13,19 +15,32 @@ pub use settled::{Settled, SettledError};
 use std::io::{self, Write};
 
 pub(super) fn files(deck: &Deck) -> Vec<InputFile<'_>> {
-    vec![
+    let mut files = vec![
         InputFile::streamed("data.clumps", |file| data(deck, file)),
         InputFile::streamed("bodies.in", |file| bodies(deck, file)),
         InputFile::new("in.settle", script(deck)),
-        runs(
-            deck,
-            "LAMMPS with the packages GRANULAR and RIGID",
-            "lmp -in in.settle, or mpirun -n 4 lmp -in in.settle",
-            "data.clumps holds the spheres, bodies.in mass, centre and inertia of each grain, in.settle the run; \
-             frames shows the grains as they fall, settled.dump is where the spheres lie at the end, grains.dump the \
-             grains, contacts.dump which spheres touch and how hard.",
-        ),
-    ]
+    ];
+    let mut told = String::from(
+        "data.clumps holds the spheres, bodies.in mass, centre and inertia of each grain, in.settle the run; \
+         frames shows the grains as they fall, settled.dump is where the spheres lie at the end, grains.dump the \
+         grains, contacts.dump which spheres touch and how hard.",
+    );
+    if let Some(more) = superellipsoid::files(deck) {
+        files.extend(more);
+        told += &format!(" {}", superellipsoid::told(deck));
+    }
+    files.push(runs(
+        deck,
+        "LAMMPS with the packages GRANULAR and RIGID",
+        "lmp -in in.settle, or mpirun -n 4 lmp -in in.settle",
+        &told,
+    ));
+    files
+}
+
+/// What the grains lose beside what clumps do.
+pub(super) fn remarks(deck: &Deck) -> Vec<String> {
+    superellipsoid::remarks(deck)
 }
 
 /// The spheres, each of the molecule of its grain. Their density is the material's: what moves has mass and inertia of

@@ -1,0 +1,107 @@
+//! The data file: grains, and the five bodies that hold them.
+
+use super::body::Superellipsoid;
+use crate::engines::deck::Deck;
+use crate::engines::file::row;
+use nalgebra::{UnitQuaternion, Vector3};
+use std::io::{self, Write};
+
+/// Semi-axes of a wall along it, in sides of the box. So long that it is flat to 1e-7 of a side where grains touch it.
+const LONG: f64 = 3.0;
+
+/// Its exponents. Of thinner or sharper walls the search of LAMMPS, as its source has it, misses contacts; of these it found
+/// each of ten thousand, of grains of many shapes in boxes of 6 to 300 of their radii.
+const EXPONENT: f64 = 8.0;
+
+/// A row of each section.
+struct Row {
+    kind: usize,
+    density: f64,
+    centre: Vector3<f64>,
+    semi_axes: [f64; 3],
+    turn: UnitQuaternion<f64>,
+    exponents: [f64; 2],
+    velocity: Vector3<f64>,
+}
+
+/// Types are the kinds, the last that of the walls. Mass and inertia are for LAMMPS to make from density and shape.
+pub(super) fn data(deck: &Deck, bodies: &[Superellipsoid], file: &mut dyn Write) -> io::Result<()> {
+    let walls = walls(deck);
+    let count = deck.grains.len() + walls.len();
+    let types = bodies.len() + 1;
+    write!(
+        file,
+        "# superellipsoids by grainform, SI units\n\n{count} atoms\n{count} ellipsoids\n{types} atom types\n"
+    )?;
+    // The centres of the walls lie inside too.
+    let margin = 2.0 * thickness(deck);
+    for (side, axis) in sides(deck).into_iter().zip(["x", "y", "z"]) {
+        writeln!(file, "{:e} {:e} {axis}lo {axis}hi", -margin, side + margin)?;
+    }
+    let rows = || {
+        let grains = deck.grains.iter().map(|grain| {
+            let body = &bodies[grain.kind];
+            Row {
+                kind: grain.kind,
+                density: body.density,
+                centre: grain.centre,
+                semi_axes: body.shape.semi_axes().map(|sides| sides[0]),
+                turn: grain.turn * body.turn,
+                exponents: [body.shape.n1()[0], body.shape.n2()[0][0]],
+                velocity: grain.velocity,
+            }
+        });
+        let walls = walls.iter().map(|[centre, semi_axes]| Row {
+            kind: bodies.len(),
+            density: deck.material.density,
+            centre: *centre,
+            semi_axes: (*semi_axes).into(),
+            turn: UnitQuaternion::identity(),
+            exponents: [EXPONENT; 2],
+            velocity: Vector3::zeros(),
+        });
+        (1..).zip(grains.chain(walls))
+    };
+    writeln!(file, "\nAtoms # ellipsoid\n")?;
+    for (id, found) in rows() {
+        let numbers = [found.density]
+            .into_iter()
+            .chain(found.centre.iter().copied());
+        writeln!(file, "{id} {} 1 {}", found.kind + 1, row(numbers))?;
+    }
+    writeln!(file, "\nEllipsoids\n")?;
+    for (id, found) in rows() {
+        let turn = found.turn.quaternion();
+        let diameters = found.semi_axes.map(|axis| 2.0 * axis);
+        let turn = [turn.w, turn.i, turn.j, turn.k];
+        let numbers = diameters.into_iter().chain(turn).chain(found.exponents);
+        writeln!(file, "{id} {}", row(numbers))?;
+    }
+    writeln!(file, "\nVelocities\n")?;
+    for (id, found) in rows() {
+        writeln!(file, "{id} {} 0 0 0", row(found.velocity.iter().copied()))?;
+    }
+    Ok(())
+}
+
+/// The sides of the box that holds the grains at the start.
+fn sides(deck: &Deck) -> [f64; 3] {
+    let [width, depth] = deck.floor;
+    [width, depth, deck.height]
+}
+
+/// A semi-axis of a wall across it, in metres: as wide as the box.
+fn thickness(deck: &Deck) -> f64 {
+    deck.floor[0].max(deck.floor[1])
+}
+
+/// Centres and semi-axes of the floor and of the walls on either side.
+fn walls(deck: &Deck) -> [[Vector3<f64>; 2]; 5] {
+    let sides = Vector3::from(sides(deck));
+    [(2, 0.0), (0, 0.0), (0, 1.0), (1, 0.0), (1, 1.0)].map(|(axis, at)| {
+        let (mut centre, mut semi_axes) = (0.5 * sides, LONG * sides);
+        semi_axes[axis] = thickness(deck);
+        centre[axis] = at * sides[axis] + (2.0 * at - 1.0) * semi_axes[axis];
+        [centre, semi_axes]
+    })
+}

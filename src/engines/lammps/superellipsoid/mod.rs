@@ -1,0 +1,63 @@
+//! LAMMPS: grains that are one superquadric each, as superellipsoids, for versions that know them.
+//!
+//! After the manual and the source of LAMMPS of 30 March 2026: `atom_style ellipsoid superellipsoid`, the pair style
+//! `granular/superellipsoid`, and its examples. No wall of that version holds superellipsoids, and so walls are bodies
+//! that do not move.
+
+mod body;
+mod data;
+mod law;
+mod script;
+#[cfg(test)]
+mod tests;
+
+use crate::engines::deck::Deck;
+use crate::engines::file::InputFile;
+use crate::engines::kind::Kind;
+use body::Superellipsoid;
+use data::data;
+use script::script;
+
+/// The data file and the script; none unless [`bodies`] are.
+pub(super) fn files(deck: &Deck) -> Option<[InputFile<'_>; 2]> {
+    let bodies = bodies(deck)?;
+    let script = script(deck, &bodies);
+    Some([
+        InputFile::streamed("data.superellipsoids", move |file| {
+            data(deck, &bodies, file)
+        }),
+        InputFile::new("in.superellipsoids", script),
+    ])
+}
+
+/// What the README says of the files.
+pub(super) fn told(deck: &Deck) -> String {
+    let told = "in.superellipsoids and data.superellipsoids are the same grains as superellipsoids, for LAMMPS of 30 March \
+                2026 or later with ASPHERE: written after its manual, and not run here; floor and walls are five bodies \
+                that do not move, and the last of frames is where the grains lie.";
+    let remarks = remarks(deck).into_iter().map(|remark| remark + ".");
+    let sentences: Vec<String> = [told.into()].into_iter().chain(remarks).collect();
+    sentences.join(" ")
+}
+
+/// What the grains lose as superellipsoids.
+pub(super) fn remarks(deck: &Deck) -> Vec<String> {
+    let bodies = bodies(deck).unwrap_or_default();
+    let raised = |(kind, body): (&Kind, Superellipsoid)| {
+        (body.swelling > 0.0).then(|| {
+            format!(
+                "exponents of {} below 2 are raised to 2 for superellipsoids: {:.2} % more volume, the same mass",
+                kind.name,
+                100.0 * body.swelling
+            )
+        })
+    };
+    deck.kinds.iter().zip(bodies).filter_map(raised).collect()
+}
+
+/// The kinds, where each is one superquadric of equal octants and the walls are flat.
+fn bodies(deck: &Deck) -> Option<Vec<Superellipsoid>> {
+    let is_flat = deck.cylinder.is_none();
+    let bodies = || deck.kinds.iter().map(Superellipsoid::of).collect();
+    is_flat.then(bodies).flatten()
+}
