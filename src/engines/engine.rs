@@ -30,7 +30,7 @@ impl Engine {
         }
     }
 
-    /// What the grains of a deck lose in the files, beside what they lose as clumps: parts of sentences.
+    /// What the grains of a deck lose in the files, beside what they lose as clumps: in sentences.
     pub fn remarks(self, deck: &Deck) -> Vec<String> {
         match self {
             Self::Lammps => lammps::remarks(deck),

@@ -1,4 +1,5 @@
 use super::{errors, folder, grain, grainform, json, names, number, succeed};
+use std::f64::consts::PI;
 use std::path::Path;
 use std::process::Command;
 use tempfile::TempDir;
@@ -93,37 +94,44 @@ fn shapes_for_nist_are_centred_and_their_loss_is_told() {
     assert_eq!((plus[2], plus[3]), (-minus[2], minus[3]));
 }
 
+/// Writes the input of an engine for a superquadric of semi-axes 3, 2 and 1.5 cm into the folder `dem`.
+fn export_superquadric(folder: &TempDir, exponents: &str, engine: &str) -> String {
+    let body = ["--axes", "3,2,1.5", "--exponents", exponents];
+    let synth = [&["synth", "superquadric", "-o", "c.ply"], &body[..]].concat();
+    succeed(folder, &synth);
+    let fit = ["fit", "c.ply", "--surface", "superquadric", "-o", "c.json"];
+    succeed(folder, &fit);
+    let words = ["--engine", engine, "--unit", "cm", "--spheres", "8"];
+    let export = [&["export-dem", "c.json", "-o", "dem"], &words[..]].concat();
+    succeed(folder, &export)
+}
+
 #[test]
 fn superquadrics_are_written_as_such_where_liggghts_knows_them() {
     let folder = folder();
-    succeed(
-        &folder,
-        &["synth", "cylinder", "--axes", "2,2,1", "-o", "c.ply"],
-    );
-    let fit = ["fit", "c.ply", "--surface", "superquadric", "-o", "c.json"];
-    succeed(&folder, &fit);
-    let words = [
-        "export-dem",
-        "c.json",
-        "--engine",
-        "liggghts",
-        "--unit",
-        "cm",
-    ];
-    succeed(
-        &folder,
-        &[&words[..], &["-o", "dem", "--spheres", "8"]].concat(),
-    );
+    export_superquadric(&folder, "8,2", "liggghts");
     let script = read(&folder.path().join("dem"), "in.superquadrics");
     let (_, shape) = script.split_once("shape constant ").expect("a shape");
-    let shape: Vec<f64> = shape
-        .split(' ')
-        .take(3)
-        .map(|x| x.parse().unwrap())
-        .collect();
-    for (found, expected) in shape.iter().zip([0.02, 0.02, 0.01]) {
-        assert!((found / expected - 1.0).abs() < 0.05, "{shape:?}");
+    let shape = shape.split(' ').take(3).map(|x| x.parse().unwrap());
+    let mut shape: Vec<f64> = shape.collect();
+    shape.sort_by(f64::total_cmp);
+    for (found, expected) in shape.iter().zip([0.015, 0.02, 0.03]) {
+        assert!((found / expected - 1.0).abs() < 1e-6, "{shape:?}");
     }
+}
+
+#[test]
+fn superquadrics_are_superellipsoids_of_lammps_and_what_that_loses_is_told() {
+    let folder = folder();
+    let told = export_superquadric(&folder, "1.5,4", "lammps");
+    let dem = folder.path().join("dem");
+    assert!(names(&dem).contains(&"in.superellipsoids".into()));
+    let remark = "Exponents of c below 2 are raised to 2 for superellipsoids: 24.05 % more volume";
+    let readme = read(&dem, "README");
+    assert!(told.contains(remark) && readme.contains(remark), "{told}");
+    assert!(readme.contains("not run here") && readme.lines().count() == 3);
+    let told = export_superquadric(&folder, "4,2", "lammps");
+    assert!(!told.contains("raised"), "{told}");
 }
 
 #[test]
@@ -156,8 +164,8 @@ fn what_no_engine_can_run_is_refused_in_a_sentence() {
     }
 }
 
-/// Runs an engine in the folder `dem`; gives what it prints after `at rest:`.
-fn run(folder: &TempDir, program: &str, words: &[&str]) -> String {
+/// Runs an engine in the folder `dem`; gives what it prints.
+fn printed(folder: &TempDir, program: &str, words: &[&str]) -> String {
     let output = Command::new(program)
         .args(words)
         .current_dir(folder.path().join("dem"))
@@ -166,6 +174,12 @@ fn run(folder: &TempDir, program: &str, words: &[&str]) -> String {
         .expect("the engine is in the path");
     let printed = String::from_utf8_lossy(&output.stdout).into_owned();
     assert!(output.status.success(), "{printed} {}", errors(&output));
+    printed
+}
+
+/// Runs an engine in the folder `dem`; gives what it prints after `at rest:`.
+fn run(folder: &TempDir, program: &str, words: &[&str]) -> String {
+    let printed = printed(folder, program, words);
     // LAMMPS prints the command too, with the names of its variables.
     let mut ends = printed
         .lines()
@@ -212,6 +226,54 @@ fn lammps_lets_two_hundred_grains_come_to_rest() {
     assert!(printed.contains("1000 spheres"), "{printed}");
     let dump = read(&folder.path().join("dem"), "settled.dump");
     assert_lies(&settled(&dump, ' ', 3), 1000);
+}
+
+/// All but what is new in LAMMPS of 2026: an ellipsoid falls, its mass made from density and shape.
+#[test]
+#[ignore = "needs LAMMPS (lmp) in the path"]
+fn lammps_before_2026_reads_superellipsoids_that_are_ellipsoids() {
+    let folder = folder();
+    export_superquadric(&folder, "2,2", "lammps");
+    let dem = folder.path().join("dem");
+    let is_old = |line: &&str| {
+        !["compute block", "variable phi", "variable theta"]
+            .iter()
+            .any(|new| line.starts_with(new))
+    };
+    let script = read(&dem, "in.superellipsoids");
+    let step = after(&script, "timestep ");
+    let script: Vec<&str> = script
+        .lines()
+        .filter(is_old)
+        .map(|line| match line.split(' ').next() {
+            Some("atom_style") => "atom_style ellipsoid",
+            Some("pair_style") => "pair_style zero 0.01",
+            Some("pair_coeff") => "pair_coeff * *",
+            Some("dump") => "dump frames grains custom 100 frames/*.dump id c_size[*] c_turn[*]",
+            Some("dump_modify") => "dump_modify frames sort id",
+            Some("run") => "run 100",
+            _ => line,
+        })
+        .collect();
+    std::fs::write(dem.join("in.old"), script.join("\n")).unwrap();
+    // Rows of ten words are those of shapes, with exponents at the end.
+    let old_row = |line: &str| match line.split(' ').collect::<Vec<_>>()[..] {
+        [ref row @ .., _, _] if row.len() == 8 => row.join(" "),
+        _ => line.to_owned(),
+    };
+    let data: Vec<String> = read(&dem, "data.superellipsoids")
+        .lines()
+        .map(old_row)
+        .collect();
+    std::fs::write(dem.join("data.superellipsoids"), data.join("\n") + "\n").unwrap();
+    let printed = printed(&folder, "lmp", &["-in", "in.old"]);
+    let mass = 200.0 * 4.0 / 3.0 * PI * 3e-2 * 2e-2 * 1.5e-2 * 2500.0;
+    let energy = 0.5 * mass * (9.81 * 100.0 * step).powi(2);
+    assert!(
+        (after(&printed, "kinetic energy ") / energy - 1.0).abs() < 1e-6,
+        "{printed}"
+    );
+    assert!(printed.contains("J, 200 grains in the box"), "{printed}");
 }
 
 #[test]

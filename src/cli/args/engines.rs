@@ -51,6 +51,8 @@ pub(in crate::cli) struct ClumpArgs {
 ///
 /// Each grain becomes a clump of spheres, with mass, centre and inertia of the grain; for anm, harmonics about its centre
 /// of mass. In the engine they fall from a column into a box and come to rest. Everything in the folder is in SI units.
+/// Where each grain is fitted as one superquadric, a second script takes them as such: in LIGGGHTS built with them, and in
+/// LAMMPS of 30 March 2026 or later (not run by us), for which exponents below 2 are raised to 2.
 #[derive(Args)]
 pub(in crate::cli) struct ExportDemArgs {
     /// Models written by `fit`, or scans; several are mixed in equal numbers

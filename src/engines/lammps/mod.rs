@@ -38,7 +38,7 @@ pub(super) fn files(deck: &Deck) -> Vec<InputFile<'_>> {
     files
 }
 
-/// What the grains lose beside what clumps do.
+/// What the grains lose beside what clumps do, in sentences.
 pub(super) fn remarks(deck: &Deck) -> Vec<String> {
     superellipsoid::remarks(deck)
 }

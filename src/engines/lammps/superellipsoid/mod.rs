@@ -18,6 +18,9 @@ use body::Superellipsoid;
 use data::data;
 use script::script;
 
+/// Least share of the volume that is told.
+const LEAST_TOLD: f64 = 5e-5;
+
 /// The data file and the script; none unless [`bodies`] are.
 pub(super) fn files(deck: &Deck) -> Option<[InputFile<'_>; 2]> {
     let bodies = bodies(deck)?;
@@ -32,21 +35,21 @@ pub(super) fn files(deck: &Deck) -> Option<[InputFile<'_>; 2]> {
 
 /// What the README says of the files.
 pub(super) fn told(deck: &Deck) -> String {
-    let told = "in.superellipsoids and data.superellipsoids are the same grains as superellipsoids, for LAMMPS of 30 March \
-                2026 or later with ASPHERE: written after its manual, and not run here; floor and walls are five bodies \
-                that do not move, and the last of frames is where the grains lie.";
-    let remarks = remarks(deck).into_iter().map(|remark| remark + ".");
-    let sentences: Vec<String> = [told.into()].into_iter().chain(remarks).collect();
+    let told = "`lmp -in in.superellipsoids` is for LAMMPS of 30 March 2026 or later with ASPHERE, written after its manual \
+                and not run here: the same grains as superellipsoids (data.superellipsoids) between walls that are five \
+                more which do not move; the last of frames is where the grains lie.";
+    let sentences: Vec<String> = [told.into()].into_iter().chain(remarks(deck)).collect();
     sentences.join(" ")
 }
 
-/// What the grains lose as superellipsoids.
+/// What the grains lose as superellipsoids, in sentences.
 pub(super) fn remarks(deck: &Deck) -> Vec<String> {
     let bodies = bodies(deck).unwrap_or_default();
     let raised = |(kind, body): (&Kind, Superellipsoid)| {
-        (body.swelling > 0.0).then(|| {
+        (body.swelling >= LEAST_TOLD).then(|| {
             format!(
-                "exponents of {} below 2 are raised to 2 for superellipsoids: {:.2} % more volume, the same mass",
+                "Exponents of {} below 2 are raised to 2 for superellipsoids: {:.2} % more volume, the same mass, the inertia \
+                 of that shape.",
                 kind.name,
                 100.0 * body.swelling
             )

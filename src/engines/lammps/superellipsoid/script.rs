@@ -74,7 +74,7 @@ if \"${{energy}} < {rest:e}\" then &
 ",
         walls = bodies.len() + 1,
         skin = 0.3 * least,
-        page = 50 * neighbours,
+        page = 10 * neighbours,
         frame = LOOKS * look,
         rest = deck.rest_energy(),
         most = (deck.seconds / step).ceil(),

@@ -6,8 +6,8 @@ use crate::engines::{Deck, GrainMaterial, Kind};
 use crate::measure::{Ball, superquadric_properties};
 use crate::model::Superquadric;
 use approx::assert_relative_eq;
+use libm::tgamma;
 use nalgebra::{Matrix3, Point3, Quaternion, UnitQuaternion, Vector3};
-use statrs::function::beta::beta;
 
 /// A deck of one kind, semi-axes in mm.
 fn deck(semi_axes: [f64; 3], n1: f64, n2: f64) -> Deck {
@@ -52,6 +52,7 @@ fn section(deck: &Deck, name: &str) -> Vec<Vec<f64>> {
 fn of_row(row: &[f64]) -> (f64, Vector3<f64>) {
     let [a, b, c] = [row[0], row[1], row[2]].map(|diameter| diameter / 2.0);
     let [e1, e2] = [row[7], row[8]].map(|n| 2.0 / n);
+    let beta = |x: f64, y: f64| tgamma(x) * tgamma(y) / tgamma(x + y);
     let volume = 2.0 * a * b * c * e1 * e2;
     let volume = volume * beta(0.5 * e1 + 1.0, e1) * beta(0.5 * e2, 0.5 * e2);
     let across = beta(0.5 * e1, 1.0 + 2.0 * e1) * beta(0.5 * e2, 1.5 * e2) / 2.0;
