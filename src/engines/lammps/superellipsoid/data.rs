@@ -1,7 +1,7 @@
 //! The data file: grains, and the five bodies that hold them.
 
 use super::body::Superellipsoid;
-use crate::engines::deck::Deck;
+use crate::engines::deck::{Deck, Placed};
 use crate::engines::file::row;
 use nalgebra::{UnitQuaternion, Vector3};
 use std::io::{self, Write};
@@ -13,20 +13,9 @@ const LONG: f64 = 3.0;
 /// each of ten thousand, of grains of many shapes in boxes of 6 to 300 of their radii.
 const EXPONENT: f64 = 8.0;
 
-/// A row of each section.
-struct Row {
-    kind: usize,
-    density: f64,
-    centre: Vector3<f64>,
-    semi_axes: [f64; 3],
-    turn: UnitQuaternion<f64>,
-    exponents: [f64; 2],
-    velocity: Vector3<f64>,
-}
-
 /// Types are the kinds, the last that of the walls. Mass and inertia are for LAMMPS to make from density and shape.
 pub(super) fn data(deck: &Deck, bodies: &[Superellipsoid], file: &mut dyn Write) -> io::Result<()> {
-    let walls = walls(deck);
+    let walls = walls(deck, bodies.len());
     let count = deck.grains.len() + walls.len();
     let types = bodies.len() + 1;
     write!(
@@ -39,47 +28,29 @@ pub(super) fn data(deck: &Deck, bodies: &[Superellipsoid], file: &mut dyn Write)
         writeln!(file, "{:e} {:e} {axis}lo {axis}hi", -margin, side + margin)?;
     }
     let rows = || {
-        let grains = deck.grains.iter().map(|grain| {
-            let body = &bodies[grain.kind];
-            Row {
-                kind: grain.kind,
-                density: body.density,
-                centre: grain.centre,
-                semi_axes: body.shape.semi_axes().map(|sides| sides[0]),
-                turn: grain.turn * body.turn,
-                exponents: [body.shape.n1()[0], body.shape.n2()[0][0]],
-                velocity: grain.velocity,
-            }
-        });
-        let walls = walls.iter().map(|[centre, semi_axes]| Row {
-            kind: bodies.len(),
-            density: deck.material.density,
-            centre: *centre,
-            semi_axes: (*semi_axes).into(),
-            turn: UnitQuaternion::identity(),
-            exponents: [EXPONENT; 2],
-            velocity: Vector3::zeros(),
-        });
+        let grains = deck.grains.iter();
+        let grains = grains.map(|grain| (*grain, bodies[grain.kind]));
         (1..).zip(grains.chain(walls))
     };
     writeln!(file, "\nAtoms # ellipsoid\n")?;
-    for (id, found) in rows() {
-        let numbers = [found.density]
+    for (id, (placed, body)) in rows() {
+        let numbers = [body.density]
             .into_iter()
-            .chain(found.centre.iter().copied());
-        writeln!(file, "{id} {} 1 {}", found.kind + 1, row(numbers))?;
+            .chain(placed.centre.iter().copied());
+        writeln!(file, "{id} {} 1 {}", placed.kind + 1, row(numbers))?;
     }
     writeln!(file, "\nEllipsoids\n")?;
-    for (id, found) in rows() {
-        let turn = found.turn.quaternion();
-        let diameters = found.semi_axes.map(|axis| 2.0 * axis);
-        let turn = [turn.w, turn.i, turn.j, turn.k];
-        let numbers = diameters.into_iter().chain(turn).chain(found.exponents);
+    for (id, (placed, body)) in rows() {
+        let turn = placed.turn * body.turn;
+        let diameters = body.semi_axes.map(|axis| 2.0 * axis).into_iter();
+        let numbers = diameters
+            .chain([turn.w, turn.i, turn.j, turn.k])
+            .chain(body.exponents);
         writeln!(file, "{id} {}", row(numbers))?;
     }
     writeln!(file, "\nVelocities\n")?;
-    for (id, found) in rows() {
-        writeln!(file, "{id} {} 0 0 0", row(found.velocity.iter().copied()))?;
+    for (id, (placed, _)) in rows() {
+        writeln!(file, "{id} {} 0 0 0", row(placed.velocity.iter().copied()))?;
     }
     Ok(())
 }
@@ -95,13 +66,26 @@ fn thickness(deck: &Deck) -> f64 {
     deck.floor[0].max(deck.floor[1])
 }
 
-/// Centres and semi-axes of the floor and of the walls on either side.
-fn walls(deck: &Deck) -> [[Vector3<f64>; 2]; 5] {
+/// The floor and the walls on either side, of a type of their own.
+fn walls(deck: &Deck, kind: usize) -> [(Placed, Superellipsoid); 5] {
     let sides = Vector3::from(sides(deck));
     [(2, 0.0), (0, 0.0), (0, 1.0), (1, 0.0), (1, 1.0)].map(|(axis, at)| {
         let (mut centre, mut semi_axes) = (0.5 * sides, LONG * sides);
         semi_axes[axis] = thickness(deck);
         centre[axis] = at * sides[axis] + (2.0 * at - 1.0) * semi_axes[axis];
-        [centre, semi_axes]
+        let placed = Placed {
+            kind,
+            centre,
+            turn: UnitQuaternion::identity(),
+            velocity: Vector3::zeros(),
+        };
+        let body = Superellipsoid {
+            semi_axes: semi_axes.into(),
+            exponents: [EXPONENT; 2],
+            turn: UnitQuaternion::identity(),
+            density: deck.material.density,
+            swelling: 0.0,
+        };
+        (placed, body)
     })
 }

@@ -26,8 +26,8 @@ pub(super) fn script(deck: &Deck, bodies: &[Superellipsoid]) -> String {
     let [width, depth] = deck.floor;
     // The list of a wall may hold all grains.
     let neighbours = NEIGHBOURS.max(2 * deck.grains.len());
-    let axes = bodies.iter().flat_map(|body| body.shape.semi_axes());
-    let least = axes.flatten().fold(f64::INFINITY, f64::min);
+    let semi_axes = bodies.iter().flat_map(|body| body.semi_axes);
+    let least = semi_axes.fold(f64::INFINITY, f64::min);
     format!(
         "# Superellipsoids fall and come to rest. SI units: m, kg, s, J. For LAMMPS of 30 March 2026 or later.
 units si
