@@ -13,6 +13,7 @@ use super::readme::runs;
 use script::script;
 pub use settled::{Settled, SettledError};
 use std::io::{self, Write};
+pub(super) use superellipsoid::remarks;
 
 pub(super) fn files(deck: &Deck) -> Vec<InputFile<'_>> {
     let mut files = vec![
@@ -36,11 +37,6 @@ pub(super) fn files(deck: &Deck) -> Vec<InputFile<'_>> {
         &told,
     ));
     files
-}
-
-/// What the grains lose beside what clumps do, in sentences.
-pub(super) fn remarks(deck: &Deck) -> Vec<String> {
-    superellipsoid::remarks(deck)
 }
 
 /// The spheres, each of the molecule of its grain. Their density is the material's: what moves has mass and inertia of

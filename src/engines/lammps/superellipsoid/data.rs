@@ -6,7 +6,7 @@ use crate::engines::file::row;
 use nalgebra::{UnitQuaternion, Vector3};
 use std::io::{self, Write};
 
-/// Semi-axes of a wall along it, in sides of the box. So long that it is flat to 1e-7 of a side where grains touch it.
+/// Semi-axes of a wall along it, in sides of the box. So long that it is flat to 2e-7 of a side where grains touch it.
 const LONG: f64 = 3.0;
 
 /// Its exponents. Of thinner or sharper walls the search of LAMMPS, as its source has it, misses contacts; of these it found

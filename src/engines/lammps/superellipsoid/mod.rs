@@ -43,7 +43,7 @@ pub(super) fn told(deck: &Deck) -> String {
 }
 
 /// What the grains lose as superellipsoids, in sentences.
-pub(super) fn remarks(deck: &Deck) -> Vec<String> {
+pub(in crate::engines) fn remarks(deck: &Deck) -> Vec<String> {
     let bodies = bodies(deck).unwrap_or_default();
     let raised = |(kind, body): (&Kind, Superellipsoid)| {
         (body.swelling >= LEAST_TOLD).then(|| {
