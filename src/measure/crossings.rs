@@ -29,20 +29,21 @@ pub fn crossings(mesh: &Mesh) -> Vec<[usize; 2]> {
 
 /// Whether an edge of another triangle goes through a triangle.
 fn is_pierced([a, b, c]: [Point3<f64>; 3], [p, q, r]: [Point3<f64>; 3]) -> bool {
-    let sides = [p, q, r].map(|corner| is_left([a, b, c], corner));
+    let sides = [p, q, r].map(|corner| side([a, b, c], corner));
     let edges = [(p, q), (q, r), (r, p)];
     (0..3).any(|edge| {
         let (p, q) = edges[edge];
-        sides[edge] != sides[(edge + 1) % 3] && {
-            let side = is_left([p, q, a], b);
-            side == is_left([p, q, b], c) && side == is_left([p, q, c], a)
+        sides[edge] * sides[(edge + 1) % 3] < 0 && {
+            let passed = side([p, q, a], b);
+            passed != 0 && passed == side([p, q, b], c) && passed == side([p, q, c], a)
         }
     })
 }
 
-/// The side of a plane on which a point lies; exact.
-fn is_left(plane: [Point3<f64>; 3], point: Point3<f64>) -> bool {
-    orient3d(plane, point) > 0.0
+/// The side of a plane on which a point lies, zero if in it; exact.
+fn side(plane: [Point3<f64>; 3], point: Point3<f64>) -> i8 {
+    let volume = orient3d(plane, point);
+    i8::from(volume > 0.0) - i8::from(volume < 0.0)
 }
 
 #[cfg(test)]
