@@ -5,7 +5,7 @@ use super::console::Console;
 use super::{inputs, threads};
 use crate::fit::scanned_surface;
 use crate::measure::{Scheme, Survey, scanned_body};
-use crate::report::{Measure, MeasureReport, Measured, sentences};
+use crate::report::{Measure, MeasureReport, Measured, Withheld, sentences};
 use anyhow::{Context, Result, bail};
 
 pub(super) fn run(args: MeasureArgs, console: Console) -> Result<()> {
@@ -30,11 +30,10 @@ fn measure(args: &MeasureArgs) -> Result<MeasureReport> {
     let bytes = inputs::read(path, &args.input.limit)?;
     if bytes.trim_ascii_start().starts_with(b"{") {
         let grain = inputs::parse_model(path, &bytes)?;
-        if let Some(unseen) = grain.unseen().filter(|_| !args.extrapolate) {
-            return Ok(MeasureReport::withheld(input, unseen, only).in_unit(args.unit));
-        }
         let survey = Survey::of_grain(&grain, args.scheme.0);
-        return Ok(report(Measured::Model, &survey, Vec::new()));
+        let withheld = Withheld::of(&grain, args.extrapolate);
+        let report = MeasureReport::of_model(input, &survey, only, &withheld);
+        return Ok(report.in_unit(args.unit));
     }
     if args.scheme.0 != Scheme::Exact {
         bail!("{input} is a scan: integration schemes are for models; leave --scheme out");
