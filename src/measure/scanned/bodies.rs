@@ -1,16 +1,24 @@
 //! Closed surfaces as bodies and the hollows in them.
 
 use super::{FacesDefect, Fill, ScannedBody};
-use crate::measure::crossings;
+use crate::measure::crossings::clear_crossings;
 use crate::measure::winding::winding_number;
 use crate::mesh::{Mesh, part, parts};
 use nalgebra::{Point3, Vector3};
 
-/// Triangles of a part by whose middles it is told whether it is inside of another.
+/// Places in a part by which it is told whether they are inside of another.
 const PROBES: usize = 24;
 
-/// How far from a whole number the winding number about a place off a closed surface may be, by rounding.
-const WHOLE: f64 = 1e-3;
+/// How far below the surface of a part they lie, as a share of its size: off the surface of another that it touches.
+const BELOW: f64 = 1e-6;
+
+/// How much of a part another one holds.
+#[derive(PartialEq)]
+enum Held {
+    Nothing,
+    Some,
+    All,
+}
 
 /// One closed surface among several.
 struct Part {
@@ -47,24 +55,33 @@ impl Part {
         self.low <= *high && *low <= self.high
     }
 
-    /// How many of some of the triangles, and of how many, another part holds; those that lie in its surface do not count.
-    fn probes_inside(&self, other: &Self) -> (usize, usize) {
-        let step = self.mesh.triangles.len().div_ceil(PROBES);
-        let probes = self.mesh.triangles.iter().step_by(step);
-        let probes = probes.map(|corners| {
+    /// Places inside, just below the middle of each triangle.
+    fn places(&self) -> impl Iterator<Item = Point3<f64>> {
+        let below = BELOW * (self.high - self.low).norm() * self.volume.signum();
+        self.mesh.triangles.iter().filter_map(move |corners| {
             let [a, b, c] = corners.map(|corner| self.mesh.vertices[corner as usize]);
-            a + ((b - a) + (c - a)) / 3.0
-        });
-        let turns = |probe: Point3<f64>| match other.meets(&probe.coords, &probe.coords) {
-            true => winding_number(&other.mesh, &probe),
-            false => 0.0,
-        };
-        let off = probes
-            .map(turns)
-            .filter(|turns| (turns - turns.round()).abs() < WHOLE);
-        off.fold((0, 0), |(inside, all), turns| {
-            (inside + usize::from(turns.abs() > 0.5), all + 1)
+            let out = (b - a).cross(&(c - a)).try_normalize(0.0)?;
+            Some(a + ((b - a) + (c - a)) / 3.0 - out * below)
         })
+    }
+
+    /// How much of this part another one holds, by the winding number about some of its places: those that lie in the
+    /// other's box, where a small overlap is.
+    fn held_by(&self, other: &Self) -> Held {
+        if !self.meets(&other.low, &other.high) {
+            return Held::Nothing;
+        }
+        let is_near = |place: &Point3<f64>| other.meets(&place.coords, &place.coords);
+        let near: Vec<Point3<f64>> = self.places().filter(is_near).collect();
+        let is_whole = near.len() == self.places().count();
+        let step = near.len().div_ceil(PROBES).max(1);
+        let probes = || near.iter().step_by(step);
+        let is_inside = |place: &&Point3<f64>| winding_number(&other.mesh, place).abs() > 0.5;
+        match probes().filter(is_inside).count() {
+            0 => Held::Nothing,
+            inside if is_whole && inside == probes().count() => Held::All,
+            _ => Held::Some,
+        }
     }
 }
 
@@ -95,7 +112,7 @@ fn are_crossing(mesh: &Mesh, lists: &[Vec<usize>], parts: &[Part]) -> bool {
             }
         }
     }
-    crossings(&near)
+    clear_crossings(&near)
         .into_iter()
         .any(|[one, two]| owners[one] != owners[two])
 }
@@ -110,9 +127,9 @@ pub(super) fn arrange(mut mesh: Mesh, fill: Option<Fill>) -> ScannedBody {
     for (index, part) in parts.iter().enumerate() {
         let mut depth = 0;
         for other in (0..parts.len()).filter(|&other| other != index) {
-            let (inside, all) = part.probes_inside(&parts[other]);
-            is_overlapping |= inside > 0 && inside < all;
-            depth += usize::from(inside > 0 && inside == all);
+            let held = part.held_by(&parts[other]);
+            is_overlapping |= held == Held::Some;
+            depth += usize::from(held == Held::All);
         }
         let is_inner = depth % 2 == 1;
         cavities += usize::from(is_inner && part.volume < 0.0);
