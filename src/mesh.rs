@@ -2,11 +2,13 @@
 
 mod bounds_tree;
 mod contour;
+mod least_area;
 mod parts;
 mod relaxed;
 
 pub(crate) use bounds_tree::{Bounds, BoundsTree};
 pub(crate) use contour::{Grid, contour};
+pub(crate) use least_area::{LEAST_AREA_CORNERS, least_area};
 pub(crate) use parts::{part, parts};
 pub(crate) use relaxed::relaxed;
 

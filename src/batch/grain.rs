@@ -6,7 +6,7 @@ use crate::export::{SaveError, save_grain, save_mesh};
 use crate::fit::{Context, FitOptions, Fitted, fit_scan, whole_or_largest};
 use crate::measure::{Scheme, Survey};
 use crate::model::Surface;
-use crate::report::{FitReport, Measure, MeasureReport, Measured, Unit, sentences};
+use crate::report::{FitReport, Measure, MeasureReport, Unit, Withheld, by_reason, sentences};
 use crate::scan::{parse_file, read_stream};
 use serde_json::Value;
 use std::error::Error;
@@ -116,27 +116,13 @@ fn row(fitted: &Fitted, warnings: &[String], settings: &Settings) -> Row {
     let survey = Survey::of_grain(&fitted.grain, Scheme::Exact);
     let (name, options) = (String::new(), &settings.fit);
     let fit = FitReport::with_survey(name, None, fitted, &survey, options, warnings);
-    // Where much was not seen, the whole surface is a guess that the fit withholds.
-    let is_withheld = fitted.grain.unseen().is_some() && !settings.fit.extrapolate;
-    let measured = (!is_withheld).then(|| {
-        MeasureReport::new(
-            String::new(),
-            Measured::Model,
-            &survey,
-            &settings.measures,
-            Vec::new(),
-        )
-        .without(&fit.not_measured)
-    });
-    let missing = match &measured {
-        Some(measured) => &measured.not_measured,
-        None => &fit.not_measured,
-    };
-    let values = measured.as_ref().map(|measured| value(&measured.measures));
+    let withheld = Withheld::of(&fitted.grain, options.extrapolate);
+    let measured = MeasureReport::of_model(String::new(), &survey, &settings.measures, &withheld);
+    let values = value(&measured.measures);
     let errors = value(&fit.standard_errors);
     let figures = figures(&settings.measures)
         .into_iter()
-        .flat_map(|figure| cells(&figure, values.as_ref(), &errors))
+        .flat_map(|figure| cells(&figure, &values, &errors))
         .collect();
     Row {
         unit: settings.unit.map(|unit| unit.to_string()),
@@ -150,9 +136,9 @@ fn row(fitted: &Fitted, warnings: &[String], settings: &Settings) -> Row {
         heldout_rms: fit.heldout_rms,
         area_error: fit.area_error,
         volume_error: fit.volume_error,
-        not_measured: missing
-            .iter()
-            .map(|missing| format!("{}: {}", missing.measure, missing.reason))
+        not_measured: by_reason(&measured.not_measured)
+            .into_iter()
+            .map(|(names, reason)| format!("{names}: {reason}"))
             .collect(),
         no_standard_errors: fit.no_standard_errors,
         warnings: sentences(warnings, &fitted.warnings, settings.unit),
@@ -167,9 +153,10 @@ fn value(record: &impl serde::Serialize) -> Value {
 }
 
 /// The figure, and its standard error where it can have one.
-fn cells(figure: &Figure, values: Option<&Value>, errors: &Value) -> Vec<Option<f64>> {
-    let own = values.and_then(|values| values.pointer(&figure.measured)?.as_f64());
-    let error = |at: &String| errors.pointer(at).and_then(Value::as_f64);
+fn cells(figure: &Figure, values: &Value, errors: &Value) -> Vec<Option<f64>> {
+    let at = |record: &Value, at: &str| record.pointer(at).and_then(Value::as_f64);
+    let own = at(values, &figure.measured);
+    let error = |of: &String| at(errors, of);
     std::iter::once(own)
         .chain(figure.error.as_ref().map(error))
         .collect()

@@ -4,7 +4,8 @@ use super::args::ContactArgs;
 use super::console::Console;
 use super::{inputs, placed, threads};
 use crate::contact::{Material, TouchError, effective_modulus_pa, touch};
-use crate::report::{ContactReport, Load, TouchRecord};
+use crate::model::Grain;
+use crate::report::{ContactReport, Load, TouchRecord, Withheld};
 use anyhow::{Context, Result, anyhow, bail};
 use nalgebra::Vector3;
 use std::path::Path;
@@ -51,44 +52,37 @@ fn contact(args: &ContactArgs) -> Result<ContactReport> {
     if inputs::is_stream(&args.model) && args.other.as_deref().is_some_and(inputs::is_stream) {
         bail!("standard input holds one model: read the other from a file");
     }
-    let touched = |path: &Path, towards| {
-        touched(
-            path,
-            &inputs::read(path, &args.limit)?,
-            towards,
-            args.edge_radius,
-        )
+    let mut doubts = Vec::new();
+    let mut touched = |path: &Path, towards: &Vector3<f64>| {
+        let grain = inputs::parse_model(path, &inputs::read(path, &args.limit)?)?;
+        doubts.extend(Withheld::of(&grain, false).sentences(&inputs::name(path)));
+        touched(inputs::name(path), &grain, towards, args.edge_radius)
     };
     let first = touched(&args.model, &args.towards)?;
     let second = match &args.other {
         Some(path) => Some(touched(path, &args.other_towards)?),
         None => None,
     };
-    Ok(ContactReport::new(
-        first,
-        second,
-        args.angle_deg.to_radians(),
-        &load,
-    )?)
+    let mut report = ContactReport::new(first, second, args.angle_deg.to_radians(), &load)?;
+    report.warnings.extend(doubts);
+    Ok(report)
 }
 
 /// Where a model is touched in a direction.
 fn touched(
-    path: &Path,
-    bytes: &[u8],
+    input: String,
+    grain: &Grain,
     towards: &Vector3<f64>,
     edge_radius: Option<f64>,
 ) -> Result<TouchRecord> {
-    let input = inputs::name(path);
-    let grain = inputs::parse_model(path, bytes)?;
     let towards = towards
         .try_normalize(0.0)
         .filter(|n| n.iter().all(|x| x.is_finite()))
         .ok_or_else(|| anyhow!("the direction of the contact must not be zero"))?;
-    let touch = touch(&grain, &towards, edge_radius).map_err(|error| match error {
+    let touch = touch(grain, &towards, edge_radius).map_err(|error| match error {
         TouchError::Edge { .. } => anyhow!("{error}; round it with --edge-radius"),
         other => anyhow!(other),
     });
     let touch = touch.with_context(|| format!("{input} cannot be touched there"))?;
-    Ok(TouchRecord::new(input, &grain, &towards, &touch))
+    Ok(TouchRecord::new(input, grain, &towards, &touch))
 }

@@ -4,9 +4,13 @@ use super::args::MeasureArgs;
 use super::console::Console;
 use super::{inputs, threads};
 use crate::fit::scanned_surface;
-use crate::measure::{Scheme, Survey, scanned_body};
-use crate::report::{Measure, MeasureReport, Measured, sentences};
+use crate::measure::{Scheme, Survey, scanned_body, smoothed_area};
+use crate::mesh::Mesh;
+use crate::report::{Measure, MeasureReport, Measured, Withheld, percent, sentences};
 use anyhow::{Context, Result, bail};
+
+/// How much the roughness of points may add to the area of their polyhedron without a word.
+const LARGEST_EXCESS: f64 = 0.01;
 
 pub(super) fn run(args: MeasureArgs, console: Console) -> Result<()> {
     threads::start(0, console)?;
@@ -30,11 +34,10 @@ fn measure(args: &MeasureArgs) -> Result<MeasureReport> {
     let bytes = inputs::read(path, &args.input.limit)?;
     if bytes.trim_ascii_start().starts_with(b"{") {
         let grain = inputs::parse_model(path, &bytes)?;
-        if let Some(unseen) = grain.unseen().filter(|_| !args.extrapolate) {
-            return Ok(MeasureReport::withheld(input, unseen, only).in_unit(args.unit));
-        }
         let survey = Survey::of_grain(&grain, args.scheme.0);
-        return Ok(report(Measured::Model, &survey, Vec::new()));
+        let withheld = Withheld::of(&grain, args.extrapolate);
+        let report = MeasureReport::of_model(input, &survey, only, &withheld);
+        return Ok(report.in_unit(args.unit));
     }
     if args.scheme.0 != Scheme::Exact {
         bail!("{input} is a scan: integration schemes are for models; leave --scheme out");
@@ -51,6 +54,19 @@ fn measure(args: &MeasureArgs) -> Result<MeasureReport> {
     let surface = scanned_surface(&scan).with_context(|| format!("cannot measure {input}"))?;
     let survey =
         Survey::of_mesh(&surface.mesh).with_context(|| format!("cannot measure {input}"))?;
-    let warnings = sentences(&scan.warnings, &surface.warnings, args.unit);
+    let mut warnings = sentences(&scan.warnings, &surface.warnings, args.unit);
+    warnings.extend(noisy(&survey, &surface.mesh));
     Ok(report(surface.kind.into(), &survey, warnings))
+}
+
+/// What to know of the area of a polyhedron whose vertices are noisy points.
+fn noisy(survey: &Survey, mesh: &Mesh) -> Option<String> {
+    let excess = survey.area().ok()? / smoothed_area(mesh) - 1.0;
+    (excess > LARGEST_EXCESS).then(|| {
+        format!(
+            "The points are rough: the area is {} larger than it is where each point is moved half-way to the mean of its \
+             neighbours. Of noise all of that and more is false: fit the scan, and measure the model.",
+            percent(excess)
+        )
+    })
 }

@@ -7,6 +7,7 @@ use crate::annotate::{Annotated, ScanDeviation};
 use crate::export::{Detail, MeshFormat};
 use crate::model::{Grain, Surface};
 use crate::portrait::colours;
+use crate::report::Withheld;
 use anyhow::{Result, bail};
 use std::path::Path;
 
@@ -35,6 +36,7 @@ pub(super) fn run(args: MeshArgs, console: Console) -> Result<()> {
     let progress = console.progress();
     progress.stage("Meshing");
     let grain = inputs::parse_model(&args.model, &bytes)?;
+    let doubts = Withheld::of(&grain, false).sentences(&inputs::name(&args.model));
     let resolution = args.meshing.resolution.into();
     let (vertices, triangles) = match format {
         MeshFormat::Stl | MeshFormat::Obj => {
@@ -58,6 +60,7 @@ pub(super) fn run(args: MeshArgs, console: Console) -> Result<()> {
         }
     };
     drop(progress);
+    console.warn(&doubts);
     console.wrote(&format!(
         "{}: {vertices} vertices, {triangles} triangles",
         outputs::name(&args.output),

@@ -11,7 +11,7 @@ use crate::contact::{
 use crate::export::{Detail, MeshFormat};
 use crate::measure::grain_properties;
 use crate::model::{Frame, Grain, Surface};
-use crate::report::{NormalLaw, PlacedReport, RegionsReport};
+use crate::report::{NormalLaw, PlacedReport, RegionsReport, Withheld};
 use anyhow::{Context, Result, anyhow, bail};
 use nalgebra::{Isometry3, Translation3};
 use std::path::Path;
@@ -43,8 +43,10 @@ pub(super) fn run(args: &ContactArgs, pose: &PoseArg, console: Console) -> Resul
     let [one, two] = &grains;
     let found = contact_regions(&ContactBody::new(one), &ContactBody::new(two), &moved(pose))
         .with_context(|| format!("cannot tell the contact of {} and {}", names[0], names[1]))?;
+    let doubts = doubts(&grains, &names);
     let [one, two] = names;
-    let report = RegionsReport::new(one, two, args.unit, &found, law.as_ref());
+    let mut report = RegionsReport::new(one, two, args.unit, &found, law.as_ref());
+    report.warnings.extend(doubts);
     let frames = report
         .regions
         .iter()
@@ -96,6 +98,13 @@ fn of_unions(grains: &[Grain; 2], names: &[String; 2], pose: &PoseArg) -> Option
     let touches = union_contacts((one.body(), &first.frame()), (two.body(), &moved));
     let [one, two] = names.clone();
     Some(PlacedReport::new(one, two, &touches))
+}
+
+/// What is not to be relied on of either grain.
+fn doubts(grains: &[Grain; 2], names: &[String; 2]) -> Vec<String> {
+    let each = grains.iter().zip(names);
+    each.flat_map(|(grain, name)| Withheld::of(grain, false).sentences(name))
+        .collect()
 }
 
 /// The law by which forces are told, if they are asked for.

@@ -13,8 +13,8 @@ use crate::page::{
     BenchPart, GrainPart, LotPart, MeasureRow, Page, SearchPart, Subject, write_page,
 };
 use crate::report::{
-    FitReport, Measure, MeasureReport, Measured, NotMeasured, SearchReport, escaped, sentences,
-    short,
+    FitReport, Measure, MeasureReport, Measures, SearchReport, Withheld, by_reason, escaped,
+    sentences, short,
 };
 use crate::scan::{Scan, plural};
 use anyhow::{Context, Result, bail};
@@ -76,7 +76,8 @@ fn grain_part(path: &Path, args: &ReportArgs) -> Result<GrainPart> {
     let hash = ("BLAKE3 of the input", blake3::hash(&bytes).to_string());
     if bytes.trim_ascii_start().starts_with(b"{") {
         let grain = inputs::parse_model(path, &bytes)?;
-        let (measures, warnings) = measured(&Survey::of_grain(&grain, Scheme::Exact), &[], args);
+        let survey = Survey::of_grain(&grain, Scheme::Exact);
+        let (measures, warnings) = measured(&survey, &grain, args);
         draw(args, &name, &grain, None)?;
         return Ok(GrainPart::new(Subject {
             name,
@@ -87,7 +88,7 @@ fn grain_part(path: &Path, args: &ReportArgs) -> Result<GrainPart> {
                 ("model", plural(grain.coefficient_count(), "coefficient")),
                 hash,
             ],
-            measures: MeasureRow::of(&measures.measures, None, args.unit),
+            measures: MeasureRow::of(&measures, None, args.unit),
             warnings,
             search: None,
             bench: None,
@@ -110,17 +111,9 @@ fn grain_part(path: &Path, args: &ReportArgs) -> Result<GrainPart> {
     let survey = Survey::of_grain(&fitted.grain, Scheme::Exact);
     let told = FitReport::with_survey(name.clone(), args.unit, &fitted, &survey, &options, &[]);
     let mut warnings = sentences(scan.warnings(), &fitted.warnings, args.unit);
-    let measures = match fitted.grain.unseen() {
-        Some(_) => {
-            warnings.extend(not_measured(&told.not_measured));
-            Vec::new()
-        }
-        None => {
-            let (measures, missing) = measured(&survey, &told.not_measured, args);
-            warnings.extend(missing);
-            MeasureRow::of(&measures.measures, told.standard_errors.as_ref(), args.unit)
-        }
-    };
+    let (measures, missing) = measured(&survey, &fitted.grain, args);
+    warnings.extend(missing);
+    let measures = MeasureRow::of(&measures, told.standard_errors.as_ref(), args.unit);
     draw(args, &name, &fitted.grain, Some(&scan))?;
     let mut facts = facts(&told, &fitted);
     facts.push(hash);
@@ -137,28 +130,14 @@ fn grain_part(path: &Path, args: &ReportArgs) -> Result<GrainPart> {
     }))
 }
 
-/// All measures of a grain, and those that cannot be had or are `withheld` by its fit, as sentences.
-fn measured(
-    survey: &Survey,
-    withheld: &[NotMeasured],
-    args: &ReportArgs,
-) -> (MeasureReport, Vec<String>) {
-    let report = MeasureReport::new(
-        String::new(),
-        Measured::Model,
-        survey,
-        &Measure::ALL,
-        Vec::new(),
-    )
-    .without(withheld);
-    let missing = not_measured(&report.not_measured).collect();
-    (report.in_unit(args.unit), missing)
-}
-
-fn not_measured(missing: &[NotMeasured]) -> impl Iterator<Item = String> {
-    missing
-        .iter()
-        .map(|missing| format!("Not measured: {}, {}.", missing.measure, missing.reason))
+/// All measures of a grain, and those that cannot be had or are withheld, as sentences.
+fn measured(survey: &Survey, grain: &Grain, args: &ReportArgs) -> (Measures, Vec<String>) {
+    let withheld = Withheld::of(grain, false);
+    let report = MeasureReport::of_model(String::new(), survey, &Measure::ALL, &withheld);
+    let report = report.in_unit(args.unit);
+    let missing = by_reason(&report.not_measured).into_iter();
+    let sentences = missing.map(|(names, reason)| format!("Not measured: {names}; {reason}."));
+    (report.measures, sentences.collect())
 }
 
 /// Fits all independent segments, as the source does.

@@ -6,7 +6,7 @@ use crate::fit::scanned_surface;
 use crate::measure::{MassProperties, Scheme, Survey, scanned_body};
 use crate::mesh::Mesh;
 use crate::model::{Grain, Surface};
-use crate::report::{Unit, sentences};
+use crate::report::{Unit, Withheld, sentences};
 use anyhow::{Context, Result, bail};
 use std::path::Path;
 
@@ -21,7 +21,7 @@ pub(super) struct Solid {
     pub(super) properties: MassProperties,
     /// The model, if it is one.
     pub(super) grain: Option<Grain>,
-    /// What is odd about a scan: whole sentences.
+    /// What is odd about a scan, or not to be relied on of a model: whole sentences.
     pub(super) warnings: Vec<String>,
 }
 
@@ -37,8 +37,8 @@ pub(super) fn read(path: &Path, input: &InputArgs, unit: Option<Unit>) -> Result
                 .properties()
                 .with_context(unusable)?,
             mesh: grain.mesh(RESOLUTION),
+            warnings: Withheld::of(&grain, false).sentences(&name),
             grain: Some(grain),
-            warnings: Vec::new(),
         });
     }
     let scan = inputs::parse_scan(path, &bytes, input)?;

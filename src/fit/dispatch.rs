@@ -32,7 +32,7 @@ impl PreparedScan<'_> {
             Seams::Blended => estimated(self, options, context),
         })?;
         fitted.warnings.extend(sound::check(&fitted, options)?);
-        Ok(fitted)
+        Ok(fitted.beside_faces())
     }
 
     /// A grain that is not stretched.

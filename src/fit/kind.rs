@@ -221,7 +221,7 @@ fn positioned(
             samples: fit.turned_over,
         });
     }
-    Ok(Fitted {
+    let fitted = Fitted {
         grain,
         kind,
         search: Search {
@@ -245,5 +245,6 @@ fn positioned(
         warnings,
         posterior: None,
         errors: Some(fit.errors),
-    })
+    };
+    Ok(fitted.beside_faces())
 }

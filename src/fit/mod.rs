@@ -12,6 +12,7 @@
 mod blended;
 mod candidate;
 mod context;
+mod contradicted;
 mod crust;
 mod dispatch;
 mod error;

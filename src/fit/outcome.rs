@@ -139,6 +139,9 @@ impl Fitted {
         if !(SMALLEST..1.0 / SMALLEST).contains(&self.mean_radius) {
             return Err(NoInterval::OutOfRange);
         }
+        if self.grain.contradicted().is_some() {
+            return Err(NoInterval::Contradicted);
+        }
         if let Some(errors) = self.errors {
             return errors;
         }
@@ -169,13 +172,15 @@ impl Fitted {
     /// The grain with the [errors of its curvature](crate::model::CurvatureErrors), which a file of it keeps for its contacts. Without,
     /// if it was fitted to the points themselves.
     pub fn grain_with_errors(&self) -> Grain {
-        let with_errors = || {
+        let errors = || {
             let star = self.grain.star()?;
-            let errors = self.posterior.as_ref()?.curvature_errors(star)?;
-            let grain = Grain::from(star.clone().with_curvature_errors(errors));
-            Some(grain.with_unseen(self.grain.unseen()))
+            self.posterior.as_ref()?.curvature_errors(star)
         };
-        with_errors().unwrap_or_else(|| self.grain.clone())
+        let grain = self.grain.clone();
+        match errors() {
+            Some(errors) => grain.with_curvature_errors(errors),
+            None => grain,
+        }
     }
 
     /// Standard deviations of the radius in directions of the scan's frame (unit vectors), in the scan's unit: of the

@@ -60,6 +60,8 @@ pub enum NoInterval {
     NotFinite,
     /// Squares of the figures are beyond the range of numbers.
     OutOfRange,
+    /// Area or volume are more off those of the scan's closed faces than any error allows.
+    Contradicted,
     /// The surface turns over or crosses itself.
     Crossing,
     /// The model is fitted to the points themselves, not to an estimate.

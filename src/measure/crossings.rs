@@ -5,9 +5,27 @@ use crate::mesh::{Bounds, BoundsTree};
 use crate::predicates::orient3d;
 use nalgebra::Point3;
 
-/// The pairs of triangles of a mesh, by their indices, that go through one another and share no vertex. What only
-/// touches does not count. All triangles must name vertices that exist.
+/// The side of a plane on which a point lies, 1 or -1; 0 is no side.
+type Side = fn([Point3<f64>; 3], Point3<f64>) -> i8;
+
+/// The pairs of triangles of a mesh, by their indices, that go through one another and share no vertex. An edge that goes
+/// exactly through another edge counts; so may what only touches. All triangles must name vertices that exist.
 pub fn crossings(mesh: &Mesh) -> Vec<[usize; 2]> {
+    pairs(mesh, |plane, point| match orient3d(plane, point) > 0.0 {
+        true => 1,
+        false => -1,
+    })
+}
+
+/// The same without what touches, and without edges that go exactly through an edge.
+pub(super) fn clear_crossings(mesh: &Mesh) -> Vec<[usize; 2]> {
+    pairs(mesh, |plane, point| {
+        let volume = orient3d(plane, point);
+        i8::from(volume > 0.0) - i8::from(volume < 0.0)
+    })
+}
+
+fn pairs(mesh: &Mesh, side: Side) -> Vec<[usize; 2]> {
     let points = |corners: &[u32; 3]| corners.map(|i| mesh.vertices[i as usize]);
     let triangles = mesh.triangles.iter().map(points);
     let boxes: Vec<Bounds> = triangles.map(|points| Bounds::new(points, 0.0)).collect();
@@ -19,7 +37,8 @@ pub fn crossings(mesh: &Mesh) -> Vec<[usize; 2]> {
             let others = &mesh.triangles[two];
             let is_joined = || corners.iter().any(|corner| others.contains(corner));
             let [own, other] = [corners, others].map(points);
-            one < two && !is_joined() && (is_pierced(own, other) || is_pierced(other, own))
+            let is_crossed = || is_pierced(own, other, side) || is_pierced(other, own, side);
+            one < two && !is_joined() && is_crossed()
         };
         let beside = tree.meeting(bounds).map(|two| two as usize);
         found.extend(beside.filter(crosses).map(|two| [one, two]));
@@ -27,22 +46,17 @@ pub fn crossings(mesh: &Mesh) -> Vec<[usize; 2]> {
     found
 }
 
-/// Whether an edge of another triangle goes through a triangle.
-fn is_pierced([a, b, c]: [Point3<f64>; 3], [p, q, r]: [Point3<f64>; 3]) -> bool {
-    let sides = [p, q, r].map(|corner| is_left([a, b, c], corner));
+/// Whether an edge of another triangle goes through a triangle, by exact sides.
+fn is_pierced([a, b, c]: [Point3<f64>; 3], [p, q, r]: [Point3<f64>; 3], side: Side) -> bool {
+    let sides = [p, q, r].map(|corner| side([a, b, c], corner));
     let edges = [(p, q), (q, r), (r, p)];
     (0..3).any(|edge| {
         let (p, q) = edges[edge];
-        sides[edge] != sides[(edge + 1) % 3] && {
-            let side = is_left([p, q, a], b);
-            side == is_left([p, q, b], c) && side == is_left([p, q, c], a)
+        sides[edge] * sides[(edge + 1) % 3] < 0 && {
+            let passed = side([p, q, a], b);
+            passed != 0 && passed == side([p, q, b], c) && passed == side([p, q, c], a)
         }
     })
-}
-
-/// The side of a plane on which a point lies; exact.
-fn is_left(plane: [Point3<f64>; 3], point: Point3<f64>) -> bool {
-    orient3d(plane, point) > 0.0
 }
 
 #[cfg(test)]

@@ -33,6 +33,8 @@ mod projection;
 mod rings;
 mod roundness;
 mod scanned;
+#[cfg(feature = "cli")]
+mod smoothed;
 mod spectrum;
 mod sphericity;
 mod sums;
@@ -71,6 +73,8 @@ pub use projection::{OUTLINE_AZIMUTHS, ProjectionError, project};
 pub use roundness::ROUNDNESS_ORDER;
 pub use scanned::{FacesDefect, Fill, ScannedBody, scanned_body};
 pub(crate) use scanned::{largest_part, without_dust};
+#[cfg(feature = "cli")]
+pub(crate) use smoothed::smoothed_area;
 pub use spectrum::{RadialExpansion, SPECTRUM_DEGREE, Spectrum};
 pub(crate) use sphericity::equivalent_radius;
 pub use sphericity::{Sphericity, wadell};

@@ -3,15 +3,15 @@
 //! Version 5 holds either `superquadrics`, or `position`, the `cells` or the `harmonics` of the position of points over the sphere, or of
 //! a radius one of `cells` (blended), `segments` (independent), `symmetry` (mirrored) and
 //! `harmonics` (the whole sphere), of the grain stretched along its axes by `stretch`, if that is there.
-//! `margin` goes with `cells`; `curvature_errors` with any radius, if they are known; `unseen` with all, if the scan did not see
-//! much of the grain. Version 4 knew no `unseen`. Version 3, which knew neither
+//! `margin` goes with `cells`; `curvature_errors` with any radius, if they are known; with all, `unseen`, if the scan did not see
+//! much of the grain, and `contradicted`, if its closed faces have other areas or volumes. Version 4 knew neither. Version 3, which knew neither
 //! `superquadrics` nor `position`, version 2, which knew none of `harmonics`, `stretch`, `margin` and `curvature_errors` either, and version 1,
 //! which knew segments only, are still read.
 
 use super::grain::Kind;
 use super::superquadric::PartRecord;
 use super::{
-    Blended, CurvatureErrors, Family, Frame, Grain, InvalidGrain, Mirrored, Position,
+    Blended, Contradicted, CurvatureErrors, Family, Frame, Grain, InvalidGrain, Mirrored, Position,
     PositionGrain, Segmented, StarGrain, Stretch, SuperquadricGrain, Surface, Unseen, Whole,
 };
 use crate::sphere::{AngularPartition, Cover, CoverError, CubeCell, MARGIN, Symmetry};
@@ -74,6 +74,9 @@ struct GrainFile {
     /// What the scan did not see.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     unseen: Option<Unseen>,
+    /// Area and volume that the closed faces of the scan contradict.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    contradicted: Option<Contradicted>,
 }
 
 /// Cells, or the whole sphere: coefficients are x, y, z of the first function, of the second, and so on.
@@ -140,6 +143,11 @@ pub enum ModelError {
         "the model is not sound: `unseen` must hold a `hole` with a half-angle of 0 to pi, or what is `open`, with a share"
     )]
     Unseen,
+    /// What faces contradict is none.
+    #[error(
+        "the model is not sound: `contradicted` must hold the shares by which `area` and `volume` are off, above -1"
+    )]
+    Contradicted,
     /// The cells do not tile the sphere.
     #[error("the model is not sound: {0}")]
     Cover(#[from] CoverError),
@@ -157,6 +165,7 @@ pub fn grain_to_json(grain: &Grain) -> String {
         centre: centre.coords.into(),
         axes: [0, 1, 2].map(|i| axes.column(i).into_owned().into()),
         unseen: grain.unseen(),
+        contradicted: grain.contradicted(),
         ..GrainFile::default()
     };
     match grain.kind() {
@@ -265,15 +274,19 @@ pub fn grain_from_json(text: &str) -> Result<Grain, ModelError> {
             found: file.version,
         });
     }
-    let unseen = file.unseen;
+    let (unseen, contradicted) = (file.unseen, file.contradicted);
     if unseen.is_some_and(|unseen| !unseen.is_sound()) {
         return Err(ModelError::Unseen);
     }
-    Ok(file.grain()?.with_unseen(unseen))
+    if contradicted.is_some_and(|contradicted| !contradicted.is_sound()) {
+        return Err(ModelError::Contradicted);
+    }
+    let grain = file.grain()?;
+    Ok(grain.with_unseen(unseen).with_contradicted(contradicted))
 }
 
 impl GrainFile {
-    /// The grain, but for what was not seen of it.
+    /// The grain, but for what is not to be relied on of it.
     fn grain(self) -> Result<Grain, ModelError> {
         let frame = Frame {
             centre: Point3::from(self.centre),

@@ -1,8 +1,8 @@
 //! The fitted grain, of whichever kind.
 
 use super::{
-    Frame, Node, PositionGrain, StarGrain, SuperquadricGrain, Surface, SurfaceElement, SurfaceJet,
-    Tiling, Unseen,
+    Contradicted, CurvatureErrors, Frame, Node, PositionGrain, StarGrain, SuperquadricGrain,
+    Surface, SurfaceElement, SurfaceJet, Tiling, Unseen,
 };
 use crate::mesh::Mesh;
 use crate::sphere::Symmetry;
@@ -15,6 +15,7 @@ use nalgebra::{Matrix3, Vector3};
 pub struct Grain {
     kind: Kind,
     unseen: Option<Unseen>,
+    contradicted: Option<Contradicted>,
 }
 
 /// The kinds of surfaces that are fitted.
@@ -82,6 +83,28 @@ impl Grain {
         self.unseen
     }
 
+    /// The same with what the closed faces contradict that it was fitted to.
+    pub fn with_contradicted(self, contradicted: Option<Contradicted>) -> Self {
+        Self {
+            contradicted,
+            ..self
+        }
+    }
+
+    /// What the closed faces contradict that it was fitted to: these figures of it are not to be relied on.
+    pub fn contradicted(&self) -> Option<Contradicted> {
+        self.contradicted
+    }
+
+    /// The same with standard errors of its curvature, if it has a radius.
+    pub(crate) fn with_curvature_errors(self, errors: CurvatureErrors) -> Self {
+        let kind = match self.kind {
+            Kind::Star(grain) => Kind::Star(grain.with_curvature_errors(errors)),
+            other => other,
+        };
+        Self { kind, ..self }
+    }
+
     /// The largest degree of its expansions; zero if it has none.
     pub fn degree(&self) -> usize {
         match &self.kind {
@@ -122,7 +145,11 @@ impl Grain {
 
 impl From<Kind> for Grain {
     fn from(kind: Kind) -> Self {
-        Self { kind, unseen: None }
+        Self {
+            kind,
+            unseen: None,
+            contradicted: None,
+        }
     }
 }
 

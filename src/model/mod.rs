@@ -2,6 +2,7 @@
 
 mod blend;
 mod blended;
+mod contradicted;
 mod curvature_errors;
 mod family;
 mod file;
@@ -28,6 +29,7 @@ mod unseen;
 mod whole;
 
 pub use blended::Blended;
+pub use contradicted::Contradicted;
 pub use curvature_errors::CurvatureErrors;
 pub use family::Family;
 pub use file::{ModelError, grain_from_json, grain_to_json};

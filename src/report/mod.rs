@@ -41,6 +41,8 @@ pub use measure::{
     MeasureReport, Measured, Measures, NotMeasured, Principal, ProjectionRecord, SphereRecord,
     Spheres, UnknownMeasure,
 };
+#[cfg(feature = "cli")]
+pub(crate) use measure::{Withheld, by_reason};
 pub use number::{percent, short};
 pub use placed::{PlacedReport, PlacedTouch};
 pub use regions::{NormalLaw, RegionRecord, RegionsReport};

@@ -1,10 +1,10 @@
 //! Warnings and reasons as sentences.
 
-use super::number::short;
+use super::number::{percent, short};
 use super::unit::{Labels, Unit};
 use crate::fit::{FitWarning, NoInterval, Rejection};
 use crate::measure::{FacesDefect, Fill};
-use crate::model::Unseen;
+use crate::model::{Contradicted, Unseen};
 use crate::scan::plural;
 use std::fmt;
 
@@ -170,31 +170,39 @@ impl FitWarning {
 
 impl fmt::Display for Unseen {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let advice = "scan what is missing, or take the guess (--extrapolate)";
-        match *self {
-            Self::Hole { half_angle } => write!(
-                f,
-                "no point lies in a cap of {:.0} degrees, and what the surface does there is a guess; {advice}",
-                half_angle.to_degrees()
-            ),
-            Self::Open { share, .. } => write!(
-                f,
-                "holes between the faces would take {:.0} % of their area to close, and what the surface does there is \
-                 a guess; {advice}",
-                100.0 * share
-            ),
-        }
-    }
-}
-
-impl fmt::Display for NoInterval {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
             Self::Hole { half_angle } => write!(
                 f,
                 "no point lies in a cap of {:.0} degrees, and what the surface does there is a guess",
                 half_angle.to_degrees()
             ),
+            Self::Open { share, .. } => write!(
+                f,
+                "holes between the faces would take {:.0} % of their area to close, and what the surface does there is \
+                 a guess",
+                100.0 * share
+            ),
+        }
+    }
+}
+
+impl fmt::Display for Contradicted {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let off = |name, share: Option<f64>| Some(format!("the {name} is {} off", percent(share?)));
+        let figures = [off("area", self.area), off("volume", self.volume)];
+        let figures: Vec<_> = figures.into_iter().flatten().collect();
+        write!(
+            f,
+            "{} that of the closed faces that the surface was fitted to, and no standard error vouches for it",
+            figures.join(" and ")
+        )
+    }
+}
+
+impl fmt::Display for NoInterval {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::Hole { half_angle } => Unseen::Hole { half_angle }.fmt(f),
             Self::Unresolved { .. } => write!(
                 f,
                 "the points stand off from the estimate as no noise does, and the body is alike on both sides of its \
@@ -206,6 +214,7 @@ impl fmt::Display for NoInterval {
                 "in this unit squares of the figures are beyond the range of numbers; change the unit"
             ),
             Self::Neck => write!(f, "the points have a neck, as of two grains that touch"),
+            Self::Contradicted => write!(f, "the closed faces of the scan contradict the figures"),
             Self::Crossing => write!(f, "the surface crosses itself or turns over"),
             Self::NotEstimated => write!(f, "the model is fitted to the points themselves"),
         }

@@ -8,7 +8,7 @@ use std::borrow::Cow;
 use nalgebra::Point3;
 
 use super::error::{ParseError, Place};
-use super::polygon::fan;
+use super::polygon::Faces;
 use super::text::{Lines, coordinate, integer, unexpected, words};
 use super::{Scan, plural};
 
@@ -27,7 +27,7 @@ pub(super) fn recognise(bytes: &[u8]) -> bool {
 
 pub(super) fn parse(bytes: &[u8]) -> Result<Scan, ParseError> {
     let mut scan = Scan::default();
-    let mut corners = Vec::new();
+    let (mut faces, mut corners) = (Faces::default(), Vec::new());
     // The highest index of a face so far, and its line: faces may come before their points.
     let mut highest = (0, 0);
     let mut short = 0;
@@ -52,7 +52,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Scan, ParseError> {
                     corners.push(index);
                 }
                 short += usize::from(corners.len() < 3);
-                fan(&corners, &mut scan.triangles);
+                faces.add(&corners);
             }
             _ => {}
         }
@@ -63,11 +63,11 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Scan, ParseError> {
             .push(format!("Dropped {faces} of fewer than three corners."));
     }
     let (index, line) = highest;
-    if scan.triangles.is_empty() || (index as usize) < scan.points.len() {
-        Ok(scan)
-    } else {
-        Err(out_of_range(line, i64::from(index) + 1, scan.points.len()))
+    if !faces.is_empty() && index as usize >= scan.points.len() {
+        return Err(out_of_range(line, i64::from(index) + 1, scan.points.len()));
     }
+    faces.give(&mut scan);
+    Ok(scan)
 }
 
 /// A line with those that continue it, where it ends with `\`. Remarks are never continued: one

@@ -106,9 +106,17 @@ pub(super) fn first_at_same_place(points: &[Point3<f64>]) -> Vec<u32> {
 }
 
 impl Scan {
-    /// The faces over points that are distinct and all in use.
+    /// The faces over points that are all in use, and distinct unless the faces close without that: then bodies that
+    /// touch stay apart, as [`Topology::bodies`](super::Topology::bodies) counts them.
     pub(crate) fn welded(&self) -> Mesh {
-        let same = first_at_same_place(&self.points);
+        let mut is_closed = true;
+        each_edge(self.points.len(), &self.triangles, |edge| {
+            is_closed &= (edge.forward, edge.backward) == (1, 1);
+        });
+        let same = match is_closed {
+            true => (0..self.points.len() as u32).collect(),
+            false => first_at_same_place(&self.points),
+        };
         let mut numbers = vec![None; self.points.len()];
         let mut vertices: Vec<Point3<f64>> = Vec::new();
         let mut triangles = Vec::with_capacity(self.triangles.len());

@@ -26,6 +26,7 @@ mod told;
 mod units;
 mod volumes;
 mod whole;
+mod withheld;
 
 use serde_json::Value;
 use std::io::Write;

@@ -274,33 +274,6 @@ fn the_four_triangle_scheme_reads_a_model_low_by_as_much_as_the_source_does() {
     assert!(errors(&output).contains("integration schemes are for models"));
 }
 
-/// The same ellipsoid, of which the scan is said to have seen but a part: nothing is told of it, unless as a guess.
-#[test]
-fn a_model_beside_a_hole_is_withheld() {
-    let folder = folder();
-    let with = |half_angle: f64| {
-        let model = serde_json::json!({
-            "format": "grainform model",
-            "version": 5,
-            "centre": [0.0, 0.0, 0.0],
-            "axes": [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
-            "harmonics": [2.0 * (4.0 * PI).sqrt()],
-            "unseen": {"hole": {"half_angle": half_angle}},
-        });
-        std::fs::write(folder.path().join("m.json"), model.to_string()).unwrap();
-    };
-    with(0.7);
-    let report = json(&folder, &["measure", "m.json", "--only", "volume,form"]);
-    assert!(report["volume"].is_null() && report["form"].is_null());
-    let reason = report["not_measured"][1]["reason"].as_str().unwrap();
-    assert!(reason.contains("40 degrees"), "{reason}");
-    let report = json(&folder, &["measure", "m.json", "--extrapolate"]);
-    assert!((number(&report, "area") / (16.0 * PI) - 1.0).abs() < 1e-12);
-    with(4.0);
-    let output = grainform(&folder, &["measure", "m.json"]);
-    assert!(!output.status.success() && errors(&output).contains("half-angle"));
-}
-
 /// A fit writes what its scan did not see, and how well the largest curvature is known.
 #[test]
 fn a_fit_tells_measure_of_holes_and_of_curvature() {

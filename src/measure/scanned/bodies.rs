@@ -1,12 +1,24 @@
 //! Closed surfaces as bodies and the hollows in them.
 
 use super::{FacesDefect, Fill, ScannedBody};
+use crate::measure::crossings::clear_crossings;
 use crate::measure::winding::winding_number;
 use crate::mesh::{Mesh, part, parts};
 use nalgebra::{Point3, Vector3};
 
-/// Vertices of a part by which it is told whether it is inside of another.
+/// Places in a part by which it is told whether they are inside of another.
 const PROBES: usize = 24;
+
+/// How far below the surface of a part they lie, as a share of its size: off the surface of another that it touches.
+const BELOW: f64 = 1e-6;
+
+/// How much of a part another one holds.
+#[derive(PartialEq)]
+enum Held {
+    Nothing,
+    Some,
+    All,
+}
 
 /// One closed surface among several.
 struct Part {
@@ -39,20 +51,70 @@ impl Part {
         }
     }
 
-    /// How many of some of the vertices, and of how many, another part holds.
-    fn probes_inside(&self, other: &Self) -> (usize, usize) {
-        let step = self.mesh.triangles.len().div_ceil(PROBES);
-        let probes = self.mesh.triangles.iter().step_by(step);
-        let probes = probes.map(|corners| self.mesh.vertices[corners[0] as usize]);
-        let is_inside = |probe: &Point3<f64>| {
-            let is_near = other.low <= probe.coords && probe.coords <= other.high;
-            is_near && winding_number(&other.mesh, probe).abs() > 0.5
-        };
-        let (inside, all): (usize, usize) = probes.fold((0, 0), |(inside, all), probe| {
-            (inside + usize::from(is_inside(&probe)), all + 1)
-        });
-        (inside, all)
+    fn meets(&self, low: &Vector3<f64>, high: &Vector3<f64>) -> bool {
+        self.low <= *high && *low <= self.high
     }
+
+    /// Places inside, just below the middle of each triangle.
+    fn places(&self) -> impl Iterator<Item = Point3<f64>> {
+        let below = BELOW * (self.high - self.low).norm() * self.volume.signum();
+        self.mesh.triangles.iter().filter_map(move |corners| {
+            let [a, b, c] = corners.map(|corner| self.mesh.vertices[corner as usize]);
+            let out = (b - a).cross(&(c - a)).try_normalize(0.0)?;
+            Some(a + ((b - a) + (c - a)) / 3.0 - out * below)
+        })
+    }
+
+    /// How much of this part another one holds, by the winding number about some of its places: those that lie in the
+    /// other's box, where a small overlap is.
+    fn held_by(&self, other: &Self) -> Held {
+        if !self.meets(&other.low, &other.high) {
+            return Held::Nothing;
+        }
+        let is_near = |place: &Point3<f64>| other.meets(&place.coords, &place.coords);
+        let near: Vec<Point3<f64>> = self.places().filter(is_near).collect();
+        let is_whole = near.len() == self.places().count();
+        let step = near.len().div_ceil(PROBES).max(1);
+        let probes = || near.iter().step_by(step);
+        let is_inside = |place: &&Point3<f64>| winding_number(&other.mesh, place).abs() > 0.5;
+        match probes().filter(is_inside).count() {
+            0 => Held::Nothing,
+            inside if is_whole && inside == probes().count() => Held::All,
+            _ => Held::Some,
+        }
+    }
+}
+
+/// Whether triangles of different parts go through one another. Only those are looked at that other parts may reach.
+fn are_crossing(mesh: &Mesh, lists: &[Vec<usize>], parts: &[Part]) -> bool {
+    let mut near = Mesh {
+        vertices: mesh.vertices.clone(),
+        triangles: Vec::new(),
+    };
+    let mut owners = Vec::new();
+    for (owner, (list, part)) in lists.iter().zip(parts).enumerate() {
+        let is_other = |&(index, other): &(usize, &Part)| {
+            index != owner && part.meets(&other.low, &other.high)
+        };
+        let others: Vec<&Part> = parts
+            .iter()
+            .enumerate()
+            .filter(is_other)
+            .map(|(_, other)| other)
+            .collect();
+        for &triangle in list {
+            let corners = mesh.triangles[triangle];
+            let [a, b, c] = corners.map(|corner| mesh.vertices[corner as usize].coords);
+            let (low, high) = (a.inf(&b).inf(&c), a.sup(&b).sup(&c));
+            if others.iter().any(|other| other.meets(&low, &high)) {
+                near.triangles.push(corners);
+                owners.push(owner);
+            }
+        }
+    }
+    clear_crossings(&near)
+        .into_iter()
+        .any(|[one, two]| owners[one] != owners[two])
 }
 
 /// The bodies of a closed mesh: outer surfaces are wound outwards, whichever way they came; inner ones must
@@ -61,16 +123,16 @@ pub(super) fn arrange(mut mesh: Mesh, fill: Option<Fill>) -> ScannedBody {
     let lists = parts(&mesh);
     let parts: Vec<Part> = lists.iter().map(|list| Part::new(&mesh, list)).collect();
     let mut cavities = 0;
-    let mut is_overlapping = false;
+    let mut is_overlapping = are_crossing(&mesh, &lists, &parts);
     for (index, part) in parts.iter().enumerate() {
         let mut depth = 0;
         for other in (0..parts.len()).filter(|&other| other != index) {
-            let (inside, all) = part.probes_inside(&parts[other]);
-            is_overlapping |= inside > 0 && inside < all;
-            depth += usize::from(inside == all);
+            let held = part.held_by(&parts[other]);
+            is_overlapping |= held == Held::Some;
+            depth += usize::from(held == Held::All);
         }
         let is_inner = depth % 2 == 1;
-        cavities += usize::from(is_inner);
+        cavities += usize::from(is_inner && part.volume < 0.0);
         is_overlapping |= is_inner && part.volume > 0.0;
         if !is_inner && part.volume < 0.0 {
             for &triangle in &lists[index] {

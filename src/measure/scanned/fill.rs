@@ -1,6 +1,6 @@
 //! Closing holes by triangles over their rims.
 
-use crate::mesh::{Mesh, parts};
+use crate::mesh::{LEAST_AREA_CORNERS, Mesh, least_area, parts};
 use nalgebra::{Point3, Vector3};
 
 /// What closes the small holes of a scan.
@@ -15,10 +15,6 @@ pub struct Fill {
     /// Area of the triangles that close them, in the unit squared. It is part of the area.
     pub area: f64,
 }
-
-/// Corners of a rim up to which the triangles of least area are looked for, in time that grows as the cube;
-/// longer ones get a fan round their middle.
-const LEAST_AREA_CORNERS: usize = 120;
 
 /// The mesh with its holes closed, if that takes at most the `largest` share of the area of the part of the
 /// mesh round each of them; else the mesh as it was, and the share.
@@ -81,70 +77,12 @@ fn close(mesh: &mut Mesh, rim: &[u32]) {
         .extend(edges.map(|(&from, &to)| [from, to, middle]));
 }
 
-/// The triangles over a closed curve whose areas have the least sum (Barequet and Sharir 1995).
-fn least_area(corners: &[Point3<f64>]) -> Vec<[usize; 3]> {
-    let count = corners.len();
-    let area = |i: usize, j: usize, k: usize| {
-        (corners[j] - corners[i])
-            .cross(&(corners[k] - corners[i]))
-            .norm()
-    };
-    // For the corners i..=k: the least sum, and the corner that makes a triangle with i and k for it.
-    let mut least = vec![(0.0, 0_usize); count * count];
-    for span in 2..count {
-        for i in 0..count - span {
-            let k = i + span;
-            let sums = (i + 1..k).map(|j| {
-                (
-                    least[i * count + j].0 + least[j * count + k].0 + area(i, j, k),
-                    j,
-                )
-            });
-            let best = sums.min_by(|one, other| one.0.total_cmp(&other.0));
-            least[i * count + k] = best.unwrap_or((0.0, i + 1));
-        }
-    }
-    let mut triangles = Vec::with_capacity(count.saturating_sub(2));
-    let mut open = vec![(0, count.saturating_sub(1))];
-    while let Some((i, k)) = open.pop() {
-        if k > i + 1 {
-            let j = least[i * count + k].1;
-            triangles.push([i, j, k]);
-            open.extend([(i, j), (j, k)]);
-        }
-    }
-    triangles
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::measure::mesh_properties;
     use approx::assert_relative_eq;
     use std::f64::consts::PI;
-
-    fn area(corners: &[Point3<f64>]) -> f64 {
-        let triangles = least_area(corners);
-        assert_eq!(triangles.len(), corners.len() - 2);
-        let areas = triangles.iter().map(|t| {
-            let [a, b, c] = t.map(|i| corners[i]);
-            (b - a).cross(&(c - a)).norm() / 2.0
-        });
-        areas.sum()
-    }
-
-    #[test]
-    fn a_bent_polygon_has_its_area() {
-        // An L of three unit squares, from any of its corners on.
-        let mut corners: Vec<_> = [[0, 0], [2, 0], [2, 1], [1, 1], [1, 2], [0, 2]]
-            .map(|[x, y]| Point3::new(f64::from(x), f64::from(y), 1.0))
-            .into();
-        for _ in 0..corners.len() {
-            assert_relative_eq!(area(&corners), 3.0, epsilon = 1e-12);
-            corners.rotate_left(1);
-        }
-        assert!(least_area(&corners[..2]).is_empty());
-    }
 
     #[test]
     fn a_removed_patch_is_closed_by_a_fan_or_by_least_area() {

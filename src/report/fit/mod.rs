@@ -1,19 +1,27 @@
 //! What `grainform fit` tells.
 
-mod figures;
 mod text;
 
 use super::estimate::{EstimateRecord, EvaluationRecord};
-use super::measure::{Dimensions, NotMeasured, Principal, rows};
+use super::measure::{
+    Dimensions, Measure, MeasureReport, Measures, NotMeasured, Principal, Withheld, rows,
+};
 use super::rule::{kind_rule, rule};
 use super::unit::Unit;
 use super::warning::sentences;
-use crate::fit::{FitOptions, Fitted, Reference, ReferenceKind, StandardErrors, Tolerance};
+use crate::fit::{FitOptions, Fitted, NoInterval, Reference, StandardErrors, Tolerance};
 use crate::measure::{Scheme, Survey};
 use crate::model::StarGrain;
 use crate::sphere::Symmetry;
-use figures::Figures;
 use serde::Serialize;
+
+/// The figures of the grain that are told.
+const FIGURES: [Measure; 4] = [
+    Measure::Area,
+    Measure::Volume,
+    Measure::Principal,
+    Measure::Dimensions,
+];
 
 /// The result of a fit.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -53,7 +61,8 @@ pub struct FitReport {
     /// Extents of the fitted surface along the principal axes, descending.
     pub dimensions: Option<Dimensions>,
     /// Figures that cannot be told: those of what was not seen, unless asked for, those that no number holds, and area
-    /// and volume more than 5 % off those of the scan's closed faces, where they have no standard errors.
+    /// and volume more than 5 % off those of the scan's closed faces, where they have no standard errors, with what
+    /// rests on them.
     pub not_measured: Vec<NotMeasured>,
     /// Standard errors of the figures above; `null` where none can be trusted.
     pub standard_errors: Option<StandardErrorsRecord>,
@@ -191,16 +200,17 @@ impl FitReport {
         let search = &fitted.search;
         let symmetry = Some(fitted.grain.symmetry()).filter(|mirrors| *mirrors != Symmetry::NONE);
         let choice = search.choice();
-        let mut figures = Figures::new(fitted, survey, options);
+        let withheld = Withheld::of(&fitted.grain, options.extrapolate);
+        let told = MeasureReport::of_model(String::new(), survey, &FIGURES, &withheld);
+        let figures = told.measures;
+        let standard_errors = match figures == Measures::default() {
+            true => Err("there are no figures for them".into()),
+            false => standard_errors(fitted, survey).map_err(|error| error.to_string()),
+        };
         let reference = fitted.grain.unseen().is_none().then_some(fitted.reference);
         let beside = |found: Option<f64>, of: fn(&Reference) -> f64| {
             Some(found? / of(reference.as_ref()?) - 1.0)
         };
-        let area_error = beside(figures.area, |reference| reference.area);
-        let volume_error = beside(figures.volume, |reference| reference.volume);
-        if fitted.reference.kind == ReferenceKind::Faces {
-            figures.withhold_contradicted([area_error, volume_error]);
-        }
         Self {
             input,
             unit,
@@ -216,12 +226,12 @@ impl FitReport {
             volume: figures.volume,
             principal: figures.principal,
             dimensions: figures.dimensions,
-            not_measured: figures.not_measured,
-            standard_errors: figures.standard_errors,
-            no_standard_errors: figures.no_standard_errors,
+            not_measured: told.not_measured,
+            no_standard_errors: standard_errors.as_ref().err().cloned(),
+            standard_errors: standard_errors.ok().map(Into::into),
             coefficients_touched: fitted.grain.coefficients_touched(),
-            area_error,
-            volume_error,
+            area_error: beside(survey.area().ok(), |reference| reference.area),
+            volume_error: beside(survey.volume().ok(), |reference| reference.volume),
             reference: reference.map(Into::into),
             rms: fitted.residuals.rms,
             max: fitted.residuals.max,
@@ -249,6 +259,14 @@ impl FitReport {
             },
             warnings: sentences(scan_warnings, &fitted.warnings, unit),
         }
+    }
+}
+
+fn standard_errors(fitted: &Fitted, survey: &Survey) -> Result<StandardErrors, NoInterval> {
+    let figures = (survey.properties(), survey.dimensions(), survey.principal());
+    match figures {
+        (Ok(properties), Ok(dimensions), Ok(_)) => fitted.standard_errors(&properties, &dimensions),
+        _ => Err(NoInterval::OutOfRange),
     }
 }
 

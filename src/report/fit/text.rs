@@ -3,6 +3,7 @@
 use super::{FitReport, ReferenceRecord};
 use crate::fit::ReferenceKind;
 use crate::report::escape::escaped;
+use crate::report::measure::by_reason;
 use crate::report::number::{percent, short, with_error};
 use crate::report::unit::Labels;
 use crate::scan::plural;
@@ -115,8 +116,8 @@ impl fmt::Display for FitReport {
                 with_error(dimensions.thickness, errors.map(|errors| errors.thickness)),
             )?;
         }
-        for (reason, names) in self.not_told() {
-            writeln!(f, "not told      {}: {reason}", names.join(", "))?;
+        for (names, reason) in by_reason(&self.not_measured) {
+            writeln!(f, "not told      {names}: {reason}")?;
         }
         if let Some(reference) = &self.reference {
             self.compare(reference, f)?;
@@ -165,21 +166,6 @@ impl fmt::Display for FitReport {
 }
 
 impl FitReport {
-    /// The figures that are not told, by reason.
-    fn not_told(&self) -> Vec<(&str, Vec<&str>)> {
-        let mut by_reason: Vec<(&str, Vec<&str>)> = Vec::new();
-        for missing in &self.not_measured {
-            match by_reason
-                .iter_mut()
-                .find(|(reason, _)| *reason == missing.reason)
-            {
-                Some((_, names)) => names.push(missing.measure),
-                None => by_reason.push((&missing.reason, vec![missing.measure])),
-            }
-        }
-        by_reason
-    }
-
     /// Area and volume beside those of a polyhedron, which are themselves off.
     fn compare(&self, reference: &ReferenceRecord, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let description = reference.description();

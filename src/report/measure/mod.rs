@@ -4,6 +4,7 @@ mod faces;
 mod names;
 mod records;
 mod text;
+mod withheld;
 
 pub use faces::{FacesRecord, FillRecord};
 pub use names::{Measure, UnknownMeasure};
@@ -12,13 +13,13 @@ pub use records::{
     BoxRecord, CurvatureRecord, Dimensions, EllipsoidRecord, Principal, ProjectionRecord,
     SphereRecord, Spheres,
 };
+pub(crate) use withheld::{Withheld, by_reason};
 
 use super::unit::{Labels, Unit};
 use crate::fit::ReferenceKind;
 use crate::measure::{
     Convexity, Form, ScannedBody, SideRatios, Spectrum, Sphericity, Survey, SurveyError,
 };
-use crate::model::Unseen;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -153,13 +154,42 @@ impl MeasureReport {
         only: &[Measure],
         warnings: Vec<String>,
     ) -> Self {
+        let all = Withheld::default();
+        Self::without(&all, input, of, survey, only, warnings)
+    }
+
+    /// The same of a model, without what is withheld of it, which is not computed either.
+    pub(crate) fn of_model(
+        input: String,
+        survey: &Survey<'_>,
+        only: &[Measure],
+        withheld: &Withheld,
+    ) -> Self {
+        Self::without(withheld, input, Measured::Model, survey, only, Vec::new())
+    }
+
+    fn without(
+        withheld: &Withheld,
+        input: String,
+        of: Measured,
+        survey: &Survey<'_>,
+        only: &[Measure],
+        warnings: Vec<String>,
+    ) -> Self {
         let mut measures = Measures::default();
         let mut not_measured = Vec::new();
         let mut nulls = BTreeMap::new();
         for measure in only {
-            if let Err(error) = measures.take(*measure, survey) {
-                nulls.insert(measure.name(), ());
-                not_measured.push(NotMeasured::new(measure.name(), &error));
+            let taken = match withheld.reason(*measure) {
+                Some(reason) => Err(reason),
+                None => measures
+                    .take(*measure, survey)
+                    .map_err(|error| error.to_string()),
+            };
+            if let Err(reason) = taken {
+                let measure = measure.name();
+                nulls.insert(measure, ());
+                not_measured.push(NotMeasured { measure, reason });
             }
         }
         if measures
@@ -179,41 +209,6 @@ impl MeasureReport {
             not_measured,
             warnings,
         }
-    }
-
-    /// The report of a model of which so much was not seen that its measures are guesses: none is told.
-    pub fn withheld(input: String, unseen: Unseen, asked: &[Measure]) -> Self {
-        let names = || asked.iter().map(|measure| measure.name());
-        let reason = unseen.to_string();
-        let not_measured = names().map(|measure| NotMeasured {
-            measure,
-            reason: reason.clone(),
-        });
-        Self {
-            input,
-            unit: None,
-            of: Measured::Model,
-            measures: Measures::default(),
-            faces: None,
-            nulls: names().map(|name| (name, ())).collect(),
-            not_measured: not_measured.collect(),
-            warnings: Vec::new(),
-        }
-    }
-
-    /// The same without area and volume where they are among `missing`, those that a fit of the body withholds.
-    #[must_use]
-    pub fn without(mut self, missing: &[NotMeasured]) -> Self {
-        let Measures { area, volume, .. } = &mut self.measures;
-        for (name, figure) in [("area", area), ("volume", volume)] {
-            if let Some(missing) = missing.iter().find(|missing| missing.measure == name)
-                && figure.take().is_some()
-            {
-                self.nulls.insert(name, ());
-                self.not_measured.push(missing.clone());
-            }
-        }
-        self
     }
 
     /// The same with the unit of its lengths.
@@ -279,28 +274,5 @@ impl Measures {
             Measure::Spectrum => self.spectrum = Some(survey.spectrum()?),
         }
         Ok(())
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::mesh::Mesh;
-
-    #[test]
-    fn what_a_fit_withholds_is_null_and_told_why() {
-        let ball = Mesh::radial(4, |_| 1.0);
-        let survey = Survey::of_mesh(&ball).unwrap();
-        let of = Measured::Model;
-        let asked = [Measure::Area, Measure::Volume];
-        let report = MeasureReport::new(String::new(), of, &survey, &asked, Vec::new());
-        let missing = NotMeasured {
-            measure: "area",
-            reason: "of slivers".into(),
-        };
-        let report = report.without(std::slice::from_ref(&missing));
-        assert!(report.measures.area.is_none() && report.measures.volume.is_some());
-        assert_eq!(report.not_measured[0].reason, missing.reason);
-        assert!(serde_json::to_value(&report).unwrap()["measures"]["area"].is_null());
     }
 }

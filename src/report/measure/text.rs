@@ -2,6 +2,7 @@
 
 use super::{
     BoxRecord, Dimensions, MeasureReport, Measured, Principal, ProjectionRecord, SphereRecord,
+    by_reason,
 };
 use crate::measure::Distribution;
 use crate::report::escape::escaped;
@@ -30,10 +31,8 @@ impl fmt::Display for MeasureReport {
         self.size(f)?;
         self.shape(f)?;
         self.surface(f)?;
-        for missing in self.not_measured.chunk_by(|a, b| a.reason == b.reason) {
-            let names: Vec<&str> = missing.iter().map(|missing| missing.measure).collect();
-            let reason = &missing[0].reason;
-            writeln!(f, "{:<13} not measured: {reason}", names.join(", "))?;
+        for (names, reason) in by_reason(&self.not_measured) {
+            writeln!(f, "{names:<13} not measured: {reason}")?;
         }
         write!(f, "Lengths are in {}, the density is 1.", labels.name())
     }

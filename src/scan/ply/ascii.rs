@@ -9,7 +9,7 @@ use ply_rs::ply::{ElementDef, PropertyType};
 
 use super::header::Header;
 use crate::scan::error::{ParseError, Place};
-use crate::scan::polygon::{checked, fan};
+use crate::scan::polygon::{Faces, checked};
 use crate::scan::text::{Lines, coordinate, integer, unexpected, words};
 use crate::scan::{Scan, plural};
 
@@ -22,7 +22,7 @@ enum Column {
 }
 
 pub(super) fn read(bytes: &[u8], header: &Header) -> Result<Scan, ParseError> {
-    let mut scan = Scan::default();
+    let (mut scan, mut faces) = (Scan::default(), Faces::default());
     let mut lines = Lines::after(header.lines, &bytes[header.body..]);
     for element in &header.elements {
         let columns = columns(element);
@@ -38,7 +38,7 @@ pub(super) fn read(bytes: &[u8], header: &Header) -> Result<Scan, ParseError> {
             let (point, corners) = read_row(line, row, &columns, header.points)?;
             match element.name.as_str() {
                 "vertex" => scan.points.push(point),
-                "face" => fan(&corners, &mut scan.triangles),
+                "face" => faces.add(&corners),
                 _ => {}
             }
         }
@@ -50,6 +50,7 @@ pub(super) fn read(bytes: &[u8], header: &Header) -> Result<Scan, ParseError> {
             "Left {lines} unread after the data that the header counts."
         ));
     }
+    faces.give(&mut scan);
     Ok(scan)
 }
 

@@ -9,11 +9,11 @@ use ply_rs::ply::{
 
 use super::header::{Header, Skipped};
 use crate::scan::error::{ParseError, Place};
-use crate::scan::polygon::{checked, fan};
+use crate::scan::polygon::{Faces, checked};
 use crate::scan::{Scan, plural};
 
 pub(super) fn read(bytes: &[u8], header: &Header) -> Result<Scan, ParseError> {
-    let mut scan = Scan::default();
+    let (mut scan, mut faces) = (Scan::default(), Faces::default());
     let mut rows = Rows {
         bytes,
         rest: &bytes[header.body..],
@@ -36,7 +36,7 @@ pub(super) fn read(bytes: &[u8], header: &Header) -> Result<Scan, ParseError> {
                     for index in indices {
                         corners.push(checked(index, header.points, place)?);
                     }
-                    fan(&corners, &mut scan.triangles);
+                    faces.add(&corners);
                     Ok(())
                 })?;
             }
@@ -49,6 +49,7 @@ pub(super) fn read(bytes: &[u8], header: &Header) -> Result<Scan, ParseError> {
             "Left {bytes} unread after the data that the header counts."
         ));
     }
+    faces.give(&mut scan);
     Ok(scan)
 }
 

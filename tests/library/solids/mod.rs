@@ -12,11 +12,12 @@ use grainform::measure::{
     FacesDefect, Survey, SurveyError, inscribed_ball, mesh_properties, scanned_body,
 };
 use grainform::scan::{Scan, parse_scan};
+use nalgebra::{Point3, Vector3};
 use std::f64::consts::PI;
 
 /// Distance from a point to the nearest vertex or middle of an edge, and the share of the full sphere
 /// that the mesh fills as seen from there.
-fn seen(mesh: &Mesh, from: &nalgebra::Point3<f64>) -> f64 {
+fn seen(mesh: &Mesh, from: &Point3<f64>) -> f64 {
     let angles = mesh.triangles.iter().map(|corners| {
         let [a, b, c] = corners.map(|i| mesh.vertices[i as usize] - from);
         let [la, lb, lc] = [a, b, c].map(|v| v.norm());
@@ -179,11 +180,38 @@ fn several_bodies_are_counted_and_added_and_have_no_form() {
         assert_eq!(survey.form(), Err(SurveyError::Several { bodies: 2 }));
         assert!(survey.inscribed().is_err() && survey.convexity().is_err());
     }
-    let crossing = scanned_body(&scan(&[&one, &sphere(1.0, 1.0)])).expect("faces");
-    assert!(matches!(
-        crossing.defect,
-        Some(FacesDefect::Overlapping { parts: 2 })
-    ));
+    // By a half, and by a hundredth of their length.
+    for away in [1.0, 1.98] {
+        let crossing = scanned_body(&scan(&[&one, &sphere(1.0, away)])).expect("faces");
+        assert!(
+            matches!(crossing.defect, Some(FacesDefect::Overlapping { parts: 2 })),
+            "{away}"
+        );
+    }
+}
+
+#[test]
+fn bodies_that_touch_are_two_and_their_sum() {
+    let cube = Mesh::radial(2, |n| 0.5 / n.amax());
+    let touching = [
+        [1.0, 0.0, 0.0],
+        [1.0, 1.0, 0.0],
+        [1.0, 1.0, 1.0],
+        [1.0, 0.5, 0.25],
+    ];
+    for aside in touching {
+        let moved = |vertex: &Point3<f64>| vertex + Vector3::from(aside);
+        let other = Mesh {
+            vertices: cube.vertices.iter().map(moved).collect(),
+            triangles: cube.triangles.clone(),
+        };
+        let scan = scan(&[&cube, &other]);
+        let found = scanned_body(&scan).expect("faces");
+        assert_eq!((found.bodies, found.defect), (2, None), "{aside:?}");
+        assert_eq!(scan.topology().map(|topology| topology.bodies), Some(2));
+        let volume = Survey::of_scanned(&found).volume().expect("a solid");
+        assert!((volume - 2.0).abs() < 1e-12, "{volume}");
+    }
 }
 
 #[test]

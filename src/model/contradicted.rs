@@ -1,0 +1,37 @@
+//! Where a surface and the closed faces that it was fitted to disagree.
+
+use serde::{Deserialize, Serialize};
+
+/// Area and volume of a surface that the closed faces it was fitted to contradict, and that no standard error vouches
+/// for: by how much each is off theirs, as a share of theirs. `None` is not contradicted.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[non_exhaustive]
+pub struct Contradicted {
+    /// Of the area.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub area: Option<f64>,
+    /// Of the volume.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub volume: Option<f64>,
+}
+
+impl Contradicted {
+    /// From the shares by which area and volume are off, and the largest that is told; `None` if both are told.
+    pub(crate) fn beyond(largest: f64, [area, volume]: [f64; 2]) -> Option<Self> {
+        let off = |share: f64| Some(share).filter(|share| share.abs() > largest);
+        let found = Self {
+            area: off(area),
+            volume: off(volume),
+        };
+        (found.area.is_some() || found.volume.is_some()).then_some(found)
+    }
+
+    /// Whether its numbers can be those of a surface.
+    pub(super) fn is_sound(&self) -> bool {
+        [self.area, self.volume]
+            .into_iter()
+            .flatten()
+            .all(|share| share.is_finite() && share > -1.0)
+    }
+}

@@ -1,0 +1,100 @@
+//! What a model's file says is not to be relied on is not told of it, or told of with what is made of it.
+
+use super::{errors, folder, grainform, json, succeed};
+use serde_json::{Value, json};
+use std::f64::consts::PI;
+use tempfile::TempDir;
+
+/// Saves a ball of radius 2 of which something is known.
+fn save(folder: &TempDir, key: &str, known: &Value) {
+    let mut model = json!({
+        "format": "grainform model",
+        "version": 5,
+        "centre": [0.0, 0.0, 0.0],
+        "axes": [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+        "harmonics": [2.0 * (4.0 * PI).sqrt()],
+    });
+    model[key] = known.clone();
+    std::fs::write(folder.path().join("m.json"), model.to_string()).unwrap();
+}
+
+#[test]
+fn nothing_is_measured_of_a_model_beside_a_hole_unless_as_a_guess() {
+    let folder = folder();
+    save(&folder, "unseen", &json!({"hole": {"half_angle": 0.7}}));
+    let report = json(&folder, &["measure", "m.json", "--only", "volume,form"]);
+    assert!(report["volume"].is_null() && report["form"].is_null());
+    let reason = report["not_measured"][1]["reason"].as_str().unwrap();
+    assert!(reason.contains("40 degrees"), "{reason}");
+    let report = json(&folder, &["measure", "m.json", "--extrapolate"]);
+    assert!((report["area"].as_f64().unwrap() / (16.0 * PI) - 1.0).abs() < 1e-12);
+}
+
+#[test]
+fn what_faces_contradict_is_not_measured_of_a_model() {
+    let folder = folder();
+    save(&folder, "contradicted", &json!({"area": 0.09382}));
+    let words = ["measure", "m.json", "--only", "area,volume,sphericity"];
+    let report = json(&folder, &words);
+    assert!(report["area"].is_null() && report["sphericity"].is_null());
+    assert!(report["volume"].is_number());
+    let text = succeed(&folder, &words);
+    let told = "area, sphericity not measured: the area is +9.382 % off";
+    assert!(text.contains(told), "{text}");
+}
+
+#[test]
+fn whatever_is_made_of_such_a_model_is_told_so() {
+    let folder = folder();
+    for (key, known, told) in [
+        (
+            "unseen",
+            json!({"hole": {"half_angle": 0.7}}),
+            "a cap of 40 degrees",
+        ),
+        (
+            "contradicted",
+            json!({"volume": -0.2}),
+            "the volume is -20.000 % off",
+        ),
+    ] {
+        save(&folder, key, &known);
+        succeed(&folder, &["report", "m.json", "-o", "m.html"]);
+        let page = std::fs::read_to_string(folder.path().join("m.html")).unwrap();
+        let missing = page.split("Not measured: ").nth(1).unwrap();
+        assert!(
+            missing.contains("volume") && missing.contains(told),
+            "{missing}"
+        );
+        for words in [
+            "mesh m.json -o m.ply --resolution 4",
+            "clump m.json --spheres 2",
+            "export-dem m.json --engine lammps --unit mm --spheres 2 -o dem",
+            "contact m.json --unit mm --indentation-um 1 --youngs-modulus-mpa 1",
+            "contact m.json m.json --pose-b 0,0,3.9,1,0,0,0",
+        ] {
+            let words: Vec<&str> = words.split(' ').collect();
+            let output = grainform(&folder, &words);
+            assert!(output.status.success(), "{words:?}: {}", errors(&output));
+            let warned = errors(&output);
+            assert!(
+                warned.contains("warning: Of m.json, ") && warned.contains(told),
+                "{warned}"
+            );
+        }
+    }
+}
+
+#[test]
+fn what_is_not_to_be_relied_on_must_be_sound_itself() {
+    let folder = folder();
+    for (key, known, told) in [
+        ("unseen", json!({"hole": {"half_angle": 4.0}}), "half-angle"),
+        ("contradicted", json!({"area": -1.5}), "above -1"),
+    ] {
+        save(&folder, key, &known);
+        let output = grainform(&folder, &["measure", "m.json"]);
+        assert_eq!(output.status.code(), Some(2));
+        assert!(errors(&output).contains(told), "{}", errors(&output));
+    }
+}
