@@ -192,6 +192,7 @@ impl FitReport {
         let symmetry = Some(fitted.grain.symmetry()).filter(|mirrors| *mirrors != Symmetry::NONE);
         let choice = search.choice();
         let mut figures = Figures::new(fitted, survey, options);
+        let evaluation = EvaluationRecord::new(&fitted.grain);
         let reference = fitted.grain.unseen().is_none().then_some(fitted.reference);
         let beside = |found: Option<f64>, of: fn(&Reference) -> f64| {
             Some(found? / of(reference.as_ref()?) - 1.0)
@@ -219,7 +220,7 @@ impl FitReport {
             not_measured: figures.not_measured,
             standard_errors: figures.standard_errors,
             no_standard_errors: figures.no_standard_errors,
-            coefficients_touched: fitted.grain.coefficients_touched(),
+            coefficients_touched: evaluation.touched,
             area_error,
             volume_error,
             reference: reference.map(Into::into),
@@ -229,7 +230,7 @@ impl FitReport {
             mean_radius: fitted.mean_radius,
             estimate: fitted.estimate.map(Into::into),
             estimate_rms: choice.estimate_rms,
-            evaluation: EvaluationRecord::new(&fitted.grain),
+            evaluation,
             whole: fitted
                 .whole
                 .clone()
