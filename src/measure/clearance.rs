@@ -14,8 +14,8 @@ const LONGEST: f64 = 0.5;
 /// The search ends where a shift promises to make the ball larger by no more than this share of its radius.
 const ENOUGH: f64 = 1e-10;
 
-/// The largest shift shrinks where less than this share of it is promised as growth, for the linear programme is solved
-/// to so many digits of it.
+/// The largest shift shrinks, by a factor, where less than this share of it is promised as growth: what matters then is
+/// near.
 const WORTH: f64 = 1e-5;
 const SHRINK: f64 = 0.03;
 

@@ -55,7 +55,7 @@ const SMALL_EDGES: usize = 60;
 const ROUNDS: usize = 8;
 const SETTLED: f64 = 1e-4;
 
-/// Size of the simplex at which the refinement ends before that, relative to the least angle between directions.
+/// Size of the simplex at which the refinement ends before that, relative to the first.
 const COARSE: f64 = 1e-3;
 
 /// Size of the first simplex in a round after the first, in radians.
@@ -99,9 +99,8 @@ pub fn minimum_box(hull: &Mesh) -> Result<OrientedBox, MeshIntegralError> {
     }
     let principal = box_along(&unit.vertices, &frame);
     let mut least = (principal.volume(), frame);
-    let coarse = apart * COARSE;
     for start in starts {
-        let mut best = few.refine(start, apart / 2.0, 2, coarse);
+        let mut best = few.refine(start, apart / 2.0, 2, apart * COARSE);
         let mut is_refined = false;
         for _ in 0..ROUNDS {
             // With more points it can only become larger; of small hulls, smaller when it is refined.
@@ -128,7 +127,7 @@ pub fn minimum_box(hull: &Mesh) -> Result<OrientedBox, MeshIntegralError> {
             is_refined = is_settled;
             best = match is_refined {
                 true => few.refine(grown, NEARBY, 2, last),
-                false => few.refine(grown, NEARBY, 1, coarse),
+                false => few.refine(grown, NEARBY, 1, NEARBY * COARSE),
             };
         }
     }
