@@ -1,4 +1,5 @@
-//! The place that is deepest below planes: a linear programme in four unknowns.
+//! The place that is deepest below planes: a linear programme in four unknowns. The crate microlp took forty times as long
+//! for a dozen of them.
 
 use nalgebra::{Matrix4, Vector3, Vector4};
 
