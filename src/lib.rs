@@ -41,6 +41,7 @@ pub mod model;
 mod page;
 #[cfg(feature = "cli")]
 mod picture;
+mod planes;
 mod polygon_hull;
 #[cfg(feature = "cli")]
 mod portrait;

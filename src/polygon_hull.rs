@@ -13,7 +13,7 @@ const INSIDE: f64 = 1e-12;
 /// chain (Andrew 1979) on an exact predicate, in O(n log n). Fewer than three where the points span no area.
 pub(crate) fn polygon_hull(points: Vec<Vector2<f64>>) -> Vec<Vector2<f64>> {
     let mut points = outer(points);
-    points.sort_unstable_by(|p, q| p.x.total_cmp(&q.x).then(p.y.total_cmp(&q.y)));
+    points.sort_unstable_by(|p, q| p.x.total_cmp(&q.x).then_with(|| p.y.total_cmp(&q.y)));
     points.dedup();
     if points.len() < 3 {
         return points;

@@ -1,7 +1,7 @@
 //! The place from which the nearest of many obstacles is farthest.
 
 use super::Ball;
-use microlp::{ComparisonOp, OptimizationDirection, Problem};
+use crate::planes::{Plane, deepest_below};
 use nalgebra::Vector3;
 
 /// Shifts tried at most.
@@ -14,8 +14,8 @@ const LONGEST: f64 = 0.5;
 /// The search ends where a shift promises to make the ball larger by no more than this share of its radius.
 const ENOUGH: f64 = 1e-10;
 
-/// The largest shift shrinks where less than this share of it is promised as growth, for the linear programme is solved
-/// to so many digits of it.
+/// The largest shift shrinks, by a factor, where less than this share of it is promised as growth: what matters then is
+/// near.
 const WORTH: f64 = 1e-5;
 const SHRINK: f64 = 0.03;
 
@@ -76,9 +76,7 @@ impl<F: Fn(&Vector3<f64>, f64) -> Option<Vector3<f64>>> Climb<F> {
             if found.iter().any(is_found) {
                 return false;
             }
-            let Some((shift, growth)) = best_shift(&self.bounds(by_planes, reach)) else {
-                break;
-            };
+            let (shift, growth) = deepest_below(&self.bounds(by_planes, reach), ALONG_AXIS);
             let promised = growth * reach;
             if promised <= ENOUGH * radius {
                 break;
@@ -104,8 +102,8 @@ impl<F: Fn(&Vector3<f64>, f64) -> Option<Vector3<f64>>> Climb<F> {
         true
     }
 
-    /// How much a shift, in units of the reach, lets the ball grow before each contact within reach.
-    fn bounds(&self, by_planes: bool, reach: f64) -> Vec<Bound> {
+    /// Planes below which shift and growth, in units of the reach, must stay, one before each contact within reach.
+    fn bounds(&self, by_planes: bool, reach: f64) -> Vec<Plane> {
         let Ball { centre, radius } = self.ball;
         let tangent = |contact: &Contact| {
             let away = centre.coords - contact.point;
@@ -118,9 +116,9 @@ impl<F: Fn(&Vector3<f64>, f64) -> Option<Vector3<f64>>> Climb<F> {
         let tangents = self.contacts.iter().map(tangent);
         tangents
             .filter(|(_, distance)| *distance <= radius + 2.0 * reach)
-            .map(|(gradient, distance)| Bound {
-                gradient,
-                room: (distance - radius) / reach,
+            .map(|(gradient, distance)| Plane {
+                normal: -gradient,
+                height: (distance - radius) / reach,
             })
             .collect()
     }
@@ -160,30 +158,5 @@ pub(super) fn largest_from(
         .max_by(|one, other| one.radius.total_cmp(&other.radius))
 }
 
-/// The growth t of a ball that a shift s allows before an obstacle: t <= room + gradient . s.
-struct Bound {
-    gradient: Vector3<f64>,
-    room: f64,
-}
-
 /// Largest shift along each axis, so that no shift is longer than one.
 const ALONG_AXIS: f64 = 0.577;
-
-/// The shift that allows the largest growth, and this growth, at most one.
-fn best_shift(bounds: &[Bound]) -> Option<(Vector3<f64>, f64)> {
-    let mut problem = Problem::new(OptimizationDirection::Maximize);
-    let s = [(); 3].map(|()| problem.add_var(0.0, (-ALONG_AXIS, ALONG_AXIS)));
-    let t = problem.add_var(1.0, (-1.0, 1.0));
-    for Bound { gradient, room } in bounds {
-        let terms = [
-            (s[0], -gradient.x),
-            (s[1], -gradient.y),
-            (s[2], -gradient.z),
-            (t, 1.0),
-        ];
-        problem.add_constraint(terms, ComparisonOp::Le, *room);
-    }
-    let solution = problem.solve().ok()?.into_solution().ok()?;
-    let shift = s.map(|s| solution.var_value(s));
-    Some((Vector3::from(shift), solution.var_value(t)))
-}

@@ -7,6 +7,9 @@ use rayon::prelude::*;
 use serde::Serialize;
 use std::f64::consts::PI;
 
+/// Nodes at which the surface is evaluated together.
+const CHUNK: usize = 4096;
+
 /// Curvatures at the nodes of a quadrature over a surface, with the areas that they stand for.
 #[derive(Debug, Clone)]
 pub struct CurvatureStatistics {
@@ -45,14 +48,17 @@ impl Distribution {
 impl CurvatureStatistics {
     /// That of a surface at the nodes of a quadrature over its [tiling](Surface::tiling).
     pub fn new(surface: &(impl Surface + Sync + ?Sized), nodes: &[Node]) -> Self {
-        let found: Vec<_> = nodes
-            .par_iter()
-            .map(|node| {
-                let (n, solid_angle) = surface.node(*node);
-                let curvature = Curvature::new(&n, &surface.jet(&n));
+        let of_chunk = |nodes: &[Node]| {
+            let nodes: Vec<Node> = nodes.iter().map(|node| surface.node(*node)).collect();
+            let directions: Vec<_> = nodes.iter().map(|(n, _)| *n).collect();
+            let found = nodes.into_iter().zip(surface.jets(&directions));
+            found.map(|((n, solid_angle), jet)| {
+                let curvature = Curvature::new(&n, &jet);
                 (n, (curvature.principal, curvature.area() * solid_angle))
             })
-            .collect();
+        };
+        let chunks = nodes.par_chunks(CHUNK);
+        let found: Vec<_> = chunks.flat_map_iter(of_chunk).collect();
         let sharpness = |(_, ([first, _], _)): &&(Vector3<f64>, ([f64; 2], f64))| *first;
         let sharpest = found
             .iter()

@@ -5,8 +5,10 @@ use super::clearance::largest_from;
 use super::convex_polygon::ConvexPolygon;
 use super::medial::{Foot, deepest};
 use super::roundness::roundness;
+use super::triangle_tree::TriangleTree;
 use super::winding::polygon_winding_number;
 use super::{Ball, enclosing_ball};
+use crate::Mesh;
 use nalgebra::{Point3, Vector2, Vector3};
 use std::f64::consts::PI;
 
@@ -145,42 +147,32 @@ impl Outline {
 
 /// The largest circle inside a polygon that the circle of radius `largest` holds.
 fn inscribed_circle(points: &[Vector2<f64>], largest: f64) -> Option<Ball> {
-    let walls = Walls(points);
+    let corners = points.len() as u32;
+    let edges = TriangleTree::new(&Mesh {
+        vertices: points.iter().map(in_space).collect(),
+        triangles: (0..corners)
+            .map(|start| [start, (start + 1) % corners, start])
+            .collect(),
+    });
+    // The edges are walls across the plane, so that the distance to them is that in the plane.
     let nearest = |place: &Vector3<f64>, limit: f64| {
-        let all = (0..points.len()).map(|index| walls.nearest(index, place));
-        let squares = all.map(|nearest| ((nearest - place).norm_squared(), nearest));
-        let least = squares.min_by(|one, other| one.0.total_cmp(&other.0))?;
-        (least.0 < limit * limit).then_some(least.1)
+        let found = edges.nearest(&place.xy().push(0.0), limit)?;
+        Some(found.xy().push(place.z))
     };
     let step = points.len().div_ceil(FEET);
-    let corners: Vec<Vector3<f64>> = points.iter().map(|p| in_space(p).coords).collect();
+    let corners: Vec<Vector3<f64>> = points.iter().map(|p| p.push(0.0)).collect();
     let feet = (0..points.len()).step_by(step).filter_map(|index| {
-        let [start, along] = walls.edge(index);
-        let inward = Vector3::new(-along.y, along.x, 0.0).try_normalize(0.0)?;
-        let middle = Vector3::new(start.x + along.x / 2.0, start.y + along.y / 2.0, 0.0);
-        Some(Foot::new(middle, inward, largest, corners.iter()))
+        let (start, end) = (corners[index], corners[(index + 1) % points.len()]);
+        let inward = Vector3::z().cross(&(end - start)).try_normalize(0.0)?;
+        Some(Foot::new(
+            (start + end) / 2.0,
+            inward,
+            largest,
+            corners.iter(),
+        ))
     });
     let is_inside = |ball: &Ball| polygon_winding_number(points, &ball.centre.coords.xy()) > 0.5;
     largest_from(nearest, &deepest(feet.collect(), nearest, is_inside))
-}
-
-/// The edges of a polygon as walls across the plane, so that the distance to them is that in the plane.
-struct Walls<'a>(&'a [Vector2<f64>]);
-
-impl Walls<'_> {
-    fn edge(&self, index: usize) -> [Vector2<f64>; 2] {
-        let start = self.0[index];
-        [start, self.0[(index + 1) % self.0.len()] - start]
-    }
-
-    /// The point of an edge nearest to a place.
-    fn nearest(&self, index: usize, place: &Vector3<f64>) -> Vector3<f64> {
-        let [start, along] = self.edge(index);
-        let share = along.dot(&(place.xy() - start)) / along.norm_squared();
-        // Written so that an edge of no length has its start as nearest point.
-        let nearest = start + along * if share > 0.0 { share.min(1.0) } else { 0.0 };
-        Vector3::new(nearest.x, nearest.y, place.z)
-    }
 }
 
 fn in_space(point: &Vector2<f64>) -> Point3<f64> {

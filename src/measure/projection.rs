@@ -71,11 +71,15 @@ pub fn project(
         .map(|(sin, cos)| Vector2::new(cos, sin))
         .collect();
     let mut radii = vec![0.0_f64; OUTLINE_AZIMUTHS];
-    for (triangle, &[a, b, c]) in mesh.triangles.iter().enumerate() {
+    for (triangle, corners) in mesh.triangles.iter().enumerate() {
+        let [Some(a), Some(b), Some(c)] = corners.map(|i| places.get(i as usize)) else {
+            return Err(ProjectionError::MissingVertex { triangle });
+        };
+        // The outline of a closed mesh is made of edges of triangles that are seen from in front.
+        if (b.position - a.position).perp(&(c.position - a.position)) <= 0.0 {
+            continue;
+        }
         for (from, to) in [(a, b), (b, c), (c, a)] {
-            let [Some(from), Some(to)] = [from, to].map(|i| places.get(i as usize)) else {
-                return Err(ProjectionError::MissingVertex { triangle });
-            };
             // Each edge of a closed mesh is walked both ways: once counter-clockwise.
             if let Some(span) = from.span_to(to) {
                 for azimuth in span {
@@ -99,12 +103,23 @@ pub fn project(
         return Err(ProjectionError::CentreOutside);
     }
     let outline = Outline::of(with_corners(&samples, &places)).ok_or(ProjectionError::NoArea)?;
+    if is_star_shaped(mesh, centre) {
+        return Ok(outline);
+    }
     let positions: Vec<Vector2<f64>> = places.iter().map(|place| place.position).collect();
     let share = 1.0 - covered_area(&positions, &mesh.triangles) / outline.area;
     match share > LARGEST_OVERHANG {
         true => Err(ProjectionError::Overhang { share }),
         false => Ok(outline),
     }
+}
+
+/// Whether the centre sees all triangles from inside.
+fn is_star_shaped(mesh: &Mesh, centre: &Point3<f64>) -> bool {
+    mesh.triangles.iter().all(|corners| {
+        let [a, b, c] = corners.map(|corner| mesh.vertices[corner as usize] - centre);
+        a.cross(&b).dot(&c) > 0.0
+    })
 }
 
 /// A projected vertex.

@@ -84,13 +84,13 @@ impl BoundsTree {
             nodes: Vec::new(),
         };
         if !tree.boxes.is_empty() {
-            tree.grow(0, tree.boxes.len());
+            tree.grow(0, tree.boxes.len(), &mut Vec::new());
         }
         tree
     }
 
-    /// Adds the node of a span.
-    fn grow(&mut self, from: usize, to: usize) {
+    /// Adds the node of a span; `middles` is used anew by each.
+    fn grow(&mut self, from: usize, to: usize, middles: &mut Vec<(f64, u32)>) {
         let boxes = &self.boxes;
         let span = &mut self.order[from..to];
         let first = boxes[span[0] as usize];
@@ -100,10 +100,14 @@ impl BoundsTree {
         let half = (span.len() > LEAF).then(|| {
             let axis = (bounds.high - bounds.low).imax();
             let half = span.len() / 2;
-            span.select_nth_unstable_by(half, |&a, &b| {
-                let [a_at, b_at] = [a, b].map(|i| boxes[i as usize].middle(axis));
-                a_at.total_cmp(&b_at).then(a.cmp(&b))
+            middles.clear();
+            middles.extend(span.iter().map(|&i| (boxes[i as usize].middle(axis), i)));
+            middles.select_nth_unstable_by(half, |(a_at, a), (b_at, b)| {
+                a_at.total_cmp(b_at).then_with(|| a.cmp(b))
             });
+            for (place, (_, i)) in span.iter_mut().zip(middles.iter()) {
+                *place = *i;
+            }
             from + half
         });
         let own = self.nodes.len();
@@ -113,9 +117,9 @@ impl BoundsTree {
             second: None,
         });
         if let Some(half) = half {
-            self.grow(from, half);
+            self.grow(from, half, middles);
             self.nodes[own].second = Some(self.nodes.len());
-            self.grow(half, to);
+            self.grow(half, to, middles);
         }
     }
 

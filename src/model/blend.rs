@@ -100,7 +100,7 @@ impl<const K: usize> Blend<K> {
     /// The functions and their derivatives with respect to the components of `n`.
     pub(super) fn jets(&self, n: &Vector3<f64>) -> [Jet; K] {
         let found = self.blend::<2, 1>(self.near(n), &[[n.x], [n.y], [n.z]]);
-        found.map(|jets| jets.jet())
+        found.map(|jets| jets.jet_at(0))
     }
 
     /// Values in many directions, in their order.
@@ -115,6 +115,13 @@ impl<const K: usize> Blend<K> {
         let none = [(0.0, Vector3::zeros()); K];
         self.many::<1, _>(directions, none, |jets, lane| {
             std::array::from_fn(|k| (jets[k].value[lane], jets[k].gradient_at(lane)))
+        })
+    }
+
+    /// The functions and their derivatives in many directions, in their order.
+    pub(super) fn many_jets(&self, directions: &[Vector3<f64>]) -> Vec<[Jet; K]> {
+        self.many::<2, _>(directions, [Jet::default(); K], |jets, lane| {
+            std::array::from_fn(|k| jets[k].jet_at(lane))
         })
     }
 

@@ -103,4 +103,9 @@ impl Blended {
         let [jet] = self.radius.jets(n);
         jet
     }
+
+    /// The same in many directions, in their order.
+    pub(crate) fn jets(&self, directions: &[Vector3<f64>]) -> Vec<Jet> {
+        self.radius.many_jets(directions).into_flattened()
+    }
 }

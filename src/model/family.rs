@@ -83,6 +83,22 @@ impl Family {
         Derivatives::on_sphere(n, &jet)
     }
 
+    /// The derivatives in many directions, in their order.
+    pub(super) fn many_derivatives(&self, directions: &[Vector3<f64>]) -> Vec<Derivatives> {
+        match self {
+            Self::Blended(surface) => {
+                let jets = surface.jets(directions);
+                let found = directions.iter().zip(&jets);
+                found
+                    .map(|(n, jet)| Derivatives::on_sphere(n, jet))
+                    .collect()
+            }
+            Self::Segmented(_) | Self::Mirrored(_) | Self::Whole(_) => {
+                directions.iter().map(|n| self.derivatives(n)).collect()
+            }
+        }
+    }
+
     /// Radii in many directions, likewise.
     pub(super) fn radii(&self, directions: &[Vector3<f64>]) -> Vec<f64> {
         match self {

@@ -188,6 +188,11 @@ impl Surface for Grain {
         self.surface().jet(&n.normalize())
     }
 
+    fn jets(&self, directions: &[Vector3<f64>]) -> Vec<SurfaceJet> {
+        let directions: Vec<_> = directions.iter().map(Vector3::normalize).collect();
+        self.surface().jets(&directions)
+    }
+
     fn places(&self, directions: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
         let directions: Vec<_> = directions.iter().map(Vector3::normalize).collect();
         self.surface().places(&directions)

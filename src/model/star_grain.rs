@@ -203,6 +203,20 @@ impl Surface for StarGrain {
         self.derivatives(n).radial(n)
     }
 
+    fn jets(&self, directions: &[Vector3<f64>]) -> Vec<SurfaceJet> {
+        let local: Vec<_> = directions.iter().map(|n| self.local(n)).collect();
+        let mapped: Vec<_> = local.iter().map(|n| self.stretch.direction(n).0).collect();
+        let found = self.family.many_derivatives(&mapped).into_iter();
+        let found = found
+            .zip(&local)
+            .map(|(found, n)| self.stretch.derivatives(n, |_| found));
+        let turned = found.map(|found| found.turned(&self.frame.axes));
+        turned
+            .zip(directions)
+            .map(|(found, n)| found.radial(n))
+            .collect()
+    }
+
     fn places(&self, directions: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
         let radii = self.radii(directions).into_iter();
         directions.iter().zip(radii).map(|(n, r)| n * r).collect()

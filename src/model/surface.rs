@@ -35,6 +35,11 @@ pub trait Surface {
     /// X(n) with its first and second derivatives, from the formulas of the surface.
     fn jet(&self, n: &Vector3<f64>) -> SurfaceJet;
 
+    /// The same in many directions, in their order.
+    fn jets(&self, directions: &[Vector3<f64>]) -> Vec<SurfaceJet> {
+        directions.iter().map(|n| self.jet(n)).collect()
+    }
+
     /// X in many directions, in their order.
     fn places(&self, directions: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
         directions.iter().map(|n| self.place(n)).collect()

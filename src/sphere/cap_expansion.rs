@@ -204,7 +204,7 @@ impl CapExpansion<1> {
 
     /// The expansion with its derivatives with respect to the components of `n`.
     pub(crate) fn jet(&self, n: &Vector3<f64>) -> Jet {
-        self.jets::<2, 1>(&[[n.x], [n.y], [n.z]])[0].jet()
+        self.jets::<2, 1>(&[[n.x], [n.y], [n.z]])[0].jet_at(0)
     }
 }
 
@@ -304,9 +304,9 @@ mod tests {
             let [ahead, behind] = [step, -step].map(|s| n * s.cos() + tangent * s.sin());
             for k in 0..2 {
                 let (jet, ahead, behind) = (
-                    jets(&n)[k].jet(),
-                    jets(&ahead)[k].jet(),
-                    jets(&behind)[k].jet(),
+                    jets(&n)[k].jet_at(0),
+                    jets(&ahead)[k].jet_at(0),
+                    jets(&behind)[k].jet_at(0),
                 );
                 let slope = (ahead.value - behind.value) / (2.0 * step);
                 assert!((jet.gradient.dot(&tangent) - slope).abs() < 1e-7);

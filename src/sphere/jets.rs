@@ -134,13 +134,14 @@ impl<const ORDER: usize, const N: usize> Jets<ORDER, N> {
     }
 }
 
-impl Jets<2, 1> {
-    /// The one function that it is.
-    pub(crate) fn jet(&self) -> Jet {
+impl<const N: usize> Jets<2, N> {
+    /// The function in one of the directions.
+    #[inline(always)]
+    pub(crate) fn jet_at(&self, i: usize) -> Jet {
         Jet {
-            value: self.value[0],
-            gradient: self.gradient_at(0),
-            hessian: Matrix3::from_fn(|j, k| self.hessian[entry(j, k)][0]),
+            value: self.value[i],
+            gradient: self.gradient_at(i),
+            hessian: Matrix3::from_fn(|j, k| self.hessian[entry(j, k)][i]),
         }
     }
 }

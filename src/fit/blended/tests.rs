@@ -104,6 +104,19 @@ fn coefficients(outcome: &Outcome) -> usize {
 }
 
 #[test]
+fn derivatives_in_many_directions_are_those_in_each() {
+    let maize = body(Body::Maize);
+    let surface = found(&maize, &Settings::within(1e-3 * mean(&maize))).surface;
+    let directions = &anywhere()[..1001];
+    for (n, jet) in directions.iter().zip(surface.jets(directions)) {
+        let own = surface.jet(n);
+        assert!((jet.value - own.value).abs() < 1e-12 * own.value);
+        assert!((jet.gradient - own.gradient).amax() < 1e-11 * own.value);
+        assert!((jet.hessian - own.hessian).amax() < 1e-9 * own.value);
+    }
+}
+
+#[test]
 fn limits_are_met_where_the_fit_has_not_looked() {
     let targets = [
         body(Body::Bean),

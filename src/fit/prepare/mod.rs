@@ -161,9 +161,8 @@ fn star_centre(
 ) -> Result<Point3<f64>, FitError> {
     let mut centre = centroid;
     let mut share = facing_away_share(mesh, &centroid);
-    if share > NEGLIGIBLE_SHARE
-        && let Some(deepest) = deepest_centre(mesh, &centroid)
-    {
+    if share > NEGLIGIBLE_SHARE {
+        let deepest = deepest_centre(mesh, &centroid);
         let deepest_share = facing_away_share(mesh, &deepest);
         if deepest_share < share {
             (centre, share) = (deepest, deepest_share);

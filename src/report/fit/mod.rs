@@ -207,6 +207,7 @@ impl FitReport {
             true => Err("there are no figures for them".into()),
             false => standard_errors(fitted, survey).map_err(|error| error.to_string()),
         };
+        let evaluation = EvaluationRecord::new(&fitted.grain);
         let reference = fitted.grain.unseen().is_none().then_some(fitted.reference);
         let beside = |found: Option<f64>, of: fn(&Reference) -> f64| {
             Some(found? / of(reference.as_ref()?) - 1.0)
@@ -229,7 +230,7 @@ impl FitReport {
             not_measured: told.not_measured,
             no_standard_errors: standard_errors.as_ref().err().cloned(),
             standard_errors: standard_errors.ok().map(Into::into),
-            coefficients_touched: fitted.grain.coefficients_touched(),
+            coefficients_touched: evaluation.touched,
             area_error: beside(survey.area().ok(), |reference| reference.area),
             volume_error: beside(survey.volume().ok(), |reference| reference.volume),
             reference: reference.map(Into::into),
@@ -239,7 +240,7 @@ impl FitReport {
             mean_radius: fitted.mean_radius,
             estimate: fitted.estimate.map(Into::into),
             estimate_rms: choice.estimate_rms,
-            evaluation: EvaluationRecord::new(&fitted.grain),
+            evaluation,
             whole: fitted
                 .whole
                 .clone()
