@@ -1,7 +1,14 @@
 //! The points that an estimate rests on, in a space in which the grain is rounder.
 
 use crate::fit::prepare::Sample;
+use crate::sphere::{HarmonicBasis, coefficient_count};
 use nalgebra::Vector3;
+
+/// A cloud is uneven where the squared moments of its density, of degrees 1 to [`MOMENTS`] in units of that of degree 0, add up
+/// to more than this and what random places have: .45 where half of the points are eight times thinner.
+const UNEVEN: f64 = 0.1;
+const MOMENTS: usize = 4;
+const RANDOM: f64 = 60.0;
 
 /// Directions and radii of points after the linear map T = diag(`stretch`), radii in units of their mean.
 #[derive(Debug, Clone)]
@@ -68,6 +75,21 @@ impl Cloud {
     /// Number of points.
     pub(crate) fn len(&self) -> usize {
         self.radii.len()
+    }
+
+    /// Whether the points are much denser on one side than on another.
+    pub(crate) fn is_uneven(&self) -> bool {
+        let basis = HarmonicBasis::new(MOMENTS);
+        let mut values = vec![0.0; coefficient_count(MOMENTS)];
+        let mut moments = values.clone();
+        for (n, weight) in self.directions.iter().zip(&self.weights) {
+            basis.evaluate(n, &mut values);
+            for (moment, value) in moments.iter_mut().zip(&values) {
+                *moment += weight * value;
+            }
+        }
+        let squares: f64 = moments[1..].iter().map(|moment| moment * moment).sum();
+        squares > (UNEVEN + RANDOM / self.len() as f64) * moments[0].powi(2)
     }
 
     /// Every so many points of the cloud: samples are sorted by place, so these are spread like all.

@@ -22,7 +22,7 @@
 use super::outcome::{Estimate, bending_variance, spare};
 use crate::fit::neighbours::Neighbours;
 use crate::measure::Curvature;
-use crate::model::{CurvatureErrors, Family, StarGrain, StarSurface, Surface};
+use crate::model::{CurvatureErrors, Family, StarGrain, Surface};
 use crate::sphere::CubeCell;
 use nalgebra::{Matrix2, Matrix3, Vector3};
 
@@ -50,15 +50,16 @@ impl Estimate {
         };
         let square = |n: &Vector3<f64>, misfit: f64| {
             let towards = frame.axes * n;
-            let at = |grain: &StarGrain| Curvature::new(&towards, &grain.jet(&towards));
-            let curvature = at(&best);
+            let jet = best.jet(&towards);
+            let curvature = Curvature::new(&towards, &jet);
             let exact = tensor(&curvature);
-            let difference = (tensor(&at(grain)) - exact).norm_squared();
+            let told = tensor(&Curvature::new(&towards, &grain.jet(&towards)));
+            let difference = (told - exact).norm_squared();
             let rounding = FLOOR * FLOOR * exact.norm_squared();
             let local = [0, 1].map(|i| frame.axes.tr_mul(&curvature.directions[i]));
             let normal = frame.axes.tr_mul(&curvature.normal);
-            let radius = best.radius(&towards);
-            difference + rounding + misfit * bending * self.bend(n, radius, &normal, local)
+            let bend = self.bend(n, jet.place.norm(), &normal, local);
+            difference + rounding + misfit * bending * bend
         };
         let places = || (0..PLACES).map(|i| (i as f64 + 0.5) / PLACES as f64);
         let of_cell = |cell: CubeCell| {

@@ -9,7 +9,8 @@
 //!   do not tell; those of the [extents](super::dimension_errors); the repulsion of nearly equal moments;
 //! - a floor, for rounding and quadrature.
 //!
-//! Where what is left of the points is no noise, the variances grow by what [leaving them out](super::left_out) tells.
+//! Where what is left of the points, or of one of them, is no noise, the variances grow by what
+//! [leaving them out](super::left_out) tells.
 //!
 //! There are none where neither can be trusted: beside a large hole, and of bodies with
 //! [edges](super::unresolved) that are symmetric or have flat sides.
@@ -53,14 +54,16 @@ impl Estimate {
         told: &Figures,
     ) -> Result<StandardErrors, NoInterval> {
         let posterior = self.posterior();
-        let kurtosis = kurtosis(&posterior.residuals(&self.coefficients));
+        let residuals = posterior.residuals(&self.coefficients);
+        let kurtosis = kurtosis(&residuals);
         let is_rough = kurtosis > limit(self.cloud.len());
         let may_have_edges = is_rough || are_many(self.outliers, self.cloud.len());
         let is_made = || is_symmetric(&self.coefficients) || is_flat_sided(&self.cloud.points());
         if may_have_edges && is_made() {
             return Err(NoInterval::Unresolved { kurtosis });
         }
-        let left_out = is_rough.then(|| LeftOut::new(self, &posterior));
+        let left_out = LeftOut::new(self, &posterior, &residuals);
+        let left_out = (is_rough || left_out.stand_out).then_some(left_out);
         let best = Best::new(self, &posterior, left_out.as_ref()).ok_or(NoInterval::NotFinite)?;
         Ok(best.errors(told))
     }

@@ -10,8 +10,9 @@
 //!
 //! The sum of the squares of d over the points is the variance of the functional whatever the sizes of the misfits (the
 //! jackknife: Quenouille, Tukey), and the sum of d tells what they do together where they are of one sign: so the area
-//! lacks its edges. Both are added to the posterior variance. For h stands its mean over the points, or over those
-//! of one polar angle.
+//! lacks its edges. Both are added to the posterior variance, also where a single point is missed by more than noise can
+//! tell: in a thin part of a cloud it may be all that tells of a beak. For h stands its mean over the points, or over those
+//! of one polar angle, or of one density.
 //!
 //! Measured: 95 % intervals hold the volume of 86 and the area of all of 87 barley kernels, with standard errors of .09 and
 //! .9 % (medians), and 100 and 91 to 100 % of those of stones and kernels scanned at random on their faces.
@@ -20,9 +21,11 @@ use super::functionals::dot;
 use super::leverage::spares;
 use super::outcome::Estimate;
 use super::posterior::Posterior;
+use super::unresolved::FLOOR;
 use crate::fit::figures::{INTEGRALS, MassList};
 use crate::fit::neighbours::Neighbours;
 use nalgebra::{SMatrix, Vector3};
+use std::cell::OnceCell;
 
 /// Points near an end that tell how far the surface may be off there.
 const VICINITY: usize = 10;
@@ -30,24 +33,41 @@ const VICINITY: usize = 10;
 /// Points left out one by one.
 pub(super) struct LeftOut<'a> {
     posterior: &'a Posterior<'a>,
-    neighbours: Neighbours,
+    neighbours: OnceCell<Neighbours>,
     /// By how much the others miss each, in units of the mean radius.
     errors: Vec<f64>,
     /// Square of the noise, likewise.
     noise: f64,
+    /// Whether one of them is missed by more than noise can tell.
+    pub(super) stand_out: bool,
 }
 
+/// The largest of n normal numbers is in nineteen of twenty cases below sqrt(2 log 4n) standard deviations.
+const PER_POINT: f64 = 4.0;
+
 impl<'a> LeftOut<'a> {
-    pub(super) fn new(estimate: &Estimate, posterior: &'a Posterior<'a>) -> Self {
-        let residuals = posterior.residuals(&estimate.coefficients).into_iter();
+    /// `residuals`: of the points, in units of the mean radius.
+    pub(super) fn new(
+        estimate: &Estimate,
+        posterior: &'a Posterior<'a>,
+        residuals: &[f64],
+    ) -> Self {
+        let noise = estimate.spectrum.noise().powi(2);
+        let spares = spares(estimate);
+        let expected = |spare: f64, weight: f64| (noise / weight + FLOOR * FLOOR) * spare;
+        let most = 2.0 * (PER_POINT * residuals.len() as f64).ln();
+        let weighted = spares.iter().zip(&posterior.cloud.weights);
+        let stand_out = residuals
+            .iter()
+            .zip(weighted)
+            .any(|(e, (&spare, &weight))| e * e > most * expected(spare, weight));
+        let errors = residuals.iter().zip(&spares);
         Self {
             posterior,
-            neighbours: Neighbours::new(&posterior.cloud.directions),
-            errors: residuals
-                .zip(spares(estimate))
-                .map(|(e, spare)| e / spare)
-                .collect(),
-            noise: estimate.spectrum.noise().powi(2),
+            neighbours: OnceCell::new(),
+            errors: errors.map(|(e, spare)| e / spare).collect(),
+            noise,
+            stand_out,
         }
     }
 
@@ -74,7 +94,9 @@ impl<'a> LeftOut<'a> {
 
     /// Mean square of the errors nearest to a direction.
     pub(super) fn near(&self, n: &Vector3<f64>) -> f64 {
-        let near = self.neighbours.nearest(n, VICINITY);
+        let directions = &self.posterior.cloud.directions;
+        let neighbours = self.neighbours.get_or_init(|| Neighbours::new(directions));
+        let near = neighbours.nearest(n, VICINITY);
         let squares = near.iter().map(|&i| self.errors[i] * self.errors[i]);
         squares.sum::<f64>() / near.len().max(1) as f64
     }

@@ -1,28 +1,58 @@
 //! Leverage of points: how much of each the estimate follows.
 //!
 //! Their mean is told by what the points leave of the prior variances. Where orders differ by a tilt, they depend on the
-//! polar angle: as of an even cloud, as sum of (1 - q_lm) Y_lm^2.
+//! polar angle: as of an even cloud, as sum of (1 - q_lm) Y_lm^2. In an uneven cloud they depend on the density of the
+//! points near by, N per solid angle: as of an even cloud of that density, as sum of (2l + 1) w v_l / (N v_l + s^2) / 4 pi.
 
 use super::outcome::{Estimate, learnt};
+use crate::fit::neighbours::Neighbours;
 use crate::sphere::{HarmonicBasis, coefficient_count};
 use nalgebra::Vector3;
-use std::f64::consts::FRAC_PI_2;
+use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Floor of 1 - h, which is told by a mean over points.
 const LEAST: f64 = 0.1;
 
 /// 1 - h of every point.
 pub(super) fn spares(estimate: &Estimate) -> Vec<f64> {
-    let profile = Profile::new(estimate);
-    let leverages: Vec<f64> = estimate
-        .cloud
-        .directions
-        .iter()
-        .map(|n| profile.at(n))
-        .collect();
+    let mut leverages = match estimate.cloud.is_uneven() {
+        true => by_density(estimate),
+        false => vec![1.0; estimate.cloud.len()],
+    };
+    if estimate.spectrum.tilt != 0.0 {
+        let profile = Profile::new(estimate);
+        let directions = estimate.cloud.directions.iter();
+        for (leverage, n) in leverages.iter_mut().zip(directions) {
+            *leverage *= profile.at(n);
+        }
+    }
     let scale = learnt(&estimate.unlearnt) / leverages.iter().sum::<f64>();
     let spares = leverages.iter().map(|leverage| 1.0 - scale * leverage);
     spares.map(|spare| spare.max(LEAST)).collect()
+}
+
+/// Points that tell the density about one of them, itself left out.
+const VICINITY: usize = 16;
+
+/// Leverages that follow the density of the points.
+fn by_density(estimate: &Estimate) -> Vec<f64> {
+    let cloud = &estimate.cloud;
+    let neighbours = Neighbours::new(&cloud.directions);
+    let noise = estimate.spectrum.noise().powi(2);
+    let variances = estimate.spectrum.variances(estimate.degree);
+    let points = cloud.directions.iter().zip(&cloud.weights);
+    let leverages = points.map(|(n, own)| {
+        let near = neighbours.nearest(n, VICINITY + 1);
+        let weight: f64 = near.iter().skip(1).map(|&i| cloud.weights[i]).sum();
+        let farthest = near
+            .last()
+            .map_or(0.0, |&i| (cloud.directions[i] - n).norm());
+        // The solid angle of a cap is pi times the square of the chord from its middle to its rim.
+        let density = weight / (PI * farthest * farthest);
+        let of_degree = |(l, v): (usize, &f64)| (2 * l + 1) as f64 * v / (density * v + noise);
+        own * variances.iter().enumerate().map(of_degree).sum::<f64>()
+    });
+    leverages.collect()
 }
 
 /// Leverage against polar angle, in any unit: both halves of the sphere are alike.

@@ -225,8 +225,7 @@ impl Conditioned<'_> {
     }
 
     /// Per degree, the share of the prior variance that the points leave: the mean of C_mm over the variance of the order,
-    /// by probes of the variances themselves, where the matrix is factored. The mean variance of the radius is then good
-    /// to a percent.
+    /// by probes of the variances themselves. The mean variance of the radius is then good to a percent.
     pub(crate) fn unlearnt(&self) -> Vec<f64> {
         self.per_degree(&self.probed_diagonal(|_| 1.0))
     }

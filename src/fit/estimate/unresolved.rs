@@ -31,7 +31,7 @@ const SMOOTH: f64 = 3.6;
 const DEVIATIONS: f64 = 8.0;
 
 /// Residuals below this share of the mean radius do not count, whatever their distribution.
-const FLOOR: f64 = 3e-4;
+pub(super) const FLOOR: f64 = 3e-4;
 
 /// Odd part of the radius, as RMS in units of the mean radius, below which a body is alike on both sides of its centre.
 const LEAST_ODD: f64 = 0.015;

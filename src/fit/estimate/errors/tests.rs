@@ -354,3 +354,28 @@ fn the_error_of_a_length_covers_what_is_missing_of_a_beak() {
         "{error} for {missing}"
     );
 }
+
+/// Of which one half has an eighth of the points.
+#[test]
+fn the_deviation_of_an_uneven_cloud_is_that_of_its_posterior() {
+    let noise = 0.005;
+    let mut directions = fibonacci(6600);
+    let mut count = 0;
+    directions.retain(|n| {
+        count += 1;
+        n.x > 0.0 || count % 8 == 0
+    });
+    let samples = samples(
+        &directions,
+        |n| 1.0 + 0.1 * n.x * n.y + 0.05 * (5.0 * n.z).sin(),
+        noise,
+    );
+    let estimate = estimated(&samples, Vector3::repeat(1.0));
+    assert!(estimate.factor.is_none());
+    let posterior = Posterior::new(&estimate.cloud, estimate.degree, true);
+    let given = posterior.given(&estimate.spectrum);
+    let variances = given.exact_variances(&fibonacci(300)).unwrap();
+    let exact = (variances.iter().sum::<f64>() / 300.0).sqrt();
+    let told = estimate.deviation() / estimate.cloud.mean;
+    assert!((told / exact - 1.0).abs() < 0.1, "{told} {exact}");
+}

@@ -17,12 +17,13 @@ fn moves_are_those_of_estimates_without_a_point() {
         .collect();
     let estimate = estimate(&samples, Vector3::repeat(1.0), &Context::default()).unwrap();
     let posterior = estimate.posterior();
+    let residuals = posterior.residuals(&estimate.coefficients);
     let mut functional = vec![0.0; estimate.coefficients.len()];
     (functional[0], functional[3], functional[6]) = (1.0, 0.5, 0.25);
     let known = estimate
         .given(&posterior)
         .covariances(&[functional.clone()]);
-    let moves = LeftOut::new(&estimate, &posterior).moves(&known[0]);
+    let moves = LeftOut::new(&estimate, &posterior, &residuals).moves(&known[0]);
     let whole = dot(&functional, &estimate.coefficients);
     let scale = moves.iter().fold(0.0, |most: f64, d| most.max(d.abs()));
     for at in [7, 111, 200, 333] {
