@@ -85,7 +85,7 @@ pub struct EstimateSummary {
     pub degree: usize,
     /// Standard deviation of the radius, as root mean square over all directions.
     pub deviation: f64,
-    /// Standard deviation of the noise of one point (of the mean of a patch, of clouds of more than 30 000 points).
+    /// Standard deviation of the noise of one point.
     pub noise: f64,
     /// Exponent of the power law by which the variance of its harmonics falls with their degree.
     pub slope: f64,

@@ -48,6 +48,7 @@ use crate::sphere::{ScatteredHarmonics, coefficient_count};
 use cloud::Cloud;
 use map::rounder;
 use nalgebra::Vector3;
+use outcome::Dense;
 use outliers::{ROUNDS, alone};
 use patches::{Patches, WHOLE_CLOUD};
 use posterior::{Posterior, is_small};
@@ -76,7 +77,7 @@ pub(crate) fn estimate(
     axes: Vector3<f64>,
     context: &Context<'_>,
 ) -> Result<Estimate, Cancelled> {
-    let patches = (samples.len() > WHOLE_CLOUD).then(|| Patches::new(samples));
+    let mut patches = (samples.len() > WHOLE_CLOUD).then(|| Patches::new(samples));
     let (reduced, counts) = match &patches {
         Some(patches) => (patches.means.as_slice(), Some(patches.counts.as_slice())),
         None => (samples, None),
@@ -115,14 +116,22 @@ pub(crate) fn estimate(
             coefficients.resize(coefficient_count(degree), 0.0);
             fit = fit_spectrum(&posterior, fit.spectrum, Some(coefficients), Count::Probed);
         }
-        let alone = match rounds < ROUNDS && patches.is_none() {
+        let are_told = patches.as_ref().is_none_or(Patches::are_some_thin);
+        let alone = match rounds < ROUNDS && are_told {
             true => alone(&posterior, &fit),
             false => Vec::new(),
         };
-        if !alone.is_empty() {
+        let left_out = match &mut patches {
+            Some(patches) => patches.leave_out(&alone, |places| residuals(places, &cloud, &fit)),
+            None => alone.len(),
+        };
+        if left_out > 0 {
             rounds += 1;
-            outliers += alone.len();
-            cloud = cloud.without(&alone);
+            outliers += left_out;
+            cloud = match &patches {
+                Some(patches) => Cloud::new(&patches.means, Some(&patches.counts), cloud.stretch),
+                None => cloud.without(&alone),
+            };
             // The lower degree was fitted to all points.
             if let Some((lower, before)) = lower.take() {
                 (degree, fit) = (lower, before);
@@ -143,9 +152,7 @@ pub(crate) fn estimate(
             None => break,
         }
     }
-    if let Some(patches) = &patches {
-        correct(&mut cloud, patches, degree, &mut fit);
-    }
+    let dense = patches.map(|patches| correct(&mut cloud, &patches, &mut fit));
     Ok(Estimate {
         cloud,
         degree,
@@ -155,6 +162,7 @@ pub(crate) fn estimate(
         outliers,
         sums: fit.sums,
         factor: fit.factor,
+        dense,
     })
 }
 
@@ -184,16 +192,22 @@ fn next_degree(
     carries.then_some(next)
 }
 
+/// Measured less fitted radii of samples, in the cloud's stretched space and unit.
+fn residuals(samples: &[Sample], cloud: &Cloud, fit: &SpectrumFit) -> Vec<f64> {
+    let mapped = Cloud::mapped(samples, cloud.stretch, cloud.mean);
+    let (directions, measured): (Vec<_>, Vec<_>) = mapped.into_iter().unzip();
+    let mut fitted = vec![0.0; directions.len()];
+    let harmonics = ScatteredHarmonics::new(fit.sums.degree(), &directions);
+    harmonics.synthesis(&fit.coefficients, &mut fitted);
+    let pairs = measured.iter().zip(fitted);
+    pairs.map(|(measured, fitted)| measured - fitted).collect()
+}
+
 /// Adds the patch means of the residuals, and solves again.
-fn correct(cloud: &mut Cloud, patches: &Patches, degree: usize, fit: &mut SpectrumFit) {
-    let residuals = patches.means_of(|places| {
-        let mapped = Cloud::mapped(places, cloud.stretch, cloud.mean);
-        let (directions, measured): (Vec<_>, Vec<_>) = mapped.into_iter().unzip();
-        let mut fitted = vec![0.0; places.len()];
-        ScatteredHarmonics::new(degree, &directions).synthesis(&fit.coefficients, &mut fitted);
-        let pairs = measured.iter().zip(fitted);
-        pairs.map(|(measured, fitted)| measured - fitted).collect()
-    });
+fn correct(cloud: &mut Cloud, patches: &Patches, fit: &mut SpectrumFit) -> Dense {
+    let residuals = residuals(patches.places(), cloud, fit);
+    let squares: Vec<f64> = residuals.iter().map(|e| e * e).collect();
+    let residuals = patches.means_of(&residuals);
     let posterior = Posterior::with(cloud, Arc::clone(&fit.sums));
     cloud.radii = posterior.radii(&fit.coefficients);
     for (radius, residual) in cloud.radii.iter_mut().zip(residuals) {
@@ -202,4 +216,8 @@ fn correct(cloud: &mut Cloud, patches: &Patches, degree: usize, fit: &mut Spectr
     let posterior = Posterior::with(cloud, Arc::clone(&fit.sums));
     let given = posterior.given(&fit.spectrum);
     fit.coefficients = given.mean(Some(&fit.coefficients), SETTLED).0;
+    Dense {
+        points: patches.points(),
+        residuals: patches.mean_of(&squares),
+    }
 }

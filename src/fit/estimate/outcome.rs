@@ -26,6 +26,17 @@ pub(crate) struct Estimate {
     pub(super) sums: Arc<Sums>,
     /// The factored matrix of the problem, where it is small enough: 15 MB at degree 36.
     pub(crate) factor: Option<Arc<Factor>>,
+    /// The points of which the cloud is the patch means.
+    pub(super) dense: Option<Dense>,
+}
+
+/// Points of which patches were made.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Dense {
+    /// Their number.
+    pub(super) points: f64,
+    /// Mean square of their residuals, in units of the mean radius.
+    pub(super) residuals: f64,
 }
 
 impl Estimate {

@@ -3,8 +3,10 @@
 //! A mean over a patch is biased by slope and curvature inside it. One correction removes that: the patch
 //! means of the residuals against a first estimate are added to what it says at the patches. These means are taken over
 //! six places with the mean and the covariance of the patch's points: they are those over all points but for fourth
-//! derivatives, and for how far the points of a patch lean to one side.
+//! derivatives, and for how far the points of a patch lean to one side. The squares of the residuals there tell the noise of
+//! the points.
 
+use super::functionals::dot;
 use crate::fit::prepare::Sample;
 use crate::sphere::CubeCell;
 use crate::spread::{covariance, median, robust_deviation};
@@ -16,8 +18,8 @@ pub(crate) const WHOLE_CLOUD: usize = 30_000;
 /// Patches along an edge of the cube: 6 x 64^2 = 24 576 in all.
 const PER_EDGE: u16 = 64;
 
-/// Points of a patch that stand apart from its median radius by more than this many standard deviations
-/// are left out, ...
+/// Points of a patch that stand apart from its median radius by more than this many standard deviations, its own and those of
+/// most patches, are left out, ...
 const DEVIATIONS: f64 = 6.0;
 
 /// ... if they also do by this share of the radius.
@@ -26,16 +28,20 @@ const LEAST: f64 = 0.01;
 /// Points that it takes to tell.
 const FEWEST: usize = 8;
 
+/// One patch in so many tells how far points of most patches stand apart.
+const EVERY_PATCH: usize = 16;
+
 /// Places that stand for the points of a patch; fewer points stand for themselves.
 const PLACES: usize = 6;
 
 /// A cloud in patches.
+#[derive(Default)]
 pub(crate) struct Patches {
     /// Mean direction and radius per patch that holds points.
     pub(crate) means: Vec<Sample>,
     /// Points per patch.
     pub(crate) counts: Vec<f64>,
-    /// Points left out.
+    /// Points left out when they were last gathered.
     pub(crate) left_out: usize,
     places: Vec<Sample>,
     /// Places of a patch begin where those of the one before end.
@@ -63,49 +69,90 @@ impl Patches {
             members[next[cell as usize]] = index as u32;
             next[cell as usize] += 1;
         }
-        let mut patches = Self {
-            means: Vec::new(),
-            counts: Vec::new(),
-            left_out: 0,
-            places: Vec::new(),
-            ends: Vec::new(),
-        };
-        for pair in starts.windows(2).filter(|pair| pair[0] < pair[1]) {
-            patches.add(samples, &members[pair[0]..pair[1]]);
+        let mut patches = Self::default();
+        let cells = starts.windows(2).map(|pair| &members[pair[0]..pair[1]]);
+        let tells = |members: &&[u32]| members.len() >= FEWEST;
+        let some = cells.clone().filter(tells).step_by(EVERY_PATCH);
+        let mut spreads: Vec<f64> = some
+            .map(|members| middle_and_spread(samples, members).1)
+            .collect();
+        let usual = median(&mut spreads).unwrap_or(0.0);
+        for members in cells.filter(|members| !members.is_empty()) {
+            patches.add(samples, members, usual);
         }
         patches
     }
 
-    fn add(&mut self, samples: &[Sample], members: &[u32]) {
-        let mut radii: Vec<f64> = members.iter().map(|&i| samples[i as usize][3]).collect();
-        let middle = median(&mut radii).unwrap_or(0.0);
-        let limit = if members.len() < FEWEST {
-            f64::INFINITY
-        } else {
-            let spread = robust_deviation(radii.iter().map(|r| r - middle));
-            (DEVIATIONS * spread).max(LEAST * middle)
+    /// `usual`: standard deviation of the radii in most patches.
+    fn add(&mut self, samples: &[Sample], members: &[u32], usual: f64) {
+        let (middle, spread) = middle_and_spread(samples, members);
+        let limit = match members.len() < FEWEST {
+            true => f64::INFINITY,
+            false => (DEVIATIONS * spread.max(usual)).max(LEAST * middle),
         };
         let kept = members.iter().map(|&index| samples[index as usize]);
         let kept: Vec<Sample> = kept.filter(|[.., r]| (r - middle).abs() <= limit).collect();
-        let (mut direction, mut radius) = (Vector3::zeros(), 0.0);
-        for &[x, y, z, r] in &kept {
-            direction += Vector3::new(x, y, z);
-            radius += r;
-        }
-        let n = direction.normalize();
-        self.means.push([n.x, n.y, n.z, radius / kept.len() as f64]);
-        self.counts.push(kept.len() as f64);
         self.left_out += members.len() - kept.len();
-        match kept.len() <= PLACES {
-            true => self.places.extend(kept),
-            false => self.places.extend(places(&kept)),
+        let places = match kept.len() <= PLACES {
+            true => kept.clone(),
+            false => places(&kept).to_vec(),
+        };
+        self.push(mean(&kept), kept.len() as f64, places);
+    }
+
+    /// Whether some patches have too few points to tell which of them stand apart.
+    pub(crate) fn are_some_thin(&self) -> bool {
+        self.counts.iter().any(|&count| count <= PLACES as f64)
+    }
+
+    /// Leaves out one point each, the farthest from a surface, of those of these patches, ascending, that have few of them.
+    /// `off`: by how much samples are off the surface.
+    pub(crate) fn leave_out(
+        &mut self,
+        patches: &[usize],
+        off: impl FnOnce(&[Sample]) -> Vec<f64>,
+    ) -> usize {
+        if patches.is_empty() {
+            return 0;
         }
+        let off = off(&self.places);
+        let mut patches = patches.iter().peekable();
+        let before = std::mem::take(self);
+        let mut start = 0;
+        for (at, &end) in before.ends.iter().enumerate() {
+            let own = std::mem::replace(&mut start, end)..end;
+            let mut kept = before.places[own.clone()].to_vec();
+            let count = before.counts[at];
+            if patches.next_if_eq(&&at).is_none() || count > PLACES as f64 {
+                self.push(before.means[at], count, kept);
+                continue;
+            }
+            let farthest = own
+                .clone()
+                .max_by(|&a, &b| off[a].abs().total_cmp(&off[b].abs()));
+            kept.remove(farthest.map_or(0, |at| at - own.start));
+            self.left_out += 1;
+            if !kept.is_empty() {
+                self.push(mean(&kept), count - 1.0, kept);
+            }
+        }
+        self.left_out
+    }
+
+    fn push(&mut self, mean: Sample, count: f64, places: Vec<Sample>) {
+        self.means.push(mean);
+        self.counts.push(count);
+        self.places.extend(places);
         self.ends.push(self.places.len());
     }
 
-    /// Means, over the points of each patch, of a function of samples, given many at once.
-    pub(crate) fn means_of(&self, function: impl FnOnce(&[Sample]) -> Vec<f64>) -> Vec<f64> {
-        let values = function(&self.places);
+    /// What stands for the points.
+    pub(crate) fn places(&self) -> &[Sample] {
+        &self.places
+    }
+
+    /// Means of values at these places over the points of each patch.
+    pub(crate) fn means_of(&self, values: &[f64]) -> Vec<f64> {
         let mut start = 0;
         let mean = |&end: &usize| {
             let of_patch = &values[start..end];
@@ -114,6 +161,34 @@ impl Patches {
         };
         self.ends.iter().map(mean).collect()
     }
+
+    /// Number of the points.
+    pub(crate) fn points(&self) -> f64 {
+        self.counts.iter().sum()
+    }
+
+    /// Mean of values at these places over all points.
+    pub(crate) fn mean_of(&self, values: &[f64]) -> f64 {
+        dot(&self.means_of(values), &self.counts) / self.points()
+    }
+}
+
+/// The median radius of a patch's points, and their standard deviation about it, told by the median.
+fn middle_and_spread(samples: &[Sample], members: &[u32]) -> (f64, f64) {
+    let mut radii: Vec<f64> = members.iter().map(|&i| samples[i as usize][3]).collect();
+    let middle = median(&mut radii).unwrap_or(0.0);
+    (middle, robust_deviation(radii.iter().map(|r| r - middle)))
+}
+
+/// Mean direction and radius.
+fn mean(samples: &[Sample]) -> Sample {
+    let (mut direction, mut radius) = (Vector3::zeros(), 0.0);
+    for &[x, y, z, r] in samples {
+        direction += Vector3::new(x, y, z);
+        radius += r;
+    }
+    let n = direction.normalize();
+    [n.x, n.y, n.z, radius / samples.len() as f64]
 }
 
 /// Places with the mean and the covariance of some samples as points: from the mean, up and down the columns of the
@@ -168,24 +243,18 @@ mod tests {
         let samples = samples();
         let patches = Patches::new(&samples);
         let of_places = |function: fn(&Sample) -> f64| {
-            patches.means_of(|places| places.iter().map(function).collect())
-        };
-        let total = |means: Vec<f64>| -> f64 {
-            means
-                .iter()
-                .zip(&patches.counts)
-                .map(|(mean, count)| mean * count)
-                .sum()
+            let values: Vec<f64> = patches.places().iter().map(function).collect();
+            patches.mean_of(&values) * patches.points()
         };
         let second =
             |&[x, y, z, r]: &Sample| r * r * (x * x - 0.3 * y * z) + r * (y - 2.0 * x) + 0.1;
         let exact: f64 = samples.iter().map(second).sum();
-        let found = total(of_places(second));
+        let found = of_places(second);
         assert!((found / exact - 1.0).abs() < 1e-12, "{found} {exact}");
         // Of the tenth degree over patches of 1.4 degrees.
         let tenth = |&[x, _, z, r]: &Sample| r * (x * x - z * z).powi(5);
         let exact: f64 = samples.iter().map(|sample| tenth(sample).abs()).sum();
-        let off = total(of_places(tenth)) - samples.iter().map(tenth).sum::<f64>();
+        let off = of_places(tenth) - samples.iter().map(tenth).sum::<f64>();
         assert!((off / exact).abs() < 1e-6, "{off} {exact}");
         assert!(patches.counts.iter().any(|&count| count > PLACES as f64));
         assert_eq!(patches.left_out, 0);

@@ -1,6 +1,6 @@
 //! An estimate as a surface: its radii, its expansion cut at a degree, and how sure it is as a whole.
 
-use super::outcome::Estimate;
+use super::outcome::{Dense, Estimate, spare, variance};
 use crate::model::{Stretch, Whole};
 use crate::sphere::{RingGrid, ScatteredHarmonics, coefficient_count};
 use nalgebra::Vector3;
@@ -20,24 +20,32 @@ impl Estimate {
 
     /// Standard deviation of the noise of one point, as a mean over all directions, in the scan's unit.
     pub(crate) fn noise(&self) -> f64 {
-        self.spectrum.noise() * self.plain_length()
+        let noise = match self.dense {
+            Some(Dense { points, residuals }) => (residuals / spare(&self.unlearnt, points)).sqrt(),
+            None => self.spectrum.noise(),
+        };
+        noise * self.plain_length()
     }
 
     /// Standard deviation of the radius, as root mean square over all directions, in the scan's unit.
     pub(crate) fn deviation(&self) -> f64 {
-        super::outcome::variance(&self.spectrum, &self.unlearnt).sqrt() * self.plain_length()
+        variance(&self.spectrum, &self.unlearnt).sqrt() * self.plain_length()
     }
 
     /// Error of predictions of a point from all others, as root mean square, in the scan's unit: by generalised
     /// cross-validation, that is with the mean of the points' leverages.
     pub(crate) fn held_out(&self) -> f64 {
-        let posterior = self.posterior();
-        let residuals = posterior.residuals(&self.coefficients);
-        let weighted = residuals.iter().zip(&self.cloud.weights);
-        let squared: f64 = weighted.map(|(e, w)| w * e * e).sum();
-        let points = self.cloud.len() as f64;
-        let rms = (squared / points).sqrt() / super::outcome::spare(&self.unlearnt, points);
-        rms * self.plain_length()
+        let (points, square) = match self.dense {
+            Some(Dense { points, residuals }) => (points, residuals),
+            None => {
+                let residuals = self.posterior().residuals(&self.coefficients);
+                let weighted = residuals.iter().zip(&self.cloud.weights);
+                let squared: f64 = weighted.map(|(e, w)| w * e * e).sum();
+                let points = self.cloud.len() as f64;
+                (points, squared / points)
+            }
+        };
+        square.sqrt() / spare(&self.unlearnt, points) * self.plain_length()
     }
 
     /// What an expansion may leave out and still be the estimate itself, in the scan's unit.

@@ -45,6 +45,7 @@ fn rough(degree: usize, stretch: [f64; 3]) -> Estimate {
         outliers: 0,
         sums: std::sync::Arc::new(crate::fit::estimate::sums::Sums::new(degree)),
         factor: None,
+        dense: None,
     }
 }
 
