@@ -31,13 +31,14 @@ fn seen(mesh: &Mesh, from: &Point3<f64>) -> f64 {
 fn bodies_that_bend_hold_their_medial_ball() {
     let (wall, bottom): (f64, f64) = (1.0, 0.7);
     let corner = wall + bottom - (2.0 * wall * bottom).sqrt();
-    for (name, mesh, exact, tolerance) in [
-        ("torus", torus(3.0, 1.0, 200, 100), 1.0, 1e-3),
-        ("thin torus", torus(10.0, 0.3, 400, 60), 0.3, 2e-3),
-        ("banana", banana(6.0, 2.5, 1.2), 1.2, 2e-3),
-        ("U", u_shape(3.0, 5.0, 0.8), 0.8, 1e-3),
-        // It rests in the corner of bottom and wall and touches the edge inside.
-        ("cup", cup(5.0, 8.0, wall, bottom), corner, 1e-4),
+    for (name, mesh, exact, tolerance, same) in [
+        ("torus", torus(3.0, 1.0, 200, 100), 1.0, 1e-3, 1e-9),
+        ("thin torus", torus(10.0, 0.3, 400, 60), 0.3, 2e-3, 1e-9),
+        ("banana", banana(6.0, 2.5, 1.2), 1.2, 2e-3, 1e-9),
+        ("U", u_shape(3.0, 5.0, 0.8), 0.8, 1e-3, 1e-9),
+        // It rests in the corner of bottom and wall and touches the edge inside. All around there is one for every facet,
+        // and rounding decides between them.
+        ("cup", cup(5.0, 8.0, wall, bottom), corner, 1e-4, 1e-5),
     ] {
         let solid = mesh_properties(&mesh).expect("a solid");
         assert!(solid.volume > 0.0, "{name}");
@@ -57,7 +58,7 @@ fn bodies_that_bend_hold_their_medial_ball() {
         assert!(nearest >= ball.radius * (1.0 - 1e-12), "{name}");
         let survey = Survey::of_mesh(&mesh).expect("a solid");
         let inscribed = survey.inscribed().expect("a ball").radius;
-        assert!((inscribed / ball.radius - 1.0).abs() < 1e-9, "{name}");
+        assert!((inscribed / ball.radius - 1.0).abs() < same, "{name}");
         let ratio = survey.sphericity().expect("spheres").inscribed_enclosing;
         assert!(ratio > 0.0 && ratio < 0.6, "{name}: {ratio}");
     }
