@@ -4,7 +4,6 @@ use super::columns::{Figure, figures};
 use super::journal::Row;
 use crate::export::{SaveError, save_grain, save_mesh};
 use crate::fit::{Context, FitOptions, Fitted, fit_scan, whole_or_largest};
-use crate::measure::{Scheme, Survey};
 use crate::model::Surface;
 use crate::report::{FitReport, Measure, MeasureReport, Unit, Withheld, by_reason, sentences};
 use crate::scan::{parse_file, read_stream};
@@ -113,7 +112,7 @@ fn told(error: &dyn Error) -> String {
 }
 
 fn row(fitted: &Fitted, warnings: &[String], settings: &Settings) -> Row {
-    let survey = Survey::of_grain(&fitted.grain, Scheme::Exact);
+    let survey = fitted.survey();
     let (name, options) = (String::new(), &settings.fit);
     let fit = FitReport::with_survey(name, None, fitted, &survey, options, warnings);
     let withheld = Withheld::of(&fitted.grain, options.extrapolate);

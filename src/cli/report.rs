@@ -108,7 +108,7 @@ fn grain_part(path: &Path, args: &ReportArgs) -> Result<GrainPart> {
         true => Some(costs(&scan, &name).with_context(failed)?),
         false => None,
     };
-    let survey = Survey::of_grain(&fitted.grain, Scheme::Exact);
+    let survey = fitted.survey();
     let told = FitReport::with_survey(name.clone(), args.unit, &fitted, &survey, &options, &[]);
     let mut warnings = sentences(scan.warnings(), &fitted.warnings, args.unit);
     let (measures, missing) = measured(&survey, &fitted.grain, args);

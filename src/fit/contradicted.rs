@@ -2,7 +2,6 @@
 
 use super::outcome::Fitted;
 use super::prepare::ReferenceKind;
-use crate::measure::{Scheme, Survey};
 use crate::model::Contradicted;
 
 /// By how much area or volume may differ from those of the closed faces that a surface was fitted to. With standard
@@ -16,17 +15,17 @@ const VOUCHING: f64 = 4.0;
 impl Fitted {
     /// The same, of whose grain it is known what the faces contradict.
     pub(super) fn beside_faces(mut self) -> Self {
-        let contradicted = self.contradicted();
-        self.grain = self.grain.with_contradicted(contradicted);
+        let is_closed = self.grain.unseen().is_none();
+        if is_closed && self.reference.kind == ReferenceKind::Faces {
+            self.properties = self.survey().unit_properties().ok().copied();
+            let contradicted = self.contradicted();
+            self.grain = self.grain.with_contradicted(contradicted);
+        }
         self
     }
 
     fn contradicted(&self) -> Option<Contradicted> {
-        let is_closed = self.grain.unseen().is_none();
-        if !is_closed || self.reference.kind != ReferenceKind::Faces {
-            return None;
-        }
-        let survey = Survey::of_grain(&self.grain, Scheme::Exact);
+        let survey = self.survey();
         let told = survey.properties().ok()?;
         let area = told.area - self.reference.area;
         let volume = told.volume - self.reference.volume;

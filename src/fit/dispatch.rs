@@ -60,6 +60,7 @@ impl PreparedScan<'_> {
             estimate: None,
             whole: None,
             warnings: self.warnings.clone(),
+            properties: None,
             posterior: None,
             errors: None,
         }

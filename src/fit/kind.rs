@@ -243,6 +243,7 @@ fn positioned(
         estimate: None,
         whole: None,
         warnings,
+        properties: None,
         posterior: None,
         errors: Some(fit.errors),
     };

@@ -6,7 +6,7 @@ use super::figures::Figures;
 use super::prepare::Reference;
 use super::standard_errors::{NoInterval, StandardErrors};
 use super::warning::FitWarning;
-use crate::measure::MassProperties;
+use crate::measure::{MassProperties, Scheme, Survey};
 use crate::model::{Grain, StarGrain, Surface};
 use nalgebra::Vector3;
 
@@ -39,6 +39,8 @@ pub struct Fitted {
     pub whole: Option<StarGrain>,
     /// What a user should know of the scan and the fit.
     pub warnings: Vec<FitWarning>,
+    /// Area, volume and moments of the grain at unit size, where they were compared with the scan's faces.
+    pub(crate) properties: Option<MassProperties>,
     pub(crate) posterior: Option<Box<Estimate>>,
     /// Standard errors of a surface that has no estimate of its radius.
     pub(crate) errors: Option<Result<StandardErrors, NoInterval>>,
@@ -125,6 +127,14 @@ impl Residuals {
 }
 
 impl Fitted {
+    /// The survey of the grain as it was fitted, with exact integrals; what the fit measured is not measured again.
+    pub fn survey(&self) -> Survey<'_> {
+        match self.properties {
+            Some(properties) => Survey::of_known(&self.grain, properties),
+            None => Survey::of_grain(&self.grain, Scheme::Exact),
+        }
+    }
+
     /// Standard errors of figures that are told of the grain: its mass properties and its length, width and
     /// thickness, all in the scan's frame. Where much of the surface was not seen, they allow for what holes are known
     /// to hide. Computed when asked for.

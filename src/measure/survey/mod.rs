@@ -75,6 +75,14 @@ impl<'a> Survey<'a> {
         Self::new(Body::grain(grain, scheme))
     }
 
+    /// The same of a grain whose [`Self::unit_properties`] are known.
+    pub(crate) fn of_known(grain: &'a Grain, properties: MassProperties) -> Self {
+        Self {
+            properties: OnceCell::from(Ok(properties)),
+            ..Self::of_grain(grain, Scheme::Exact)
+        }
+    }
+
     /// Of a surface whose area, volume and moments are known, in its own frame.
     pub fn of_surface(surface: &'a (dyn StarSurface + Sync), properties: MassProperties) -> Self {
         Self::new((Body::Known(Radial(surface), properties), Unit::OWN))

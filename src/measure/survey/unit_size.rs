@@ -20,7 +20,8 @@ use std::f64::consts::PI;
 const LARGEST_OVERHANG: f64 = 0.01;
 
 impl Survey<'_> {
-    pub(super) fn unit_properties(&self) -> Result<&MassProperties, SurveyError> {
+    /// Area, volume and moments at unit size.
+    pub(crate) fn unit_properties(&self) -> Result<&MassProperties, SurveyError> {
         let found = self.properties.get_or_init(|| self.body.properties());
         found.as_ref().map_err(Clone::clone)
     }

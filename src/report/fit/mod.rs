@@ -10,7 +10,7 @@ use super::rule::{kind_rule, rule};
 use super::unit::Unit;
 use super::warning::sentences;
 use crate::fit::{FitOptions, Fitted, NoInterval, Reference, StandardErrors, Tolerance};
-use crate::measure::{Scheme, Survey};
+use crate::measure::Survey;
 use crate::model::StarGrain;
 use crate::sphere::Symmetry;
 use serde::Serialize;
@@ -184,8 +184,14 @@ impl FitReport {
         options: &FitOptions,
         scan_warnings: &[String],
     ) -> Self {
-        let survey = Survey::of_grain(&fitted.grain, Scheme::Exact);
-        Self::with_survey(input, unit, fitted, &survey, options, scan_warnings)
+        Self::with_survey(
+            input,
+            unit,
+            fitted,
+            &fitted.survey(),
+            options,
+            scan_warnings,
+        )
     }
 
     /// The same, with a survey of the fitted grain, of which more may be asked: what is measured is measured once.
