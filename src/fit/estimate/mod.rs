@@ -206,7 +206,7 @@ fn residuals(samples: &[Sample], cloud: &Cloud, fit: &SpectrumFit) -> Vec<f64> {
 /// Adds the patch means of the residuals, and solves again.
 fn correct(cloud: &mut Cloud, patches: &Patches, fit: &mut SpectrumFit) -> Dense {
     let residuals = residuals(patches.places(), cloud, fit);
-    let squares: Vec<f64> = residuals.iter().map(|e| e * e).collect();
+    let within = patches.spread_of(&residuals);
     let residuals = patches.means_of(&residuals);
     let posterior = Posterior::with(cloud, Arc::clone(&fit.sums));
     cloud.radii = posterior.radii(&fit.coefficients);
@@ -218,6 +218,6 @@ fn correct(cloud: &mut Cloud, patches: &Patches, fit: &mut SpectrumFit) -> Dense
     fit.coefficients = given.mean(Some(&fit.coefficients), SETTLED).0;
     Dense {
         points: patches.points(),
-        residuals: patches.mean_of(&squares),
+        residuals: within + posterior.mean_square(&fit.coefficients),
     }
 }

@@ -11,6 +11,7 @@ use crate::fit::prepare::Sample;
 use crate::sphere::CubeCell;
 use crate::spread::{covariance, median, robust_deviation};
 use nalgebra::{Matrix3, Vector3};
+use std::iter::once;
 
 /// Clouds up to this size are used point by point.
 pub(crate) const WHOLE_CLOUD: usize = 30_000;
@@ -153,13 +154,17 @@ impl Patches {
 
     /// Means of values at these places over the points of each patch.
     pub(crate) fn means_of(&self, values: &[f64]) -> Vec<f64> {
-        let mut start = 0;
-        let mean = |&end: &usize| {
-            let of_patch = &values[start..end];
-            start = end;
-            of_patch.iter().sum::<f64>() / of_patch.len() as f64
+        self.of_patches(values).map(mean_of).collect()
+    }
+
+    /// Mean square, over all points, of what values at these places differ by from the means of their patches.
+    pub(crate) fn spread_of(&self, values: &[f64]) -> f64 {
+        let square = |own: &[f64]| {
+            let mean = mean_of(own);
+            mean_of(&own.iter().map(|x| (x - mean).powi(2)).collect::<Vec<_>>())
         };
-        self.ends.iter().map(mean).collect()
+        let squares: Vec<f64> = self.of_patches(values).map(square).collect();
+        dot(&squares, &self.counts) / self.points()
     }
 
     /// Number of the points.
@@ -167,10 +172,16 @@ impl Patches {
         self.counts.iter().sum()
     }
 
-    /// Mean of values at these places over all points.
-    pub(crate) fn mean_of(&self, values: &[f64]) -> f64 {
-        dot(&self.means_of(values), &self.counts) / self.points()
+    /// The values at the places of each patch.
+    fn of_patches<'a>(&'a self, values: &'a [f64]) -> impl Iterator<Item = &'a [f64]> {
+        let starts = once(0).chain(self.ends.iter().copied());
+        let ends = self.ends.iter().copied();
+        starts.zip(ends).map(|(start, end)| &values[start..end])
     }
+}
+
+fn mean_of(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len() as f64
 }
 
 /// The median radius of a patch's points, and their standard deviation about it, told by the median.
@@ -244,7 +255,7 @@ mod tests {
         let patches = Patches::new(&samples);
         let of_places = |function: fn(&Sample) -> f64| {
             let values: Vec<f64> = patches.places().iter().map(function).collect();
-            patches.mean_of(&values) * patches.points()
+            dot(&patches.means_of(&values), &patches.counts)
         };
         let second =
             |&[x, y, z, r]: &Sample| r * r * (x * x - 0.3 * y * z) + r * (y - 2.0 * x) + 0.1;

@@ -122,6 +122,13 @@ impl<'a> Posterior<'a> {
         sums
     }
 
+    /// Weighted mean square of the residuals.
+    pub(super) fn mean_square(&self, coefficients: &[f64]) -> f64 {
+        let residuals = self.residuals(coefficients).into_iter();
+        let weighted = residuals.zip(&self.cloud.weights);
+        weighted.map(|(e, w)| w * e * e).sum::<f64>() / self.cloud.len() as f64
+    }
+
     /// Measured less fitted radii.
     pub(crate) fn residuals(&self, coefficients: &[f64]) -> Vec<f64> {
         let fitted = self.radii(coefficients);

@@ -38,11 +38,8 @@ impl Estimate {
         let (points, square) = match self.dense {
             Some(Dense { points, residuals }) => (points, residuals),
             None => {
-                let residuals = self.posterior().residuals(&self.coefficients);
-                let weighted = residuals.iter().zip(&self.cloud.weights);
-                let squared: f64 = weighted.map(|(e, w)| w * e * e).sum();
-                let points = self.cloud.len() as f64;
-                (points, squared / points)
+                let square = self.posterior().mean_square(&self.coefficients);
+                (self.cloud.len() as f64, square)
             }
         };
         square.sqrt() / spare(&self.unlearnt, points) * self.plain_length()
