@@ -133,8 +133,9 @@ pub enum FitError {
     },
     /// The surface is far from the points.
     #[error(
-        "the surface is off its points by {:.0} % of the mean radius (RMS): they are not of one surface; look for \
-         several bodies, a ring, or what the grain stands on; grainform split cuts one grain out",
+        "the surface is off its points by {:.0} % of the mean radius (RMS): they may not be of one surface, or \
+         few where it is steep, as on the rim of a plate; look for several bodies, a ring, or what the grain stands on; \
+         grainform split cuts one grain out",
         100.0 * share
     )]
     FarFromPoints {
@@ -143,7 +144,7 @@ pub enum FitError {
     },
     /// The surface goes far beyond the points.
     #[error(
-        "the surface holds {times:.1} times the volume of the polyhedron of its points: they are not of one grain; look \
+        "the surface holds {times:.1} times the volume of the polyhedron of its points: they may not be of one grain; look \
          for several bodies, or what the grain stands on; grainform split cuts one grain out"
     )]
     FarBeyondPoints {
