@@ -67,3 +67,18 @@ impl GrainMaterial {
         }
     }
 }
+
+#[cfg(test)]
+impl GrainMaterial {
+    /// That of tests, of this density.
+    pub(super) fn trial(density: f64) -> Self {
+        Self {
+            youngs_modulus: 1e7,
+            poissons_ratio: 0.3,
+            friction: 0.4,
+            rolling_friction: 0.0,
+            restitution: 0.6,
+            density,
+        }
+    }
+}

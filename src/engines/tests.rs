@@ -29,15 +29,7 @@ fn clump() -> Clump {
 
 fn deck() -> Deck {
     let kind = Kind::new("a grain", &clump(), 1e-3, 2500.0).unwrap();
-    let material = GrainMaterial {
-        youngs_modulus: 1e7,
-        poissons_ratio: 0.3,
-        friction: 0.4,
-        rolling_friction: 0.0,
-        restitution: 0.6,
-        density: 2500.0,
-    };
-    Deck::column(vec![kind], 20, material, 7).unwrap()
+    Deck::column(vec![kind], 20, GrainMaterial::trial(2500.0), 7).unwrap()
 }
 
 fn text(engine: Engine, path: &str) -> String {

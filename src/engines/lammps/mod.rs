@@ -26,9 +26,9 @@ pub(super) fn files(deck: &Deck) -> Vec<InputFile<'_>> {
          frames shows the grains as they fall, settled.dump is where the spheres lie at the end, grains.dump the \
          grains, contacts.dump which spheres touch and how hard.",
     );
-    if let Some(more) = superellipsoid::files(deck) {
+    if let Some((more, of_them)) = superellipsoid::files(deck) {
         files.extend(more);
-        told += &format!(" {}", superellipsoid::told(deck));
+        told += &format!(" {of_them}");
     }
     files.push(runs(
         deck,

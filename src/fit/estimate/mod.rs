@@ -37,6 +37,8 @@ mod sums;
 mod surface;
 mod tilt;
 mod tips;
+#[cfg(test)]
+mod trial;
 mod unresolved;
 
 pub use local::RadiusError;

@@ -42,7 +42,7 @@ pub(crate) struct Patches {
     pub(crate) means: Vec<Sample>,
     /// Points per patch.
     pub(crate) counts: Vec<f64>,
-    /// Points left out when they were last gathered.
+    /// Points left out.
     pub(crate) left_out: usize,
     places: Vec<Sample>,
     /// Places of a patch begin where those of the one before end.
@@ -94,11 +94,12 @@ impl Patches {
         let kept = members.iter().map(|&index| samples[index as usize]);
         let kept: Vec<Sample> = kept.filter(|[.., r]| (r - middle).abs() <= limit).collect();
         self.left_out += members.len() - kept.len();
-        let places = match kept.len() <= PLACES {
-            true => kept.clone(),
+        let (mean, count) = (mean(&kept), kept.len());
+        let places = match count <= PLACES {
+            true => kept,
             false => places(&kept).to_vec(),
         };
-        self.push(mean(&kept), kept.len() as f64, places);
+        self.push(mean, count as f64, places);
     }
 
     /// Whether some patches have too few points to tell which of them stand apart.
@@ -119,6 +120,7 @@ impl Patches {
         let off = off(&self.places);
         let mut patches = patches.iter().peekable();
         let before = std::mem::take(self);
+        self.left_out = before.left_out;
         let mut start = 0;
         for (at, &end) in before.ends.iter().enumerate() {
             let own = std::mem::replace(&mut start, end)..end;
@@ -137,7 +139,7 @@ impl Patches {
                 self.push(mean(&kept), count - 1.0, kept);
             }
         }
-        self.left_out
+        self.left_out - before.left_out
     }
 
     fn push(&mut self, mean: Sample, count: f64, places: Vec<Sample>) {

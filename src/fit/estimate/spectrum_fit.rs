@@ -182,7 +182,7 @@ impl<'a> Look<'a> {
             spectrum: place.spectrum,
             coefficients: mean,
             unlearnt: match given.factor.is_some()
-                || is_uneven(&given, &place.spectrum, &told.unlearnt)
+                || are_doubtful(&given, &place.spectrum, &told.unlearnt)
             {
                 true => given.unlearnt(),
                 false => told.unlearnt,
@@ -196,12 +196,12 @@ impl<'a> Look<'a> {
 /// Probes of the shares tell the variance of the radius of an even cloud to some percent. Of an uneven one, where
 /// coefficients of low degrees depend on those of high ones, they scatter: with half of the points eight times thinner its
 /// root was 2 to 7 times the true one.
-const UNEVEN: f64 = 1.5;
+const MOST_SCATTERED: f64 = 1.5;
 
 /// Whether shares differ from those of an even cloud by enough to doubt them.
-fn is_uneven(given: &Conditioned<'_>, spectrum: &Spectrum, unlearnt: &[f64]) -> bool {
+fn are_doubtful(given: &Conditioned<'_>, spectrum: &Spectrum, unlearnt: &[f64]) -> bool {
     let ratio = variance(spectrum, unlearnt) / variance(spectrum, &given.even_unlearnt());
-    !(1.0 / UNEVEN..UNEVEN).contains(&ratio)
+    !(1.0 / MOST_SCATTERED..MOST_SCATTERED).contains(&ratio)
 }
 
 /// What a round says of a spectrum.

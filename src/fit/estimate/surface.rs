@@ -122,3 +122,6 @@ impl Estimate {
 
 /// Rings by which the mean weight is found: to 1e-6 of bodies three times as long as wide.
 const MEAN_RINGS: usize = 24;
+
+#[cfg(test)]
+mod tests;

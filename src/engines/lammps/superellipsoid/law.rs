@@ -65,14 +65,7 @@ mod tests {
 
     #[test]
     fn an_impact_leaves_the_restitution_and_comes_as_deep_as_hertz() {
-        let material = GrainMaterial {
-            youngs_modulus: 1e7,
-            poissons_ratio: 0.3,
-            friction: 0.3,
-            rolling_friction: 0.0,
-            restitution: 0.6,
-            density: 2500.0,
-        };
+        let material = GrainMaterial::trial(2500.0);
         let (mass, radius, height) = (1e-4, 2e-3, 0.05);
         let grain = Partner { mass, radius };
         let law = Law::new([grain, Partner::WALL], &material, height);

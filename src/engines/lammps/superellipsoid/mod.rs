@@ -17,35 +17,41 @@ use crate::engines::kind::Kind;
 use body::Superellipsoid;
 use data::data;
 use script::script;
+use std::iter::once;
 
 /// Least share of the volume that is told.
 const LEAST_TOLD: f64 = 5e-5;
 
-/// The data file and the script; none unless [`bodies`] are.
-pub(super) fn files(deck: &Deck) -> Option<[InputFile<'_>; 2]> {
+/// The data file and the script, and what the README says of them; none unless [`bodies`] are.
+pub(super) fn files(deck: &Deck) -> Option<([InputFile<'_>; 2], String)> {
     let bodies = bodies(deck)?;
-    let script = script(deck, &bodies);
-    Some([
+    let (script, told) = (script(deck, &bodies), told(deck, &bodies));
+    let files = [
         InputFile::streamed("data.superellipsoids", move |file| {
             data(deck, &bodies, file)
         }),
         InputFile::new("in.superellipsoids", script),
-    ])
+    ];
+    Some((files, told))
 }
 
-/// What the README says of the files.
-pub(super) fn told(deck: &Deck) -> String {
+fn told(deck: &Deck, bodies: &[Superellipsoid]) -> String {
     let told = "`lmp -in in.superellipsoids` is for LAMMPS of 30 March 2026 or later with ASPHERE, written after its manual \
                 and not run here: the same grains as superellipsoids (data.superellipsoids) between walls that are five \
                 more which do not move; the last of frames is where the grains lie.";
-    let sentences: Vec<String> = [told.into()].into_iter().chain(remarks(deck)).collect();
+    let sentences: Vec<String> = once(told.into()).chain(raised(deck, bodies)).collect();
     sentences.join(" ")
 }
 
 /// What the grains lose as superellipsoids, in sentences.
 pub(in crate::engines) fn remarks(deck: &Deck) -> Vec<String> {
     let bodies = bodies(deck).unwrap_or_default();
-    let raised = |(kind, body): (&Kind, Superellipsoid)| {
+    raised(deck, &bodies).collect()
+}
+
+/// Whose exponents are raised, in sentences.
+fn raised(deck: &Deck, bodies: &[Superellipsoid]) -> impl Iterator<Item = String> {
+    let told = |(kind, body): (&Kind, &Superellipsoid)| {
         (body.swelling >= LEAST_TOLD).then(|| {
             format!(
                 "Exponents of {} below 2 are raised to 2 for superellipsoids: {:.2} % more volume, the same mass, the inertia \
@@ -55,7 +61,7 @@ pub(in crate::engines) fn remarks(deck: &Deck) -> Vec<String> {
             )
         })
     };
-    deck.kinds.iter().zip(bodies).filter_map(raised).collect()
+    deck.kinds.iter().zip(bodies).filter_map(told)
 }
 
 /// The kinds, where each is one superquadric of equal octants and the walls are flat.

@@ -23,20 +23,12 @@ fn deck(semi_axes: [f64; 3], n1: f64, n2: f64) -> Deck {
     };
     let kind = Kind::new("a", &clump, 1e-3, 1300.0).unwrap();
     let kind = kind.with_superquadric(&shape, 1e-3);
-    let material = GrainMaterial {
-        youngs_modulus: 1e7,
-        poissons_ratio: 0.3,
-        friction: 0.4,
-        rolling_friction: 0.0,
-        restitution: 0.6,
-        density: 1300.0,
-    };
-    Deck::column(vec![kind], 12, material, 7).unwrap()
+    Deck::column(vec![kind], 12, GrainMaterial::trial(1300.0), 7).unwrap()
 }
 
 /// The rows of a section, without ids.
 fn section(deck: &Deck, name: &str) -> Vec<Vec<f64>> {
-    let [data, _] = files(deck).unwrap();
+    let ([data, _], _) = files(deck).unwrap();
     let mut bytes = Vec::new();
     data.write(&mut bytes).unwrap();
     let text = String::from_utf8(bytes).unwrap();

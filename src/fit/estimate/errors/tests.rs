@@ -1,34 +1,11 @@
 use super::*;
-use crate::fit::context::Context;
-use crate::fit::estimate::estimate;
-use crate::fit::prepare::Sample;
+use crate::fit::estimate::trial::{estimated, fibonacci, samples};
 use crate::measure::Survey;
 use crate::model::{Family, Frame, StarGrain};
-use crate::shapes::{Body, Sampling, SynthOptions, synthesize};
+use crate::shapes::{Body, SynthOptions, synthesize};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
-
-fn samples(
-    directions: &[Vector3<f64>],
-    radius: impl Fn(&Vector3<f64>) -> f64,
-    noise: f64,
-) -> Vec<Sample> {
-    let mut random = ChaCha8Rng::seed_from_u64(3);
-    let mut at = |n: &Vector3<f64>| {
-        let error: f64 = StandardNormal.sample(&mut random);
-        [n.x, n.y, n.z, radius(n) + noise * error]
-    };
-    directions.iter().map(&mut at).collect()
-}
-
-fn estimated(samples: &[Sample], axes: Vector3<f64>) -> Estimate {
-    estimate(samples, axes, &Context::default()).unwrap()
-}
-
-fn fibonacci(points: usize) -> Vec<Vector3<f64>> {
-    Sampling::Fibonacci.directions(points, 0).unwrap()
-}
 
 /// An ellipsoid with these semi-axes.
 fn ellipsoid(axes: Vector3<f64>) -> impl Fn(&Vector3<f64>) -> f64 {
@@ -353,61 +330,4 @@ fn the_error_of_a_length_covers_what_is_missing_of_a_beak() {
         (0.5..2.0).contains(&(error / missing)),
         "{error} for {missing}"
     );
-}
-
-/// Of which one half has an eighth of the points.
-#[test]
-fn the_deviation_of_an_uneven_cloud_is_that_of_its_posterior() {
-    let noise = 0.005;
-    let mut directions = fibonacci(6600);
-    let mut count = 0;
-    directions.retain(|n| {
-        count += 1;
-        n.x > 0.0 || count % 8 == 0
-    });
-    let samples = samples(
-        &directions,
-        |n| 1.0 + 0.1 * n.x * n.y + 0.05 * (5.0 * n.z).sin(),
-        noise,
-    );
-    let estimate = estimated(&samples, Vector3::repeat(1.0));
-    assert!(estimate.factor.is_none());
-    let posterior = Posterior::new(&estimate.cloud, estimate.degree, true);
-    let given = posterior.given(&estimate.spectrum);
-    let variances = given.exact_variances(&fibonacci(300)).unwrap();
-    let exact = (variances.iter().sum::<f64>() / 300.0).sqrt();
-    let told = estimate.deviation() / estimate.cloud.mean;
-    assert!((told / exact - 1.0).abs() < 0.1, "{told} {exact}");
-}
-
-/// Though the estimate sees means of patches of two points.
-#[test]
-fn the_noise_of_a_dense_cloud_is_that_of_its_points() {
-    let noise = 0.02;
-    let samples = samples(&fibonacci(50_000), |n| 1.0 + 0.1 * n.x * n.y, noise);
-    let estimate = estimated(&samples, Vector3::repeat(1.0));
-    assert_eq!(estimate.outliers, 0);
-    let told = estimate.noise() / noise;
-    assert!((told - 1.0).abs() < 0.02, "{told}");
-    let held_out = estimate.held_out() / noise;
-    assert!((held_out - 1.0).abs() < 0.02, "{held_out}");
-}
-
-/// One in a hundred, 40 standard deviations off, in patches of two points.
-#[test]
-fn strays_of_a_dense_cloud_are_left_out() {
-    let noise = 0.004;
-    let mut samples = samples(&fibonacci(50_000), |n| 1.0 + 0.1 * n.x * n.y, noise);
-    samples
-        .iter_mut()
-        .step_by(100)
-        .for_each(|sample| sample[3] += 40.0 * noise);
-    let estimate = estimated(&samples, Vector3::repeat(1.0));
-    assert!(
-        (490..=510).contains(&estimate.outliers),
-        "{}",
-        estimate.outliers
-    );
-    let told = estimate.noise() / noise;
-    assert!((told - 1.0).abs() < 0.05, "{told}");
 }

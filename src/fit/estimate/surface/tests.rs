@@ -1,0 +1,60 @@
+use super::super::posterior::Posterior;
+use super::super::trial::{estimated, fibonacci, samples};
+use super::*;
+
+/// Of which one half has an eighth of the points.
+#[test]
+fn the_deviation_of_an_uneven_cloud_is_that_of_its_posterior() {
+    let noise = 0.005;
+    let mut directions = fibonacci(6600);
+    let mut count = 0;
+    directions.retain(|n| {
+        count += 1;
+        n.x > 0.0 || count % 8 == 0
+    });
+    let samples = samples(
+        &directions,
+        |n| 1.0 + 0.1 * n.x * n.y + 0.05 * (5.0 * n.z).sin(),
+        noise,
+    );
+    let estimate = estimated(&samples, Vector3::repeat(1.0));
+    assert!(estimate.factor.is_none());
+    let posterior = Posterior::new(&estimate.cloud, estimate.degree, true);
+    let given = posterior.given(&estimate.spectrum);
+    let variances = given.exact_variances(&fibonacci(300)).unwrap();
+    let exact = (variances.iter().sum::<f64>() / 300.0).sqrt();
+    let told = estimate.deviation() / estimate.cloud.mean;
+    assert!((told / exact - 1.0).abs() < 0.1, "{told} {exact}");
+}
+
+/// Though the estimate sees means of patches of two points.
+#[test]
+fn the_noise_of_a_dense_cloud_is_that_of_its_points() {
+    let noise = 0.02;
+    let samples = samples(&fibonacci(50_000), |n| 1.0 + 0.1 * n.x * n.y, noise);
+    let estimate = estimated(&samples, Vector3::repeat(1.0));
+    assert_eq!(estimate.outliers, 0);
+    let told = estimate.noise() / noise;
+    assert!((told - 1.0).abs() < 0.02, "{told}");
+    let held_out = estimate.held_out() / noise;
+    assert!((held_out - 1.0).abs() < 0.02, "{held_out}");
+}
+
+/// One in a hundred, 40 standard deviations off, in patches of two points.
+#[test]
+fn strays_of_a_dense_cloud_are_left_out() {
+    let noise = 0.004;
+    let mut samples = samples(&fibonacci(50_000), |n| 1.0 + 0.1 * n.x * n.y, noise);
+    samples
+        .iter_mut()
+        .step_by(100)
+        .for_each(|sample| sample[3] += 40.0 * noise);
+    let estimate = estimated(&samples, Vector3::repeat(1.0));
+    assert!(
+        (490..=510).contains(&estimate.outliers),
+        "{}",
+        estimate.outliers
+    );
+    let told = estimate.noise() / noise;
+    assert!((told - 1.0).abs() < 0.05, "{told}");
+}
