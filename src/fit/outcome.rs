@@ -89,7 +89,7 @@ pub struct EstimateSummary {
     pub deviation: f64,
     /// Standard deviation of the noise of one point.
     pub noise: f64,
-    /// Exponent of the power law by which the variance of its harmonics falls with their degree.
+    /// Exponent of the power law by which the variance of its harmonics falls with their degree, without that of texture.
     pub slope: f64,
     /// Points that stand alone and were left out.
     pub outliers: usize,

@@ -6,7 +6,7 @@
 //! - the difference between the figure that is told (of the surface that stands for the estimate) and the best
 //!   value of the estimate;
 //! - allowances for what second order brings: half of the area's excess, for it rests on degrees that the points
-//!   do not tell; those of the [extents](super::dimension_errors); the repulsion of nearly equal moments;
+//!   do not tell; [texture](super::texture) between the points; those of the [extents](super::dimension_errors); the repulsion of nearly equal moments;
 //! - a floor, for rounding and quadrature.
 //!
 //! Where what is left of the points, or of one of them, is no noise, the variances grow by what
@@ -21,6 +21,7 @@ use super::functionals::{RingSurface, combined, dot};
 use super::left_out::LeftOut;
 use super::outcome::Estimate;
 use super::posterior::Posterior;
+use super::texture::hidden_slopes;
 use super::unresolved::{are_many, is_flat_sided, is_symmetric, kurtosis, limit};
 use crate::fit::figures::{
     Figures, INERTIA, INTEGRALS, MassList, derivatives, form, list, mass, unlist,
@@ -64,7 +65,12 @@ impl Estimate {
         }
         let left_out = LeftOut::new(self, &posterior, &residuals);
         let left_out = (is_rough || left_out.stand_out).then_some(left_out);
-        let best = Best::new(self, &posterior, left_out.as_ref()).ok_or(NoInterval::NotFinite)?;
+        let mut best =
+            Best::new(self, &posterior, left_out.as_ref()).ok_or(NoInterval::NotFinite)?;
+        if is_rough {
+            // The points left out tell of it.
+            best.texture = 0.0;
+        }
         Ok(best.errors(told))
     }
 }
@@ -88,6 +94,8 @@ pub(super) struct Best {
     excess: MassList,
     /// How much of that of the area the best value holds.
     share: f64,
+    /// Area of texture between the points.
+    texture: f64,
     principal: PrincipalInertia,
     dimension_variances: Vector3<f64>,
     dimension_excess: Vector3<f64>,
@@ -136,6 +144,7 @@ impl Best {
             covariance,
             excess,
             share: left_out.map_or(EXCESS_SHARE, |_| 1.0),
+            texture: surface.excess_of(0.0, hidden_slopes(estimate)).area,
             principal,
             dimension_variances: dimensions.variances,
             dimension_excess: dimensions.excess,
@@ -150,7 +159,10 @@ impl Best {
         let shifts: Moments = unlist(&self.excess);
         let half = EXCESS_SHARE * shifts.area;
         let excess = self.share * shifts.area;
-        let area = square(best.area + excess - told.area) + square(half) + variance(0);
+        let area = square(best.area + excess - told.area)
+            + square(half)
+            + square(self.texture)
+            + variance(0);
         let volume = square(best.volume + shifts.volume - told.volume) + variance(1);
         let centroid = Vector3::from_fn(|i, _| {
             square(best.centroid[i] + shifts.first[i] - told.centroid[i]) + variance(2 + i)

@@ -133,6 +133,11 @@ impl RingSurface {
     pub(super) fn excess(&self, estimate: &Estimate) -> Moments {
         let value = variance(&estimate.spectrum, &estimate.unlearnt);
         let slope = slope_variance(&estimate.spectrum, &estimate.unlearnt);
+        self.excess_of(value, slope)
+    }
+
+    /// By how much they grow where the radius and its gradient vary about their means with these variances.
+    pub(super) fn excess_of(&self, value: f64, slope: f64) -> Moments {
         let squares = self.stretch.component_mul(&self.stretch);
         self.sum(|n, r, g| {
             let Normal {

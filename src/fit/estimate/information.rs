@@ -1,4 +1,4 @@
-//! Second derivatives of the exact likelihood by the spectrum, at the price of four solutions.
+//! Second derivatives of the exact likelihood by the spectrum, at the price of five solutions.
 //!
 //! They hold traces that cost as much as the factor again, and so do their expected values. The mean of both does not
 //! (average information: Gilmour, Thompson, Cullis 1995). With K = Y V Y' + s^2 W^-1, its inverse P, and K_i the
@@ -17,23 +17,22 @@
 
 use super::functionals::dot;
 use super::posterior::Conditioned;
-use super::spectrum::Spectrum;
-use nalgebra::Matrix4;
+use super::spectrum::{NOISE, PARAMETERS, Spectrum};
+use nalgebra::Matrix5;
 
 impl Conditioned<'_> {
     /// The average information of the spectrum's logarithms, where the matrix is factored.
-    pub(super) fn information(&self, spectrum: &Spectrum, mean: &[f64]) -> Option<Matrix4<f64>> {
+    pub(super) fn information(&self, spectrum: &Spectrum, mean: &[f64]) -> Option<Matrix5<f64>> {
         let factor = self.factor.as_ref()?;
-        let by_noise = 3;
         // The derivatives of the mean by the logarithms, were nothing learnt; and these over the variances.
-        let mut moved = vec![vec![0.0; mean.len()]; 4];
+        let mut moved = vec![vec![0.0; mean.len()]; PARAMETERS];
         for l in 0..self.degrees.len() {
             let slopes = spectrum.slopes(l);
             for j in l * l..(l + 1) * (l + 1) {
                 for (i, slope) in slopes.into_iter().enumerate() {
                     moved[i][j] = slope * mean[j];
                 }
-                moved[by_noise][j] = mean[j];
+                moved[NOISE][j] = mean[j];
             }
         }
         let over = |moved: &Vec<f64>| -> Vec<f64> {
@@ -48,9 +47,9 @@ impl Conditioned<'_> {
         let residuals = self.posterior.residuals(mean);
         let weighted = residuals.iter().zip(&self.posterior.cloud.weights);
         let squared: f64 = weighted.map(|(e, w)| w * e * e).sum();
-        Some(Matrix4::from_fn(|i, j| {
+        Some(Matrix5::from_fn(|i, j| {
             let left = dot(&rights[i], &solved[j]);
-            match (i == by_noise, j == by_noise) {
+            match (i == NOISE, j == NOISE) {
                 (false, false) => 0.5 * (dot(&moved[i], &rights[j]) - left),
                 (true, true) => 2.0 * (squared / self.noise - left),
                 _ => left,
@@ -63,6 +62,7 @@ impl Conditioned<'_> {
 mod tests {
     use super::super::cloud::Cloud;
     use super::super::posterior::Posterior;
+    use super::super::spectrum::TEXTURE;
     use super::*;
     use crate::shapes::Sampling;
     use nalgebra::Vector3;
@@ -74,8 +74,16 @@ mod tests {
     /// both.
     #[test]
     fn it_is_near_the_second_derivatives_of_the_cost() {
+        let smooth = Spectrum::with_amplitude([-3.0, 0.8, 1.1, 0.01_f64.ln()]);
+        compare(smooth, &[(0, 0), (1, 1), (3, 3), (0, 1), (0, 3)]);
+        // The shape ends where the texture begins.
+        let mut textured = Spectrum::with_amplitude([-3.0, 2.0, 1.1, 0.01_f64.ln()]);
+        textured.logarithms[TEXTURE] = -9.0;
+        compare(textured, &[(3, 3), (4, 4), (3, 4)]);
+    }
+
+    fn compare(truth: Spectrum, pairs: &[(usize, usize)]) {
         let (degree, points) = (14, 1200);
-        let truth = Spectrum::with_amplitude([-3.0, 0.8, 1.1, 0.01_f64.ln()]);
         let mut random = ChaCha8Rng::seed_from_u64(4);
         let mut normal = || -> f64 { StandardNormal.sample(&mut random) };
         let mut coefficients = vec![(4.0 * std::f64::consts::PI).sqrt()];
@@ -114,7 +122,7 @@ mod tests {
             cost(&moved)
         };
         let h = 0.02;
-        for (i, j) in [(0, 0), (1, 1), (3, 3), (0, 1), (0, 3)] {
+        for &(i, j) in pairs {
             let mixed = at([(i, h), (j, h)]) + at([(i, -h), (j, -h)])
                 - at([(i, h), (j, -h)])
                 - at([(i, -h), (j, h)]);

@@ -35,6 +35,7 @@ mod spectrum_fit;
 mod stopping;
 mod sums;
 mod surface;
+mod texture;
 mod tilt;
 mod tips;
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! The search for the most likely spectrum: a quasi-Newton method in four unknowns.
+//! The search for the most likely spectrum: a quasi-Newton method in five unknowns.
 //!
 //! At first each step leads to where the likelihood would be largest if the points said the same of each degree
 //! under every spectrum. Where such a step fails or brings less than half of what it promised (uneven clouds), Newton
@@ -7,8 +7,8 @@
 //! the cost; where no cost is known, one after which the gradient points back.
 
 use super::spectrum::Spectrum;
-use super::spectrum::{BOUNDS, STEPS};
-use nalgebra::{Matrix4, Vector4};
+use super::spectrum::{BOUNDS, PARAMETERS, STEPS, TEXTURE};
+use nalgebra::{Matrix5, Vector5};
 
 /// The search ends where a step promises to lower the cost by less than this: a spectrum twenty times less likely
 /// would be told from it by three.
@@ -26,9 +26,9 @@ pub(crate) struct Place {
     pub(crate) spectrum: Spectrum,
     /// Negative log likelihood, where it is known exactly.
     pub(crate) cost: Option<f64>,
-    pub(crate) gradient: Vector4<f64>,
+    pub(crate) gradient: Vector5<f64>,
     /// Its second derivatives, where they are known and tell where the search should lead.
-    pub(crate) information: Option<Matrix4<f64>>,
+    pub(crate) information: Option<Matrix5<f64>>,
     /// Where the cost would be least if the evidence stayed as it is here, and by how much it would fall.
     pub(crate) proposal: (Spectrum, f64),
 }
@@ -37,7 +37,7 @@ pub(crate) struct Place {
 #[derive(Debug, Clone)]
 pub(crate) struct Newton {
     best: Option<Place>,
-    curvature: Matrix4<f64>,
+    curvature: Matrix5<f64>,
     /// Whether proposals have kept what they promised.
     trusts: bool,
     /// By how much the last step should have lowered the cost.
@@ -58,7 +58,7 @@ pub(crate) enum Next {
 
 impl Newton {
     /// A search that knows these second derivatives.
-    pub(crate) fn new(curvature: Matrix4<f64>) -> Self {
+    pub(crate) fn new(curvature: Matrix5<f64>) -> Self {
         Self {
             best: None,
             curvature,
@@ -115,11 +115,13 @@ impl Newton {
         let at = &place.spectrum.logarithms;
         let mut matrix = place.information.unwrap_or(self.curvature);
         let mut right = place.gradient;
-        for i in 0..4 {
+        for i in 0..PARAMETERS {
             let [low, high] = BOUNDS[i];
-            let is_held = (at[i] <= low && right[i] > 0.0) || (at[i] >= high && right[i] < 0.0);
+            // Of texture that is not there nothing can be told.
+            let is_held = (at[i] <= low && (right[i] > 0.0 || i == TEXTURE))
+                || (at[i] >= high && right[i] < 0.0);
             if is_held {
-                for j in 0..4 {
+                for j in 0..PARAMETERS {
                     matrix[(i, j)] = 0.0;
                     matrix[(j, i)] = 0.0;
                 }
@@ -129,7 +131,7 @@ impl Newton {
         }
         let step = matrix
             .cholesky()
-            .map_or_else(Vector4::zeros, |factor| -factor.solve(&right));
+            .map_or_else(Vector5::zeros, |factor| -factor.solve(&right));
         let too_far = step.iter().zip(STEPS).map(|(step, most)| step.abs() / most);
         let shorter = self.share / too_far.fold(1.0, f64::max);
         place.spectrum.moved_to(std::array::from_fn(|i| {
@@ -157,8 +159,8 @@ impl Newton {
     }
 }
 
-fn difference(to: &Spectrum, from: &Spectrum) -> Vector4<f64> {
-    Vector4::from(to.logarithms) - Vector4::from(from.logarithms)
+fn difference(to: &Spectrum, from: &Spectrum) -> Vector5<f64> {
+    Vector5::from(to.logarithms) - Vector5::from(from.logarithms)
 }
 
 fn is_settled(from: &Spectrum, to: &Spectrum) -> bool {

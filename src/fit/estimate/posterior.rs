@@ -12,7 +12,7 @@ use super::spectrum::Spectrum;
 use super::stopping::{Enough, SHARE};
 use super::sums::Sums;
 use crate::sphere::coefficient_count;
-use faer::{Mat, MatMut};
+use faer::MatMut;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use std::f64::consts::PI;
@@ -22,8 +22,8 @@ use std::sync::{Arc, OnceLock};
 pub(crate) struct Posterior<'a> {
     pub(crate) cloud: &'a Cloud,
     pub(super) sums: Arc<Sums>,
-    /// Y'WY, where systems are solved by factoring.
-    gram: Option<Mat<f64>>,
+    /// Y'WY, its lower triangle, where systems are solved by factoring.
+    gram: Option<Vec<f64>>,
     /// Y'W y, once it is asked for.
     right: OnceLock<Vec<f64>>,
 }
@@ -49,7 +49,7 @@ impl<'a> Posterior<'a> {
     /// Prepares a cloud for harmonics up to `degree`; `factored` says whether to form and factor the matrix.
     pub(crate) fn new(cloud: &'a Cloud, degree: usize, factored: bool) -> Self {
         let posterior = Self::with(cloud, Arc::new(Sums::new(degree)));
-        let gram = factored.then(|| posterior.sums.gram(cloud).matrix());
+        let gram = factored.then(|| posterior.sums.gram(cloud).lower_triangle());
         Self { gram, ..posterior }
     }
 

@@ -9,7 +9,7 @@ use super::likelihood::{Evidence, hyperprior, hyperprior_curvature, positive};
 use super::newton::{Newton, Next, Place};
 use super::outcome::variance;
 use super::posterior::{Conditioned, Posterior};
-use super::spectrum::Spectrum;
+use super::spectrum::{PARAMETERS, Spectrum};
 use super::stopping::SETTLED as MEAN_SETTLED;
 use super::sums::Sums;
 use std::sync::Arc;
@@ -84,6 +84,7 @@ pub(crate) fn fit_spectrum(
     };
     let mut newton: Option<Newton> = None;
     let mut is_last = false;
+    let mut may_be_smooth = true;
     for round in 1.. {
         let look = Look::new(posterior, &spectrum, coefficients.as_deref(), counted);
         let search = newton.get_or_insert_with(|| look.search());
@@ -92,8 +93,13 @@ pub(crate) fn fit_spectrum(
             false => search.next(look.place),
         };
         match next {
-            Next::Here if counted == count => return look.fit(),
             Next::Here => {
+                let textured = may_be_smooth.then(|| look.textured()).flatten();
+                if counted == count && textured.is_none() {
+                    return look.fit();
+                }
+                may_be_smooth &= textured.is_none();
+                spectrum = textured.unwrap_or(spectrum);
                 counted = count;
                 newton = None;
             }
@@ -164,6 +170,15 @@ impl<'a> Look<'a> {
         }
     }
 
+    /// A spectrum with texture that is clearly likelier, where this one has none.
+    fn textured(&self) -> Option<Spectrum> {
+        let spectrum = &self.place.spectrum;
+        match spectrum.is_smooth() {
+            true => self.told.evidence.textured(spectrum),
+            false => None,
+        }
+    }
+
     /// A search that starts here.
     fn search(&self) -> Newton {
         Newton::new(self.told.evidence.curvature(&self.place.spectrum))
@@ -211,7 +226,7 @@ struct Told {
     unlearnt: Vec<f64>,
     /// Of the exact likelihood, as far as `unlearnt` is exact:
     /// d/d log v_l = 1/2 sum_m (1 - x_lm^2 / v_l - C_mm / v_l), d/d log s = n - sum (1 - C_jj / v_j) - R / s^2.
-    gradient: [f64; 4],
+    gradient: [f64; PARAMETERS],
 }
 
 /// Squared residuals of the unshrunk coefficients are at least this share of those of the shrunk ones.

@@ -18,7 +18,7 @@
 use super::gauss_grid::GaussGrid;
 use crate::sphere::{coefficient_count, harmonic_index};
 use faer::linalg::matmul::matmul;
-use faer::{Accum, Mat, MatMut, MatRef, Par};
+use faer::{Accum, MatMut, MatRef, Par};
 use realfft::num_complex::Complex;
 use std::sync::Arc;
 
@@ -61,10 +61,10 @@ impl HarmonicGram {
         self.grid.adjoint(&mut values, out);
     }
 
-    /// Y'WY itself, lower triangle.
-    pub(crate) fn matrix(&self) -> Mat<f64> {
+    /// Y'WY itself, column by column; above the diagonal it is left zero.
+    pub(crate) fn lower_triangle(&self) -> Vec<f64> {
         let count = coefficient_count(self.degree);
-        let mut matrix = Mat::zeros(count, count);
+        let mut matrix = vec![0.0; count * count];
         let folded = self.grid.folded_terms(&self.diagonal, 2 * self.degree);
         let polar = self.grid.polar();
         let rows = polar.column_length();
@@ -113,7 +113,7 @@ impl HarmonicGram {
                     for (entries, &other) in product.chunks_exact(degrees.len()).zip(&places) {
                         for (&entry, &l) in entries.iter().zip(&degrees) {
                             let own = trig.index(l, m);
-                            matrix[(own.max(other), own.min(other))] = entry;
+                            matrix[own.min(other) * count + own.max(other)] = entry;
                         }
                     }
                 }

@@ -1,0 +1,53 @@
+//! Texture that the points do not resolve, which adds to a surface's area.
+//!
+//! A point tells nothing of the slopes about it. The area of a surface whose detail goes on below the spacing of its points
+//! is larger than that of any estimate, by half the mean square of the slopes of what is missing. Of these is expected
+//!
+//! - what the spectrum says of the degrees beyond those of the estimate, up to the [finest](FINEST);
+//! - where the spectrum meets the noise only near the finest detail that the points resolve, a share of the noise itself:
+//!   it may as well be texture that they sample too thinly.
+//!
+//! Measured, on eight textured grains (ellipsoids, a peanut, pebbles, with 1 to 4 % of the radius in waves of 20 to a third of
+//! a percent of the girth) of 1500 to 6000 points, clean and with .5 % noise: their area was up to 53 standard errors
+//! larger than told, and is within 2 with this allowance but for the roughest.
+
+use super::outcome::Estimate;
+use super::spectrum::texture_fall;
+use std::f64::consts::PI;
+
+/// Degree of the finest texture that counts as the shape's: waves of a 200th of the girth.
+const FINEST: usize = 200;
+
+/// What points resolve well, as a share of the degree that has as many coefficients as there are points.
+const RESOLVED: f64 = 0.7;
+
+/// Ratio of signal to noise at that degree from which on all of the noise may be texture.
+const ALL_TEXTURE: f64 = 0.5;
+
+/// Texture counts where the finer half of the degrees carries more than noise would by chance, in standard deviations.
+const CLEAR: f64 = 3.0;
+
+/// Expected mean square of the slopes that the estimate lacks, in its stretched space.
+pub(super) fn hidden_slopes(estimate: &Estimate) -> f64 {
+    let noise = estimate.spectrum.noise().powi(2);
+    let points = estimate.cloud.len() as f64;
+    let degree = estimate.degree;
+    let variances = estimate.spectrum.variances(FINEST);
+    // Of texture that is told by few degrees alone the fall is not known.
+    let variance = |l: usize| match l <= degree {
+        true => variances[l],
+        false => variances[l].min(variances[degree] * texture_fall(degree, l)),
+    };
+    let ratio = |l: usize| variance(l) * points / (4.0 * PI * noise);
+    let finer = degree / 2..=degree;
+    let orders = |l: usize| (2 * l + 1) as f64;
+    let carried: f64 = finer.clone().map(|l| orders(l) * ratio(l)).sum();
+    let by_chance = (2.0 * finer.map(orders).sum::<f64>()).sqrt();
+    if carried < CLEAR * by_chance {
+        return 0.0;
+    }
+    let beyond = (degree + 1..=FINEST).map(|l| orders(l) * (l * (l + 1)) as f64 * variance(l));
+    let resolved = RESOLVED * points.sqrt();
+    let share = (ratio((resolved as usize).min(FINEST)) / ALL_TEXTURE).min(1.0);
+    beyond.sum::<f64>() / (4.0 * PI) + share * noise * resolved * resolved
+}
