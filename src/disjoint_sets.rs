@@ -1,6 +1,7 @@
 //! Sets that are joined until those that hang together are one (union-find).
 
 /// The numbers from 0 on in disjoint sets, each known by its least number.
+#[derive(Clone)]
 pub(crate) struct DisjointSets(Vec<u32>);
 
 impl DisjointSets {

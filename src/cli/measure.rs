@@ -6,7 +6,7 @@ use super::{inputs, threads};
 use crate::fit::scanned_surface;
 use crate::measure::{Scheme, Survey, scanned_body, smoothed_area};
 use crate::mesh::Mesh;
-use crate::report::{Measure, MeasureReport, Measured, Withheld, percent, sentences};
+use crate::report::{Measure, MeasureReport, Withheld, percent, sentences};
 use anyhow::{Context, Result, bail};
 
 /// How much the roughness of points may add to the area of their polyhedron without a word.
@@ -28,9 +28,6 @@ fn measure(args: &MeasureArgs) -> Result<MeasureReport> {
         [] => Measure::ALL.as_slice(),
         asked => asked,
     };
-    let report = |of, survey: &Survey, warnings| {
-        MeasureReport::new(input.clone(), of, survey, only, warnings).in_unit(args.unit)
-    };
     let bytes = inputs::read(path, &args.input.limit)?;
     if bytes.trim_ascii_start().starts_with(b"{") {
         let grain = inputs::parse_model(path, &bytes)?;
@@ -47,16 +44,18 @@ fn measure(args: &MeasureArgs) -> Result<MeasureReport> {
         bail!("cannot measure {input}: all points lie in one plane, they do not enclose a body");
     }
     if let Some(scanned) = scanned_body(&scan) {
-        let survey = Survey::of_scanned(&scanned);
-        let report = report(Measured::Faces, &survey, scan.warnings.clone());
-        return Ok(report.with_faces(&scanned));
+        let warnings = scan.warnings.clone();
+        return Ok(MeasureReport::of_faces(
+            input, &scanned, only, args.unit, warnings,
+        ));
     }
     let surface = scanned_surface(&scan).with_context(|| format!("cannot measure {input}"))?;
     let survey =
         Survey::of_mesh(&surface.mesh).with_context(|| format!("cannot measure {input}"))?;
     let mut warnings = sentences(&scan.warnings, &surface.warnings, args.unit);
     warnings.extend(noisy(&survey, &surface.mesh));
-    Ok(report(surface.kind.into(), &survey, warnings))
+    let report = MeasureReport::new(input, surface.kind.into(), &survey, only, warnings);
+    Ok(report.in_unit(args.unit))
 }
 
 /// What to know of the area of a polyhedron whose vertices are noisy points.

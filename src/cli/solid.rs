@@ -49,11 +49,12 @@ pub(super) fn read(path: &Path, input: &InputArgs, unit: Option<Unit>) -> Result
         let properties = Survey::of_scanned(&scanned)
             .properties()
             .with_context(unusable)?;
+        let crossing = scanned.crossing.map(|found| format!("Of {name}, {found}."));
         return Ok(Solid {
             mesh: scanned.mesh,
             properties,
             grain: None,
-            warnings: scan.warnings.clone(),
+            warnings: scan.warnings.iter().cloned().chain(crossing).collect(),
         });
     }
     let surface = scanned_surface(&scan).with_context(unusable)?;

@@ -32,6 +32,9 @@ impl PreparedScan<'_> {
             Seams::Blended => estimated(self, options, context),
         })?;
         fitted.warnings.extend(sound::check(&fitted, options)?);
+        if self.is_sparse {
+            fitted = fitted.between_points();
+        }
         Ok(fitted.beside_faces())
     }
 

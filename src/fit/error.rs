@@ -2,6 +2,7 @@
 
 use super::context::Cancelled;
 use super::position::map::MapError;
+use crate::measure::SelfCrossing;
 use crate::model::InvalidGrain;
 use crate::scan::plural;
 use nalgebra::Vector3;
@@ -110,6 +111,9 @@ pub enum FitError {
         /// Number of inner surfaces.
         cavities: usize,
     },
+    /// The scan's faces are no surface of a body: they go through themselves.
+    #[error("{0}; mend the mesh, or give the points of the outside alone")]
+    SelfCrossing(SelfCrossing),
     /// The fitted surface goes through the centre.
     #[error(
         "the fitted radius falls to {radius:.3e} towards ({:.2}, {:.2}, {:.2}), and so there is no body: look whether \

@@ -30,6 +30,7 @@ mod position;
 mod prepare;
 mod segments;
 mod sound;
+mod sparse;
 mod standard_errors;
 mod superquadric;
 mod unseen;

@@ -1,7 +1,7 @@
 //! What a user should know of a scan and its fit, as data; sentences are made where they are shown.
 
 use super::candidate::Rejection;
-use crate::measure::{FacesDefect, Fill};
+use crate::measure::{FacesDefect, Fill, SelfCrossing};
 use nalgebra::Vector3;
 
 /// Something odd about a scan or its fit that did not stop it.
@@ -13,6 +13,8 @@ pub enum FitWarning {
     FacesNotClosed(FacesDefect),
     /// Small holes between the scan's faces were closed in the reference.
     Filled(Fill),
+    /// The scan's faces go through themselves, by little.
+    SelfCrossing(SelfCrossing),
     /// Parts of the faces that are too small for bodies were left out.
     Dust {
         /// Their number.

@@ -8,55 +8,107 @@ use nalgebra::Point3;
 /// The side of a plane on which a point lies, 1 or -1; 0 is no side.
 type Side = fn([Point3<f64>; 3], Point3<f64>) -> i8;
 
+/// The corners of a triangle.
+type Corners = [Point3<f64>; 3];
+
 /// The pairs of triangles of a mesh, by their indices, that go through one another and share no vertex. An edge that goes
 /// exactly through another edge counts; so may what only touches. All triangles must name vertices that exist.
 pub fn crossings(mesh: &Mesh) -> Vec<[usize; 2]> {
-    pairs(mesh, |plane, point| match orient3d(plane, point) > 0.0 {
-        true => 1,
-        false => -1,
-    })
+    pairs(mesh, any_side, |_, _| false)
 }
 
 /// The same without what touches, and without edges that go exactly through an edge.
 pub(super) fn clear_crossings(mesh: &Mesh) -> Vec<[usize; 2]> {
-    pairs(mesh, |plane, point| {
-        let volume = orient3d(plane, point);
-        i8::from(volume > 0.0) - i8::from(volume < 0.0)
+    pairs(mesh, clear_side, |_, _| false)
+}
+
+/// The same as [`crossings`], with triangles that share one vertex and clearly go through one another.
+pub(super) fn all_crossings(mesh: &Mesh) -> Vec<[usize; 2]> {
+    pairs(mesh, any_side, |[a, b, c], [_, q, r]| {
+        is_passed([a, b, c], [q, r]) || is_passed([a, q, r], [b, c])
     })
 }
 
-fn pairs(mesh: &Mesh, side: Side) -> Vec<[usize; 2]> {
+/// Whether two triangles go through one another, and do not only touch.
+pub(super) fn is_clear(one: Corners, other: Corners) -> bool {
+    are_crossing(one, other, clear_side)
+}
+
+fn any_side(plane: Corners, point: Point3<f64>) -> i8 {
+    match orient3d(plane, point) > 0.0 {
+        true => 1,
+        false => -1,
+    }
+}
+
+fn clear_side(plane: Corners, point: Point3<f64>) -> i8 {
+    let volume = orient3d(plane, point);
+    i8::from(volume > 0.0) - i8::from(volume < 0.0)
+}
+
+/// The pairs that cross by these sides; of two that share one vertex, the first of each, `joined` tells it.
+fn pairs(
+    mesh: &Mesh,
+    side: Side,
+    joined: impl Fn(Corners, Corners) -> bool + Sync,
+) -> Vec<[usize; 2]> {
     let points = |corners: &[u32; 3]| corners.map(|i| mesh.vertices[i as usize]);
     let triangles = mesh.triangles.iter().map(points);
-    let boxes: Vec<Bounds> = triangles.map(|points| Bounds::new(points, 0.0)).collect();
-    let tree = BoundsTree::new(boxes.clone());
-    let mut found = Vec::new();
-    for (one, bounds) in boxes.iter().enumerate() {
-        let corners = &mesh.triangles[one];
-        let crosses = |&two: &usize| {
-            let others = &mesh.triangles[two];
-            let is_joined = || corners.iter().any(|corner| others.contains(corner));
-            let [own, other] = [corners, others].map(points);
-            let is_crossed = || is_pierced(own, other, side) || is_pierced(other, own, side);
-            one < two && !is_joined() && is_crossed()
-        };
-        let beside = tree.meeting(bounds).map(|two| two as usize);
-        found.extend(beside.filter(crosses).map(|two| [one, two]));
-    }
-    found
+    let boxes = triangles.map(|points| Bounds::new(points, 0.0));
+    let crosses = |pair: [u32; 2]| {
+        let [own, others] = pair.map(|at| mesh.triangles[at as usize]);
+        let mut shared = own.into_iter().filter(|corner| others.contains(corner));
+        match (shared.next(), shared.next()) {
+            (None, _) => are_crossing(points(&own), points(&others), side),
+            (Some(first), None) => joined(
+                points(&rotated(own, first)),
+                points(&rotated(others, first)),
+            ),
+            _ => false,
+        }
+    };
+    let found = BoundsTree::new(boxes.collect()).own_pairs(crosses);
+    let wide = found.into_iter().map(|pair| pair.map(|at| at as usize));
+    wide.collect()
 }
 
-/// Whether an edge of another triangle goes through a triangle, by exact sides.
-fn is_pierced([a, b, c]: [Point3<f64>; 3], [p, q, r]: [Point3<f64>; 3], side: Side) -> bool {
-    let sides = [p, q, r].map(|corner| side([a, b, c], corner));
-    let edges = [(p, q), (q, r), (r, p)];
+/// The corners of a triangle from one of them on.
+fn rotated([a, b, c]: [u32; 3], first: u32) -> [u32; 3] {
+    match first {
+        _ if first == b => [b, c, a],
+        _ if first == c => [c, a, b],
+        _ => [a, b, c],
+    }
+}
+
+fn are_crossing(one: Corners, other: Corners, side: Side) -> bool {
+    let sides = |plane: Corners, corners: Corners| corners.map(|corner| side(plane, corner));
+    let is_beside = |[a, b, c]: [i8; 3]| a != 0 && a == b && b == c;
+    let of_other = sides(one, other);
+    !is_beside(of_other) && {
+        let of_one = sides(other, one);
+        is_pierced(one, other, of_other, side) || is_pierced(other, one, of_one, side)
+    }
+}
+
+/// Whether an edge of another triangle, whose corners lie on these sides, goes through a triangle.
+fn is_pierced(triangle: Corners, [p, q, r]: Corners, sides: [i8; 3], side: Side) -> bool {
+    let edges = [[p, q], [q, r], [r, p]];
     (0..3).any(|edge| {
-        let (p, q) = edges[edge];
-        sides[edge] * sides[(edge + 1) % 3] < 0 && {
-            let passed = side([p, q, a], b);
-            passed != 0 && passed == side([p, q, b], c) && passed == side([p, q, c], a)
-        }
+        sides[edge] * sides[(edge + 1) % 3] < 0 && is_within(triangle, edges[edge], side)
     })
+}
+
+/// Whether an edge clearly goes through a triangle.
+fn is_passed(triangle: Corners, edge: [Point3<f64>; 2]) -> bool {
+    let [before, after] = edge.map(|end| clear_side(triangle, end));
+    before * after < 0 && is_within(triangle, edge, clear_side)
+}
+
+/// Whether the line of an edge goes through a triangle.
+fn is_within([a, b, c]: Corners, [p, q]: [Point3<f64>; 2], side: Side) -> bool {
+    let passed = side([p, q, a], b);
+    passed != 0 && passed == side([p, q, b], c) && passed == side([p, q, c], a)
 }
 
 #[cfg(test)]

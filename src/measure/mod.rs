@@ -33,6 +33,7 @@ mod projection;
 mod rings;
 mod roundness;
 mod scanned;
+mod self_crossing;
 #[cfg(feature = "cli")]
 mod smoothed;
 mod spectrum;
@@ -73,6 +74,8 @@ pub use projection::{OUTLINE_AZIMUTHS, ProjectionError, project};
 pub use roundness::ROUNDNESS_ORDER;
 pub use scanned::{FacesDefect, Fill, ScannedBody, scanned_body};
 pub(crate) use scanned::{largest_part, without_dust};
+pub use self_crossing::SelfCrossing;
+pub(crate) use self_crossing::self_crossing;
 #[cfg(feature = "cli")]
 pub(crate) use smoothed::smoothed_area;
 pub use spectrum::{RadialExpansion, SPECTRUM_DEGREE, Spectrum};

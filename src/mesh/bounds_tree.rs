@@ -6,6 +6,9 @@ use std::ops::Range;
 /// Boxes in one leaf, at most.
 const LEAF: usize = 4;
 
+/// Boxes below a node beyond which threads share the work on it.
+const SHARED: usize = 4096;
+
 /// A box along the axes.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Bounds {
@@ -196,6 +199,87 @@ impl BoundsTree {
         (found, compared)
     }
 
+    /// The pairs of boxes of this tree that meet and are wanted, each once, the lower number first, in order.
+    pub(crate) fn own_pairs(&self, is_wanted: impl Fn([u32; 2]) -> bool + Sync) -> Vec<[u32; 2]> {
+        let mut found = match self.nodes.is_empty() {
+            true => Vec::new(),
+            false => self.pairs_within(0, &is_wanted),
+        };
+        found.sort_unstable();
+        found
+    }
+
+    fn pairs_within(
+        &self,
+        node: usize,
+        is_wanted: &(impl Fn([u32; 2]) -> bool + Sync),
+    ) -> Vec<[u32; 2]> {
+        let [from, to] = self.nodes[node].span;
+        let Some(second) = self.nodes[node].second else {
+            let mut found = Vec::new();
+            for at in from..to {
+                self.wanted(self.order[at], at + 1..to, is_wanted, &mut found);
+            }
+            return found;
+        };
+        let within = |half| move || self.pairs_within(half, is_wanted);
+        let (mut found, others) = match to - from > SHARED {
+            true => rayon::join(within(node + 1), within(second)),
+            false => (within(node + 1)(), within(second)()),
+        };
+        found.extend(others);
+        self.pairs_between(node + 1, second, is_wanted, &mut found);
+        found
+    }
+
+    fn pairs_between(
+        &self,
+        one: usize,
+        other: usize,
+        is_wanted: &impl Fn([u32; 2]) -> bool,
+        found: &mut Vec<[u32; 2]>,
+    ) {
+        let (near, far) = (&self.nodes[one], &self.nodes[other]);
+        if !near.bounds.meets(&far.bounds) {
+            return;
+        }
+        let is_longer = near.span[1] - near.span[0] >= far.span[1] - far.span[0];
+        match (near.second, far.second) {
+            (Some(second), far) if is_longer || far.is_none() => {
+                self.pairs_between(one + 1, other, is_wanted, found);
+                self.pairs_between(second, other, is_wanted, found);
+            }
+            (_, Some(second)) => {
+                self.pairs_between(one, other + 1, is_wanted, found);
+                self.pairs_between(one, second, is_wanted, found);
+            }
+            (_, None) => {
+                for &number in &self.order[near.span[0]..near.span[1]] {
+                    if self.boxes[number as usize].meets(&far.bounds) {
+                        self.wanted(number, far.span[0]..far.span[1], is_wanted, found);
+                    }
+                }
+            }
+        }
+    }
+
+    /// The wanted pairs of one box with those in a span of the order.
+    fn wanted(
+        &self,
+        one: u32,
+        span: Range<usize>,
+        is_wanted: &impl Fn([u32; 2]) -> bool,
+        found: &mut Vec<[u32; 2]>,
+    ) {
+        let bounds = &self.boxes[one as usize];
+        for &other in &self.order[span] {
+            let pair = [one.min(other), one.max(other)];
+            if bounds.meets(&self.boxes[other as usize]) && is_wanted(pair) {
+                found.push(pair);
+            }
+        }
+    }
+
     /// All boxes that meet a box.
     pub(crate) fn meeting(&self, bounds: &Bounds) -> impl Iterator<Item = u32> {
         let mut open: Vec<usize> = (0..self.nodes.len().min(1)).collect();
@@ -243,6 +327,19 @@ mod tests {
             by_box.sort_unstable();
             prop_assert_eq!(by_box, &all[..]);
             prop_assert_eq!(found, all);
+        }
+
+        #[test]
+        fn own_pairs_are_those_of_each_box_with_all_after_it(boxes in boxes(60)) {
+            let mut all = Vec::new();
+            for (i, one) in (0..).zip(&boxes) {
+                let after = (i + 1..).zip(&boxes[i as usize + 1..]);
+                all.extend(after.filter(|(_, other)| one.meets(other)).map(|(j, _)| [i, j]));
+            }
+            let tree = BoundsTree::new(boxes);
+            prop_assert_eq!(&tree.own_pairs(|_| true), &all);
+            all.retain(|[i, j]| (i + j) % 3 == 0);
+            prop_assert_eq!(tree.own_pairs(|[i, j]| (i + j) % 3 == 0), all);
         }
     }
 }

@@ -68,6 +68,10 @@ impl FitWarning {
                 short(area),
                 labels.area()
             ),
+            Self::SelfCrossing(crossing) => write!(
+                f,
+                "Of the scan, {crossing}: so may be what the fit is compared with."
+            ),
             Self::Dust { parts } => write!(
                 f,
                 "{} left out: each has below 1 % of the vertices and of the area of the faces.",

@@ -1,6 +1,8 @@
 //! What a model's file says is not to be relied on is not told of it, or told of with what is made of it.
 
 use super::{errors, folder, grainform, json, succeed};
+use grainform::Mesh;
+use grainform::nalgebra::Point3;
 use serde_json::{Value, json};
 use std::f64::consts::PI;
 use tempfile::TempDir;
@@ -96,5 +98,41 @@ fn what_is_not_to_be_relied_on_must_be_sound_itself() {
         let output = grainform(&folder, &["measure", "m.json"]);
         assert_eq!(output.status.code(), Some(2));
         assert!(errors(&output).contains(told), "{}", errors(&output));
+    }
+}
+
+/// Writes a tube bent round the z axis by an angle, as a mesh: above a whole turn its ends go through one another.
+fn save_tube(folder: &TempDir, turn: f64) {
+    let mut mesh = Mesh::radial(24, |_| 1.0);
+    for vertex in &mut mesh.vertices {
+        let (sin, cos) = (0.5 * turn * vertex.x).sin_cos();
+        let out = 1.0 - 0.2 * vertex.y;
+        *vertex = Point3::new(out * cos, out * sin, 0.2 * vertex.z);
+    }
+    grainform::export::save_mesh(&folder.path().join("tube.ply"), &mesh).unwrap();
+}
+
+#[test]
+fn what_a_body_that_goes_through_itself_encloses_is_not_measured() {
+    let folder = folder();
+    let words = ["measure", "tube.ply", "--only", "area,volume,minimum_box"];
+    save_tube(&folder, 6.0);
+    assert!(json(&folder, &words)["volume"].is_number());
+    save_tube(&folder, 7.5);
+    let report = json(&folder, &words);
+    assert!(report["volume"].is_null() && report["area"].is_null());
+    assert!(report["minimum_box"].is_object());
+    let reason = report["not_measured"][0]["reason"].as_str().unwrap();
+    let told = "the surface goes through itself near (-0.9";
+    assert!(reason.contains(told), "{reason}");
+    for words in [
+        vec!["fit", "tube.ply"],
+        vec!["clump", "tube.ply", "--spheres", "5", "-o", "c.json"],
+    ] {
+        let told = errors(&grainform(&folder, &words));
+        assert!(
+            told.contains("the surface goes through itself near"),
+            "{told}"
+        );
     }
 }

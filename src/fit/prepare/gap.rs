@@ -1,14 +1,24 @@
 //! The largest gap between the directions of a scan's points.
 
 use crate::fit::gaps::largest_cap;
+use crate::fit::neighbours::Neighbours;
 use crate::fit::warning::FitWarning;
 use crate::measure::Unit;
 use crate::mesh::Mesh;
+use crate::model::Unseen;
+use crate::sphere::triangulate_directions;
 use nalgebra::{Point3, Vector3};
+use std::f64::consts::PI;
 
 /// A gap in the scan is told of when no point lies within this angle (radians) and three times the
 /// spacing of the points.
 const WIDE: f64 = 0.2;
+
+/// Points near a gap whose distances tell how far apart points are there, ...
+const NEAR: usize = 24;
+
+/// ... each by the neighbour within whose distance random points have a square of their own spacing.
+const NEIGHBOUR: usize = 3;
 
 /// The largest cap of directions without points.
 pub(super) struct Gap {
@@ -17,6 +27,11 @@ pub(super) struct Gap {
     direction: Vector3<f64>,
     /// Angle between neighbours where the points are neither very dense nor very sparse.
     spacing: f64,
+    /// What was not seen, if it is large.
+    pub(super) unseen: Option<Unseen>,
+    /// Whether that is no wider in space than points as far apart as those round it leave by chance. On the flat sides of a
+    /// thin plate few points are many degrees apart, as seen from its middle.
+    pub(super) is_sparse: bool,
 }
 
 impl Gap {
@@ -35,10 +50,14 @@ impl Gap {
             }
         }
         let (half_angle, direction) = largest_cap(&directions);
+        let unseen = Unseen::hole(half_angle, directions.len());
+        let places = || -> Vec<Vector3<f64>> { mesh.vertices.iter().map(|v| v.coords).collect() };
         Self {
             half_angle,
             direction,
             spacing: middle(angles).sqrt(),
+            unseen,
+            is_sparse: unseen.is_some() && !is_hole_in_space(&directions, &places()),
         }
     }
 
@@ -50,6 +69,43 @@ impl Gap {
             direction: self.direction,
         })
     }
+}
+
+/// Whether any large cap of directions without points is wide in space too, beside the distances of the points round it.
+fn is_hole_in_space(directions: &[Vector3<f64>], places: &[Vector3<f64>]) -> bool {
+    let Ok(triangles) = triangulate_directions(directions) else {
+        return true;
+    };
+    let neighbours = Neighbours::new(places);
+    let distance = |place: &Vector3<f64>| -> f64 {
+        let nearest = neighbours.nearest(place, NEIGHBOUR + 1);
+        nearest
+            .last()
+            .map_or(0.0, |&other| (places[other] - place).norm())
+    };
+    let spacing = |place: &Vector3<f64>| -> f64 {
+        let near = neighbours.nearest(place, NEAR).into_iter();
+        let mut distances: Vec<f64> = near.map(|other| distance(&places[other])).collect();
+        distances.sort_unstable_by(f64::total_cmp);
+        distances.get(distances.len() / 2).copied().unwrap_or(0.0)
+    };
+    let by_chance = random_hole(places.len());
+    triangles.iter().any(|corners| {
+        let [a, b, c] = corners.map(|corner| directions[corner as usize]);
+        let middle = (b - a).cross(&(c - a));
+        let half_angle = middle.cross(&a).norm().atan2(middle.dot(&a));
+        Unseen::hole(half_angle, places.len()).is_some() && {
+            let [a, b, c] = corners.map(|corner| places[corner as usize]);
+            let longest = (b - a).norm().max((c - b).norm()).max((a - c).norm());
+            longest / 2.0 > by_chance * spacing(&((a + b + c) / 3.0))
+        }
+    })
+}
+
+/// Radius of a disc of which random points on a surface leave one empty with a few percent, in their spacing: one in whose
+/// area ln n + 5 of them are expected.
+fn random_hole(points: usize) -> f64 {
+    ((points.max(1) as f64).ln() + 5.0).sqrt() / PI.sqrt()
 }
 
 /// Unlike the mean of the points it does not lie where there are most of them.
@@ -75,4 +131,56 @@ fn middle(mut values: Vec<f64>) -> f64 {
         sum >= half
     });
     reached.copied().unwrap_or(0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fit::prepare::scanned_surface;
+    use crate::scan::Scan;
+    use crate::shapes::Sampling;
+
+    /// Points on an ellipsoid 8 : 8 : 1, at random and evenly by area.
+    fn plate(points: usize, seed: u64) -> Vec<Point3<f64>> {
+        let directions = Sampling::Random.directions(40 * points, seed).unwrap();
+        let chances = (0..).map(|i| f64::from(i) * 0.618_033_988_75 % 1.0);
+        let stretch = |n: &Vector3<f64>| n.x.hypot(n.y).hypot(8.0 * n.z) / 8.0;
+        let is_kept = |(n, chance): &(Vector3<f64>, f64)| stretch(n) > *chance;
+        let kept = directions.into_iter().zip(chances).filter(is_kept);
+        let places = kept.map(|(n, _)| Point3::new(8.0 * n.x, 8.0 * n.y, n.z));
+        places.take(points).collect()
+    }
+
+    fn seen(points: Vec<Point3<f64>>) -> (Option<Unseen>, bool) {
+        let scan = Scan::from_points(points);
+        let surface = scanned_surface(&scan).unwrap();
+        (surface.unseen, surface.is_sparse)
+    }
+
+    #[test]
+    fn few_points_on_the_sides_of_a_plate_are_sparse_and_a_hole_there_is_not() {
+        let few: Vec<_> = (0..6).map(|seed| seen(plate(700, seed))).collect();
+        assert!(few.iter().any(|(unseen, _)| unseen.is_some()));
+        assert!(
+            few.iter()
+                .all(|(unseen, is_sparse)| unseen.is_some() == *is_sparse)
+        );
+        assert_eq!(seen(plate(8000, 0)), (None, false));
+        for points in [1500, 6000] {
+            let mut open = plate(points, 0);
+            open.retain(|p| p.z > 0.0 || p.x.hypot(p.y) > 3.0);
+            let (unseen, is_sparse) = seen(open);
+            assert!(unseen.is_some() && !is_sparse, "{unseen:?}");
+        }
+    }
+
+    #[test]
+    fn a_cap_that_is_cut_out_of_a_ball_is_no_chance() {
+        for degrees in [35.0_f64, 60.0, 85.0] {
+            let mut directions = Sampling::Random.directions(600, 1).unwrap();
+            directions.retain(|n| n.z > -degrees.to_radians().cos());
+            let (unseen, is_sparse) = seen(directions.into_iter().map(Point3::from).collect());
+            assert!(unseen.is_some() && !is_sparse, "{degrees}: {unseen:?}");
+        }
+    }
 }

@@ -63,6 +63,8 @@ pub struct PreparedScan<'a> {
     pub(crate) warnings: Vec<FitWarning>,
     /// What was not seen, if it is large.
     pub(crate) unseen: Option<Unseen>,
+    /// Whether that is only because the points are few for a body as thin.
+    pub(crate) is_sparse: bool,
     points: Cow<'a, [Point3<f64>]>,
     representatives: Option<Vec<Point3<f64>>>,
 }
@@ -121,6 +123,7 @@ impl<'a> PreparedScan<'a> {
             symmetry,
             warnings: surface.warnings,
             unseen: surface.unseen,
+            is_sparse: surface.is_sparse,
             points: surface.points,
             representatives: surface.representatives,
         })

@@ -8,7 +8,7 @@ use super::strays::{LEAST_STRAY, find_strays};
 use super::thin::{Thinned, WHOLE_CLOUD, thin};
 use crate::fit::error::FitError;
 use crate::fit::warning::FitWarning;
-use crate::measure::{FacesDefect, Fill, scanned_body, without_dust};
+use crate::measure::{FacesDefect, Fill, SelfCrossing, scanned_body, self_crossing, without_dust};
 use crate::mesh::Mesh;
 use crate::model::Unseen;
 use crate::scan::{Scan, has_neck};
@@ -47,6 +47,8 @@ pub struct ScannedSurface<'a> {
     pub(crate) representatives: Option<Vec<Point3<f64>>>,
     /// What was not seen, if it is large.
     pub(crate) unseen: Option<Unseen>,
+    /// Whether that is only because the points are few for a body as thin.
+    pub(crate) is_sparse: bool,
     /// What a user should know.
     pub warnings: Vec<FitWarning>,
 }
@@ -71,7 +73,7 @@ pub fn scanned_surface(scan: &Scan) -> Result<ScannedSurface<'_>, FitError> {
     usable(scan)?;
     match &scan.topology {
         Some(topology) if topology.closed && topology.bodies == 1 => {
-            Ok(from_faces(scan, &topology.unreferenced))
+            from_faces(scan, &topology.unreferenced)
         }
         Some(_) => from_parts(scan),
         None => from_directions(Cow::Borrowed(&scan.points)),
@@ -103,12 +105,25 @@ pub(crate) fn usable(scan: &Scan) -> Result<(), FitError> {
 }
 
 /// Of faces that are closed and of one piece.
-fn from_faces<'a>(scan: &'a Scan, unreferenced: &[u32]) -> ScannedSurface<'a> {
+fn from_faces<'a>(scan: &'a Scan, unreferenced: &[u32]) -> Result<ScannedSurface<'a>, FitError> {
+    let crossing = fitted_over(self_crossing(&scan.welded()))?;
     let mesh = Mesh {
         vertices: scan.points.clone(),
         triangles: scan.triangles.clone(),
     };
-    closed(mesh, without(&scan.points, unreferenced))
+    Ok(ScannedSurface {
+        warnings: crossing.into_iter().collect(),
+        ..closed(mesh, without(&scan.points, unreferenced))
+    })
+}
+
+/// A surface that goes through itself is told of, where it is by folds that hold next to nothing: those of noise are many, and a
+/// fit goes between them.
+fn fitted_over(crossing: Option<SelfCrossing>) -> Result<Option<FitWarning>, FitError> {
+    match crossing.filter(SelfCrossing::hides_volume) {
+        Some(crossing) => Err(FitError::SelfCrossing(crossing)),
+        None => Ok(crossing.map(FitWarning::SelfCrossing)),
+    }
 }
 
 /// A closed mesh, and those of its vertices that were seen.
@@ -126,6 +141,7 @@ fn closed(mesh: Mesh, points: Cow<'_, [Point3<f64>]>) -> ScannedSurface<'_> {
         points,
         representatives,
         unseen: None,
+        is_sparse: false,
         warnings: Vec::new(),
     }
 }
@@ -144,6 +160,7 @@ fn from_parts(scan: &Scan) -> Result<ScannedSurface<'static>, FitError> {
         (_, _, cavities @ 1..) => return Err(FitError::Hollow { cavities }),
         _ => {}
     }
+    let crossing = fitted_over(body.crossing)?;
     let mut surface = match body.defect {
         None => filled(body.mesh, body.fill),
         Some(defect) => {
@@ -156,6 +173,7 @@ fn from_parts(scan: &Scan) -> Result<ScannedSurface<'static>, FitError> {
             warnings.push(FitWarning::FacesNotClosed(defect));
             ScannedSurface {
                 faces: Some(body.mesh),
+                is_sparse: cloud.is_sparse && unseen == cloud.unseen,
                 unseen,
                 warnings,
                 ..cloud
@@ -163,7 +181,7 @@ fn from_parts(scan: &Scan) -> Result<ScannedSurface<'static>, FitError> {
         }
     };
     let dust = cleaned.map(|(_, parts)| FitWarning::Dust { parts });
-    surface.warnings.extend(dust);
+    surface.warnings.extend(dust.into_iter().chain(crossing));
     Ok(surface)
 }
 
@@ -233,7 +251,8 @@ fn from_directions(points: Cow<'_, [Point3<f64>]>) -> Result<ScannedSurface<'_>,
     });
     let neck = has_neck(&points).then_some(FitWarning::Neck);
     Ok(ScannedSurface {
-        unseen: Unseen::hole(gap.half_angle, points.len()),
+        unseen: gap.unseen,
+        is_sparse: gap.is_sparse,
         warnings: [neck, strays, gap.warning()]
             .into_iter()
             .flatten()

@@ -3,6 +3,7 @@
 use super::{FacesDefect, Fill, ScannedBody};
 use crate::measure::crossings::clear_crossings;
 use crate::measure::winding::winding_number;
+use crate::measure::{SelfCrossing, self_crossing};
 use crate::mesh::{Mesh, part, parts};
 use nalgebra::{Point3, Vector3};
 
@@ -117,6 +118,13 @@ fn are_crossing(mesh: &Mesh, lists: &[Vec<usize>], parts: &[Part]) -> bool {
         .any(|[one, two]| owners[one] != owners[two])
 }
 
+/// Of parts that go through themselves, the one whose figures are farthest off.
+fn worst_crossing(parts: &[Part]) -> Option<SelfCrossing> {
+    let found = parts.iter().filter_map(|part| self_crossing(&part.mesh));
+    let off = |crossing: &SelfCrossing| crossing.area + crossing.volume;
+    found.max_by(|one, other| off(one).total_cmp(&off(other)))
+}
+
 /// The bodies of a closed mesh: outer surfaces are wound outwards, whichever way they came; inner ones must
 /// be wound inwards, for a body within a body is none.
 pub(super) fn arrange(mut mesh: Mesh, fill: Option<Fill>) -> ScannedBody {
@@ -140,11 +148,15 @@ pub(super) fn arrange(mut mesh: Mesh, fill: Option<Fill>) -> ScannedBody {
             }
         }
     }
+    let overlap = is_overlapping.then_some(FacesDefect::Overlapping { parts: parts.len() });
+    let crossing = worst_crossing(&parts);
+    let hiding = crossing.filter(SelfCrossing::hides_volume);
     ScannedBody {
         mesh,
         bodies: parts.len() - cavities,
         cavities,
         fill,
-        defect: is_overlapping.then_some(FacesDefect::Overlapping { parts: parts.len() }),
+        crossing,
+        defect: overlap.or(hiding.map(FacesDefect::Crossing)),
     }
 }

@@ -8,6 +8,7 @@ mod fill;
 mod parts;
 mod rims;
 
+use super::SelfCrossing;
 use crate::mesh::{Mesh, parts};
 use crate::scan::{Scan, each_edge, plural};
 use bodies::arrange;
@@ -33,6 +34,8 @@ pub struct ScannedBody {
     pub cavities: usize,
     /// What closes small holes, if there were any.
     pub fill: Option<Fill>,
+    /// Where a body goes through itself, and how far its figures may be off for that.
+    pub crossing: Option<SelfCrossing>,
     /// Why there is neither area nor volume, if so.
     pub defect: Option<FacesDefect>,
 }
@@ -71,6 +74,9 @@ pub enum FacesDefect {
         /// Number of closed surfaces.
         parts: usize,
     },
+    /// A body goes through itself, so that the volume of its triangles is not what they enclose.
+    #[error("{0}; mend the mesh")]
+    Crossing(SelfCrossing),
 }
 
 /// The bodies that the faces of a scan enclose; `None` of points without faces.
@@ -112,6 +118,7 @@ fn refused(mesh: Mesh, defect: FacesDefect) -> ScannedBody {
         bodies: parts(&mesh).len(),
         cavities: 0,
         fill: None,
+        crossing: None,
         defect: Some(defect),
         mesh,
     }

@@ -158,6 +158,21 @@ impl MeasureReport {
         Self::without(&all, input, of, survey, only, warnings)
     }
 
+    /// The report of some measures of the bodies that the faces of a scan enclose.
+    pub fn of_faces(
+        input: String,
+        scanned: &ScannedBody,
+        only: &[Measure],
+        unit: Option<Unit>,
+        warnings: Vec<String>,
+    ) -> Self {
+        let withheld = Withheld::of_faces(scanned);
+        let survey = Survey::of_scanned(scanned);
+        Self::without(&withheld, input, Measured::Faces, &survey, only, warnings)
+            .in_unit(unit)
+            .with_faces(scanned)
+    }
+
     /// The same of a model, without what is withheld of it, which is not computed either.
     pub(crate) fn of_model(
         input: String,
@@ -217,12 +232,15 @@ impl MeasureReport {
     }
 
     /// The same with what the faces of the scan enclose.
-    pub fn with_faces(mut self, scanned: &ScannedBody) -> Self {
+    fn with_faces(mut self, scanned: &ScannedBody) -> Self {
         let faces = FacesRecord::new(scanned);
         let is_sum = |missing: &NotMeasured| ["area", "volume"].contains(&missing.measure);
         let sums_are_told = !self.not_measured.iter().any(is_sum);
         let sentences = faces.sentences(Labels(self.unit), sums_are_told);
+        let crossing = scanned.crossing.filter(|_| scanned.defect.is_none());
         self.warnings.extend(sentences);
+        self.warnings
+            .extend(crossing.map(|found| format!("Of the scan, {found}.")));
         self.faces = Some(faces);
         self
     }

@@ -1,6 +1,7 @@
 //! What of a grain is not told, though it could be computed.
 
 use super::{Measure, NotMeasured};
+use crate::measure::{ScannedBody, SelfCrossing};
 use crate::model::{Contradicted, Grain, Unseen};
 
 /// What of a grain is not to be relied on.
@@ -8,6 +9,7 @@ use crate::model::{Contradicted, Grain, Unseen};
 pub(crate) struct Withheld {
     unseen: Option<Unseen>,
     contradicted: Option<Contradicted>,
+    crossing: Option<SelfCrossing>,
 }
 
 impl Withheld {
@@ -16,6 +18,16 @@ impl Withheld {
         Self {
             unseen: grain.unseen().filter(|_| !is_guess_told),
             contradicted: grain.contradicted(),
+            crossing: None,
+        }
+    }
+
+    /// Of the faces of a scan, what is made of their area where that is not the area of their outside. Where the volume is
+    /// not what they enclose they have no figures at all.
+    pub(super) fn of_faces(scanned: &ScannedBody) -> Self {
+        Self {
+            crossing: scanned.crossing.filter(SelfCrossing::hides_area),
+            ..Self::default()
         }
     }
 
@@ -25,6 +37,9 @@ impl Withheld {
             return Some(format!(
                 "{unseen}; scan what is missing, or take the guess (--extrapolate)"
             ));
+        }
+        if let Some(crossing) = self.crossing.filter(|_| is_made_of_area(measure)) {
+            return Some(format!("{crossing}; mend the mesh"));
         }
         let contradicted = self.contradicted?;
         let area = contradicted.area.filter(|_| rests_on_area(measure));
@@ -50,6 +65,11 @@ impl Withheld {
 fn rests_on_area(measure: Measure) -> bool {
     use Measure::{Centroid, Ellipsoid, Inertia, Principal, Volume};
     !matches!(measure, Volume | Centroid | Inertia | Principal | Ellipsoid)
+}
+
+fn is_made_of_area(measure: Measure) -> bool {
+    use Measure::{Area, Convexity, Sphericity};
+    matches!(measure, Area | Sphericity | Convexity)
 }
 
 fn rests_on_volume(measure: Measure) -> bool {
