@@ -25,15 +25,15 @@ const BED: [&str; 13] = [
     "bed",
     "lens.json:1",
     "--grains",
-    "30",
+    "16",
     "--box",
-    "12,12",
+    "9,9",
     "--unit",
     "mm",
     "--diameter",
     "3",
     "--seconds",
-    "0.3",
+    "0.2",
     "-o",
 ];
 
@@ -42,7 +42,7 @@ fn a_bed_settles_and_is_told() {
     let folder = models();
     let report = json(&folder, &[&BED[..], &["bed"]].concat());
     let run = &report["runs"][0];
-    assert_eq!(report["kinds"][0]["grains"], 30);
+    assert_eq!(report["kinds"][0]["grains"], 16);
     assert!((report["kinds"][0]["diameter_m"].as_f64().unwrap() - 3e-3).abs() < 1e-9);
     assert!(run["fabric"]["neighbours"].as_f64().unwrap() > 2.0);
     let whole = run["packing"]["whole"]["value"].as_f64().unwrap();
@@ -50,8 +50,8 @@ fn a_bed_settles_and_is_told() {
     let files = names(&folder.path().join("bed"));
     assert_eq!(files, ["bed.png", "bed.vtk", "frames", "state.json"]);
     let dump = fs::read_to_string(folder.path().join("bed/frames/bed.00000.dump")).unwrap();
-    assert!(dump.starts_with("ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n30\n"));
-    assert_eq!(dump.lines().count(), 39);
+    assert!(dump.starts_with("ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n16\n"));
+    assert_eq!(dump.lines().count(), 25);
     let vtk = fs::read(folder.path().join("bed/bed.vtk")).unwrap();
     assert!(vtk.starts_with(b"# vtk DataFile Version 3.0\n"));
 
@@ -80,7 +80,7 @@ fn seeds_tell_errors_and_a_cylinder_and_a_mesh_hold() {
         "bed",
         "lens.json",
         "--grains",
-        "8",
+        "4",
         "--cylinder",
         "12",
         "--walls",

@@ -235,7 +235,16 @@ fn what_large_holes_hide_is_not_told_unless_as_a_guess() {
     save_mesh(&folder, "open.ply", &open);
     let cap = json(
         &folder,
-        &["synth", "maize", "--missing-cap", "85", "-o", "cap.ply"],
+        &[
+            "synth",
+            "maize",
+            "--points",
+            "1538",
+            "--missing-cap",
+            "85",
+            "-o",
+            "cap.ply",
+        ],
     );
     let ball =
         json!({"area": 4.0 * std::f64::consts::PI, "volume": 4.0 / 3.0 * std::f64::consts::PI});

@@ -36,12 +36,13 @@ fn left_out(warning: &FitWarning) -> usize {
     }
 }
 
-/// Errors that a fit may have: of the area and the volume, relative, and the root mean square of
-/// the radius as a share of the mean radius.
+/// Errors that a fit may have: of the area and the volume, relative, the root mean square of
+/// the radius as a share of the mean radius, and the largest of the radius as a share of it.
 struct Bounds {
     area: f64,
     volume: f64,
     rms: f64,
+    largest: f64,
 }
 
 fn check(options: &FitOptions, bodies: &[Body], noise: f64, bounds: &Bounds) {
@@ -54,12 +55,15 @@ fn check(options: &FitOptions, bodies: &[Body], noise: f64, bounds: &Bounds) {
             let area = found.area / exact.area - 1.0;
             let volume = found.volume / exact.volume - 1.0;
             let rms = distance(&fitted, body) / synthetic.truth.mean_radius;
-            let what =
-                format!("{body} {sampling} {noise}: area {area}, volume {volume}, RMS {rms}");
+            let largest = largest_miss(&fitted, body);
+            let what = format!(
+                "{body} {sampling} {noise}: area {area}, volume {volume}, RMS {rms}, {largest}"
+            );
             println!("{what}");
             assert!(area.abs() <= bounds.area, "{what}");
             assert!(volume.abs() <= bounds.volume, "{what}");
             assert!(rms <= bounds.rms, "{what}");
+            assert!(largest <= bounds.largest, "{what}");
             assert!(fitted.search.choice().rejected.is_none(), "{what}");
         }
     }
@@ -78,11 +82,12 @@ fn distance(fitted: &Fitted, body: Body) -> f64 {
 
 #[test]
 fn clean_scans_are_met_within_the_tolerance_however_their_points_are_spread() {
-    // Measured: 3.1e-5, 3.0e-6, and 4.5e-4 of the 5e-4 asked for.
+    // Measured: 3.1e-5, 3.0e-6, 4.5e-4 of the 5e-4 asked for, and 4.3e-3 at the beak of the chickpea.
     let bounds = Bounds {
         area: 5e-5,
         volume: 5e-6,
         rms: 5e-4,
+        largest: 6e-3,
     };
     check(&FitOptions::default(), &GRAINS, 0.0, &bounds);
 }
@@ -95,11 +100,13 @@ fn noisy_grains_are_met_within_a_fraction_of_the_noise() {
         area: 4e-4,
         volume: 2.4e-4,
         rms: 1.5e-3,
+        largest: 1.0,
     };
     let few = Bounds {
         area: 1e-3,
         volume: 1.2e-3,
         rms: 2.5e-3,
+        largest: 1.0,
     };
     let options = FitOptions::default();
     check(&options, &[Body::Chickpea, Body::Maize], 0.005, &many);
@@ -113,37 +120,27 @@ fn independent_segments_meet_clean_and_noisy_grains() {
             area,
             volume,
             rms: 0.01,
+            largest: 1.0,
         };
         check(&independent(), &GRAINS, noise, &bounds);
     }
 }
 
-/// Fits with some options; nowhere may the surface miss the true radius by more than a share `most` of it.
-fn assert_near_everywhere(
-    body: Body,
-    sampling: Sampling,
-    scan: &Scan,
-    options: &FitOptions,
-    most: f64,
-) {
+/// The most by which a fit misses the true radius anywhere, as a share of it.
+fn largest_miss(fitted: &Fitted, body: Body) -> f64 {
     let (directions, _) = cube_grid(24);
     let surface = body.surface();
-    let fitted = fit(scan, options).expect("a grain");
-    if fitted.search.choice().rejected.is_some() {
-        return;
-    }
-    for direction in &directions {
+    let miss = |direction| {
         let point = fitted.grain.point(direction).coords;
-        let truth = surface.radius(&point.normalize());
-        let miss = (point.norm() / truth - 1.0).abs();
-        assert!(miss < most, "{body} {sampling} {options:?}: {miss}");
-    }
+        (point.norm() / surface.radius(&point.normalize()) - 1.0).abs()
+    };
+    directions.iter().map(miss).fold(0.0, f64::max)
 }
 
 #[test]
 fn no_candidate_that_passes_misses_the_true_radius_by_more_than_a_tenth_anywhere() {
     for body in GRAINS {
-        for sampling in Sampling::ALL {
+        for sampling in [Sampling::Random, Sampling::Rings] {
             let (scan, _) = made(body, sampling, 0.0);
             let exhaustive = independent().with_exhaustive(true);
             let search = fit(&scan, &exhaustive).expect("a grain").search;
@@ -151,19 +148,13 @@ fn no_candidate_that_passes_misses_the_true_radius_by_more_than_a_tenth_anywhere
                 let options = independent()
                     .with_degree(candidate.degree)
                     .with_segments(candidate.segments);
-                assert_near_everywhere(body, sampling, &scan, &options, 0.1);
+                let fitted = fit(&scan, &options).expect("a grain");
+                let miss = match fitted.search.choice().rejected {
+                    Some(_) => 0.0,
+                    None => largest_miss(&fitted, body),
+                };
+                assert!(miss < 0.1, "{body} {sampling} {options:?}: {miss}");
             }
-        }
-    }
-}
-
-#[test]
-fn default_fits_are_near_everywhere() {
-    for body in GRAINS {
-        for sampling in Sampling::ALL {
-            let (scan, _) = made(body, sampling, 0.0);
-            // Measured: .43 % at most, at the beak of the chickpea.
-            assert_near_everywhere(body, sampling, &scan, &FitOptions::default(), 0.006);
         }
     }
 }
@@ -190,7 +181,7 @@ fn blended_covers_miss_the_true_radius_by_what_they_tell() {
 #[test]
 fn skipping_candidates_does_not_change_the_choice() {
     for body in GRAINS {
-        for noise in [0.0, 0.005, 0.02] {
+        for noise in [0.0, 0.02] {
             let (scan, _) = made(body, Sampling::Cube, noise);
             for options in [FitOptions::default(), independent()] {
                 let quick = fit(&scan, &options).expect("a grain");

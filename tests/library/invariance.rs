@@ -84,7 +84,7 @@ fn assert_same(a: &Fitted, b: &Fitted, scale: f64) {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(12))]
+    #![proptest_config(ProptestConfig::with_cases(4))]
 
     #[test]
     fn a_fit_does_not_depend_on_where_the_scan_lies(

@@ -53,7 +53,7 @@ fn figures(mesh: &Mesh) -> Result<Vec<(i32, f64)>, SurveyError> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(12))]
+    #![proptest_config(ProptestConfig::with_cases(6))]
     #[test]
     fn measures_do_not_depend_on_where_a_body_lies_and_scale_with_its_size(
         which in 0..2_usize,

@@ -42,7 +42,7 @@ fn one_percent_of_outliers_changes_the_volume_by_less_than_a_tenth_of_a_percent(
 #[test]
 fn outliers_of_few_points_are_not_followed() {
     let truth = Body::Bean.surface().integrals().properties;
-    for seed in 1..=6 {
+    for seed in 1..=3 {
         let options = SynthOptions::clean(Body::Bean)
             .with_outliers(0.01)
             .with_seed(seed);
@@ -170,33 +170,28 @@ fn holes_are_bridged_without_overshoot() {
 
 #[test]
 fn a_half_twenty_times_denser_does_not_bias_area_or_volume() {
-    for body in GRAINS {
+    let sides = [Vector3::z(), -Vector3::x(), Vector3::new(0.5, 0.7, -0.4)];
+    for (body, towards) in GRAINS.into_iter().zip(sides) {
         let surface = body.surface();
         let truth = surface.integrals().properties;
-        let sparse = body.native_points();
-        for towards in [Vector3::z(), -Vector3::x(), Vector3::new(0.5, 0.7, -0.4)] {
-            let half = |count: usize, side: f64| {
-                let directions = Sampling::Fibonacci.directions(count, 0).expect("enough");
-                directions
-                    .into_iter()
-                    .filter(|n| n.dot(&towards) * side > 0.0)
-                    .map(|n| Point3::from(n * surface.radius(&n)))
-                    .collect::<Vec<_>>()
-            };
-            let points = [half(sparse, 1.0), half(20 * sparse, -1.0)].concat();
-            let found = grain_properties(&fitted(points).grain).properties;
-            let area = found.area / truth.area - 1.0;
-            let volume = found.volume / truth.volume - 1.0;
-            println!(
-                "density: {body}, towards ({} {} {}): S {:+.4} %, V {:+.4} %",
-                towards.x,
-                towards.y,
-                towards.z,
-                100.0 * area,
-                100.0 * volume
-            );
-            assert!(area.abs() < 0.002, "{body}: area {area}");
-            assert!(volume.abs() < 0.0005, "{body}: volume {volume}");
-        }
+        let half = |count: usize, side: f64| {
+            let directions = Sampling::Fibonacci.directions(count, 0).expect("enough");
+            directions
+                .into_iter()
+                .filter(|n| n.dot(&towards) * side > 0.0)
+                .map(|n| Point3::from(n * surface.radius(&n)))
+                .collect::<Vec<_>>()
+        };
+        let points = [half(1500, 1.0), half(30_000, -1.0)].concat();
+        let found = grain_properties(&fitted(points).grain).properties;
+        let area = found.area / truth.area - 1.0;
+        let volume = found.volume / truth.volume - 1.0;
+        println!(
+            "density: {body}: S {:+.4} %, V {:+.4} %",
+            100.0 * area,
+            100.0 * volume
+        );
+        assert!(area.abs() < 0.002, "{body}: area {area}");
+        assert!(volume.abs() < 0.0005, "{body}: volume {volume}");
     }
 }

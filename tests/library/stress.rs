@@ -55,7 +55,7 @@ fn cloud(body: Body, points: usize, sampling: Sampling) -> Vec<Point3<f64>> {
 #[test]
 fn every_partition_and_degree_gives_a_sound_grain() {
     let points = cloud(Body::Bean, 1538, Sampling::Cube);
-    for parts in [1, 2, 3, 5, 8, 13, 21, 34, 64] {
+    for parts in [1, 2, 5, 13, 34, 64] {
         for degree in [0, 1, 3, 6, 12] {
             let options = FitOptions::default()
                 .with_seams(Seams::None)
@@ -71,7 +71,7 @@ fn every_blended_cover_and_degree_gives_a_sound_grain() {
     for (body, points, sampling) in [
         (Body::Sphere, 40, Sampling::Fibonacci),
         (Body::Chickpea, 100, Sampling::Random),
-        (Body::Maize, 3200, Sampling::Rings),
+        (Body::Maize, 1000, Sampling::Rings),
     ] {
         let points = cloud(body, points, sampling);
         for (segments, degree) in [
@@ -185,7 +185,7 @@ fn a_thin_disc_is_sound() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(12))]
+    #![proptest_config(ProptestConfig::with_cases(5))]
 
     #[test]
     fn slender_and_flat_bodies_are_sound(a in 1.0..100.0_f64, b in 1.0..100.0_f64) {

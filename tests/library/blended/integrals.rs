@@ -65,9 +65,9 @@ fn integrals_of_fitted_grains_are_those_of_a_product_rule_and_of_a_fine_mesh() {
         let grain = fitted(body);
         check(&grain, 1e-6);
         let found = grain_properties(&grain).properties;
-        let mesh = mesh_properties(&grain.mesh(256)).expect("closed");
-        assert!((mesh.volume / found.volume - 1.0).abs() < 1e-4);
-        assert!((mesh.area / found.area - 1.0).abs() < 1e-4);
+        let mesh = mesh_properties(&grain.mesh(128)).expect("closed");
+        assert!((mesh.volume / found.volume - 1.0).abs() < 4e-4);
+        assert!((mesh.area / found.area - 1.0).abs() < 4e-4);
         assert!((mesh.centroid - found.centroid).norm() < 1e-4 * found.volume.cbrt());
     }
 }
