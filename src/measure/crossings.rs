@@ -142,6 +142,37 @@ mod tests {
         assert!(crossings(&tube(7.5, 0.5)).is_empty());
     }
 
+    /// A large triangle in the plane z = 0 and a small one, whose lowest corner is at this height.
+    fn two_triangles(low: f64) -> Mesh {
+        let corners = [
+            [0.2, 0.2, low],
+            [0.3, 0.2, 1.0],
+            [0.2, 0.3, 1.0],
+            [-5.0, -5.0, 0.0],
+            [5.0, -5.0, 0.0],
+            [0.0, 5.0, 0.0],
+        ];
+        Mesh {
+            vertices: corners.map(Point3::from).into(),
+            triangles: vec![[0, 1, 2], [3, 4, 5]],
+        }
+    }
+
+    #[test]
+    fn a_triangle_that_pierces_another_crosses_it_whichever_is_first() {
+        let mut mesh = two_triangles(-1.0);
+        for _ in 0..2 {
+            assert_eq!(crossings(&mesh), [[0, 1]]);
+            assert_eq!(clear_crossings(&mesh), [[0, 1]]);
+            mesh.triangles.reverse();
+        }
+    }
+
+    #[test]
+    fn what_touches_does_not_clearly_cross() {
+        assert!(clear_crossings(&two_triangles(0.0)).is_empty());
+    }
+
     #[test]
     fn what_does_not_cross_is_clean_and_nothing_crosses_nothing() {
         assert!(crossings(&Mesh::radial(16, |n| 1.0 + 0.5 * n.x)).is_empty());

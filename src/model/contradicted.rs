@@ -35,3 +35,29 @@ impl Contradicted {
             .all(|share| share.is_finite() && share > -1.0)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_off_by_more_than_is_told_to_either_side_is_contradicted() {
+        let of = |area, volume| Some(Contradicted { area, volume });
+        assert_eq!(Contradicted::beyond(0.1, [0.05, -0.1]), None);
+        assert_eq!(
+            Contradicted::beyond(0.1, [-0.2, 0.05]),
+            of(Some(-0.2), None)
+        );
+        assert_eq!(Contradicted::beyond(0.1, [0.05, 0.2]), of(None, Some(0.2)));
+    }
+
+    #[test]
+    fn no_figure_is_off_by_its_whole_size_or_more() {
+        let is_sound = |area| {
+            let volume = None;
+            Contradicted { area, volume }.is_sound()
+        };
+        assert!(is_sound(None) && is_sound(Some(-0.99)) && is_sound(Some(3.0)));
+        assert!(!is_sound(Some(-1.0)) && !is_sound(Some(f64::NAN)));
+    }
+}

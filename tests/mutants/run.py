@@ -65,9 +65,9 @@ def build(mutants):
     library.write_text("#![allow(unused_parens)]\n" + library.read_text() + SWITCH)
     shutil.copy(ROOT / "Cargo.lock", WORKSPACE)
     manifest = (ROOT / "Cargo.toml").read_text()
-    profile = re.search(r"\[profile.test\]\n(.+\n)*", manifest)[0]
-    quick = "[profile.test.package.grainform]\nopt-level = 1\ndebug = false\n"
-    (WORKSPACE / "Cargo.toml").write_text(f'[workspace]\nmembers = ["copy"]\nresolver = "3"\n{profile}{quick}')
+    profiles = re.findall(r"\[profile\.test.*\]\n(?:.+\n)*", manifest)
+    quick = "[profile.test.package.grainform]\ncodegen-units = 1\ndebug = false\n"
+    (WORKSPACE / "Cargo.toml").write_text("\n".join(['[workspace]\nmembers = ["copy"]\nresolver = "3"\n', *profiles, quick]))
     command = ["cargo", "test", "--lib", "--no-run", "--target-dir", str(ROOT / "target")]
     told = subprocess.run(command, cwd=COPY, stderr=subprocess.PIPE, text=True)
     program = re.search(r"Executable .*\((.*)\)", told.stderr)

@@ -250,6 +250,30 @@ mod tests {
             .collect()
     }
 
+    /// Points left out of a rough dense cap with a smooth spot, in the middle of which a point stands so far off.
+    fn left_out(roughness: f64, off: f64) -> usize {
+        let directions = Sampling::Fibonacci.directions(300_000, 0).unwrap();
+        let cap: Vec<_> = directions.into_iter().filter(|n| n.z > 0.95).collect();
+        let middle = cap.len() / 2;
+        let sample = |(i, n): (usize, &Vector3<f64>)| {
+            let is_smooth = (n - cap[middle]).norm() < 0.05;
+            let rough = if is_smooth { 0.0 } else { roughness };
+            let radius = 1.0 + rough * (12.9898 * i as f64).sin();
+            let own = if i == middle { off } else { 0.0 };
+            [n.x, n.y, n.z, radius + own]
+        };
+        let samples: Vec<Sample> = cap.iter().enumerate().map(sample).collect();
+        Patches::new(&samples).left_out
+    }
+
+    #[test]
+    fn points_are_left_out_that_are_off_by_a_share_of_the_radius_and_by_more_than_most() {
+        assert_eq!(left_out(0.0, 0.005), 0);
+        assert_eq!(left_out(0.0, 0.02), 1);
+        assert_eq!(left_out(0.01, 0.03), 0);
+        assert_eq!(left_out(0.01, 0.2), 1);
+    }
+
     /// A function of place of the second degree has the same mean over a patch's places as over its points.
     #[test]
     fn places_stand_for_points_to_the_second_degree() {

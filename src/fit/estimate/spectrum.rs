@@ -244,3 +244,20 @@ impl Spectrum {
         (fall, [fall, -2.0 * nu * q / (1.0 + q)])
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_a_higher_degree_adds_was_noise_to_the_lower_one() {
+        let spectrum = Spectrum::with_amplitude([-8.0, 1.0, 4.0_f64.ln(), 5e-4_f64.ln()]);
+        let noise = spectrum.noise().powi(2);
+        let share = |from: usize| spectrum.power(from, from + 20) / noise;
+        let from = (3..80).find(|&from| share(from) < 0.4).unwrap();
+        assert!(share(from) > 0.1);
+        let left = spectrum.raised(from, from + 20).noise().powi(2);
+        assert!((left / noise + share(from) - 1.0).abs() < 1e-12);
+        assert_eq!(spectrum.raised(from, from), spectrum);
+    }
+}

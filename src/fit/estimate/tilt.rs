@@ -71,6 +71,23 @@ mod tests {
     }
 
     #[test]
+    fn no_tilt_is_found_behind_coefficients_without_one() {
+        let even = Spectrum::with_amplitude([-2.0, 0.9, 1.2, -5.0]);
+        let unlearnt = [1e-6; 21];
+        for seed in 0..8 {
+            let mut random = ChaCha8Rng::seed_from_u64(seed);
+            let variances = even.variances(20).into_iter().enumerate();
+            let orders = variances.flat_map(|(l, v)| vec![v; 2 * l + 1]);
+            let coefficients = orders.map(|v| {
+                let normal: f64 = StandardNormal.sample(&mut random);
+                v.sqrt() * normal
+            });
+            let coefficients: Vec<f64> = coefficients.collect();
+            assert_eq!(most_likely(&coefficients, &unlearnt, &even), 0.0);
+        }
+    }
+
+    #[test]
     fn orders_share_the_variance_of_their_degree() {
         let spectrum = Spectrum::start().tilted(1.0);
         let shares: Vec<f64> = spectrum.orders(5).collect();

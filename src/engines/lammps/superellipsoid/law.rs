@@ -85,4 +85,21 @@ mod tests {
         let hertz = (15.0 * mass * speed.powi(2) / (16.0 * modulus * radius.sqrt())).powf(0.4);
         assert_relative_eq!(deepest, hertz, max_relative = 1e-12);
     }
+
+    #[test]
+    fn of_two_grains_half_the_mass_and_half_the_radius_count_and_the_stiffness_across_is_mindlins()
+    {
+        let material = GrainMaterial::trial(2500.0);
+        let grain = |mass, radius| Partner { mass, radius };
+        let both = Law::new([grain(2e-4, 4e-3); 2], &material, 0.05);
+        let one = Law::new([grain(1e-4, 2e-3), Partner::WALL], &material, 0.05);
+        assert_relative_eq!(both.stiffness, one.stiffness, max_relative = 1e-12);
+        assert_relative_eq!(both.duration, one.duration, max_relative = 1e-12);
+        // Poisson's ratio is 0.3.
+        assert_relative_eq!(
+            one.across / one.stiffness,
+            14.0 / 17.0,
+            max_relative = 1e-12
+        );
+    }
 }

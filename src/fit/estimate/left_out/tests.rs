@@ -23,7 +23,33 @@ fn moves_are_those_of_estimates_without_a_point() {
     let known = estimate
         .given(&posterior)
         .covariances(&[functional.clone()]);
-    let moves = LeftOut::new(&estimate, &posterior, &residuals).moves(&known[0]);
+    let left_out = LeftOut::new(&estimate, &posterior, &residuals);
+    let moves = left_out.moves(&known[0]);
+
+    let covariance = left_out.covariance(&vec![known[0].clone(); INTEGRALS]);
+    let (alone, together) = (dot(&moves, &moves), moves.iter().sum::<f64>());
+    let expected = alone + together * together;
+    assert!((covariance[(0, 1)] / expected - 1.0).abs() < 1e-12);
+
+    let n = Vector3::new(0.6, 0.0, 0.8);
+    let directions = estimate.cloud.directions.iter();
+    let mut near: Vec<(f64, f64)> = directions
+        .zip(&left_out.errors)
+        .map(|(other, error)| ((other - n).norm(), error * error))
+        .collect();
+    near.sort_by(|one, other| one.0.total_cmp(&other.0));
+    let mean = near[..VICINITY]
+        .iter()
+        .map(|(_, square)| square)
+        .sum::<f64>()
+        / VICINITY as f64;
+    assert!((left_out.near(&n) / mean - 1.0).abs() < 1e-12);
+
+    let mut off = vec![0.0; residuals.len()];
+    assert!(!LeftOut::new(&estimate, &posterior, &off).stand_out);
+    off[7] = 1.0;
+    assert!(LeftOut::new(&estimate, &posterior, &off).stand_out);
+
     let whole = dot(&functional, &estimate.coefficients);
     let scale = moves.iter().fold(0.0, |most: f64, d| most.max(d.abs()));
     for at in [7, 111, 200, 333] {
