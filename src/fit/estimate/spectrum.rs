@@ -9,7 +9,7 @@
 //! The first term is the shape's: flat up to the knee l0, then falling with the slope -2 nu. The second is that of the
 //! surface's texture, which falls more slowly: rough natural surfaces are nearly self-affine, with spectra that fall by
 //! powers of 3 to 4 (Hurst exponents of .5 to 1). Of one term alone it was taken for noise, where the shape is smooth.
-//! (Powers of 3, 3.5 and 4 make the hidden points of 22 kernels .97, .98 and .99 of what they are without it.)
+//! Powers of 3, 3.5 and 4 suit hidden points of kernels alike.
 //! Degrees 0, 1 and 2 (size, place and proportions) are free: proportions are taken by the stretch, which is found from the same
 //! points, so that what is left of degree 2 in the stretched space says nothing of what may be left. (With a variance
 //! learnt from it, the extents of noisy ellipsoids were 5 standard errors off.)
