@@ -100,7 +100,8 @@ impl Evidence {
         (value, gradient)
     }
 
-    /// A spectrum with texture, if it makes the points clearly likelier than this one without; few points cannot tell.
+    /// A spectrum with texture, if that shows beside the noise and makes the points clearly likelier than this one without; few
+    /// points cannot tell.
     pub(crate) fn textured(&self, smooth: &Spectrum) -> Option<Spectrum> {
         if self.points <= FEW_POINTS {
             return None;
@@ -114,7 +115,7 @@ impl Evidence {
             }
         }
         let is_worth = self.value(&textured).0 < self.value(smooth).0 - WORTH;
-        is_worth.then_some(textured)
+        (is_worth && textured.texture_shows()).then_some(textured)
     }
 
     /// The spectrum of least F that one step may reach, and by how much F is lower there: damped Newton steps
@@ -209,9 +210,8 @@ impl Step {
     }
 }
 
-/// Texture is kept where it lowers F by this: it makes curvatures uncertain, and of a smooth bean with noise, whose spectrum
-/// is no power law either, it is worth 6.
-const WORTH: f64 = 8.0;
+/// Texture is kept where it lowers F by this, as of a spectrum twenty times likelier.
+const WORTH: f64 = 3.0;
 
 /// Steps to the least F at most; ten are usual.
 const MOST_STEPS: usize = 60;

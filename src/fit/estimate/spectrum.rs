@@ -44,6 +44,9 @@ const PIVOT: usize = 12;
 const TEXTURE_PIVOT: usize = 24;
 const TEXTURE_SLOPE: f64 = 3.5;
 
+/// Beyond this degree texture adds next to nothing to the radius.
+const HIGHEST_TEXTURE: usize = 80;
+
 /// Variance of a texture's degree over that of another.
 pub(super) fn texture_fall(from: usize, to: usize) -> f64 {
     (to as f64 / from as f64).powf(-TEXTURE_SLOPE)
@@ -101,6 +104,14 @@ impl Spectrum {
     /// Whether nothing is expected of texture.
     pub(crate) fn is_smooth(&self) -> bool {
         self.logarithms[TEXTURE] <= NO_TEXTURE
+    }
+
+    /// Whether texture adds more to the radius than noise, beyond [`PIVOT`]. Less is told by the middle degrees alone, and may
+    /// be no more than a shape whose spectrum is no power law, as of a smooth bean.
+    pub(crate) fn texture_shows(&self) -> bool {
+        let degrees = PIVOT + 1..=HIGHEST_TEXTURE;
+        let sum: f64 = degrees.map(|l| (2 * l + 1) as f64 * self.texture(l)).sum();
+        sum > 4.0 * std::f64::consts::PI * self.noise().powi(2)
     }
 
     /// With as much texture as a search starts with.
