@@ -6,7 +6,8 @@
 //! - the difference between the figure that is told (of the surface that stands for the estimate) and the best
 //!   value of the estimate;
 //! - allowances for what second order brings: half of the area's excess, for it rests on degrees that the points
-//!   do not tell; [texture](super::texture) between the points; those of the [extents](super::dimension_errors); the repulsion of nearly equal moments;
+//!   do not tell; [texture](super::texture) between the points; those of the [extents](super::dimension_errors); the
+//!   repulsion of nearly equal moments;
 //! - a floor, for rounding and quadrature.
 //!
 //! Where what is left of the points, or of one of them, is no noise, the variances grow by what
@@ -65,12 +66,10 @@ impl Estimate {
         }
         let left_out = LeftOut::new(self, &posterior, &residuals);
         let left_out = (is_rough || left_out.stand_out).then_some(left_out);
-        let mut best =
-            Best::new(self, &posterior, left_out.as_ref()).ok_or(NoInterval::NotFinite)?;
-        if is_rough {
-            // The points left out tell of it.
-            best.texture = 0.0;
-        }
+        // Of a rough surface the points left out tell.
+        let slopes = if is_rough { 0.0 } else { hidden_slopes(self) };
+        let best = Best::new(self, &posterior, left_out.as_ref(), slopes);
+        let best = best.ok_or(NoInterval::NotFinite)?;
         Ok(best.errors(told))
     }
 }
@@ -102,11 +101,13 @@ pub(super) struct Best {
 }
 
 impl Best {
-    /// `None` if the figures are not finite. `left_out` are the points where residuals are no noise.
+    /// `None` if the figures are not finite. `left_out` are the points where residuals are no noise; `hidden_slopes` the
+    /// mean square of the slopes of texture between the points.
     pub(super) fn new(
         estimate: &Estimate,
         posterior: &Posterior<'_>,
         left_out: Option<&LeftOut<'_>>,
+        hidden_slopes: f64,
     ) -> Option<Self> {
         let surface = RingSurface::new(estimate);
         let moments = surface.moments();
@@ -144,7 +145,7 @@ impl Best {
             covariance,
             excess,
             share: left_out.map_or(EXCESS_SHARE, |_| 1.0),
-            texture: surface.excess_of(0.0, hidden_slopes(estimate)).area,
+            texture: surface.excess_of(0.0, hidden_slopes).area,
             principal,
             dimension_variances: dimensions.variances,
             dimension_excess: dimensions.excess,

@@ -10,8 +10,9 @@
 //! surface's texture, which falls more slowly: rough natural surfaces are nearly self-affine, with spectra that fall by
 //! powers of 3 to 4 (Hurst exponents of .5 to 1). Of one term alone it was taken for noise, where the shape is smooth.
 //! Powers of 3, 3.5 and 4 suit hidden points of kernels alike.
-//! Degrees 0, 1 and 2 (size, place and proportions) are free: proportions are taken by the stretch, which is found from the same
-//! points, so that what is left of degree 2 in the stretched space says nothing of what may be left. (With a variance
+//!
+//! Degrees 0, 1 and 2 (size, place and proportions) are free: proportions are taken by the stretch, which is found from
+//! the same points, so that what is left of degree 2 in the stretched space says nothing of what may be left. (With a variance
 //! learnt from it, the extents of noisy ellipsoids were 5 standard errors off.)
 //!
 //! Along a kernel's crease the radius varies less than across it: of one degree the orders m do not vary alike about the
@@ -44,8 +45,8 @@ const PIVOT: usize = 12;
 const TEXTURE_PIVOT: usize = 24;
 const TEXTURE_SLOPE: f64 = 3.5;
 
-/// Beyond this degree texture adds next to nothing to the radius.
-const HIGHEST_TEXTURE: usize = 80;
+/// Beyond this degree nothing to speak of is expected of the radius.
+pub(super) const HIGHEST: usize = 80;
 
 /// Variance of a texture's degree over that of another.
 pub(super) fn texture_fall(from: usize, to: usize) -> f64 {
@@ -109,7 +110,7 @@ impl Spectrum {
     /// Whether texture adds more to the radius than noise, beyond [`PIVOT`]. Less is told by the middle degrees alone, and may
     /// be no more than a shape whose spectrum is no power law, as of a smooth bean.
     pub(crate) fn texture_shows(&self) -> bool {
-        let degrees = PIVOT + 1..=HIGHEST_TEXTURE;
+        let degrees = PIVOT + 1..=HIGHEST;
         let sum: f64 = degrees.map(|l| (2 * l + 1) as f64 * self.texture(l)).sum();
         sum > 4.0 * std::f64::consts::PI * self.noise().powi(2)
     }
@@ -247,7 +248,8 @@ impl Spectrum {
         self.logarithms[TEXTURE].exp() * texture_fall(TEXTURE_PIVOT, l)
     }
 
-    /// By how much the logarithm of the shape's v_l is below log A, nu log(1 + (l / l0)^2), and its derivatives by the logarithms of exponent and knee.
+    /// By how much the logarithm of the shape's v_l is below log A, nu log(1 + (l / l0)^2), and its derivatives by the
+    /// logarithms of exponent and knee.
     fn fall(&self, l: usize) -> (f64, [f64; 2]) {
         let nu = self.logarithms[1].exp();
         let q = (l as f64 / self.logarithms[2].exp()).powi(2);

@@ -9,7 +9,7 @@ use super::likelihood::{Evidence, hyperprior, hyperprior_curvature, positive};
 use super::newton::{Newton, Next, Place};
 use super::outcome::variance;
 use super::posterior::{Conditioned, Posterior};
-use super::spectrum::{PARAMETERS, Spectrum};
+use super::spectrum::{HIGHEST, PARAMETERS, Spectrum};
 use super::stopping::SETTLED as MEAN_SETTLED;
 use super::sums::Sums;
 use std::sync::Arc;
@@ -19,9 +19,6 @@ const MOST_ROUNDS: usize = 40;
 
 /// Where the cost may fall by more than this per point, second derivatives say little.
 const FAR: f64 = 0.2;
-
-/// Beyond this degree nothing is expected.
-const HIGHEST: usize = 80;
 
 /// A spectrum and the coefficients under it.
 #[derive(Debug, Clone)]

@@ -13,7 +13,13 @@ fn ellipsoid(axes: Vector3<f64>) -> impl Fn(&Vector3<f64>) -> f64 {
 }
 
 fn best(estimate: &Estimate) -> Best {
-    Best::new(estimate, &estimate.posterior(), None).unwrap()
+    Best::new(
+        estimate,
+        &estimate.posterior(),
+        None,
+        hidden_slopes(estimate),
+    )
+    .unwrap()
 }
 
 fn numbers(errors: &StandardErrors) -> Vec<f64> {
