@@ -24,7 +24,7 @@ fn lot(count: usize) -> TempDir {
             "--axes",
             &axes,
             "--points",
-            "98",
+            "50",
             "-o",
             &name,
         ];
