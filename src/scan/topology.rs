@@ -32,7 +32,7 @@ impl Topology {
             .map(|corners| corners.map(|corner| same[corner as usize]))
             .collect();
         let [mut boundary, mut branching, mut twisted] = [0; 3];
-        each_edge(points.len(), &joined, |edge| match edge.triangles() {
+        each_edge(points.len(), &joined, |edge| match edge.triangles().len() {
             1 => boundary += 1,
             2 => twisted += usize::from(edge.forward != 1),
             _ => branching += 1,
@@ -50,51 +50,66 @@ impl Topology {
 }
 
 /// An undirected edge and how often triangles run along it.
-pub(crate) struct Edge {
+pub(crate) struct Edge<'a> {
     /// The lower end first.
     pub(crate) ends: [u32; 2],
     /// Triangles that run from the lower to the higher end.
     pub(crate) forward: usize,
     pub(crate) backward: usize,
+    /// Numbers of the sides of triangles that lie along it, in order: three to a triangle.
+    sides: &'a [usize],
 }
 
-impl Edge {
-    pub(super) fn triangles(&self) -> usize {
-        self.forward + self.backward
+impl Edge<'_> {
+    /// Numbers of the triangles along it, in order.
+    pub(crate) fn triangles(&self) -> impl ExactSizeIterator<Item = usize> {
+        self.sides.iter().map(|side| side / 3)
     }
 }
 
-/// Visits every edge once: half-edges are sorted into one bucket per lower end, then within it.
-pub(crate) fn each_edge(points: usize, triangles: &[[u32; 3]], mut visit: impl FnMut(Edge)) {
-    let half_edges = || {
-        let sides = |&[a, b, c]: &[u32; 3]| [(a, b), (b, c), (c, a)];
-        triangles.iter().flat_map(sides)
+/// Visits every edge once: sides of triangles are sorted into one bucket per lower end, then within it.
+pub(crate) fn each_edge(points: usize, triangles: &[[u32; 3]], mut visit: impl FnMut(Edge<'_>)) {
+    let corners = triangles.as_flattened();
+    let ends_of = |side: usize| {
+        let after = if side % 3 == 2 { side - 2 } else { side + 1 };
+        (corners[side], corners[after])
+    };
+    let low = |side: usize| {
+        let (from, to) = ends_of(side);
+        from.min(to) as usize
+    };
+    let high = |side: usize| {
+        let (from, to) = ends_of(side);
+        from.max(to)
     };
     let mut ends = vec![0_usize; points + 1];
-    for (a, b) in half_edges() {
-        ends[a.min(b) as usize + 1] += 1;
+    for side in 0..corners.len() {
+        ends[low(side) + 1] += 1;
     }
     for point in 0..points {
         ends[point + 1] += ends[point];
     }
-    // The higher end above the direction bit, each bucket filled from its start onwards.
-    let mut sorted = vec![0_u64; 3 * triangles.len()];
-    for (a, b) in half_edges() {
-        let next = &mut ends[a.min(b) as usize];
-        sorted[*next] = u64::from(a.max(b)) << 1 | u64::from(a > b);
+    // Each bucket is filled from its start onwards.
+    let mut sorted = vec![0_usize; corners.len()];
+    for side in 0..corners.len() {
+        let next = &mut ends[low(side)];
+        sorted[*next] = side;
         *next += 1;
     }
     let mut start = 0;
     for (low, &end) in ends[..points].iter().enumerate() {
         let bucket = &mut sorted[start..end];
         start = end;
-        bucket.sort_unstable();
-        for same in bucket.chunk_by(|one, other| one >> 1 == other >> 1) {
-            let backward = same.iter().filter(|half| *half & 1 == 1).count();
+        bucket.sort_unstable_by_key(|&side| (high(side), side));
+        for sides in bucket.chunk_by(|&one, &other| high(one) == high(other)) {
+            let ends = [low as u32, high(sides[0])];
+            let forward = sides.iter().filter(|&&side| ends_of(side).0 == ends[0]);
+            let forward = forward.count();
             visit(Edge {
-                ends: [low as u32, (same[0] >> 1) as u32],
-                forward: same.len() - backward,
-                backward,
+                ends,
+                forward,
+                backward: sides.len() - forward,
+                sides,
             });
         }
     }

@@ -46,7 +46,7 @@ impl Welder {
 pub(super) fn close_gaps(scan: &mut Scan, extent: f64) {
     let mut on_rim = vec![false; scan.points.len()];
     each_edge(scan.points.len(), &scan.triangles, |edge| {
-        if edge.triangles() == 1 {
+        if edge.triangles().len() == 1 {
             for end in edge.ends {
                 on_rim[end as usize] = true;
             }

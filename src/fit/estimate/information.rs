@@ -26,10 +26,9 @@ impl Conditioned<'_> {
         let factor = self.factor.as_ref()?;
         // The derivatives of the mean by the logarithms, were nothing learnt; and these over the variances.
         let mut moved = vec![vec![0.0; mean.len()]; PARAMETERS];
-        for l in 0..self.degrees.len() {
-            let slopes = spectrum.slopes(l);
+        for (l, term) in spectrum.terms(self.degrees.len() - 1).enumerate() {
             for j in l * l..(l + 1) * (l + 1) {
-                for (i, slope) in slopes.into_iter().enumerate() {
+                for (i, slope) in term.slopes.into_iter().enumerate() {
                     moved[i][j] = slope * mean[j];
                 }
                 moved[NOISE][j] = mean[j];

@@ -81,13 +81,14 @@ impl Evidence {
         let noise = spectrum.noise().powi(2);
         let mut sum = self.points * noise.ln() + self.residuals / noise;
         let mut gradient = [0.0, 0.0, 0.0, self.points - self.residuals / noise, 0.0];
-        let variances = spectrum.variances(self.degrees.len() - 1);
-        for (l, (&[count, power], v)) in self.degrees.iter().zip(variances).enumerate() {
+        let terms = spectrum.terms(self.degrees.len() - 1);
+        for (l, (&[count, power], term)) in self.degrees.iter().zip(terms).enumerate() {
+            let v = term.variance;
             let orders = (2 * l + 1) as f64;
             let total = count * v + noise;
             sum += orders * (count * v / noise).ln_1p() + count * power / total;
             let slope = 0.5 * count * v / total * (orders - count * power / total);
-            for (gradient, by) in gradient.iter_mut().zip(spectrum.slopes(l)) {
+            for (gradient, by) in gradient.iter_mut().zip(term.slopes) {
                 *gradient += by * slope;
             }
             gradient[3] -= count * v / total * orders + count * power * noise / total.powi(2);

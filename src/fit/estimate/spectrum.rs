@@ -41,16 +41,16 @@ pub(crate) const NOISE: usize = 3;
 /// The degree whose variance stands for the amplitude: grains are told from noise up to degrees 10 to 40.
 const PIVOT: usize = 12;
 
-/// The degree whose variance stands for the texture's, and the power by which texture falls.
+/// The degree whose variance stands for the texture's.
 const TEXTURE_PIVOT: usize = 24;
-const TEXTURE_SLOPE: f64 = 3.5;
 
 /// Beyond this degree nothing to speak of is expected of the radius.
 pub(super) const HIGHEST: usize = 80;
 
-/// Variance of a texture's degree over that of another.
+/// Variance of a texture's degree over that of another, which falls by the power 3.5.
 pub(super) fn texture_fall(from: usize, to: usize) -> f64 {
-    (to as f64 / from as f64).powf(-TEXTURE_SLOPE)
+    let ratio = from as f64 / to as f64;
+    ratio.powi(3) * ratio.sqrt()
 }
 
 /// Which of the logarithms is the texture's, where there is none, and where a search for it starts: at a fifth of a percent
@@ -99,7 +99,7 @@ impl Spectrum {
             logarithms: [pivot, exponent, knee, noise, NO_TEXTURE],
             tilt: 0.0,
         };
-        even(amplitude - even(0.0).fall(PIVOT).0)
+        even(amplitude - even(0.0).fall().at(PIVOT)[0])
     }
 
     /// Whether nothing is expected of texture.
@@ -149,11 +149,8 @@ impl Spectrum {
 
     /// log A, and its derivatives by the logarithms.
     pub(crate) fn amplitude(&self) -> (f64, [f64; PARAMETERS]) {
-        let (fall, [by_exponent, by_knee]) = self.fall(PIVOT);
-        (
-            self.logarithms[0] + fall,
-            [1.0, by_exponent, by_knee, 0.0, 0.0],
-        )
+        let [fall, by_knee] = self.fall().at(PIVOT);
+        (self.logarithms[0] + fall, [1.0, fall, by_knee, 0.0, 0.0])
     }
 
     /// The shares of their variances that even points leave of the orders -l to l of degree l, where these have this mean,
@@ -218,29 +215,37 @@ impl Spectrum {
 
     /// v_l of degrees 0 to `degree`.
     pub(crate) fn variances(&self, degree: usize) -> Vec<f64> {
-        let (amplitude, _) = self.amplitude();
-        let variance = |l: usize| (amplitude - self.fall(l).0).exp() + self.texture(l);
-        (0..=degree)
-            .map(|l| FREE.get(l).copied().unwrap_or_else(|| variance(l)))
-            .collect()
+        self.terms(degree).map(|term| term.variance).collect()
     }
 
-    /// d log v_l by the logarithms.
-    pub(crate) fn slopes(&self, l: usize) -> [f64; PARAMETERS] {
-        if l < FREE.len() {
-            return [0.0; PARAMETERS];
-        }
-        let (own, [own_exponent, own_knee]) = self.fall(l);
-        let (amplitude, [_, exponent, knee, ..]) = self.amplitude();
-        let shape = (amplitude - own).exp();
-        let share = shape / (shape + self.texture(l));
-        [
-            share,
-            share * (exponent - own_exponent),
-            share * (knee - own_knee),
-            0.0,
-            1.0 - share,
-        ]
+    /// Degrees 0 to `degree`.
+    pub(crate) fn terms(&self, degree: usize) -> impl Iterator<Item = Term> + use<> {
+        let fall = self.fall();
+        let [at_pivot, knee_at_pivot] = fall.at(PIVOT);
+        let amplitude = self.logarithms[0] + at_pivot;
+        let texture = self.logarithms[TEXTURE].exp();
+        (0..=degree).map(move |l| {
+            if let Some(&variance) = FREE.get(l) {
+                return Term {
+                    variance,
+                    slopes: [0.0; PARAMETERS],
+                };
+            }
+            let [own, by_knee] = fall.at(l);
+            let shape = (amplitude - own).exp();
+            let variance = shape + texture * texture_fall(TEXTURE_PIVOT, l);
+            let share = shape / variance;
+            Term {
+                variance,
+                slopes: [
+                    share,
+                    share * (at_pivot - own),
+                    share * (knee_at_pivot - by_knee),
+                    0.0,
+                    1.0 - share,
+                ],
+            }
+        })
     }
 
     /// The texture's part of v_l.
@@ -248,13 +253,39 @@ impl Spectrum {
         self.logarithms[TEXTURE].exp() * texture_fall(TEXTURE_PIVOT, l)
     }
 
-    /// By how much the logarithm of the shape's v_l is below log A, nu log(1 + (l / l0)^2), and its derivatives by the
-    /// logarithms of exponent and knee.
-    fn fall(&self, l: usize) -> (f64, [f64; 2]) {
-        let nu = self.logarithms[1].exp();
-        let q = (l as f64 / self.logarithms[2].exp()).powi(2);
-        let fall = nu * q.ln_1p();
-        (fall, [fall, -2.0 * nu * q / (1.0 + q)])
+    fn fall(&self) -> Fall {
+        Fall {
+            exponent: self.logarithms[1].exp(),
+            knee: self.logarithms[2].exp(),
+        }
+    }
+}
+
+/// A degree l of a spectrum.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Term {
+    /// v_l.
+    pub(crate) variance: f64,
+    /// d log v_l by the logarithms.
+    pub(crate) slopes: [f64; PARAMETERS],
+}
+
+/// How the shape's variances fall.
+#[derive(Debug, Clone, Copy)]
+struct Fall {
+    exponent: f64,
+    knee: f64,
+}
+
+impl Fall {
+    /// By how much the logarithm of the shape's v_l is below log A, nu log(1 + (l / l0)^2), which is also its derivative by
+    /// the logarithm of the exponent, and that by the logarithm of the knee.
+    fn at(&self, l: usize) -> [f64; 2] {
+        let q = (l as f64 / self.knee).powi(2);
+        [
+            self.exponent * q.ln_1p(),
+            -2.0 * self.exponent * q / (1.0 + q),
+        ]
     }
 }
 

@@ -239,7 +239,7 @@ fn told(
     let cloud = posterior.cloud;
     let points = cloud.len() as f64;
     let noise = spectrum.noise().powi(2);
-    let variances = spectrum.variances(posterior.degree());
+    let terms = spectrum.terms(posterior.degree());
     let unlearnt = match posterior.is_factored() || count == Count::Probed {
         true => given.unlearnt_shares(),
         false => given.even_unlearnt(),
@@ -250,14 +250,15 @@ fn told(
     let mut left = squared;
     let (_, mut gradient) = hyperprior(points, spectrum);
     gradient[3] += points - squared / noise;
-    let mut degrees = Vec::with_capacity(variances.len());
-    for (l, (v, unlearnt)) in variances.iter().zip(&unlearnt).enumerate() {
+    let mut degrees = Vec::with_capacity(unlearnt.len());
+    for (l, (term, unlearnt)) in terms.zip(&unlearnt).enumerate() {
+        let v = term.variance;
         let orders = (2 * l + 1) as f64;
         let range = l * l..(l + 1) * (l + 1);
         let own = mean[range.clone()].iter().zip(&given.orders[range]);
         let power: f64 = own.map(|(x, share)| x * x / share).sum();
         let slope = 0.5 * (orders * (1.0 - unlearnt) - power / v);
-        for (gradient, by) in gradient.iter_mut().zip(spectrum.slopes(l)) {
+        for (gradient, by) in gradient.iter_mut().zip(term.slopes) {
             *gradient += by * slope;
         }
         let learnt = 1.0 - unlearnt;

@@ -8,6 +8,7 @@ use super::{SelfCrossing, cone};
 use crate::Mesh;
 use crate::disjoint_sets::DisjointSets;
 use crate::measure::winding::winding_number;
+use crate::scan::each_edge;
 use nalgebra::{Point3, Vector3};
 use std::cmp::Reverse;
 use std::collections::HashMap;
@@ -205,38 +206,15 @@ fn joined(mesh: &Mesh, cut: &[[usize; 2]]) -> DisjointSets {
         is_cut[triangle] = true;
     }
     let mut sets = DisjointSets::new(mesh.triangles.len());
-    let mut first = vec![0_usize; mesh.vertices.len() + 1];
-    let sides = |at: usize| {
-        let [a, b, c] = mesh.triangles[at];
-        [(a, b), (b, c), (c, a)].map(|(from, to)| [from.min(to), from.max(to)])
-    };
-    let all = 0..mesh.triangles.len();
-    for [low, _] in all.clone().flat_map(sides) {
-        first[low as usize + 1] += 1;
-    }
-    for vertex in 0..mesh.vertices.len() {
-        first[vertex + 1] += first[vertex];
-    }
-    // By their lower ends: the higher end, and the triangle.
-    let mut by_low = vec![[0_u32; 2]; 3 * mesh.triangles.len()];
-    let mut next = first.clone();
-    for at in all {
-        for [low, high] in sides(at) {
-            by_low[next[low as usize]] = [high, at as u32];
-            next[low as usize] += 1;
+    each_edge(mesh.vertices.len(), &mesh.triangles, |edge| {
+        let mut triangles = edge.triangles();
+        if let (Some(one), Some(other), None) =
+            (triangles.next(), triangles.next(), triangles.next())
+            && !is_cut[one]
+            && !is_cut[other]
+        {
+            sets.join(one as u32, other as u32);
         }
-    }
-    for bounds in first.windows(2) {
-        let bucket = &mut by_low[bounds[0]..bounds[1]];
-        bucket.sort_unstable();
-        for edge in bucket.chunk_by(|one, other| one[0] == other[0]) {
-            if let [[_, one], [_, other]] = *edge
-                && !is_cut[one as usize]
-                && !is_cut[other as usize]
-            {
-                sets.join(one, other);
-            }
-        }
-    }
+    });
     sets
 }
