@@ -10,7 +10,7 @@ use super::newton::{Newton, Next, Place};
 use super::outcome::variance;
 use super::posterior::{Conditioned, Posterior};
 use super::spectrum::{HIGHEST, PARAMETERS, Spectrum};
-use super::stopping::SETTLED as MEAN_SETTLED;
+use super::stopping::{ROUGHLY_SETTLED, SETTLED};
 use super::sums::Sums;
 use std::sync::Arc;
 
@@ -63,6 +63,16 @@ pub(crate) enum Count {
     Even,
     /// By probes.
     Probed,
+}
+
+impl Count {
+    /// When conjugate gradients for the mean end.
+    fn settled(self) -> f64 {
+        match self {
+            Self::Even => ROUGHLY_SETTLED,
+            Self::Probed => SETTLED,
+        }
+    }
 }
 
 /// Finds the most likely spectrum from `start`.
@@ -143,7 +153,7 @@ impl<'a> Look<'a> {
     ) -> Self {
         let points = posterior.cloud.len() as f64;
         let given = posterior.given(spectrum);
-        let (mean, _) = given.mean(coefficients, MEAN_SETTLED);
+        let (mean, _) = given.mean(coefficients, count.settled());
         let told = told(posterior, &given, spectrum, &mean, count);
         let prior = hyperprior(points, spectrum).0;
         let proposal = told.evidence.most_likely(spectrum);

@@ -5,6 +5,9 @@
 /// standard deviations off where the scan has a hole.)
 pub(crate) const SETTLED: f64 = 0.1;
 
+/// The same where the mean is only to be compared, or to be found again under a better spectrum.
+pub(super) const ROUGHLY_SETTLED: f64 = 2.0;
+
 /// Steps that are looked back on.
 const LOOK_BACK: usize = 8;
 
