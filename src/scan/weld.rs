@@ -178,7 +178,7 @@ mod tests {
         );
         let mut open = 0;
         each_edge(4, &scan.triangles, |edge| {
-            open += usize::from(edge.triangles() != 2)
+            open += usize::from(edge.triangles().len() != 2)
         });
         assert_eq!(open, 0);
     }

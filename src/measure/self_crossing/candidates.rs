@@ -4,25 +4,23 @@
 //! point than towards it. Where two triangles cross, nearby directions meet both of them, and so a third one, and one of
 //! these faces the point. So only triangles in the directions of those that face it can cross any: of most grains a few.
 
-use super::cone;
 use crate::Mesh;
 use crate::measure::winding::winding_number;
 use crate::mesh::{Bounds, BoundsTree};
 use crate::predicates::orient3d;
-use nalgebra::{Point3, Vector3};
+use nalgebra::Point3;
 
 /// Share of the triangles that face the middle beyond which all are looked at.
 const FEW: f64 = 0.1;
 
 /// The indices of the triangles that may go through others, in order; `None` where none can, nor any patch of the surface be
-/// inside out. The mesh must be closed and enclose a volume above zero.
-pub(super) fn candidates(mesh: &Mesh) -> Option<Vec<usize>> {
+/// inside out. The mesh must be closed and wound outwards; `middle` is the centroid of what it encloses.
+pub(super) fn candidates(mesh: &Mesh, middle: &Point3<f64>) -> Option<Vec<usize>> {
     let all = || Some((0..mesh.triangles.len()).collect());
-    let middle = middle(mesh);
     let corners = |corners: &[u32; 3]| corners.map(|corner| mesh.vertices[corner as usize]);
-    let faces_middle = |triangle: &&[u32; 3]| orient3d(corners(triangle), middle) <= 0.0;
+    let faces_middle = |triangle: &&[u32; 3]| orient3d(corners(triangle), *middle) <= 0.0;
     let facing: Vec<&[u32; 3]> = mesh.triangles.iter().filter(faces_middle).collect();
-    let once = || (winding_number(mesh, &middle) - 1.0).abs() < 0.5;
+    let once = || (winding_number(mesh, middle) - 1.0).abs() < 0.5;
     if facing.len() as f64 > FEW * mesh.triangles.len() as f64 || !once() {
         return all();
     }
@@ -50,16 +48,4 @@ fn round(corners: [Point3<f64>; 3]) -> Bounds {
     // Any p between corners on the sphere has 1 - |p|^2 of at most a third of the largest squared chord.
     let beyond = if squared < 1.0 { squared / 3.0 } else { 2.0 };
     Bounds::new(corners, beyond)
-}
-
-/// The centroid of what the mesh encloses.
-fn middle(mesh: &Mesh) -> Point3<f64> {
-    let (mut sum, mut volume) = (Vector3::zeros(), 0.0);
-    for corners in &mesh.triangles {
-        let [a, b, c] = corners.map(|corner| mesh.vertices[corner as usize].coords);
-        let own = cone(a, b, c);
-        sum += (a + b + c) * (own / 4.0);
-        volume += own;
-    }
-    Point3::from(sum / volume)
 }

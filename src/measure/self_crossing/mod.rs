@@ -95,8 +95,8 @@ fn share(of_one: f64) -> String {
 /// closed and of one part.
 pub(crate) fn self_crossing(mesh: &Mesh) -> Option<SelfCrossing> {
     let unit = Unit::of(mesh);
-    let mesh = outwards(unit.mesh(mesh));
-    let candidates = candidates(&mesh)?;
+    let (mesh, volume, middle) = outwards(unit.mesh(mesh));
+    let candidates = candidates(&mesh, &middle)?;
     let near = Mesh {
         vertices: mesh.vertices.clone(),
         triangles: candidates.iter().map(|&at| mesh.triangles[at]).collect(),
@@ -108,25 +108,27 @@ pub(crate) fn self_crossing(mesh: &Mesh) -> Option<SelfCrossing> {
     let corners = |at: usize| mesh.triangles[at].map(|corner| mesh.vertices[corner as usize]);
     let is_crossed = |&[one, two]: &[usize; 2]| is_clear(corners(one), corners(two));
     let (crossed, touching): (Vec<_>, Vec<_>) = pairs.into_iter().partition(is_crossed);
-    let found = Patches::new(&mesh, &crossed, &touching).off()?;
+    let found = Patches::new(&mesh, &crossed, &touching).off(volume)?;
     Some(SelfCrossing {
         place: unit.point(&found.place),
         ..found
     })
 }
 
-/// The mesh, wound so that its volume is not below zero.
-fn outwards(mut mesh: Mesh) -> Mesh {
-    let cones = mesh.triangles.iter().map(|corners| {
+/// The mesh, wound so that the volume that it encloses is not below zero; this volume, and its centroid.
+fn outwards(mut mesh: Mesh) -> (Mesh, f64, Point3<f64>) {
+    let (mut sum, mut volume) = (Vector3::zeros(), 0.0);
+    for corners in &mesh.triangles {
         let [a, b, c] = corners.map(|corner| mesh.vertices[corner as usize].coords);
-        cone(a, b, c)
-    });
-    if cones.sum::<f64>() < 0.0 {
-        mesh.triangles
-            .iter_mut()
-            .for_each(|corners| corners.reverse());
+        let own = cone(a, b, c);
+        sum += (a + b + c) * (own / 4.0);
+        volume += own;
     }
-    mesh
+    if volume < 0.0 {
+        let wound = mesh.triangles.iter_mut();
+        wound.for_each(|corners| corners.reverse());
+    }
+    (mesh, volume.abs(), Point3::from(sum / volume))
 }
 
 /// Volume between the origin and a triangle.

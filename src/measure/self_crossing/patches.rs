@@ -90,12 +90,11 @@ impl<'a> Patches<'a> {
         }
     }
 
-    /// What that makes of the figures; `None` if all is sound.
-    pub(super) fn off(&self) -> Option<SelfCrossing> {
+    /// What that makes of the figures, where the sum over all triangles is `solid`; `None` if all is sound.
+    pub(super) fn off(&self, solid: f64) -> Option<SelfCrossing> {
         let places = self.places();
-        let all = || 0..self.mesh.triangles.len() as u32;
-        let whole: f64 = all().map(|at| area(self.mesh, at)).sum();
-        let solid: f64 = all().map(|at| self.cone(at, &Vector3::zeros())).sum();
+        let all = 0..self.mesh.triangles.len() as u32;
+        let whole: f64 = all.map(|at| area(self.mesh, at)).sum();
         let off = |place: &Place| place.area / whole + place.volume / solid;
         let worst = places.iter().max_by(|a, b| off(a).total_cmp(&off(b)))?;
         let area: f64 = places.iter().map(|place| place.area).sum();

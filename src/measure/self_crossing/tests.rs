@@ -176,8 +176,8 @@ proptest! {
         for (vertex, aside) in moves {
             mesh.vertices[vertex] += Vector3::from(aside);
         }
-        let mesh = outwards(mesh);
-        let near = candidates(&mesh).unwrap_or_default();
+        let (mesh, _, middle) = outwards(mesh);
+        let near = candidates(&mesh, &middle).unwrap_or_default();
         for triangle in all_crossings(&mesh).into_flattened() {
             prop_assert!(near.contains(&triangle));
         }
