@@ -83,3 +83,61 @@ impl Profile {
         self.0[below] * (1.0 - share) + self.0[below + 1] * share
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::trial::{estimated, fibonacci, samples};
+    use super::*;
+
+    /// By its definition: w y'C y / s^2 of the harmonics y at each point.
+    fn exact(estimate: &Estimate) -> Vec<f64> {
+        let posterior = estimate.posterior();
+        let given = estimate.given(&posterior);
+        let basis = HarmonicBasis::new(estimate.degree);
+        let rows = estimate.cloud.directions.iter().map(|n| {
+            let mut row = vec![0.0; coefficient_count(estimate.degree)];
+            basis.evaluate(n, &mut row);
+            row
+        });
+        let rows: Vec<Vec<f64>> = rows.collect();
+        let covariances = given.covariances(&rows);
+        let noise = estimate.spectrum.noise().powi(2);
+        let known = rows.iter().zip(&covariances).zip(&estimate.cloud.weights);
+        known
+            .map(|((row, known), weight)| {
+                let variance: f64 = row.iter().zip(known).map(|(y, c)| y * c).sum();
+                weight * variance / noise
+            })
+            .collect()
+    }
+
+    #[test]
+    fn thin_parts_of_a_cloud_have_the_leverage_of_their_density() {
+        let even = fibonacci(900).into_iter().enumerate();
+        let kept = even.filter(|(i, n)| n.x > 0.0 || i % 6 == 0);
+        let directions: Vec<_> = kept.map(|(_, n)| n).collect();
+        let bumps = |n: &Vector3<f64>| {
+            3.0 + 0.2 * (4.0 * n.x + 1.0).sin() * (5.0 * n.y).cos() + 0.1 * (7.0 * n.z).sin()
+        };
+        let cloud = samples(&directions, bumps, 0.05);
+        let estimate = estimated(&cloud, Vector3::repeat(3.0));
+        assert!(estimate.cloud.is_uneven() && estimate.factor.is_some());
+        let exact = exact(&estimate);
+        let told: Vec<f64> = spares(&estimate).iter().map(|spare| 1.0 - spare).collect();
+        let mean = |leverages: &[f64], is_thin: bool| {
+            let points = leverages.iter().zip(&estimate.cloud.directions);
+            let (sum, count) = points
+                .filter(|(_, n)| (n.x < -0.3) == is_thin && n.x.abs() > 0.3)
+                .fold((0.0, 0.0), |(sum, count), (h, _)| (sum + h, count + 1.0));
+            sum / count
+        };
+        for is_thin in [true, false] {
+            let (exact, told) = (mean(&exact, is_thin), mean(&told, is_thin));
+            assert!(
+                (told / exact - 1.0).abs() < 0.1,
+                "{is_thin}: {told} {exact}"
+            );
+        }
+        assert!(mean(&exact, true) > 1.5 * mean(&exact, false));
+    }
+}

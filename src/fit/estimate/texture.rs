@@ -51,3 +51,34 @@ pub(super) fn hidden_slopes(estimate: &Estimate) -> f64 {
     let share = (ratio((resolved as usize).min(FINEST)) / ALL_TEXTURE).min(1.0);
     beyond.sum::<f64>() / (4.0 * PI) + share * noise * resolved * resolved
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::spectrum::{NOISE, Spectrum, TEXTURE};
+    use super::super::trial::{estimated, fibonacci, samples};
+    use super::*;
+    use nalgebra::Vector3;
+
+    /// Of texture alone, as large as the noise at the finest detail that the points resolve.
+    #[test]
+    fn slopes_are_those_of_finer_texture_and_of_what_passes_for_noise() {
+        let points = 2000.0_f64;
+        let cloud = samples(&fibonacci(2000), |_| 3.0, 0.01);
+        let mut estimate = estimated(&cloud, Vector3::repeat(3.0));
+        let (noise, texture) = (1e-2_f64, 1e-6_f64);
+        let mut spectrum = Spectrum::with_amplitude([-100.0, 0.9, 1.2, 0.0]);
+        spectrum.logarithms[NOISE] = noise.ln();
+        spectrum.logarithms[TEXTURE] = texture.ln();
+        estimate.spectrum = spectrum;
+        let finer = (estimate.degree + 1..=200).map(|l| {
+            let l = l as f64;
+            (2.0 * l + 1.0) * l * (l + 1.0) * texture * (l / 24.0).powf(-3.5) / (4.0 * PI)
+        });
+        let expected = finer.sum::<f64>() + 0.49 * points * noise * noise;
+        let found = hidden_slopes(&estimate);
+        assert!((found / expected - 1.0).abs() < 1e-9, "{found} {expected}");
+        // Texture far below the noise cannot be told from none.
+        estimate.spectrum.logarithms[TEXTURE] -= 5.0;
+        assert_eq!(hidden_slopes(&estimate), 0.0);
+    }
+}

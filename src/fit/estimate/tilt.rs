@@ -87,6 +87,25 @@ mod tests {
         }
     }
 
+    /// Before it was shrunk, a coefficient had been measured with the noise that its shrinkage tells.
+    #[test]
+    fn the_cost_is_that_of_what_was_measured() {
+        let spectrum = Spectrum::with_amplitude([-2.0, 0.9, 1.2, -5.0]).tilted(0.7);
+        let (noise, degree) = (3e-4, 12);
+        let (mut coefficients, mut unlearnt, mut expected) = (Vec::new(), Vec::new(), 0.0);
+        for (l, v) in spectrum.variances(degree).into_iter().enumerate() {
+            unlearnt.push(noise / (v + noise));
+            for share in spectrum.orders(l) {
+                let measured = 0.02 * (coefficients.len() as f64).sin();
+                let variance = v * share + noise;
+                expected += 0.5 * (variance.ln() + measured * measured / variance);
+                coefficients.push(measured * v / (v + noise));
+            }
+        }
+        let found = cost(&coefficients, &unlearnt, &spectrum);
+        assert!((found / expected - 1.0).abs() < 1e-12, "{found} {expected}");
+    }
+
     #[test]
     fn orders_share_the_variance_of_their_degree() {
         let spectrum = Spectrum::start().tilted(1.0);
