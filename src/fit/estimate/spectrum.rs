@@ -220,9 +220,8 @@ impl Spectrum {
 
     /// Degrees 0 to `degree`.
     pub(crate) fn terms(&self, degree: usize) -> impl Iterator<Item = Term> + use<> {
+        let (amplitude, [_, at_pivot, knee_at_pivot, ..]) = self.amplitude();
         let fall = self.fall();
-        let [at_pivot, knee_at_pivot] = fall.at(PIVOT);
-        let amplitude = self.logarithms[0] + at_pivot;
         let texture = self.logarithms[TEXTURE].exp();
         (0..=degree).map(move |l| {
             if let Some(&variance) = FREE.get(l) {
