@@ -35,7 +35,7 @@ impl PreparedScan<'_> {
         if self.is_sparse {
             fitted = fitted.between_points();
         }
-        Ok(fitted.beside_faces())
+        Ok(fitted.beside_polyhedron())
     }
 
     /// A grain that is not stretched.

@@ -247,5 +247,5 @@ fn positioned(
         posterior: None,
         errors: Some(fit.errors),
     };
-    Ok(fitted.beside_faces())
+    Ok(fitted.beside_polyhedron())
 }

@@ -39,7 +39,7 @@ pub struct Fitted {
     pub whole: Option<StarGrain>,
     /// What a user should know of the scan and the fit.
     pub warnings: Vec<FitWarning>,
-    /// Area, volume and moments of the grain at unit size, where they were compared with the scan's faces.
+    /// Area, volume and moments of the grain at unit size, where they were compared with the polyhedron through the points.
     pub(crate) properties: Option<MassProperties>,
     pub(crate) posterior: Option<Box<Estimate>>,
     /// Standard errors of a surface that has no estimate of its radius.

@@ -60,7 +60,7 @@ pub enum NoInterval {
     NotFinite,
     /// Squares of the figures are beyond the range of numbers.
     OutOfRange,
-    /// Area or volume are more off those of the scan's closed faces than any error allows.
+    /// Area or volume are more off those of the polyhedron through the points than any error allows.
     Contradicted,
     /// The surface turns over or crosses itself.
     Crossing,

@@ -1,9 +1,9 @@
-//! Where a surface and the closed faces that it was fitted to disagree.
+//! Where a surface and the polyhedron through the points that it was fitted to disagree.
 
 use serde::{Deserialize, Serialize};
 
-/// Area and volume of a surface that the closed faces it was fitted to contradict, and that no standard error vouches
-/// for: by how much each is off theirs, as a share of theirs. `None` is not contradicted.
+/// Area and volume of a surface that the polyhedron through the points it was fitted to contradicts, the closed faces where
+/// there are such, and that no standard error vouches for: by how much each is off, as a share. `None` is not contradicted.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 #[non_exhaustive]

@@ -4,7 +4,7 @@
 //! a radius one of `cells` (blended), `segments` (independent), `symmetry` (mirrored) and
 //! `harmonics` (the whole sphere), of the grain stretched along its axes by `stretch`, if that is there.
 //! `margin` goes with `cells`; `curvature_errors` with any radius, if they are known; with all, `unseen`, if the scan did not see
-//! much of the grain, and `contradicted`, if its closed faces have other areas or volumes. Version 4 knew neither. Version 3, which knew neither
+//! much of the grain, and `contradicted`, if the polyhedron through its points has another area or volume. Version 4 knew neither. Version 3, which knew neither
 //! `superquadrics` nor `position`, version 2, which knew none of `harmonics`, `stretch`, `margin` and `curvature_errors` either, and version 1,
 //! which knew segments only, are still read.
 
@@ -74,7 +74,7 @@ struct GrainFile {
     /// What the scan did not see.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     unseen: Option<Unseen>,
-    /// Area and volume that the closed faces of the scan contradict.
+    /// Area and volume that the polyhedron through the points contradicts.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     contradicted: Option<Contradicted>,
 }

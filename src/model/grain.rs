@@ -83,7 +83,7 @@ impl Grain {
         self.unseen
     }
 
-    /// The same with what the closed faces contradict that it was fitted to.
+    /// The same with what the polyhedron through the points contradicts that it was fitted to.
     pub fn with_contradicted(self, contradicted: Option<Contradicted>) -> Self {
         Self {
             contradicted,
@@ -91,7 +91,7 @@ impl Grain {
         }
     }
 
-    /// What the closed faces contradict that it was fitted to: these figures of it are not to be relied on.
+    /// What the polyhedron through the points contradicts that it was fitted to: these figures of it are not to be relied on.
     pub fn contradicted(&self) -> Option<Contradicted> {
         self.contradicted
     }

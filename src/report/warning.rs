@@ -197,7 +197,7 @@ impl fmt::Display for Contradicted {
         let figures: Vec<_> = figures.into_iter().flatten().collect();
         write!(
             f,
-            "{} that of the closed faces that the surface was fitted to, and no standard error vouches for it",
+            "{} that of the polyhedron through the points that the surface was fitted to, and no standard error vouches for it",
             figures.join(" and ")
         )
     }
@@ -218,7 +218,10 @@ impl fmt::Display for NoInterval {
                 "in this unit squares of the figures are beyond the range of numbers; change the unit"
             ),
             Self::Neck => write!(f, "the points have a neck, as of two grains that touch"),
-            Self::Contradicted => write!(f, "the closed faces of the scan contradict the figures"),
+            Self::Contradicted => write!(
+                f,
+                "the polyhedron through the points contradicts the figures"
+            ),
             Self::Crossing => write!(f, "the surface crosses itself or turns over"),
             Self::NotEstimated => write!(f, "the model is fitted to the points themselves"),
         }

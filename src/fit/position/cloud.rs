@@ -4,6 +4,7 @@ use super::foot::foot_step;
 use super::map::is_upright;
 use super::on_mesh::OnMesh;
 use super::on_sphere::{middles, spherical_area};
+use crate::fit::neighbours::Neighbours;
 use crate::mesh::Mesh;
 use crate::model::{Position, area_normal};
 use nalgebra::Vector3;
@@ -172,6 +173,21 @@ impl<'a> Cloud<'a> {
     /// Area of the mesh.
     pub(super) fn area(&self) -> f64 {
         self.doubled_areas().iter().sum::<f64>() / 2.0
+    }
+
+    /// Of points that the mesh is near, the area of the triangles that are nearest to each.
+    pub(super) fn areas_of_points(&self) -> Option<Vec<f64>> {
+        let (vertices, points) = self.points.split_at(self.vertices());
+        let near = self.is_of_points.then(|| Neighbours::new(points))?;
+        let mut areas = vec![0.0; self.points.len()];
+        for (corners, doubled) in self.mesh.triangles.iter().zip(self.doubled_areas()) {
+            let corners = corners.map(|corner| vertices[corner as usize]);
+            let middle = corners.iter().sum::<Vector3<f64>>() / 3.0;
+            for point in near.nearest(&middle, 1) {
+                areas[vertices.len() + point] += doubled / 2.0;
+            }
+        }
+        Some(areas)
     }
 
     fn doubled_areas(&self) -> Vec<f64> {

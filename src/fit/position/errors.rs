@@ -14,6 +14,7 @@
 //! - the change of the figure if the surface moved to the points, for the penalty on roughness and too few functions
 //!   leave more than noise; and the same of held-out points, which see what the surface does between the others, as far
 //!   as it is more than they scatter; and the same of the vertices alone, for the body bulges over faces that are chords;
+//!   and of points without faces the same by the area that is nearest to each, for where they are sparse each tells more;
 //! - what is [not resolved](Solved::unresolved): a tenth of it is taken to have the same sign everywhere;
 //! - of the area what second order brings: ripples of noise that the surface has, and of the grain that it has not;
 //! - of extents that the highest of many ripples is higher than the surface.
@@ -162,12 +163,23 @@ impl Solved<'_> {
     ) -> SMatrix<f64, INTEGRALS, INTEGRALS> {
         let cloud = self.cloud;
         let without = self.distances(self.other);
-        let [mut fitted, mut even, mut held_out, mut at_vertices] = [SVector::zeros(); 4];
+        let areas = cloud.areas_of_points();
+        let [
+            mut fitted,
+            mut by_area,
+            mut even,
+            mut held_out,
+            mut at_vertices,
+        ] = [SVector::zeros(); 5];
         let mut scatter = SMatrix::zeros();
         let mut weights = [0.0; 3];
         for at in (0..distances.len()).filter(|&at| cloud.is_scanned(at)) {
             let n = &cloud.directions[at];
-            let change = jacobian * by_move(n, &self.surface.derivatives(n)) * cloud.weights[at];
+            let change = jacobian * by_move(n, &self.surface.derivatives(n));
+            if let Some(areas) = &areas {
+                by_area += change * (areas[at] * distances[at]);
+            }
+            let change = change * cloud.weights[at];
             weights[0] += cloud.weights[at];
             fitted += change * distances[at];
             even += change;
@@ -185,6 +197,7 @@ impl Solved<'_> {
         let [all, some, vertices] = weights.map(|weight| cloud.area() / weight);
         let square = |x: SVector<f64, INTEGRALS>| x * x.transpose();
         let mut squares = square(fitted * (all * self.held_out()));
+        squares += square(by_area * self.held_out());
         squares += square(even * (all * ONE_SIDED * unresolved));
         if weights[2] > 0.0 {
             squares += square(at_vertices * vertices);

@@ -1,3 +1,4 @@
+use super::cloud::Cloud;
 use super::functions::Functions;
 use super::map::MapError;
 use super::rounds::crossing_pairs;
@@ -116,6 +117,34 @@ fn noise_is_not_followed() {
     assert_eq!((fit.turned_over, fit.crossings), (0, 0));
     let volume = mesh_properties(&found).unwrap().volume;
     assert_relative_eq!(volume, BANANA_VOLUME, max_relative = 0.01);
+}
+
+#[test]
+fn points_stand_for_the_area_that_is_nearest_to_them() {
+    let ball = mesh(8, |n| *n);
+    let dense = mesh(24, |n| *n).vertices.into_iter();
+    let upper = dense.filter(|vertex| vertex.z > 0.0);
+    let lower = ball
+        .vertices
+        .iter()
+        .copied()
+        .filter(|vertex| vertex.z < 0.0);
+    let points: Vec<_> = upper.chain(lower).map(|vertex| vertex.coords).collect();
+    let map = ball.vertices.iter().map(|vertex| vertex.coords).collect();
+    let cloud = Cloud::of_points(&ball, map, points);
+    let areas = cloud.areas_of_points().unwrap();
+    let above: f64 = (0..areas.len())
+        .filter(|&at| cloud.points[at].z > 0.0)
+        .map(|at| areas[at])
+        .sum();
+    let all: f64 = areas.iter().sum();
+    assert_relative_eq!(all, cloud.area(), max_relative = 1e-12);
+    assert_relative_eq!(above / all, 0.5, epsilon = 0.05);
+    assert!(
+        Cloud::new(&ball, cloud.points[..ball.vertices.len()].to_vec())
+            .areas_of_points()
+            .is_none()
+    );
 }
 
 #[test]
