@@ -2,6 +2,7 @@
 
 use super::outcome::Fitted;
 use super::prepare::ReferenceKind;
+use super::standard_errors::NoInterval;
 use crate::model::Contradicted;
 
 /// By how much area or volume may differ from those of the polyhedron through the points that a surface was fitted to. With
@@ -43,12 +44,16 @@ impl Fitted {
         };
         let shares = [shown / self.reference.area, volume / self.reference.volume];
         let found = Contradicted::beyond(LARGEST_DIFFERENCE + sag, shares)?;
-        let errors = self.standard_errors(&told, &survey.dimensions().ok()?);
-        let is_vouched = errors.is_ok_and(|errors| {
-            let is_area = found.area.is_none() || area <= VOUCHING * errors.area;
-            let is_volume = found.volume.is_none() || volume.abs() <= VOUCHING * errors.volume;
-            !has_faces || is_area && is_volume
-        });
+        let is_vouched = match self.standard_errors(&told, &survey.dimensions().ok()?) {
+            Ok(errors) if has_faces => {
+                let is_area = found.area.is_none() || area <= VOUCHING * errors.area;
+                let is_volume = found.volume.is_none() || volume.abs() <= VOUCHING * errors.volume;
+                is_area && is_volume
+            }
+            Ok(_) => true,
+            // Where there is another reason, a polyhedron between points may be as wrong.
+            Err(reason) => !has_faces && !matches!(reason, NoInterval::Unresolved { .. }),
+        };
         (!is_vouched).then_some(found)
     }
 }
@@ -95,7 +100,10 @@ mod tests {
         let mut fitted = fit(&scan, &FitOptions::default()).unwrap();
         fitted.reference.area *= 0.8;
         assert_eq!(fitted.contradicted(), None);
-        fitted.errors = Some(Err(NoInterval::NotEstimated));
+        fitted.errors = Some(Err(NoInterval::Neck));
+        assert_eq!(fitted.contradicted(), None);
+        let kurtosis = 9.0;
+        fitted.errors = Some(Err(NoInterval::Unresolved { kurtosis }));
         assert!(fitted.contradicted().unwrap().area.is_some());
         fitted.points = 200;
         assert_eq!(fitted.contradicted(), None);
