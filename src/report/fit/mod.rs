@@ -61,8 +61,8 @@ pub struct FitReport {
     /// Extents of the fitted surface along the principal axes, descending.
     pub dimensions: Option<Dimensions>,
     /// Figures that cannot be told: those of what was not seen, unless asked for, those that no number holds, and area
-    /// and volume more than 5 % off those of the scan's closed faces, where they have no standard errors, with what
-    /// rests on them.
+    /// and volume more than 5 % off those of the polyhedron through the points, where no standard error vouches for
+    /// them, with what rests on them.
     pub not_measured: Vec<NotMeasured>,
     /// Standard errors of the figures above; `null` where none can be trusted.
     pub standard_errors: Option<StandardErrorsRecord>,
