@@ -15,7 +15,7 @@
 //!   leave more than noise; and the same of held-out points, which see what the surface does between the others, as far
 //!   as it is more than they scatter; and the same of the vertices alone, for the body bulges over faces that are chords;
 //!   and of points without faces the same by the area that is nearest to each, for where they are sparse each tells more;
-//! - what is [not resolved](Solved::unresolved): a tenth of it is taken to have the same sign everywhere;
+//! - what is [not resolved](Solved::unresolved): a part of it is taken to have the same sign everywhere;
 //! - of the area what second order brings: ripples of noise that the surface has, and of the grain that it has not;
 //! - of extents that the highest of many ripples is higher than the surface.
 //!
@@ -54,7 +54,7 @@ pub(super) struct Solved<'a> {
 const FLOOR: f64 = 2e-5;
 
 /// Share of what is not resolved that has one sign all over the surface: of bodies whose truth is known at most a fifth.
-const ONE_SIDED: f64 = 0.1;
+const ONE_SIDED: f64 = 0.15;
 
 /// Squared slopes of ripples over those of functions that fill a band of wavelengths evenly: of the noise that blended
 /// cells follow, and of what they leave. Measured on bodies whose truth is known.
