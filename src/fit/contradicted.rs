@@ -21,7 +21,12 @@ impl Fitted {
     /// The same, of whose grain it is known what the polyhedron contradicts.
     pub(super) fn beside_polyhedron(mut self) -> Self {
         let is_closed = self.grain.unseen().is_none();
-        if is_closed && self.reference.kind != ReferenceKind::Crust {
+        let may_contradict = match self.reference.kind {
+            ReferenceKind::Faces => true,
+            ReferenceKind::Directions => self.posterior.is_some(),
+            ReferenceKind::Crust => false,
+        };
+        if is_closed && may_contradict {
             self.properties = self.survey().unit_properties().ok().copied();
             let contradicted = self.contradicted();
             self.grain = self.grain.with_contradicted(contradicted);
@@ -35,12 +40,10 @@ impl Fitted {
         let has_faces = self.reference.kind == ReferenceKind::Faces;
         let area = told.area - self.reference.area;
         let volume = told.volume - self.reference.volume;
-        // Noise makes what is drawn between points larger than the body.
-        let shown = if has_faces { area } else { area.max(0.0) };
-        let sag = if has_faces {
-            0.0
-        } else {
-            SAG / self.points as f64
+        let (shown, sag) = match has_faces {
+            true => (area, 0.0),
+            // Noise makes what is drawn between points larger than the body.
+            false => (area.max(0.0), SAG / self.points as f64),
         };
         let shares = [shown / self.reference.area, volume / self.reference.volume];
         let found = Contradicted::beyond(LARGEST_DIFFERENCE + sag, shares)?;
@@ -93,6 +96,7 @@ mod tests {
         let fitted = fitted.beside_polyhedron();
         assert!(fitted.grain_with_errors().contradicted().is_some());
     }
+
     #[test]
     fn points_contradict_a_larger_area_that_has_no_error_unless_they_are_few() {
         let mesh = Mesh::radial(8, |n| 1.0 + 0.2 * n.z);
