@@ -68,15 +68,23 @@ fn every_partition_and_degree_gives_a_sound_grain() {
 
 #[test]
 fn every_blended_cover_and_degree_gives_a_sound_grain() {
-    let few = [(1, 0), (1, 80), (6, 0), (6, 12), (1536, 1)];
-    let some = [(1, 0), (1, 80), (24, 3), (384, 3)];
-    let many = [(1, 80), (6, 12), (54, 1), (96, 6), (1536, 1)];
-    for (points, covers) in [
-        (cloud(Body::Sphere, 40, Sampling::Fibonacci), &few[..]),
-        (cloud(Body::Chickpea, 100, Sampling::Random), &some),
-        (cloud(Body::Maize, 3200, Sampling::Rings), &many),
+    for (body, points, sampling) in [
+        (Body::Sphere, 40, Sampling::Fibonacci),
+        (Body::Chickpea, 100, Sampling::Random),
+        (Body::Maize, 3200, Sampling::Rings),
     ] {
-        for &(segments, degree) in covers {
+        let points = cloud(body, points, sampling);
+        for (segments, degree) in [
+            (1, 0),
+            (1, 80),
+            (6, 0),
+            (6, 12),
+            (24, 3),
+            (54, 1),
+            (96, 6),
+            (384, 3),
+            (1536, 1),
+        ] {
             let options = FitOptions::default()
                 .with_degree(degree)
                 .with_segments(segments);
