@@ -60,7 +60,7 @@ use std::sync::Arc;
 use stopping::SETTLED;
 use tilt::most_likely;
 
-/// Degrees that are tried one after the other, as long as the last degrees carry something.
+/// Degrees that are tried, as long as the last degrees of one carry something.
 const DEGREES: [usize; 5] = [36, 48, 60, 72, 80];
 
 /// Degrees that count as last.
@@ -101,6 +101,8 @@ pub(crate) fn estimate(
         .map_or(rounder.outliers, |patches| patches.left_out);
     let mut rounds = 0;
     let mut lower: Option<(usize, SpectrumFit)> = None;
+    // A fit of a higher degree to more points, from which that to fewer starts.
+    let mut higher: Option<(usize, SpectrumFit)> = None;
     // The comparison of maps may have found the exact likelihood at this degree.
     let mut is_found = fit.factor.is_some() && compared == first;
     if !is_found {
@@ -137,6 +139,7 @@ pub(crate) fn estimate(
             };
             // The lower degree was fitted to all points.
             if let Some((lower, before)) = lower.take() {
+                higher = Some((degree, fit));
                 (degree, fit) = (lower, before);
             }
             continue;
@@ -149,7 +152,12 @@ pub(crate) fn estimate(
         }
         match next_degree(&fit, degree, cloud.len(), is_factored) {
             Some(next) => {
+                let raised = fit.spectrum.raised(degree, next);
                 lower = Some((degree, fit.clone()));
+                match higher.take().filter(|(higher, _)| *higher == next) {
+                    Some((_, before)) => fit = before,
+                    None => fit.spectrum = raised,
+                }
                 degree = next;
             }
             None => break,
@@ -178,21 +186,28 @@ fn first_degree(points: usize) -> usize {
     }
 }
 
-/// A higher degree, if the last ones carry something and the points are enough.
+/// A higher degree, if the last ones carry something and the points are enough: the next one, or the highest at once where
+/// even that is expected to carry something to its end.
 fn next_degree(
     fit: &SpectrumFit,
     degree: usize,
     points: usize,
     is_factored: bool,
 ) -> Option<usize> {
-    let next = DEGREES.into_iter().find(|&next| next > degree)?;
-    if is_factored || coefficient_count(next) as f64 > MOST_PER_POINT * points as f64 {
-        return None;
-    }
     let from = (degree + 1 - LAST_DEGREES).pow(2);
     let tail: f64 = fit.coefficients[from..].iter().map(|x| x * x).sum();
-    let carries = !fit.hides(tail / (4.0 * std::f64::consts::PI));
-    carries.then_some(next)
+    if is_factored || fit.hides(tail / (4.0 * std::f64::consts::PI)) {
+        return None;
+    }
+    let most = MOST_PER_POINT * points as f64;
+    let mut higher = DEGREES
+        .into_iter()
+        .filter(|&next| next > degree && coefficient_count(next) as f64 <= most);
+    let highest = higher.clone().next_back()?;
+    match fit.expects_little(highest - LAST_DEGREES, highest, points) {
+        true => higher.next(),
+        false => Some(highest),
+    }
 }
 
 /// Measured less fitted radii of samples, in the cloud's stretched space and unit.

@@ -2,17 +2,13 @@
 //!
 //! At first each step leads to where the likelihood would be largest if the points said the same of each degree
 //! under every spectrum. Where such a step fails or brings less than half of what it promised (uneven clouds), Newton
-//! steps take over, whose second derivatives learn from the gradients on the way (the update of Broyden, Fletcher,
-//! Goldfarb and Shanno). Where second derivatives are known, all steps are Newton's. A step fails that does not lower
-//! the cost; where no cost is known, one after which the gradient points back.
+//! steps take over: from the second derivatives that this would mean, corrected by how the gradient turned along the steps so
+//! far (the update of Broyden, Fletcher, Goldfarb and Shanno). Where second derivatives are known, all steps are Newton's.
+//! A step fails that does not lower the cost; where no cost is known, one after which the gradient points back more steeply.
 
 use super::spectrum::Spectrum;
 use super::spectrum::{BOUNDS, PARAMETERS, STEPS, TEXTURE};
 use nalgebra::{Matrix5, Vector5};
-
-/// The search ends where a step promises to lower the cost by less than this: a spectrum twenty times less likely
-/// would be told from it by three.
-const PROMISE: f64 = 0.3;
 
 /// Proposals are trusted as long as they bring this share of what they promise.
 const KEPT: f64 = 0.5;
@@ -31,19 +27,24 @@ pub(crate) struct Place {
     pub(crate) information: Option<Matrix5<f64>>,
     /// Where the cost would be least if the evidence stayed as it is here, and by how much it would fall.
     pub(crate) proposal: (Spectrum, f64),
+    /// Second derivatives if the evidence stayed as it is here.
+    pub(crate) curvature: Matrix5<f64>,
 }
 
 /// The state of a search.
 #[derive(Debug, Clone)]
 pub(crate) struct Newton {
     best: Option<Place>,
-    curvature: Matrix5<f64>,
+    /// Moves, and how the gradient turned along them.
+    pairs: Vec<[Vector5<f64>; 2]>,
     /// Whether proposals have kept what they promised.
     trusts: bool,
     /// By how much the last step should have lowered the cost.
     promise: f64,
     /// Share of the full step.
     share: f64,
+    /// Steps that promise less end the search.
+    enough: f64,
 }
 
 /// What to do next.
@@ -57,11 +58,13 @@ pub(crate) enum Next {
 }
 
 impl Newton {
-    /// A search that knows these second derivatives.
-    pub(crate) fn new(curvature: Matrix5<f64>) -> Self {
+    /// A search that ends where a step promises to lower the cost by less than `enough`: a spectrum twenty times less likely
+    /// would be told from the best by three.
+    pub(crate) fn new(enough: f64) -> Self {
         Self {
+            enough,
             best: None,
-            curvature,
+            pairs: Vec::new(),
             trusts: true,
             promise: 0.0,
             share: 1.0,
@@ -76,7 +79,9 @@ impl Newton {
     /// Takes note of a place and tells where to look next.
     pub(crate) fn next(&mut self, place: Place) -> Next {
         if let Some(best) = self.best {
-            self.learn(&best, &place);
+            let turned = place.gradient - best.gradient;
+            self.pairs
+                .push([difference(&place.spectrum, &best.spectrum), turned]);
             if !is_better(&place, &best) {
                 match self.trusts && best.information.is_none() {
                     true => self.trusts = false,
@@ -89,10 +94,8 @@ impl Newton {
                 };
             }
         }
-        if let Some(best) = self.best.replace(place)
-            && let (Some(before), Some(now)) = (best.cost, place.cost)
-        {
-            self.trusts &= before - now > KEPT * self.promise;
+        if let Some(best) = self.best.replace(place) {
+            self.trusts &= fall(&best, &place) > KEPT * self.promise;
         }
         self.share = (2.0 * self.share).min(1.0);
         let (next, promise) = match self.trusts && place.information.is_none() {
@@ -104,7 +107,7 @@ impl Newton {
             }
         };
         self.promise = promise;
-        match promise < PROMISE || is_settled(&place.spectrum, &next) {
+        match promise < self.enough || is_settled(&place.spectrum, &next) {
             true => Next::Here,
             false => Next::Try(next),
         }
@@ -113,7 +116,7 @@ impl Newton {
     /// The spectrum that a step from a place leads to.
     fn step(&self, place: &Place) -> Spectrum {
         let at = &place.spectrum.logarithms;
-        let mut matrix = place.information.unwrap_or(self.curvature);
+        let mut matrix = place.information.unwrap_or_else(|| self.learnt(place));
         let mut right = place.gradient;
         for i in 0..PARAMETERS {
             let [low, high] = BOUNDS[i];
@@ -139,23 +142,36 @@ impl Newton {
         }))
     }
 
-    /// Learns second derivatives from two places.
-    fn learn(&mut self, from: &Place, to: &Place) {
-        let moved = difference(&to.spectrum, &from.spectrum);
-        let turned = to.gradient - from.gradient;
-        let along = self.curvature * moved;
-        let (curved, expected) = (moved.dot(&turned), moved.dot(&along));
-        // Damped (Powell), so that the matrix stays positive.
-        if expected <= 0.0 {
-            return;
+    /// Second derivatives at a place, as learnt on the way.
+    fn learnt(&self, place: &Place) -> Matrix5<f64> {
+        let mut curvature = place.curvature;
+        for [moved, turned] in &self.pairs {
+            let along = curvature * moved;
+            let (curved, expected) = (moved.dot(turned), moved.dot(&along));
+            if expected <= 0.0 {
+                continue;
+            }
+            // Damped (Powell), so that the matrix stays positive.
+            let blend = match curved < 0.2 * expected {
+                true => 0.8 * expected / (expected - curved),
+                false => 1.0,
+            };
+            let turned = turned * blend + along * (1.0 - blend);
+            curvature += turned * turned.transpose() / moved.dot(&turned)
+                - along * along.transpose() / expected;
         }
-        let blend = match curved < 0.2 * expected {
-            true => 0.8 * expected / (expected - curved),
-            false => 1.0,
-        };
-        let turned = turned * blend + along * (1.0 - blend);
-        self.curvature +=
-            turned * turned.transpose() / moved.dot(&turned) - along * along.transpose() / expected;
+        curvature
+    }
+}
+
+/// By how much the cost fell from one place to the next; where it is not known, by the gradients at both.
+fn fall(from: &Place, to: &Place) -> f64 {
+    match (from.cost, to.cost) {
+        (Some(before), Some(now)) => before - now,
+        _ => {
+            let moved = difference(&to.spectrum, &from.spectrum);
+            -0.5 * moved.dot(&(from.gradient + to.gradient))
+        }
     }
 }
 

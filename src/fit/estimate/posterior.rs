@@ -150,6 +150,9 @@ pub(crate) struct Conditioned<'a> {
     pub(super) factor: Option<Arc<Factor>>,
 }
 
+/// What was solved for probes, in units of the prior standard deviations, in which it changes little with the spectrum.
+pub(super) struct Solved(Vec<Vec<f64>>);
+
 /// Random vectors by which traces are estimated.
 const PROBES: usize = 4;
 
@@ -234,12 +237,14 @@ impl Conditioned<'_> {
     /// Per degree, the share of the prior variance that the points leave: the mean of C_mm over the variance of the order,
     /// by probes of the variances themselves. The mean variance of the radius is then good to a percent.
     pub(crate) fn unlearnt(&self) -> Vec<f64> {
-        self.per_degree(&self.probed_diagonal(|_| 1.0))
+        self.per_degree(&self.probed_diagonal(|_| 1.0, None).0)
     }
 
-    /// The same by probes of the shares: their sum is good to a percent, and so is a step of a search.
-    pub(super) fn unlearnt_shares(&self) -> Vec<f64> {
-        self.per_degree(&self.probed_diagonal(|v| 1.0 / v.sqrt()))
+    /// The same by probes of the shares: their sum is good to a percent, and so is a step of a search. Also tells what was
+    /// solved for them, from which another spectrum may start.
+    pub(super) fn unlearnt_shares(&self, start: Option<&Solved>) -> (Vec<f64>, Solved) {
+        let (diagonal, solved) = self.probed_diagonal(|v| 1.0 / v.sqrt(), start);
+        (self.per_degree(&diagonal), solved)
     }
 
     /// The same, as of an even cloud.
@@ -262,7 +267,11 @@ impl Conditioned<'_> {
 
     /// Estimates of C_jj / v_j whose means are right: h_j (C h)_j over the square of h_j, where h has random signs and a
     /// size by the variance v_j. Its scatter is that of all variances in units of these sizes.
-    fn probed_diagonal(&self, size: impl Fn(&f64) -> f64) -> Vec<f64> {
+    fn probed_diagonal(
+        &self,
+        size: impl Fn(&f64) -> f64,
+        start: Option<&Solved>,
+    ) -> (Vec<f64>, Solved) {
         let mut random = ChaCha8Rng::seed_from_u64(0);
         let count = self.variances.len();
         let probes = match self.factor {
@@ -285,9 +294,12 @@ impl Conditioned<'_> {
         let settled = Enough::Energy(PROBES_SETTLED * count as f64);
         let solved = match &self.factor {
             Some(factor) => self.solve_factored(factor, &probes),
-            None => probes
-                .iter()
-                .map(|probe| self.conjugate_gradients(probe, None, settled).0)
+            None => (0..probes.len())
+                .map(|i| {
+                    let start = start.map(|solved| self.unwhitened(&solved.0[i]));
+                    self.conjugate_gradients(&probes[i], start.as_deref(), settled)
+                        .0
+                })
                 .collect(),
         };
         let mut diagonal = vec![0.0; count];
@@ -299,6 +311,25 @@ impl Conditioned<'_> {
         for (diagonal, v) in diagonal.iter_mut().zip(&self.variances) {
             *diagonal /= v;
         }
-        diagonal
+        (
+            diagonal,
+            Solved(solved.iter().map(|x| self.whitened(x)).collect()),
+        )
+    }
+
+    /// Coefficients in units of their prior standard deviations.
+    fn whitened(&self, x: &[f64]) -> Vec<f64> {
+        x.iter()
+            .zip(&self.variances)
+            .map(|(x, v)| x / v.sqrt())
+            .collect()
+    }
+
+    /// Coefficients from what they are in these units.
+    fn unwhitened(&self, x: &[f64]) -> Vec<f64> {
+        x.iter()
+            .zip(&self.variances)
+            .map(|(x, v)| x * v.sqrt())
+            .collect()
     }
 }

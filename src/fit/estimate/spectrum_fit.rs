@@ -8,10 +8,11 @@ use super::dense::Factor;
 use super::likelihood::{Evidence, hyperprior, hyperprior_curvature, positive};
 use super::newton::{Newton, Next, Place};
 use super::outcome::variance;
-use super::posterior::{Conditioned, Posterior};
+use super::posterior::{Conditioned, Posterior, Solved};
 use super::spectrum::{HIGHEST, PARAMETERS, Spectrum};
 use super::stopping::{ROUGHLY_SETTLED, SETTLED};
 use super::sums::Sums;
+use std::f64::consts::PI;
 use std::sync::Arc;
 
 /// Rounds at most; three to six are usual.
@@ -42,11 +43,25 @@ const SMALL: f64 = 0.1;
 /// ... or beside this share of the mean radius.
 const SMALLEST: f64 = 2e-5;
 
+/// What is expected may be so much more than what is small: a power law goes on where the spectrum of a smooth body ends.
+const NOT_MUCH: f64 = 1.5;
+
 impl SpectrumFit {
     /// Whether a surface of so large a mean square is small beside the error of the estimate.
     pub(crate) fn hides(&self, square: f64) -> bool {
         let variance = variance(&self.spectrum, &self.unlearnt);
         square <= (SMALL * SMALL * variance).max(SMALLEST * SMALLEST)
+    }
+
+    /// Whether an estimate of degree `to`, of so many points, is expected to find little above `from`, beside its error, or not
+    /// much more.
+    pub(crate) fn expects_little(&self, from: usize, to: usize, points: usize) -> bool {
+        let spectrum = self.spectrum.raised(self.sums.degree(), to);
+        let of_one = 4.0 * PI / points as f64 * spectrum.noise().powi(2);
+        let learnt = |(l, v): (usize, f64)| (2 * l + 1) as f64 * v * v / (v + of_one);
+        let variances = spectrum.variances(to).into_iter().enumerate();
+        let found: f64 = variances.skip(from + 1).map(learnt).sum();
+        self.hides(found / (4.0 * PI * NOT_MUCH))
     }
 
     /// Whether the prior expects nothing to speak of beyond its degree.
@@ -73,6 +88,15 @@ impl Count {
             Self::Probed => SETTLED,
         }
     }
+
+    /// What steps promise when the search ends. A fit hardly changes with a spectrum that is as likely as the best but for a
+    /// factor of three, but costs are compared closer than that.
+    fn enough(self) -> f64 {
+        match self {
+            Self::Even => 0.3,
+            Self::Probed => 1.0,
+        }
+    }
 }
 
 /// Finds the most likely spectrum from `start`.
@@ -92,9 +116,16 @@ pub(crate) fn fit_spectrum(
     let mut newton: Option<Newton> = None;
     let mut is_last = false;
     let mut may_be_smooth = true;
+    let mut solved = None;
     for round in 1.. {
-        let look = Look::new(posterior, &spectrum, coefficients.as_deref(), counted);
-        let search = newton.get_or_insert_with(|| look.search());
+        let mut look = Look::new(
+            posterior,
+            &spectrum,
+            coefficients.as_deref(),
+            solved.as_ref(),
+            counted,
+        );
+        let search = newton.get_or_insert_with(|| Newton::new(counted.enough()));
         let next = match is_last || round >= MOST_ROUNDS {
             true => Next::Here,
             false => search.next(look.place),
@@ -116,6 +147,7 @@ pub(crate) fn fit_spectrum(
                 spectrum = best;
             }
         }
+        solved = look.told.solved.take();
         coefficients = Some(look.mean);
     }
     unreachable!("rounds end")
@@ -124,8 +156,8 @@ pub(crate) fn fit_spectrum(
 /// The first step of that search: where it leads to, and the cost that it promises there. Coefficients are those of the
 /// start, and nothing is factored yet.
 pub(crate) fn first_step(posterior: &Posterior<'_>, start: Spectrum) -> SpectrumFit {
-    let look = Look::new(posterior, &start, None, Count::Even);
-    let mut search = look.search();
+    let look = Look::new(posterior, &start, None, None, Count::Even);
+    let mut search = Newton::new(Count::Even.enough());
     let next = search.next(look.place);
     let mut fit = look.fit();
     fit.factor = None;
@@ -149,12 +181,13 @@ impl<'a> Look<'a> {
         posterior: &'a Posterior<'_>,
         spectrum: &Spectrum,
         coefficients: Option<&[f64]>,
+        solved: Option<&Solved>,
         count: Count,
     ) -> Self {
         let points = posterior.cloud.len() as f64;
         let given = posterior.given(spectrum);
         let (mean, _) = given.mean(coefficients, count.settled());
-        let told = told(posterior, &given, spectrum, &mean, count);
+        let told = told(posterior, &given, spectrum, &mean, solved, count);
         let prior = hyperprior(points, spectrum).0;
         let proposal = told.evidence.most_likely(spectrum);
         let is_near = proposal.1 < FAR * points;
@@ -168,6 +201,7 @@ impl<'a> Look<'a> {
             information: information
                 .map(|known| positive(&(known + hyperprior_curvature(points, spectrum)))),
             proposal,
+            curvature: told.evidence.curvature(spectrum),
         };
         Self {
             given,
@@ -184,11 +218,6 @@ impl<'a> Look<'a> {
             true => self.told.evidence.textured(spectrum),
             false => None,
         }
-    }
-
-    /// A search that starts here.
-    fn search(&self) -> Newton {
-        Newton::new(self.told.evidence.curvature(&self.place.spectrum))
     }
 
     fn fit(self) -> SpectrumFit {
@@ -234,6 +263,8 @@ struct Told {
     /// Of the exact likelihood, as far as `unlearnt` is exact:
     /// d/d log v_l = 1/2 sum_m (1 - x_lm^2 / v_l - C_mm / v_l), d/d log s = n - sum (1 - C_jj / v_j) - R / s^2.
     gradient: [f64; PARAMETERS],
+    /// What was solved for it, where the matrix was probed.
+    solved: Option<Solved>,
 }
 
 /// Squared residuals of the unshrunk coefficients are at least this share of those of the shrunk ones.
@@ -244,15 +275,19 @@ fn told(
     given: &Conditioned<'_>,
     spectrum: &Spectrum,
     mean: &[f64],
+    solved: Option<&Solved>,
     count: Count,
 ) -> Told {
     let cloud = posterior.cloud;
     let points = cloud.len() as f64;
     let noise = spectrum.noise().powi(2);
     let terms = spectrum.terms(posterior.degree());
-    let unlearnt = match posterior.is_factored() || count == Count::Probed {
-        true => given.unlearnt_shares(),
-        false => given.even_unlearnt(),
+    let (unlearnt, solved) = match posterior.is_factored() || count == Count::Probed {
+        true => {
+            let (unlearnt, solved) = given.unlearnt_shares(solved);
+            (unlearnt, Some(solved))
+        }
+        false => (given.even_unlearnt(), None),
     };
     let residuals = posterior.residuals(mean);
     let squares = residuals.iter().zip(&cloud.weights);
@@ -286,5 +321,6 @@ fn told(
         },
         unlearnt,
         gradient,
+        solved,
     }
 }
