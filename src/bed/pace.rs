@@ -48,8 +48,8 @@ pub(crate) fn check_pace(
     seconds: f64,
 ) -> Result<(), PaceError> {
     let steps = seconds / step;
-    // Written so that NaN fails.
-    if !(steps <= BED_STEPS as f64) {
+    // No range holds NaN.
+    if !(0.0..=BED_STEPS as f64).contains(&steps) {
         return Err(PaceError::TooMany { steps, step });
     }
     match 0.5 * gravity * step * step > LONGEST_FALL * 2.0 * radius {

@@ -100,8 +100,8 @@ pub fn clump(
         ClumpTarget::Error(share) => search.of_error(share)?,
     };
     let excess = search::excess_volume(&spheres);
-    // Written so that NaN fails.
-    if !(excess.abs() <= MOST_EXCESS) {
+    // No range holds NaN.
+    if !(-MOST_EXCESS..=MOST_EXCESS).contains(&excess) {
         return Err(ClumpError::Volume { excess });
     }
     Ok(Clump {
