@@ -29,6 +29,7 @@ pub mod bench;
 pub mod cli;
 pub mod clump;
 pub mod contact;
+mod digits;
 mod disjoint_sets;
 mod elliptic;
 pub mod engines;

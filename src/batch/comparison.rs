@@ -92,6 +92,7 @@ mod tests {
         Lot {
             names: vec!["area".into()],
             values: vec![values.into()],
+            ..Lot::default()
         }
     }
 

@@ -4,6 +4,7 @@ use super::columns::FIRST;
 use super::error::TableError;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::Field;
+use std::collections::BTreeSet;
 use std::fs::File;
 use std::path::{Path, PathBuf};
 
@@ -15,7 +16,12 @@ pub(crate) struct Lot {
     pub names: Vec<String>,
     /// What is known of the grains, a list for each column.
     pub values: Vec<Vec<f64>>,
+    /// The units of length that are told of them; none where none is.
+    pub units: BTreeSet<String>,
 }
+
+/// The column of the unit of length.
+const UNIT: &str = "unit";
 
 /// Reads the figures in a folder of results, or in one of its tables, as Parquet if it is so named, else as CSV.
 ///
@@ -47,7 +53,18 @@ impl Lot {
     fn of_columns<'a>(names: impl Iterator<Item = &'a str>) -> Self {
         let names: Vec<String> = names.map(str::to_owned).collect();
         let values = vec![Vec::new(); names.len()];
-        Self { names, values }
+        Self {
+            names,
+            values,
+            units: BTreeSet::new(),
+        }
+    }
+
+    /// Hears a cell of text.
+    fn hear(&mut self, column: usize, cell: &str) {
+        if self.names.get(column).is_some_and(|name| name == UNIT) && !cell.is_empty() {
+            self.units.insert(cell.into());
+        }
     }
 
     /// Leaves out what is no figure of a grain.
@@ -60,7 +77,11 @@ impl Lot {
         let (names, values) = columns
             .filter(|(name, values)| is_figure(name) && !values.is_empty())
             .unzip();
-        Self { names, values }
+        Self {
+            names,
+            values,
+            units: self.units,
+        }
     }
 }
 
@@ -73,8 +94,10 @@ fn of_csv(path: &Path) -> Result<Lot, TableError> {
     let mut lot = Lot::of_columns(reader.headers().map_err(failed)?.iter());
     for record in reader.records() {
         let record = record.map_err(failed)?;
-        for (values, cell) in lot.values.iter_mut().zip(record.iter()) {
-            values.extend(cell.parse::<f64>().ok().filter(|value| value.is_finite()));
+        for (column, cell) in record.iter().enumerate().take(lot.names.len()) {
+            lot.hear(column, cell);
+            let value = cell.parse::<f64>().ok().filter(|value| value.is_finite());
+            lot.values[column].extend(value);
         }
     }
     Ok(lot.figures())
@@ -94,11 +117,12 @@ fn of_parquet(path: &Path) -> Result<Lot, TableError> {
     let mut lot = Lot::of_columns(fields.iter().map(|field| field.name()));
     for row in reader.get_row_iter(None).map_err(failed)? {
         let row = row.map_err(failed)?;
-        for (values, (_, cell)) in lot.values.iter_mut().zip(row.get_column_iter()) {
-            values.extend(match cell {
-                Field::Double(value) if value.is_finite() => Some(*value),
-                _ => None,
-            });
+        for (column, (_, cell)) in row.get_column_iter().enumerate() {
+            match cell {
+                Field::Str(text) => lot.hear(column, text),
+                Field::Double(value) if value.is_finite() => lot.values[column].push(*value),
+                _ => {}
+            }
         }
     }
     Ok(lot.figures())

@@ -1,10 +1,11 @@
 //! A bed settles, and a folder keeps what it needs to go on after it was stopped at any moment.
 
+use super::former;
 use super::rest::Rest;
 use super::settings::{BedError, BedSettings};
 use super::settle::{Bed, State};
 use super::write::{write_dump, write_vtk};
-use crate::export::{SaveError, WriteError, write_atomically};
+use crate::export::{SaveError, WriteError, sweep, write_atomically};
 use serde::{Deserialize, Serialize};
 use std::fs;
 use std::io::{self, ErrorKind};
@@ -17,10 +18,15 @@ const SAVED: Duration = Duration::from_secs(10);
 /// Simulated seconds between two frames.
 const FRAME: f64 = 0.05;
 
+/// The names of what a bed goes on from, and of the folder of its frames.
+pub(super) const STATE: &str = "state.json";
+pub(super) const FRAMES: &str = "frames";
+
 /// A folder of a bed: `state.json`, which is how it is now and all that it needs to go on; `frames`, a LAMMPS dump for
 /// each twentieth of a second; and at the end `bed.vtk`.
 ///
-/// Files appear whole or not at all. A bed that was stopped goes on from the last state, and ends with the same bytes.
+/// Files appear whole or not at all. A bed that was stopped goes on from the last state, and ends with the same bytes;
+/// one that begins removes the files of a former one first.
 #[derive(Debug, Clone, Copy)]
 pub struct Folder<'a> {
     /// Where it is; it must exist.
@@ -39,10 +45,10 @@ pub enum FolderError {
     /// A file could not be written.
     #[error(transparent)]
     Save(#[from] SaveError),
-    /// The folder or the state in it could not be made or read.
-    #[error("cannot use {}: {source}", path.display())]
+    /// The folder or a file in it could not be made, read or removed.
+    #[error("cannot use {}", path.display())]
     Use {
-        /// The file.
+        /// The folder or file.
         path: PathBuf,
         /// What failed.
         source: io::Error,
@@ -52,6 +58,14 @@ pub enum FolderError {
     Other {
         /// The file.
         path: PathBuf,
+    },
+    /// The state is cut, or one that the bed cannot come into.
+    #[error("no bed can go on from {}: choose another folder, or remove it", path.display())]
+    Broken {
+        /// The file.
+        path: PathBuf,
+        /// What failed, if it cannot be read.
+        source: Option<serde_json::Error>,
     },
 }
 
@@ -67,40 +81,70 @@ struct Saved<S> {
 }
 
 impl Folder<'_> {
-    /// The bed that the folder has a state of, if that is of the same grains, walls and settings; a new one as it is.
+    /// The bed that the folder has a state of, if that is of the same grains, walls and settings, whose longest time
+    /// may be another; a new one as it is.
     ///
     /// # Errors
     /// [`FolderError`].
     pub fn open(&self, bed: Bed) -> Result<Bed, FolderError> {
-        let path = self.path.join("state.json");
-        let failed = |source| FolderError::Use {
-            path: path.clone(),
-            source,
-        };
+        let path = self.path.join(STATE);
         let bytes = match fs::read(&path) {
             Err(error) if error.kind() == ErrorKind::NotFound => return Ok(bed),
-            bytes => bytes.map_err(failed)?,
+            Err(source) => return Err(FolderError::Use { path, source }),
+            Ok(bytes) => bytes,
         };
-        let found: Saved<State> = serde_json::from_slice(&bytes).map_err(|e| failed(e.into()))?;
+        let found: Saved<State> = match serde_json::from_slice(&bytes) {
+            Ok(found) => found,
+            Err(error) => {
+                let source = Some(error);
+                return Err(FolderError::Broken { path, source });
+            }
+        };
+        let settings = BedSettings {
+            most_seconds: bed.settings.most_seconds,
+            ..found.settings
+        };
         let is_own = found.version == env!("CARGO_PKG_VERSION")
             && found.digest == digest(&bed)
-            && found.settings == bed.settings;
-        match bed.resumed(found.state) {
-            Some(bed) if is_own => Ok(bed),
-            _ => Err(FolderError::Other { path }),
+            && settings == bed.settings;
+        if !is_own {
+            return Err(FolderError::Other { path });
+        }
+        let source = None;
+        bed.resumed(found.state)
+            .ok_or(FolderError::Broken { path, source })
+    }
+
+    /// Makes way for a bed that another engine lets settle: removes the files of a former one.
+    ///
+    /// # Errors
+    /// [`FolderError`], where there is a state, which that engine could not go on from.
+    pub fn make_way(&self) -> Result<(), FolderError> {
+        let path = self.path.join(STATE);
+        match path.exists() {
+            true => Err(FolderError::Other { path }),
+            false => self.clear(),
         }
     }
 
-    /// Goes on until the bed is at rest or its time is up. `told` hears of each look at it.
+    fn clear(&self) -> Result<(), FolderError> {
+        former::clear(self.path).map_err(failed(self.path))
+    }
+
+    /// Goes on until the bed is at rest or its time is up. `told` hears of each look at it. What was written of a bed
+    /// that runs away is removed.
     ///
     /// # Errors
     /// [`FolderError`].
     pub fn settle(&self, bed: &mut Bed, mut told: impl FnMut(&Bed)) -> Result<Rest, FolderError> {
-        let frames = self.path.join("frames");
-        fs::create_dir_all(&frames).map_err(|source| FolderError::Use {
-            path: frames.clone(),
-            source,
-        })?;
+        if bed.steps() == 0 {
+            self.clear()?;
+        }
+        let frames = self.path.join(FRAMES);
+        fs::create_dir_all(&frames).map_err(failed(&frames))?;
+        // Files that a killed process was about to write.
+        sweep(self.path);
+        sweep(&frames);
         let frame = |bed: &Bed| (bed.seconds() / FRAME).floor() as u64;
         let write_frame = |bed: &Bed| {
             let path = frames.join(format!("bed.{:05}.dump", frame(bed)));
@@ -115,7 +159,10 @@ impl Folder<'_> {
                 break rest;
             }
             let before = frame(bed);
-            bed.go_on()?;
+            if let Err(error) = bed.go_on() {
+                self.clear()?;
+                return Err(error.into());
+            }
             if frame(bed) > before {
                 write_frame(bed)?;
             }
@@ -139,11 +186,16 @@ impl Folder<'_> {
             settings: bed.settings.clone(),
             state: &bed.state,
         };
-        write_atomically(&self.path.join("state.json"), |writer| {
+        write_atomically(&self.path.join(STATE), |writer| {
             serde_json::to_writer(&mut *writer, &saved)
                 .map_err(|error| WriteError::Io(error.into()))
         })
     }
+}
+
+fn failed(path: &Path) -> impl FnOnce(io::Error) -> FolderError {
+    let path = path.to_path_buf();
+    move |source| FolderError::Use { path, source }
 }
 
 /// Tells grains and walls from others: the FNV-1a hash of their numbers, each written in full.

@@ -1,6 +1,7 @@
 //! A kind of grain as it moves: convex parts about its centre of mass, along its principal axes.
 
 use crate::clump::Clump;
+use crate::digits::given;
 use crate::measure::{
     Ball, MassProperties, equivalent_radius, superquadric_properties, union_properties,
 };
@@ -46,7 +47,7 @@ pub enum GrainError {
     #[error(transparent)]
     Sphere(#[from] InvalidSuperquadric),
     /// The density is not above zero.
-    #[error("the density must be above zero, not {value} kg/m³")]
+    #[error("the density must be a finite number above zero, not {} kg/m³", given(*value))]
     Density {
         /// The value given.
         value: f64,

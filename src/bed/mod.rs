@@ -9,15 +9,18 @@ mod encounter;
 mod fabric;
 mod field;
 mod folder;
+mod former;
 mod grain;
 mod link;
 mod neighbours;
+mod pace;
 mod packing;
 mod paint;
 #[cfg(feature = "cli")]
 mod picture;
 mod record;
 mod rest;
+mod resume;
 mod settings;
 mod settle;
 mod start;
@@ -30,6 +33,8 @@ pub use body::Body;
 pub use fabric::{Fabric, Forces, GrainContact, Order, fabric};
 pub use folder::{Folder, FolderError};
 pub use grain::{GrainError, GrainKind};
+pub(crate) use pace::check_pace;
+pub use pace::{BED_STEPS, PaceError};
 pub use packing::{Fraction, Layer, Packing, packing};
 pub use paint::{PaintedGrain, painted};
 #[cfg(feature = "cli")]

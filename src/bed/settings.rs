@@ -1,9 +1,11 @@
 //! What a bed is asked for.
 
 use super::grain::{GrainError, GrainKind};
+use super::pace::{PaceError, check_pace};
 use super::wall::Wall;
 use crate::contact::law::{Friction, Law, LawError};
 use crate::contact::{Material, MaterialError};
+use crate::digits::{given, significant};
 use crate::mesh::Mesh;
 use nalgebra::{Point3, Vector3};
 use serde::{Deserialize, Serialize};
@@ -88,16 +90,18 @@ pub enum BedError {
         /// The number given.
         grains: usize,
     },
-    /// A number that must be above zero.
-    #[error("{what} must be above zero, not {value}")]
+    /// A number that is out of its range.
+    #[error("{what} must be {range}, not {}", given(*value))]
     Number {
         /// What it is.
         what: &'static str,
+        /// What it may be.
+        range: &'static str,
         /// The value given.
         value: f64,
     },
     /// No grain fits.
-    #[error("the container is too narrow: a grain is up to {widest:.3e} m wide")]
+    #[error("the container is too narrow: a grain is up to {} m wide", significant(*widest, 4))]
     Narrow {
         /// Twice the largest reach of a grain, in metres.
         widest: f64,
@@ -128,8 +132,14 @@ pub enum BedError {
     /// The surface.
     #[error(transparent)]
     Law(#[from] LawError),
+    /// Steps that are too many or too long.
+    #[error(transparent)]
+    Pace(#[from] PaceError),
     /// Positions that are not finite.
-    #[error("the motion ran away after {seconds} s: the step is too long for these grains")]
+    #[error(
+        "the motion ran away after {} s: the step is too long for these grains",
+        significant(*seconds, 3)
+    )]
     Unstable {
         /// Simulated time, in seconds.
         seconds: f64,
@@ -147,19 +157,46 @@ impl BedSettings {
             Container::Box(sides) => sides,
             Container::Cylinder(radius) => [radius; 2],
         };
-        for (what, value) in [
-            ("the width of the container", sides[0]),
-            ("the depth of the container", sides[1]),
-            ("the gravity", self.gravity),
-            ("the share of energy at rest", self.rest),
-            ("the longest time", self.most_seconds),
-        ] {
+        let above_zero = |what, value: f64| {
             // Written so that NaN fails.
-            if !(value > 0.0 && value.is_finite()) {
-                return Err(BedError::Number { what, value });
-            }
+            let is_fit = value > 0.0 && value.is_finite();
+            (what, "a finite number above zero", value, is_fit)
+        };
+        let [nu, mu, mu_r] = [self.poissons_ratio, self.friction, self.rolling_friction];
+        let zero_or_above = |what, value: f64| {
+            let is_fit = value >= 0.0 && value.is_finite();
+            (what, "a finite number, zero or above", value, is_fit)
+        };
+        let checks = [
+            above_zero("the width of the container", sides[0]),
+            above_zero("the depth of the container", sides[1]),
+            above_zero("the density", self.density),
+            above_zero("Young's modulus", self.youngs_modulus_pa),
+            // At -1 a body gives no way at all.
+            (
+                "Poisson's ratio",
+                "above -1 and at most 0.5",
+                nu,
+                nu > -1.0 && nu <= 0.5,
+            ),
+            zero_or_above("the coefficient of friction", mu),
+            zero_or_above("the coefficient of rolling friction", mu_r),
+            zero_or_above("the damping along the normal", self.damping[0]),
+            zero_or_above("the damping across the normal", self.damping[1]),
+            above_zero("the gravity", self.gravity),
+            above_zero("the share of energy at rest", self.rest),
+            above_zero("the longest time", self.most_seconds),
+        ];
+        match checks.into_iter().find(|check| !check.3) {
+            Some((what, range, value, _)) => Err(BedError::Number { what, range, value }),
+            None => Ok(()),
         }
-        Ok(())
+    }
+
+    /// Refuses steps that are too many or too long for these grains.
+    pub(super) fn check_pace(&self, kinds: &[GrainKind]) -> Result<(), BedError> {
+        let (step, radius) = (self.step(kinds), smallest(kinds));
+        Ok(check_pace(step, radius, self.gravity, self.most_seconds)?)
     }
 
     /// The share of its velocity that a grain keeps in a head-on impact without friction.
@@ -185,10 +222,8 @@ impl BedSettings {
     /// The length of a step: a fifth of the time pi R sqrt(rho/G) / (0.1631 nu + 0.8766) that a Rayleigh wave takes
     /// through the smallest grain (Li and others 2005), in seconds.
     pub(super) fn step(&self, kinds: &[GrainKind]) -> f64 {
-        let radii = kinds.iter().map(GrainKind::radius);
-        let smallest = radii.fold(f64::INFINITY, f64::min);
         let shear_modulus = self.youngs_modulus_pa / (2.0 * (1.0 + self.poissons_ratio));
-        let wave = PI * smallest * (self.density / shear_modulus).sqrt();
+        let wave = PI * smallest(kinds) * (self.density / shear_modulus).sqrt();
         STEP * wave / (0.1631 * self.poissons_ratio + 0.8766)
     }
 
@@ -229,4 +264,10 @@ impl BedSettings {
         }
         Ok(walls)
     }
+}
+
+/// The radius of the smallest grain, in metres.
+fn smallest(kinds: &[GrainKind]) -> f64 {
+    let radii = kinds.iter().map(GrainKind::radius);
+    radii.fold(f64::INFINITY, f64::min)
 }

@@ -4,7 +4,7 @@ use super::body::{Body, Load};
 use super::encounter::Encounter;
 use super::field::Placed;
 use super::grain::GrainKind;
-use super::link::{Key, Motion};
+use super::link::Motion;
 use super::neighbours::skin;
 use super::settings::{BedError, BedSettings, Container};
 use super::start::loose_column;
@@ -78,6 +78,7 @@ impl Bed {
         settings.check()?;
         let top = mesh.into_iter().flat_map(|mesh| &mesh.vertices);
         let floor = top.map(|vertex| vertex.z).fold(0.0, f64::max);
+        settings.check_pace(&kinds)?;
         let bodies = loose_column(&settings, &kinds, shares, floor)?;
         let walls = settings.walls(mesh)?;
         Self::of(settings, kinds, walls, bodies)
@@ -106,32 +107,8 @@ impl Bed {
         self
     }
 
-    /// The same bed at another time; `None` if the state is not one of its.
-    pub(super) fn resumed(self, state: State) -> Option<Self> {
-        let order = |bodies: &[Body]| bodies.iter().map(|body| body.kind).collect::<Vec<_>>();
-        let own = order(&self.state.bodies);
-        let parts = |grain: u32| {
-            let kind = own.get(grain as usize).map(|&kind| &self.kinds[kind]);
-            kind.map_or(0, |kind| kind.parts.len())
-        };
-        let are_there = state.encounters.iter().all(|encounter| {
-            let own = parts(encounter.first);
-            let others = encounter.other.map_or(self.walls.len(), parts);
-            let keys = encounter.links.iter().map(|link| link.key);
-            own > 0
-                && keys.into_iter().all(|Key { part, other, .. }| {
-                    usize::from(part) < own && (other as usize) < others
-                })
-        });
-        let is_own = order(&state.bodies) == own && order(&state.listed) == own && are_there;
-        match is_own {
-            true => Self::with_state(self.settings, self.kinds, self.walls, state).ok(),
-            false => None,
-        }
-    }
-
     /// A bed that goes on from a state.
-    fn with_state(
+    pub(super) fn with_state(
         settings: BedSettings,
         kinds: Vec<GrainKind>,
         walls: Vec<Wall>,
@@ -216,18 +193,23 @@ impl Bed {
         energy / scale
     }
 
-    /// Kinetic energy, that of height, and that of touches without friction and damping, in joules.
-    #[cfg(test)]
-    pub(super) fn energy(&self) -> f64 {
-        let bodies = self.state.bodies.iter().map(|body| {
+    /// Kinetic energy and that of height of these grains, in joules.
+    pub(super) fn energy_of(&self, bodies: &[Body]) -> f64 {
+        let energies = bodies.iter().map(|body| {
             let kind = &self.kinds[body.kind];
             body.kinetic_energy(kind) + kind.mass * self.settings.gravity * body.position.z
         });
+        energies.sum()
+    }
+
+    /// The same of the bed, and that of touches without friction and damping.
+    #[cfg(test)]
+    pub(super) fn energy(&self) -> f64 {
         let encounters = self.state.encounters.iter();
         let links = encounters.flat_map(|encounter| &encounter.links);
         // The work of Hertz's force is 2/5 of force times overlap.
         let touches = links.filter_map(|link| link.touch);
         let stored = touches.map(|touch| 0.4 * touch.force.norm() * touch.overlap);
-        bodies.sum::<f64>() + stored.sum::<f64>()
+        self.energy_of(self.bodies()) + stored.sum::<f64>()
     }
 }

@@ -102,6 +102,10 @@ fn level(container: Container, reach: f64) -> Vec<[f64; 2]> {
         Container::Cylinder(radius) => {
             let mut places = grid([-radius; 2], [2.0 * radius; 2]);
             places.retain(|[x, y]| x.hypot(*y) + reach < radius);
+            // A grid of an even number of places has none on the axis, where a narrow cylinder has room.
+            if places.is_empty() && reach < radius {
+                places.push([0.0; 2]);
+            }
             places
         }
     }
@@ -110,6 +114,17 @@ fn level(container: Container, reach: f64) -> Vec<[f64; 2]> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_grain_that_fits_into_a_cylinder_has_a_place_there() {
+        for reach in [0.99, 0.6, 0.49, 0.48, 0.35, 0.2] {
+            assert!(
+                !level(Container::Cylinder(1.0), reach).is_empty(),
+                "{reach}"
+            );
+        }
+        assert!(level(Container::Cylinder(1.0), 1.01).is_empty());
+    }
 
     #[test]
     fn shares_become_counts_that_add_up() {

@@ -180,7 +180,7 @@ fn a_rolling_ball_comes_to_rest_where_it_should() {
     assert!(body.velocity.norm() < 1e-4);
 }
 
-fn few(settings: BedSettings) -> (BedSettings, Vec<GrainKind>) {
+pub(super) fn few(settings: BedSettings) -> (BedSettings, Vec<GrainKind>) {
     let dimer = kind(&[
         ([2.0; 3], 2.0, [1.2, 0.0, 0.0]),
         ([1.8; 3], 3.0, [-1.2, 0.0, 0.0]),
@@ -196,7 +196,7 @@ fn few(settings: BedSettings) -> (BedSettings, Vec<GrainKind>) {
     )
 }
 
-fn few_at(steps: usize, threads: usize) -> Bed {
+pub(super) fn few_at(steps: usize, threads: usize) -> Bed {
     let (settings, kinds) = few(BedSettings::default());
     let mut bed = Bed::new(settings, kinds, &[0.5, 0.5], None).unwrap();
     on(threads, || {
@@ -278,6 +278,19 @@ fn a_bed_goes_on_from_its_file_as_if_it_had_not_been_stopped() {
         let [one, other] = [&whole, &halves].map(|folder| std::fs::read(folder.path().join(name)));
         assert!(one.unwrap() == other.unwrap(), "{name}");
     }
+    // With more time it goes on to the same end as in one go.
+    let new_end = |seconds| {
+        let settings = BedSettings {
+            most_seconds: seconds,
+            ..settings.clone()
+        };
+        let path = halves.path();
+        let folder = Folder { path, unit: 1e-3 };
+        let mut bed = folder.open(new(&settings)).unwrap();
+        folder.settle(&mut bed, |_| {}).unwrap();
+        bed.seconds()
+    };
+    assert!(new_end(0.12) > 0.12 && new_end(0.1) > 0.12);
     let other = BedSettings {
         seed: 1,
         ..settings.clone()

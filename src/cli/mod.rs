@@ -14,6 +14,7 @@ mod export_dem;
 mod fit;
 mod fitting;
 mod inputs;
+mod lengths;
 mod measure;
 mod mesh;
 mod outputs;
@@ -75,7 +76,7 @@ pub fn run() -> ExitCode {
     };
     match result {
         Err(error) if !is_broken_pipe(&error) => {
-            say_error(&format!("{error:#}"));
+            say_error(&sentence(&error));
             ExitCode::from(match error.is::<batch::SomeFailed>() {
                 true => SOME_FAILED,
                 false => UNUSABLE,
@@ -83,6 +84,17 @@ pub fn run() -> ExitCode {
         }
         _ => ExitCode::SUCCESS,
     }
+}
+
+/// An error and its causes one after the other; a cause that was told with what it led to is not told again.
+fn sentence(error: &anyhow::Error) -> String {
+    let mut told = error.to_string();
+    for cause in error.chain().skip(1).map(ToString::to_string) {
+        if !told.ends_with(&cause) {
+            told += &format!(": {cause}");
+        }
+    }
+    told
 }
 
 /// The reader of our output has gone, as `head` does: no fault of ours.

@@ -1,5 +1,7 @@
 //! Why there is no clump.
 
+use crate::digits::{given, significant};
+
 /// The most spheres of a clump.
 pub const MOST_SPHERES: usize = 500;
 
@@ -19,23 +21,34 @@ pub enum ClumpError {
         /// The number asked for.
         found: usize,
     },
-    /// The error asked for is no share above zero.
-    #[error("the error of a clump must be a share above zero, not {found}")]
+    /// The error asked for is no share above zero and below one.
+    #[error("the error of a clump must be a share above zero and below one, not {}", given(*found))]
     Share {
         /// The share asked for.
         found: f64,
     },
     /// The error asked for is not reached.
     #[error(
-        "{MOST_SPHERES} spheres come within {:.2} % of the equivalent radius (RMS), not within {:.2} %",
-        100.0 * reached,
-        100.0 * asked
+        "the nearest clump found has {spheres} spheres and comes within {} % of the equivalent radius (RMS), not within {} %",
+        significant(100.0 * reached, 3),
+        significant(100.0 * asked, 3)
     )]
     NotReached {
         /// The share asked for.
         asked: f64,
-        /// What the most spheres reach.
+        /// The least error found.
         reached: f64,
+        /// The spheres of the clump that has it.
+        spheres: usize,
+    },
+    /// The spheres cannot be given the volume of the grain, or the surface is not that of the grain.
+    #[error(
+        "its spheres would have a volume that is {} % off the grain's: is it one body, and its surface closed?",
+        significant(100.0 * excess, 3)
+    )]
+    Volume {
+        /// Volume of the spheres over that of the grain, less one.
+        excess: f64,
     },
     /// No ball was found inside: the mesh encloses nothing, is wound inwards, or has a coordinate that is not finite.
     #[error("no sphere was found inside the surface")]

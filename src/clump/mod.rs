@@ -21,6 +21,9 @@ pub use error::{ClumpError, MOST_SPHERES};
 use search::{Search, at_unit_size};
 pub use union_volume::union_volume;
 
+/// How far the volume of a clump may be off the grain's, as a share of it; usually it is within 1e-4.
+const MOST_EXCESS: f64 = 0.01;
+
 /// What ends the search.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ClumpTarget {
@@ -96,8 +99,13 @@ pub fn clump(
         ClumpTarget::Spheres(count) => search.of_count(count),
         ClumpTarget::Error(share) => search.of_error(share)?,
     };
+    let excess = search::excess_volume(&spheres);
+    // No range holds NaN.
+    if !(-MOST_EXCESS..=MOST_EXCESS).contains(&excess) {
+        return Err(ClumpError::Volume { excess });
+    }
     Ok(Clump {
-        volume_error: search::excess_volume(&spheres),
+        volume_error: excess,
         spheres: spheres
             .into_iter()
             .map(|ball| Ball {

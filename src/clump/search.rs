@@ -94,16 +94,20 @@ impl Search {
     pub(super) fn of_error(&self, share: f64) -> Result<(Vec<Ball>, f64), ClumpError> {
         let (mut low, mut high) = (0, 1);
         let mut best = self.of_count(high);
+        let (mut reached, mut spheres) = (best.1, best.0.len());
         while best.1 > share {
             if high == MOST_SPHERES {
-                let reached = best.1;
                 return Err(ClumpError::NotReached {
                     asked: share,
                     reached,
+                    spheres,
                 });
             }
             (low, high) = (high, (2 * high).min(MOST_SPHERES));
             best = self.of_count(high);
+            if best.1 < reached {
+                (reached, spheres) = (best.1, best.0.len());
+            }
         }
         while high - low > 1 {
             let middle = (low + high) / 2;

@@ -76,3 +76,16 @@ fn what_encloses_nothing_has_no_clump() {
         Err(ClumpError::MissingVertex { triangle: 4 })
     );
 }
+
+#[test]
+fn spheres_that_cannot_have_the_volume_of_the_grain_are_no_clump() {
+    let mesh = body();
+    let grain = mesh_properties(&mesh).unwrap();
+    // A volume that is not that of the surface.
+    let other = MassProperties {
+        volume: 1e-4 * grain.volume,
+        ..grain
+    };
+    let found = clump(&mesh, &other, ClumpTarget::Spheres(3));
+    assert!(matches!(found, Err(ClumpError::Volume { .. })), "{found:?}");
+}

@@ -3,7 +3,7 @@
 use super::error::InvalidDeck;
 use super::kind::Kind;
 use super::material::GrainMaterial;
-use crate::bed::{Bed, Container};
+use crate::bed::{Bed, Container, check_pace};
 use crate::measure::equivalent_radius;
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use rand_chacha::ChaCha8Rng;
@@ -111,7 +111,7 @@ impl Deck {
         };
         let grains: Vec<Placed> = (0..count).map(placed).collect();
         let height = grains[count - 1].centre.z + cell;
-        Ok(Self {
+        let deck = Self {
             kinds,
             grains,
             floor: [side; 2],
@@ -120,7 +120,8 @@ impl Deck {
             material,
             rest: AT_REST,
             seconds: MOST_FALLS * (2.0 * height / GRAVITY).sqrt(),
-        })
+        };
+        deck.paced()
     }
 
     /// The bed as it is, of grains made of spheres, at the gravity of the Earth. What damps along the normal
@@ -164,7 +165,7 @@ impl Deck {
         let reach = kinds.iter().map(Kind::bounding_radius);
         let reach = reach.fold(0.0, f64::max);
         let top = grains.iter().map(|grain| grain.centre.z);
-        Ok(Self {
+        let deck = Self {
             height: top.fold(0.0, f64::max) + 2.0 * reach,
             kinds,
             grains,
@@ -173,7 +174,15 @@ impl Deck {
             material,
             rest: settings.rest,
             seconds: settings.most_seconds,
-        })
+        };
+        deck.paced()
+    }
+
+    /// The deck, if its steps are neither too many nor too long.
+    fn paced(self) -> Result<Self, InvalidDeck> {
+        let (step, radius) = (self.time_step(), self.least_radius());
+        check_pace(step, radius, GRAVITY, self.seconds)?;
+        Ok(self)
     }
 
     /// The time step, in s: a fifth of the time that a Rayleigh wave takes across the smallest sphere,

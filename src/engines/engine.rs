@@ -15,7 +15,7 @@ pub enum Engine {
     Yade,
     /// LIGGGHTS: multispheres; of superquadrics of equal octants a second script.
     Liggghts,
-    /// MercuryDPM: clumps as its tool MClump leaves them.
+    /// MercuryDPM: clumps as its `ClumpInput.h` reads them.
     MercuryDpm,
 }
 

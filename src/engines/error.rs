@@ -1,6 +1,7 @@
 //! Why an engine is given nothing.
 
-use crate::bed::BedError;
+use crate::bed::{BedError, PaceError};
+use crate::digits::given;
 
 /// Why there is no deck.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -25,11 +26,14 @@ pub enum InvalidDeck {
     /// The material of a bed.
     #[error(transparent)]
     Bed(#[from] BedError),
+    /// Steps that are too many or too long.
+    #[error(transparent)]
+    Pace(#[from] PaceError),
     /// Two kinds have the same name.
     #[error("two of the grains have the same name")]
     SameName,
     /// A number of the material is out of its range.
-    #[error("{what} must be {range}, not {found}")]
+    #[error("{what} must be {range}, not {}", given(*found))]
     Material {
         /// Which.
         what: &'static str,

@@ -1,6 +1,7 @@
 //! A kind of grain as engines take it.
 
 use crate::clump::Clump;
+use crate::digits::given;
 use crate::measure::{Ball, MassProperties};
 use crate::model::Superquadric;
 use nalgebra::{Matrix3, Point3, UnitQuaternion, Vector3};
@@ -26,7 +27,7 @@ pub struct Kind {
 #[non_exhaustive]
 pub enum InvalidKind {
     /// The density is not above zero, or not finite.
-    #[error("the density must be above zero, not {found} kg/m³")]
+    #[error("the density must be a finite number above zero, not {} kg/m³", given(*found))]
     Density {
         /// The density given.
         found: f64,

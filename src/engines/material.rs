@@ -26,25 +26,25 @@ impl GrainMaterial {
         let checks = [
             (
                 "Young's modulus",
-                "above zero",
+                "a finite number above zero",
                 self.youngs_modulus,
                 above_zero(self.youngs_modulus),
             ),
             (
                 "Poisson's ratio",
-                "from 0 to 0.5",
+                "from 0 to below 0.5",
                 self.poissons_ratio,
                 (0.0..0.5).contains(&self.poissons_ratio),
             ),
             (
                 "the coefficient of friction",
-                "zero or above",
+                "a finite number, zero or above",
                 self.friction,
                 self.friction >= 0.0 && self.friction.is_finite(),
             ),
             (
                 "the coefficient of rolling friction",
-                "zero or above",
+                "a finite number, zero or above",
                 self.rolling_friction,
                 self.rolling_friction >= 0.0 && self.rolling_friction.is_finite(),
             ),
@@ -56,7 +56,7 @@ impl GrainMaterial {
             ),
             (
                 "the density",
-                "above zero",
+                "a finite number above zero",
                 self.density,
                 above_zero(self.density),
             ),

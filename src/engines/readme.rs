@@ -2,6 +2,7 @@
 
 use super::deck::Deck;
 use super::file::InputFile;
+use crate::digits::given;
 
 /// The README of a folder that an engine runs, in three lines.
 pub(super) fn runs(deck: &Deck, needs: &str, command: &str, files: &str) -> InputFile<'static> {
@@ -21,11 +22,11 @@ pub(super) fn readme(deck: &Deck, first: &str, files: &str) -> InputFile<'static
         format!(
             "{first}\n{files}\nSI units (m, kg, s); density {} kg/m³, Young's modulus {:e} Pa, Poisson's ratio {}, friction \
              {}, restitution {}; mass and inertia are those of the grain, not sums over its spheres.\n",
-            material.density,
+            given(material.density),
             material.youngs_modulus,
-            material.poissons_ratio,
-            material.friction,
-            material.restitution,
+            given(material.poissons_ratio),
+            given(material.friction),
+            given(material.restitution),
         ),
     )
 }

@@ -6,6 +6,7 @@
 //! a person. Errors of area and volume are signed and relative; lengths are in the scan's unit.
 
 mod bed;
+mod bed_inputs;
 mod clump;
 mod contact;
 mod curled;
@@ -27,7 +28,8 @@ mod truth;
 mod unit;
 mod warning;
 
-pub use bed::{BedKindRecord, BedReport, BedRunRecord};
+pub use bed::{BedKindRecord, BedMean, BedMeans, BedReport, BedRunRecord};
+pub use bed_inputs::{BedInputsRecord, BedInputsReport};
 pub use clump::{ClumpReport, ClumpSphere};
 pub use contact::{ContactReport, Load, TouchRecord};
 pub use curled::CurledReport;

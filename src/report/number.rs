@@ -1,19 +1,10 @@
 //! Numbers for people.
 
+use crate::digits::significant;
+
 /// Six significant digits; powers of ten where plain digits would be many.
 pub fn short(value: f64) -> String {
-    let size = value.abs();
-    if value == 0.0 {
-        return "0".into();
-    }
-    if !value.is_finite() {
-        return value.to_string();
-    }
-    if !(1e-4..1e7).contains(&size) {
-        return format!("{value:.5e}");
-    }
-    let decimals = (5 - size.log10().floor() as i32).clamp(0, 9) as usize;
-    format!("{value:.decimals$}")
+    significant(value, 6)
 }
 
 /// A figure and its standard error, both to the error's second digit: `256.313 ± 0.012`.

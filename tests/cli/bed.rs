@@ -5,7 +5,7 @@ use std::fs;
 use std::process::Command;
 
 /// A folder with a scan and a model of it that is convex.
-fn models() -> tempfile::TempDir {
+pub(super) fn models() -> tempfile::TempDir {
     let folder = folder();
     let scan = ["synth", "ellipsoid", "--points", "400", "-o", "s.ply"];
     succeed(&folder, &scan);
@@ -21,7 +21,7 @@ fn models() -> tempfile::TempDir {
     folder
 }
 
-const BED: [&str; 13] = [
+pub(super) const BED: [&str; 13] = [
     "bed",
     "lens.json:1",
     "--grains",
@@ -36,6 +36,13 @@ const BED: [&str; 13] = [
     "0.3",
     "-o",
 ];
+
+/// The words of the same bed that ends after so many seconds, in a folder.
+pub(super) fn brief<'a>(seconds: &'a str, folder: &'a str) -> Vec<&'a str> {
+    let is_time = |word: &&str| *word == "--seconds";
+    let at = BED.iter().position(is_time).unwrap();
+    [&BED[..=at], &[seconds, "-o", folder]].concat()
+}
 
 #[test]
 fn a_bed_settles_and_is_told() {
@@ -80,7 +87,7 @@ fn seeds_tell_errors_and_a_cylinder_and_a_mesh_hold() {
         "bed",
         "lens.json",
         "--grains",
-        "8",
+        "16",
         "--cylinder",
         "12",
         "--walls",
@@ -96,6 +103,31 @@ fn seeds_tell_errors_and_a_cylinder_and_a_mesh_hold() {
         "-o",
         "bed",
     ];
+    let report = json(&folder, &words);
+    for figure in ["contacts", "force", "largest_force"] {
+        let values = report["runs"].as_array().unwrap().iter().map(|run| {
+            let fabric = &run["fabric"];
+            let value = match figure {
+                "force" => &fabric["forces"]["mean"],
+                "largest_force" => &fabric["forces"]["largest"],
+                other => &fabric[other],
+            };
+            value.as_f64().unwrap()
+        });
+        let values: Vec<f64> = values.collect();
+        let told = &report["means"][figure];
+        let [mean, error] = ["value", "error"].map(|name| told[name].as_f64().unwrap());
+        assert!(
+            (mean - 0.5 * (values[0] + values[1])).abs() < 1e-12,
+            "{figure}"
+        );
+        assert!(
+            (error - 0.5 * (values[0] - values[1]).abs()).abs() < 1e-12,
+            "{figure}"
+        );
+    }
+    let quantiles = report["means"]["force_quantiles"].as_array().unwrap();
+    assert!(quantiles.len() == 5 && quantiles[2]["error"].is_f64());
     let text = succeed(&folder, &words);
     assert!(
         text.contains("runs          2") && text.contains("cylinder of diameter 12"),
@@ -119,18 +151,86 @@ fn what_makes_no_bed_is_refused() {
         (&["star.json", "--box", "9,9"][..], "take --spheres"),
         (&["lens.json", "--box", "1,1"], "too narrow"),
         (&["lens.json:0", "--box", "9,9"], "share above zero"),
-        (
-            &["lens.json", "--box", "9,9", "--grains", "0"],
-            "from 1 to 1000000",
-        ),
-        (&["lens.json", "--box", "9,9", "--density", "0"], "density"),
         (&["lens.json", "--box", "9,nan"], "above zero"),
+        (&["lens.json", "--cylinder", "-1"], "'-1' for '--cylinder"),
     ] {
-        let all = [&["bed"], words, &["--unit", "mm", "-o", "bed"]].concat();
-        let output = grainform(&folder, &all);
-        assert_eq!(output.status.code(), Some(2));
-        assert!(errors(&output).contains(reason), "{}", errors(&output));
+        refuse(&folder, words, reason);
     }
+    let fair = ["lens.json", "--box", "9,9"];
+    for (word, value, reason) in [
+        ("--grains", "0", "from 1 to 1000000"),
+        ("--diameter", "0", "above zero"),
+        ("--diameter", "20", "mm wide"),
+        (
+            "--density",
+            "0",
+            "the density must be a finite number above zero",
+        ),
+        ("--density", "1e300", "too soft for their weight"),
+        ("--density", "1e-300", "at most 1000000000 are taken"),
+        (
+            "--youngs-modulus-mpa",
+            "1e200",
+            "at most 1000000000 are taken",
+        ),
+        ("--poissons-ratio", "-1", "above -1 and at most 0.5, not -1"),
+        ("--seconds", "1e300", "at most 1000000000 are taken"),
+        ("--seconds", "inf", "a finite number above zero, not inf"),
+        ("--rest", "nan", "a finite number above zero, not NaN"),
+        ("--friction", "-1e300", "zero or above, not -1e300"),
+        ("--seed", "18446744073709551616", "18446744073709551616"),
+        ("--sizes", "no", "cannot read no as CSV"),
+        ("--sizes", "lens.json", "cannot read lens.json as CSV"),
+    ] {
+        refuse(&folder, &[&fair[..], &[word, value]].concat(), reason);
+    }
+    let last = ["--seed", "18446744073709551615", "--seeds", "2"];
+    refuse(
+        &folder,
+        &[&fair[..], &last].concat(),
+        "there are no 2 seeds",
+    );
+}
+
+/// Makes no bed: it is told why in one sentence, in which nothing is said twice, and no folder is left.
+fn refuse(folder: &tempfile::TempDir, words: &[&str], reason: &str) {
+    let all = [&["bed"], words, &["--unit", "mm", "-o", "in/bed"]].concat();
+    let output = grainform(folder, &all);
+    assert_eq!(output.status.code(), Some(2), "{words:?}");
+    let message = errors(&output);
+    assert!(message.contains(reason), "{message}");
+    assert_eq!(message.lines().count(), 1, "{message}");
+    let causes: Vec<&str> = message.trim().split(": ").collect();
+    assert!(causes.windows(2).all(|two| two[0] != two[1]), "{message}");
+    assert!(message.len() < 400, "{message}");
+    assert!(!folder.path().join("in").exists(), "{words:?}");
+}
+
+#[test]
+fn the_last_seed_makes_a_bed() {
+    let folder = models();
+    let last = ["--seed", "18446744073709551615"];
+    let report = json(&folder, &[&brief("0.01", "bed")[..], &last].concat());
+    assert_eq!(report["runs"][0]["seed"], u64::MAX);
+}
+
+#[test]
+fn overlaps_are_told_and_packing_fractions_that_they_spoil_are_not() {
+    let folder = models();
+    let soft = ["--youngs-modulus-mpa", "0.003"];
+    let words = [&brief("0.4", "bed")[..], &soft].concat();
+    let text = succeed(&folder, &words);
+    assert!(text.contains("not told: grains overlap too much"), "{text}");
+    assert!(text.contains("overlap       at most "), "{text}");
+    let report = json(&folder, &words);
+    let run = &report["runs"][0];
+    assert!(run["fabric"]["largest_overlap"].as_f64().unwrap() > 0.1);
+    assert!(run["packing"]["whole"].is_null() && report["means"]["whole"].is_null());
+    let warnings = report["warnings"].to_string();
+    assert!(
+        warnings.contains("too much for a packing fraction"),
+        "{warnings}"
+    );
 }
 
 #[test]
@@ -160,6 +260,36 @@ fn a_scan_is_a_clump_in_the_sizes_of_a_batch() {
     assert_eq!(found, [(2.0, 3), (3.0, 3), (4.0, 3)]);
     let told = report["warnings"].to_string();
     assert!(told.contains("is a clump of 3 spheres here"), "{told}");
+    assert!(
+        told.contains("tells no unit: its volumes are taken to be in mm³"),
+        "{told}"
+    );
+    // The same grains in micrometres, in another folder.
+    let told = "path,unit,volume\na.ply,um,4.18879e9\nb.ply,um,1.413717e10\nc.ply,um,3.351032e10\nd.ply,,\n";
+    fs::write(folder.path().join("results_um.csv"), told).unwrap();
+    let small: Vec<&str> = words
+        .iter()
+        .map(|word| match *word {
+            "results.csv" => "results_um.csv",
+            "bed" => "bed_um",
+            word => word,
+        })
+        .collect();
+    let small = [&["bed"], &small[1..]].concat();
+    let converted = json(&folder, &small);
+    for (kind, other) in kinds.iter().zip(converted["kinds"].as_array().unwrap()) {
+        let [one, other] = [kind, other].map(|kind| kind["diameter_m"].as_f64().unwrap());
+        assert!((one / other - 1.0).abs() < 1e-6, "{one} {other}");
+    }
+    let told = converted["warnings"].to_string();
+    assert!(
+        told.contains("are in um³, and are converted to mm³"),
+        "{told}"
+    );
+    let both = "path,unit,volume\na.ply,um,4e9\nb.ply,mm,14\n";
+    fs::write(folder.path().join("results_um.csv"), both).unwrap();
+    let refused = errors(&grainform(&folder, &small));
+    assert!(refused.contains("more than one unit"), "{refused}");
     let text = succeed(&folder, &words);
     assert!(
         text.contains("grains        9 of ") && text.contains("2.00000 to 4.00000 mm"),

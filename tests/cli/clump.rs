@@ -130,8 +130,18 @@ fn what_is_no_clump_is_refused_in_a_sentence() {
             &["--spheres", "0"][..],
             "a clump has 1 to 500 spheres, not 0",
         ),
-        (&["--error", "0%"], "must be a share above zero, not 0"),
-        (&["--error", "0.001%"], "500 spheres come within"),
+        (
+            &["--error", "0%"],
+            "must be a share above zero and below one, not 0",
+        ),
+        (
+            &["--error", "100%"],
+            "must be a share above zero and below one, not 1",
+        ),
+        (
+            &["--error", "1e-9%"],
+            "% of the equivalent radius (RMS), not within 1.00e-9 %",
+        ),
         (&["-o", "c.ply"], "its extension must be json or csv"),
     ] {
         let output = grainform(&folder, &[&["clump", &bean], more].concat());

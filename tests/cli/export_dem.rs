@@ -147,11 +147,15 @@ fn what_no_engine_can_run_is_refused_in_a_sentence() {
         ),
         (
             &["--engine", "yade", "--density", "0"],
-            "the density must be above zero, not 0 kg/m³",
+            "the density must be a finite number above zero, not 0 kg/m³",
         ),
         (
             &["--engine", "yade", "--poissons-ratio", "0.7"],
-            "Poisson's ratio must be from 0 to 0.5",
+            "Poisson's ratio must be from 0 to below 0.5, not 0.7",
+        ),
+        (
+            &["--engine", "yade", "--density", "1e300"],
+            "too soft for their weight",
         ),
     ] {
         let words = ["export-dem", &bean, "--unit", "mm", "-o", "dem"];

@@ -2,6 +2,7 @@
 
 mod batch;
 mod bed;
+mod bed_folder;
 mod bench;
 mod clump;
 mod contact;

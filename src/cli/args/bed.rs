@@ -1,6 +1,7 @@
 //! The arguments of `grainform bed`.
 
 use super::{InputArgs, OUTPUT, RUN};
+use crate::cli::lengths::{length, lengths};
 use crate::cli::values::{ShareArg, pair};
 use crate::report::Unit;
 use clap::{Args, value_parser};
@@ -15,8 +16,9 @@ const MATERIAL: &str = "Material, of grains and walls";
 /// state.json, from which a bed that was stopped goes on when it is started again; frames, LAMMPS dumps that OVITO
 /// opens; bed.vtk, the grains as polygons for ParaView; and a picture, bed.png.
 #[derive(Args)]
+#[command(allow_negative_numbers = true)]
 pub(in crate::cli) struct BedArgs {
-    /// Models, each with its share of the grains if not all are as many: lens.json:0.7
+    /// Models, each with its share of the grains, 1 where it is not told: lens.json:0.7 rod.json:0.3
     #[arg(value_name = "GRAIN[:SHARE]", required = true)]
     pub(in crate::cli) grains: Vec<ShareArg>,
 
@@ -25,24 +27,24 @@ pub(in crate::cli) struct BedArgs {
     pub(in crate::cli) count: usize,
 
     /// Width and depth of the box, from the origin on, whose walls have no end
-    #[arg(long = "box", value_name = "X,Y", value_parser = pair, required_unless_present = "cylinder",
+    #[arg(long = "box", value_name = "X,Y", value_parser = lengths, required_unless_present = "cylinder",
           conflicts_with = "cylinder")]
     pub(in crate::cli) sides: Option<[f64; 2]>,
 
     /// Diameter of an upright cylinder about the z axis, in place of a box
-    #[arg(long, value_name = "D")]
+    #[arg(long, value_name = "D", value_parser = length)]
     pub(in crate::cli) cylinder: Option<f64>,
 
     /// A mesh whose faces are walls too; grains fall from above it
     #[arg(long, value_name = "MESH")]
     pub(in crate::cli) walls: Option<PathBuf>,
 
-    /// Unit of all lengths here, in the models and in the table of --sizes: um, mm, cm or m
+    /// Unit of all lengths here and in the models, and in the table of --sizes if that tells none: um, mm, cm or m
     #[arg(long, value_name = "UNIT")]
     pub(in crate::cli) unit: Unit,
 
     /// Give all grains the volume of a sphere of this diameter [default: as they are]
-    #[arg(long, value_name = "D")]
+    #[arg(long, value_name = "D", value_parser = length)]
     pub(in crate::cli) diameter: Option<f64>,
 
     /// Give each grain the volume of one in these results of `batch`: a folder or a table, of which at most 100 sizes
@@ -80,7 +82,7 @@ pub(in crate::cli) struct BedArgs {
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = value_parser!(u64).range(1..=1000))]
     pub(in crate::cli) seeds: u64,
 
-    /// End after so many simulated seconds, at rest or not
+    /// End after so many simulated seconds, at rest or not; more of them let a bed that was ended go on
     #[arg(long, value_name = "S", default_value_t = 5.0)]
     pub(in crate::cli) seconds: f64,
 

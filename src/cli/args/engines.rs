@@ -54,6 +54,7 @@ pub(in crate::cli) struct ClumpArgs {
 /// Where each grain is fitted as one superquadric, a second script takes them as such: in LIGGGHTS built with them, and in
 /// LAMMPS of 30 March 2026 or later (not run by us), for which exponents below 2 are raised to 2.
 #[derive(Args)]
+#[command(allow_negative_numbers = true)]
 pub(in crate::cli) struct ExportDemArgs {
     /// Models written by `fit`, or scans; several are mixed in equal numbers
     #[arg(value_name = "MODEL.json|SCAN", required = true)]

@@ -1,39 +1,38 @@
 //! The grains of a bed: which, how large, how many.
 
-use crate::batch::read_lot;
+use super::sizes::Sizes;
 use crate::bed::GrainKind;
 use crate::cli::args::BedArgs;
 use crate::cli::{inputs, solid};
 use crate::clump::{ClumpTarget, clump};
-use crate::measure::equivalent_radius;
 use crate::report::short;
-use anyhow::{Context, Result, anyhow, bail};
+use anyhow::{Context, Result, anyhow};
 use std::path::Path;
 
 /// Spheres of a grain where none are asked for.
 const SPHERES: usize = 10;
-
-/// Most sizes of a mixture.
-const MOST_SIZES: usize = 100;
-
-/// The golden section, multiples of which fall everywhere between whole numbers alike.
-const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
 /// The kinds of grains, each with the name of its input and its share.
 pub(super) struct Cast {
     pub(super) names: Vec<String>,
     pub(super) kinds: Vec<GrainKind>,
     pub(super) shares: Vec<f64>,
-    /// What is lost by clumps.
+    /// What is lost by clumps, and the unit of sizes.
     pub(super) warnings: Vec<String>,
 }
 
 impl Cast {
     pub(super) fn new(args: &BedArgs) -> Result<Self> {
         let metres = args.unit.metres();
-        let diameters = match (&args.sizes, args.diameter) {
-            (Some(path), _) => Some(sizes(path, args.count / args.grains.len())?),
-            (None, diameter) => diameter.map(|diameter| vec![diameter]),
+        let sizes = match (&args.sizes, args.diameter) {
+            (Some(path), _) => {
+                let most = args.count / args.grains.len();
+                Some(Sizes::read(path, args.unit, most)?)
+            }
+            (None, diameter) => diameter.map(|diameter| Sizes {
+                diameters: vec![diameter * metres],
+                remark: None,
+            }),
         };
         let mut cast = Self {
             names: Vec::new(),
@@ -41,21 +40,24 @@ impl Cast {
             shares: Vec::new(),
             warnings: Vec::new(),
         };
+        if let Some(sizes) = &sizes {
+            cast.warnings.extend(sizes.remark.clone());
+        }
         for grain in &args.grains {
             let name = inputs::name(&grain.path);
             let own = cast.kind(&grain.path, args)?;
-            let factors: Vec<f64> = match &diameters {
-                Some(diameters) => diameters
-                    .iter()
-                    .map(|diameter| 0.5 * diameter * metres / own.radius())
-                    .collect(),
-                None => vec![1.0],
+            let own_diameter = [2.0 * own.radius()];
+            let diameters = match &sizes {
+                Some(sizes) => &sizes.diameters[..],
+                None => &own_diameter,
             };
-            for factor in &factors {
-                let kind = own.times(*factor);
-                cast.kinds
-                    .push(kind.with_context(|| format!("{name} cannot be so large"))?);
-                cast.shares.push(grain.share / factors.len() as f64);
+            for diameter in diameters {
+                let kind = own.times(diameter / own_diameter[0]);
+                let told = short(diameter / metres);
+                cast.kinds.push(kind.with_context(|| {
+                    format!("{name} cannot have a diameter of {told} {}", args.unit)
+                })?);
+                cast.shares.push(grain.share / diameters.len() as f64);
                 cast.names.push(name.clone());
             }
         }
@@ -93,31 +95,4 @@ impl Cast {
         ));
         GrainKind::of_clump(&found, metres, args.density).with_context(failed)
     }
-}
-
-/// Diameters of the balls of the volumes in results, for so many grains at most: quantiles of them if they are more. Any
-/// first few are spread over all, for what is left over of a share goes to the first.
-fn sizes(path: &Path, grains: usize) -> Result<Vec<f64>> {
-    let lot = read_lot(path)?;
-    let named = lot.names.iter().position(|name| name == "volume");
-    let mut volumes = match named {
-        Some(at) => lot.values[at].clone(),
-        None => bail!(
-            "{} tells no volumes: run batch with --only volume",
-            path.display()
-        ),
-    };
-    if volumes.iter().any(|volume| *volume <= 0.0) {
-        bail!("{} has a volume that is not above zero", path.display());
-    }
-    volumes.sort_by(f64::total_cmp);
-    let count = volumes.len().min(grains.clamp(1, MOST_SIZES));
-    let quantile = |at: usize| volumes[(2 * at + 1) * volumes.len() / (2 * count)];
-    let mut order: Vec<usize> = (0..count).collect();
-    let place = |at: &usize| (*at as f64 * GOLDEN).fract();
-    order.sort_by(|one, other| place(one).total_cmp(&place(other)));
-    let diameters = order.into_iter().map(quantile);
-    Ok(diameters
-        .map(|volume| 2.0 * equivalent_radius(volume))
-        .collect())
 }

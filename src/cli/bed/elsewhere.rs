@@ -2,11 +2,11 @@
 
 use super::lammps::Lammps;
 use super::watch::Watch;
-use crate::bed::{Bed, Fabric, packing, write_vtk};
+use crate::bed::{Bed, Fabric, Folder, write_vtk};
 use crate::cli::console::Console;
 use crate::cli::outputs;
 use crate::engines::{Deck, Engine, Settled};
-use crate::report::BedRunRecord;
+use crate::report::{BedInputsRecord, BedRunRecord};
 use anyhow::{Result, bail};
 use std::path::Path;
 
@@ -37,19 +37,14 @@ impl Elsewhere<'_> {
         outputs::write(&self.path.join("bed.vtk"), |file| {
             write_vtk(&bed, self.unit, file)
         })?;
-        let run = BedRunRecord {
-            seed: bed.settings().seed,
-            is_at_rest: steps < deck.most_steps(),
-            seconds: steps as f64 * step,
-            steps,
-            packing: packing(&bed),
-            fabric: Fabric::of(&bed, &contacts),
-        };
+        let fabric = Fabric::of(&bed, &contacts);
+        let is_at_rest = steps < deck.most_steps();
+        let run = BedRunRecord::new(&bed, is_at_rest, steps as f64 * step, steps, fabric);
         Ok((bed, run))
     }
 
-    /// Writes the files, and lets the engine read them.
-    pub(super) fn check(&self, bed: &Bed, console: Console) -> Result<()> {
+    /// Writes the files, lets the engine read them, and tells what it has found.
+    pub(super) fn check(&self, bed: &Bed) -> Result<BedInputsRecord> {
         let deck = self.written(bed)?;
         let expected = [deck.grains.len(), deck.spheres()];
         let found = self.engine.read(self.path)?;
@@ -57,16 +52,23 @@ impl Elsewhere<'_> {
             bail!("LAMMPS has read {found:?} grains and spheres of {expected:?}");
         }
         let [grains, spheres] = found;
-        let shown = self.path.display();
-        console.print(format_args!(
-            "LAMMPS has read {grains} grains of {spheres} spheres in {shown}, and would run {} steps of {:.3e} s at most",
-            deck.most_steps(),
-            deck.time_step()
-        ))
+        Ok(BedInputsRecord {
+            seed: bed.settings().seed,
+            folder: self.path.display().to_string(),
+            grains,
+            spheres,
+            most_steps: deck.most_steps(),
+            step_s: deck.time_step(),
+        })
     }
 
     fn written(&self, bed: &Bed) -> Result<Deck> {
         let deck = Deck::of_bed(bed)?;
+        let folder = Folder {
+            path: self.path,
+            unit: self.unit,
+        };
+        folder.make_way()?;
         outputs::write_inputs(self.path, &Engine::Lammps.files(&deck))?;
         Ok(deck)
     }

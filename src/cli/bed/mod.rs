@@ -3,23 +3,34 @@
 mod cast;
 mod elsewhere;
 mod lammps;
+mod place;
+mod sizes;
 mod watch;
 
 use super::args::BedArgs;
 use super::console::Console;
 use super::{inputs, outputs, threads};
-use crate::bed::{Bed, BedSettings, Container, Folder, Rest, picture};
+use crate::bed::{Bed, BedError, BedSettings, Container, Folder, Rest, fabric, picture};
 use crate::mesh::Mesh;
-use crate::report::{BedReport, BedRunRecord, short};
-use anyhow::{Result, anyhow};
+use crate::report::{BedInputsReport, BedReport, BedRunRecord, Unit, short};
+use anyhow::{Result, anyhow, bail};
 use cast::Cast;
 use elsewhere::Elsewhere;
 use lammps::Lammps;
+use place::Place;
 use std::path::Path;
 use watch::Watch;
 
 pub(super) fn run(args: BedArgs, console: Console) -> Result<()> {
     threads::start(args.threads, console)?;
+    let Some(last_seed) = args.seed.checked_add(args.seeds - 1) else {
+        bail!(
+            "there are no {} seeds from {} on: the last is {}",
+            args.seeds,
+            args.seed,
+            u64::MAX
+        );
+    };
     let metres = args.unit.metres();
     let Cast {
         names,
@@ -31,35 +42,35 @@ pub(super) fn run(args: BedArgs, console: Console) -> Result<()> {
         Some(path) => Some(walls(path, &args, metres)?),
         None => None,
     };
-    let elsewhere = match args.engine {
+    let engine = match args.engine {
         Some(_) => Some(Lammps::found(args.ranks)?),
         None => None,
     };
-    let (mut runs, mut last) = (Vec::new(), None);
-    for seed in args.seed..args.seed.saturating_add(args.seeds) {
+    let (mut runs, mut checked, mut last) = (Vec::new(), Vec::new(), None);
+    for seed in args.seed..=last_seed {
         let path = match args.seeds {
             1 => args.output.clone(),
             _ => args.output.join(format!("seed_{seed}")),
         };
         let settings = settings(&args, seed, metres);
-        outputs::make_folder(&path)?;
-        let (bed, run) = match elsewhere {
+        let failed = |error| in_unit(error, args.unit);
+        let (bed, run) = match engine {
             Some(engine) => {
-                let bed = Bed::loose(settings, kinds.clone(), &shares, None)?;
+                let bed = Bed::loose(settings, kinds.clone(), &shares, None).map_err(failed)?;
                 let elsewhere = Elsewhere {
                     engine,
                     path: &path,
                     unit: metres,
                 };
                 if args.dry_run {
-                    elsewhere.check(&bed, console)?;
+                    checked.push(elsewhere.check(&bed)?);
                     continue;
                 }
                 elsewhere.settle(bed, console)?
             }
             None => {
-                let bed = Bed::new(settings, kinds.clone(), &shares, mesh.as_ref())?;
-                settle(bed, &path, metres, console)?
+                let bed = Bed::new(settings, kinds.clone(), &shares, mesh.as_ref());
+                settle(bed.map_err(failed)?, &path, metres, console)?
             }
         };
         outputs::write_image(&path.join("bed.png"), &picture(&bed))?;
@@ -67,8 +78,8 @@ pub(super) fn run(args: BedArgs, console: Console) -> Result<()> {
         last = Some(bed);
     }
     let Some(bed) = last else {
-        console.warn(&warnings);
-        return Ok(());
+        let report = BedInputsReport::new("LAMMPS", checked, warnings);
+        return console.tell(&report, args.json, [], &report.warnings);
     };
     let mut report = BedReport::new(names, args.unit, &bed, runs);
     report.warnings.append(&mut warnings);
@@ -87,13 +98,34 @@ fn settle(bed: Bed, path: &Path, unit: f64, console: Console) -> Result<(Bed, Be
             &format!("the bed in {} goes on after {seconds} s", path.display()),
         );
     }
+    let place = Place::make(path)?;
     let mut watch = Watch::new(console, bed.settings().rest);
     // The loop runs in a thread of the pool, so that its parts need not be handed there one by one.
     let rest = rayon::scope(|_| {
         folder.settle(&mut bed, |bed| watch.tell(bed.seconds(), bed.liveliness()))
-    })?;
-    let run = BedRunRecord::new(&bed, rest == Rest::AtRest);
-    Ok((bed, run))
+    });
+    match rest {
+        Ok(rest) => {
+            let (is_at_rest, fabric) = (rest == Rest::AtRest, fabric(&bed));
+            let run = BedRunRecord::new(&bed, is_at_rest, bed.seconds(), bed.steps(), fabric);
+            Ok((bed, run))
+        }
+        Err(error) => {
+            place.leave();
+            Err(error.into())
+        }
+    }
+}
+
+/// An error with its lengths in the unit of the command.
+fn in_unit(error: BedError, unit: Unit) -> anyhow::Error {
+    match error {
+        BedError::Narrow { widest } => anyhow!(
+            "the container is too narrow: a grain is up to {} {unit} wide",
+            short(widest / unit.metres())
+        ),
+        other => other.into(),
+    }
 }
 
 /// The faces of a mesh, in metres.

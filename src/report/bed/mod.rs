@@ -1,0 +1,103 @@
+//! What `grainform bed` tells.
+
+mod means;
+mod text;
+mod warnings;
+
+use super::unit::Unit;
+use crate::bed::{Bed, BedSettings, Fabric, Packing, packing};
+pub use means::{BedMean, BedMeans};
+use serde::Serialize;
+
+/// Beds of the same grains, each from another seed.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct BedReport {
+    /// Unit of the lengths in the files of the run; the figures here are in SI units.
+    pub unit: Unit,
+    /// What the bed is made of.
+    pub kinds: Vec<BedKindRecord>,
+    /// What was asked for or, where it was not, assumed.
+    pub settings: BedSettings,
+    /// The figures over all beds.
+    pub means: BedMeans,
+    /// The beds.
+    pub runs: Vec<BedRunRecord>,
+    /// What to know of these figures.
+    pub warnings: Vec<String>,
+}
+
+/// A kind of grain.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct BedKindRecord {
+    /// The model.
+    pub input: String,
+    /// How many grains of it.
+    pub grains: usize,
+    /// Diameter of the sphere of equal volume, in metres.
+    pub diameter_m: f64,
+    /// Mass, in kilograms.
+    pub mass_kg: f64,
+}
+
+/// A bed that has settled.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct BedRunRecord {
+    /// Its seed.
+    pub seed: u64,
+    /// Whether it came to rest before its time was up.
+    pub is_at_rest: bool,
+    /// Simulated time, in seconds.
+    pub seconds: f64,
+    /// Steps of the simulation.
+    pub steps: u64,
+    /// How densely it is packed; without fractions where grains overlap too much.
+    pub packing: Packing,
+    /// Contacts, forces, directions.
+    pub fabric: Fabric,
+}
+
+impl BedRunRecord {
+    /// The figures of a bed that ended after so many seconds and steps.
+    pub fn new(bed: &Bed, is_at_rest: bool, seconds: f64, steps: u64, fabric: Fabric) -> Self {
+        let mut run = Self {
+            seed: bed.settings().seed,
+            is_at_rest,
+            seconds,
+            steps,
+            packing: packing(bed),
+            fabric,
+        };
+        if run.is_crushed() {
+            run.packing.core = None;
+            run.packing.whole = None;
+            run.packing.layers.clear();
+        }
+        run
+    }
+}
+
+impl BedReport {
+    /// The report of these runs; `inputs` names the models in the order of the beds' kinds, and one bed stands for all.
+    pub fn new(inputs: Vec<String>, unit: Unit, bed: &Bed, runs: Vec<BedRunRecord>) -> Self {
+        let kinds = bed.kinds().iter().zip(inputs).enumerate();
+        let kinds = kinds.map(|(at, (kind, input))| BedKindRecord {
+            input,
+            grains: bed.bodies().iter().filter(|body| body.kind == at).count(),
+            diameter_m: 2.0 * kind.radius(),
+            mass_kg: kind.mass(),
+        });
+        let settings = bed.settings().clone();
+        let warnings = runs.iter().flat_map(|run| run.warnings(&settings));
+        Self {
+            unit,
+            kinds: kinds.collect(),
+            means: BedMeans::of(&runs),
+            warnings: warnings.collect(),
+            settings,
+            runs,
+        }
+    }
+}
