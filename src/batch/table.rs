@@ -50,8 +50,15 @@ impl Lot {
         Self { names, values }
     }
 
-    /// Leaves out what is no figure of a grain.
-    fn figures(self) -> Self {
+    /// Leaves out what is no figure of a grain. A table of anything else is refused.
+    fn figures(self, path: &Path) -> Result<Self, TableError> {
+        let [(scan, _), (status, _), ..] = FIRST;
+        if ![scan, status]
+            .iter()
+            .all(|own| self.names.iter().any(|name| name == own))
+        {
+            return Err(TableError::NotOurs { path: path.into() });
+        }
         let is_figure = |name: &str| {
             let described = FIRST.iter().any(|(first, _)| *first == name);
             !described && !name.ends_with("_se")
@@ -60,7 +67,7 @@ impl Lot {
         let (names, values) = columns
             .filter(|(name, values)| is_figure(name) && !values.is_empty())
             .unzip();
-        Self { names, values }
+        Ok(Self { names, values })
     }
 }
 
@@ -77,7 +84,7 @@ fn of_csv(path: &Path) -> Result<Lot, TableError> {
             values.extend(cell.parse::<f64>().ok().filter(|value| value.is_finite()));
         }
     }
-    Ok(lot.figures())
+    lot.figures(path)
 }
 
 fn of_parquet(path: &Path) -> Result<Lot, TableError> {
@@ -101,5 +108,5 @@ fn of_parquet(path: &Path) -> Result<Lot, TableError> {
             });
         }
     }
-    Ok(lot.figures())
+    lot.figures(path)
 }
