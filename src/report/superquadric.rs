@@ -184,6 +184,14 @@ impl SuperquadricReport {
         residuals: &Residuals,
         mean_radius: f64,
     ) -> Self {
+        let share = residuals.rms / mean_radius;
+        let rough = (share > ROUGH).then(|| {
+            format!(
+                "The points are {:.0} % of the mean radius (RMS) off the superquadrics: area and volume are theirs, and may be \
+                 far from the grain's.",
+                100.0 * share
+            )
+        });
         Self {
             input: scan.input,
             unit: scan.unit,
@@ -197,10 +205,13 @@ impl SuperquadricReport {
             volume: solid.properties.volume,
             volume_error: solid.volume_error,
             held_out: None,
-            warnings: scan.warnings,
+            warnings: scan.warnings.into_iter().chain(rough).collect(),
         }
     }
 }
+
+/// Share of the mean radius from which on points are told to be far off a fit.
+const ROUGH: f64 = 0.05;
 
 /// Relative tolerance of the area and the volume of unions.
 const UNION_TOLERANCE: f64 = 1e-5;

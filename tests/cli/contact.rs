@@ -198,7 +198,7 @@ fn what_cannot_be_pressed_is_refused_in_a_sentence() {
             "the radius that rounds an edge must be above zero, not -1 mm",
         ),
         (
-            &["1e300", "--youngs-modulus-mpa", "9"],
+            &["1e300", "--youngs-modulus-mpa", "9", "--towards", "1,0,0"],
             "beyond the range of numbers",
         ),
         (

@@ -81,8 +81,14 @@ mod tests {
                 "{aside}"
             );
         }
-        assert!(do_overlap(&part(0.0, 0.0), &part(2.9, 1.570_796)));
-        assert!(!do_overlap(&part(0.0, 0.0), &part(3.1, 1.570_796)));
+        assert!(do_overlap(
+            &part(0.0, 0.0),
+            &part(2.9, std::f64::consts::FRAC_PI_2)
+        ));
+        assert!(!do_overlap(
+            &part(0.0, 0.0),
+            &part(3.1, std::f64::consts::FRAC_PI_2)
+        ));
     }
 
     #[test]
