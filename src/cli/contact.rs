@@ -84,6 +84,7 @@ fn touched(
     // Of numbers whose squares are still numbers.
     let towards = (towards / towards.amax())
         .try_normalize(0.0)
+        .filter(|n| n.iter().all(|x| x.is_finite()))
         .ok_or_else(|| anyhow!("the direction of the contact must not be zero"))?;
     let touch = touch(grain, &towards, edge_radius).map_err(|error| match error {
         TouchError::Edge { .. } => anyhow!("{error}; round it with --edge-radius"),
