@@ -17,11 +17,29 @@ pub(crate) struct Lot {
     pub values: Vec<Vec<f64>>,
 }
 
-/// Reads the figures in a folder of results, or in one of its tables, as Parquet if it is so named, else as CSV.
+/// Reads the figures in a folder of results, or in any table, as Parquet if it is so named, else as CSV.
 ///
 /// # Errors
 /// [`TableError`] where there are none.
 pub(crate) fn read_lot(path: &Path) -> Result<Lot, TableError> {
+    Ok(read_table(path)?.figures())
+}
+
+/// Reads the figures in results of a batch, and refuses any other table.
+///
+/// # Errors
+/// [`TableError`] where there are none.
+pub(crate) fn read_results(path: &Path) -> Result<Lot, TableError> {
+    let table = read_table(path)?;
+    let [(scan, _), (status, _), ..] = FIRST;
+    let has = |own: &str| table.names.iter().any(|name| name == own);
+    match has(scan) && has(status) {
+        true => Ok(table.figures()),
+        false => Err(TableError::NotOurs { path: path.into() }),
+    }
+}
+
+fn read_table(path: &Path) -> Result<Lot, TableError> {
     let path = match path.is_dir() {
         true => table_in(path)?,
         false => path.to_path_buf(),
@@ -50,15 +68,8 @@ impl Lot {
         Self { names, values }
     }
 
-    /// Leaves out what is no figure of a grain. A table of anything else is refused.
-    fn figures(self, path: &Path) -> Result<Self, TableError> {
-        let [(scan, _), (status, _), ..] = FIRST;
-        if ![scan, status]
-            .iter()
-            .all(|own| self.names.iter().any(|name| name == own))
-        {
-            return Err(TableError::NotOurs { path: path.into() });
-        }
+    /// Leaves out what is no figure of a grain.
+    fn figures(self) -> Self {
         let is_figure = |name: &str| {
             let described = FIRST.iter().any(|(first, _)| *first == name);
             !described && !name.ends_with("_se")
@@ -67,7 +78,7 @@ impl Lot {
         let (names, values) = columns
             .filter(|(name, values)| is_figure(name) && !values.is_empty())
             .unzip();
-        Ok(Self { names, values })
+        Self { names, values }
     }
 }
 
@@ -84,7 +95,7 @@ fn of_csv(path: &Path) -> Result<Lot, TableError> {
             values.extend(cell.parse::<f64>().ok().filter(|value| value.is_finite()));
         }
     }
-    lot.figures(path)
+    Ok(lot)
 }
 
 fn of_parquet(path: &Path) -> Result<Lot, TableError> {
@@ -108,5 +119,5 @@ fn of_parquet(path: &Path) -> Result<Lot, TableError> {
             });
         }
     }
-    lot.figures(path)
+    Ok(lot)
 }
