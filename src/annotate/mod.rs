@@ -39,25 +39,44 @@ pub struct Field {
 
 impl Annotated {
     /// The mesh of a grain with so many cells along each edge of a cube of directions, as [`Surface::mesh`] has it, with
-    /// curvatures and segments. On an edge they are those of one of its sides.
+    /// curvatures and segments. On an edge they are those of one of its sides, and of a union that no centre sees whole
+    /// those of the part that a vertex is on.
     pub fn new(grain: &Grain, resolution: usize) -> Self {
-        let axes = grain.frame().axes;
-        let (local, _) = cube_grid(resolution);
-        let directions: Vec<Vector3<f64>> = local.iter().map(|n| axes * n).collect();
-        let bent = directions.par_iter().map(|n| {
-            let curvature = Curvature::new(n, &grain.jet(n));
-            (curvature.normal, (curvature.mean(), curvature.gaussian()))
-        });
+        let mesh = grain.mesh(resolution);
+        let union = grain.superquadric().filter(|_| grain.hidden_share() > 0.0);
+        let directions: Vec<Vector3<f64>> = match union {
+            Some(_) => {
+                let centre = grain.frame().centre;
+                let vertices = mesh.vertices.iter();
+                vertices.map(|v| (v - centre).normalize()).collect()
+            }
+            None => {
+                let axes = grain.frame().axes;
+                let (local, _) = cube_grid(resolution);
+                local.iter().map(|n| axes * n).collect()
+            }
+        };
+        let bent = directions
+            .par_iter()
+            .zip(&mesh.vertices)
+            .map(|(n, vertex)| {
+                let (n, jet) = match union {
+                    Some(union) => union.jet_of_part(vertex),
+                    None => (*n, grain.jet(n)),
+                };
+                let curvature = Curvature::new(&n, &jet);
+                (curvature.normal, (curvature.mean(), curvature.gaussian()))
+            });
         let (normals, (means, gaussians)): (Vec<_>, (Vec<_>, Vec<_>)) = bent.unzip();
         let segments = directions.par_iter().map(|n| grain.segment(n) as f64);
         let field = |name, values| Field { name, values };
         Self {
-            mesh: grain.mesh(resolution),
             fields: vec![
                 field("mean_curvature", means),
                 field("gaussian_curvature", gaussians),
                 field("segment", segments.collect()),
             ],
+            mesh,
             normals,
             directions,
         }

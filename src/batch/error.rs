@@ -83,6 +83,15 @@ pub(crate) enum TableError {
         /// The folder.
         folder: PathBuf,
     },
+    /// The file is a table of something else.
+    #[error(
+        "{} is no table of grains: it lacks the columns path and status, which those of grainform batch have",
+        path.display()
+    )]
+    NotOurs {
+        /// The file.
+        path: PathBuf,
+    },
     /// The file cannot be opened.
     #[error("cannot read {}: {source}", path.display())]
     Io {

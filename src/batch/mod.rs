@@ -24,4 +24,4 @@ pub(crate) use grain::Settings;
 pub(crate) use inputs::inputs;
 pub(crate) use population::Population;
 pub(crate) use run::{Batch, names, run};
-pub(crate) use table::read_lot;
+pub(crate) use table::{read_lot, read_results};

@@ -23,11 +23,29 @@ pub(crate) struct Lot {
 /// The column of the unit of length.
 const UNIT: &str = "unit";
 
-/// Reads the figures in a folder of results, or in one of its tables, as Parquet if it is so named, else as CSV.
+/// Reads the figures in a folder of results, or in any table, as Parquet if it is so named, else as CSV.
 ///
 /// # Errors
 /// [`TableError`] where there are none.
 pub(crate) fn read_lot(path: &Path) -> Result<Lot, TableError> {
+    Ok(read_table(path)?.figures())
+}
+
+/// Reads the figures in results of a batch, and refuses any other table.
+///
+/// # Errors
+/// [`TableError`] where there are none.
+pub(crate) fn read_results(path: &Path) -> Result<Lot, TableError> {
+    let table = read_table(path)?;
+    let [(scan, _), (status, _), ..] = FIRST;
+    let has = |own: &str| table.names.iter().any(|name| name == own);
+    match has(scan) && has(status) {
+        true => Ok(table.figures()),
+        false => Err(TableError::NotOurs { path: path.into() }),
+    }
+}
+
+fn read_table(path: &Path) -> Result<Lot, TableError> {
     let path = match path.is_dir() {
         true => table_in(path)?,
         false => path.to_path_buf(),
@@ -100,7 +118,7 @@ fn of_csv(path: &Path) -> Result<Lot, TableError> {
             lot.values[column].extend(value);
         }
     }
-    Ok(lot.figures())
+    Ok(lot)
 }
 
 fn of_parquet(path: &Path) -> Result<Lot, TableError> {
@@ -125,5 +143,5 @@ fn of_parquet(path: &Path) -> Result<Lot, TableError> {
             }
         }
     }
-    Ok(lot.figures())
+    Ok(lot)
 }

@@ -3,13 +3,13 @@
 use super::args::CompareArgs;
 use super::console::Console;
 use super::streams::put_json;
-use crate::batch::{compare, read_lot};
+use crate::batch::{compare, read_results};
 use crate::report::short;
 use anyhow::{Result, bail};
 use comfy_table::{CellAlignment, Table, presets::NOTHING};
 
 pub(super) fn run(args: CompareArgs, console: Console) -> Result<()> {
-    let comparisons = compare(&read_lot(&args.first)?, &read_lot(&args.second)?);
+    let comparisons = compare(&read_results(&args.first)?, &read_results(&args.second)?);
     if comparisons.is_empty() {
         bail!(
             "there is nothing to compare: {} and {} share no measure that two grains of each have",

@@ -40,6 +40,9 @@ fn contact(args: &ContactArgs) -> Result<ContactReport> {
     if !(indentation_um > 0.0 && indentation_um.is_finite()) {
         bail!("the indentation must be above zero, not {indentation_um} um");
     }
+    if let Some(radius) = args.edge_radius.filter(|r| !(*r > 0.0 && r.is_finite())) {
+        bail!("the radius that rounds an edge must be above zero, not {radius} {unit}");
+    }
     let [own, other] = args.materials(modulus_mpa)?;
     let load = Load {
         unit,
@@ -64,6 +67,9 @@ fn contact(args: &ContactArgs) -> Result<ContactReport> {
         None => None,
     };
     let mut report = ContactReport::new(first, second, args.angle_deg.to_radians(), &load)?;
+    if !(report.normal_force_n.is_finite() && report.normal_stiffness_n_per_m.is_finite()) {
+        bail!("the force of an indentation of {indentation_um} um is beyond the range of numbers");
+    }
     report.warnings.extend(doubts);
     Ok(report)
 }
@@ -75,7 +81,8 @@ fn touched(
     towards: &Vector3<f64>,
     edge_radius: Option<f64>,
 ) -> Result<TouchRecord> {
-    let towards = towards
+    // Of numbers whose squares are still numbers.
+    let towards = (towards / towards.amax())
         .try_normalize(0.0)
         .filter(|n| n.iter().all(|x| x.is_finite()))
         .ok_or_else(|| anyhow!("the direction of the contact must not be zero"))?;

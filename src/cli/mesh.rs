@@ -2,7 +2,7 @@
 
 use super::args::{InputArgs, LimitArgs, MeshArgs, MeshingArgs};
 use super::console::Console;
-use super::{inputs, outputs, threads};
+use super::{inputs, outputs, solid, threads};
 use crate::annotate::{Annotated, ScanDeviation};
 use crate::export::{Detail, MeshFormat};
 use crate::model::{Grain, Surface};
@@ -73,6 +73,12 @@ fn annotated(args: &MeshArgs, grain: &Grain) -> Result<Annotated> {
     let Some(path) = &args.scan else {
         return Ok(surface);
     };
+    let name = inputs::name(&args.model);
+    solid::is_seen_whole(
+        grain,
+        &name,
+        "how far a scan is off it is not told; leave --scan out",
+    )?;
     let input = InputArgs {
         format: None,
         label: None,

@@ -3,15 +3,15 @@
 use super::args::ContactArgs;
 use super::console::Console;
 use super::values::{LawArg, PoseArg};
-use super::{inputs, outputs};
+use super::{inputs, outputs, solid};
 use crate::annotate::{self, ContactFrame};
 use crate::contact::{
     ContactBody, VolumeLaw, contact_regions, effective_modulus_pa, union_contacts,
 };
 use crate::export::{Detail, MeshFormat};
-use crate::measure::grain_properties;
+use crate::measure::{grain_properties, solid_properties};
 use crate::model::{Frame, Grain, Surface};
-use crate::report::{NormalLaw, PlacedReport, RegionsReport, Withheld};
+use crate::report::{NormalLaw, PlacedReport, RegionsReport, Unit, Withheld};
 use anyhow::{Context, Result, anyhow, bail};
 use nalgebra::{Isometry3, Translation3};
 use std::path::Path;
@@ -33,12 +33,16 @@ pub(super) fn run(args: &ContactArgs, pose: &PoseArg, console: Console) -> Resul
     let names = [inputs::name(&args.model), inputs::name(other)];
     let law = law(args, &grains)?;
     if law.is_none()
-        && let Some(report) = of_unions(&grains, &names, pose)
+        && let Some(report) = of_unions(&grains, &names, args.unit, pose)
     {
         let touches = report.touches.iter();
         let frames = touches.map(|touch| frame(touch.point, touch.normal));
         draw(args, &grains, pose, &frames.collect::<Vec<_>>())?;
         return console.tell(&report, args.json, written, &[]);
+    }
+    for (grain, name) in grains.iter().zip(&names) {
+        let what = "what it shares with another body is not told; without --youngs-modulus-mpa the places are";
+        solid::is_seen_whole(grain, name, what)?;
     }
     let [one, two] = &grains;
     let found = contact_regions(&ContactBody::new(one), &ContactBody::new(two), &moved(pose))
@@ -87,7 +91,12 @@ fn draw(
 }
 
 /// The touches of two unions of superquadrics, if they are that.
-fn of_unions(grains: &[Grain; 2], names: &[String; 2], pose: &PoseArg) -> Option<PlacedReport> {
+fn of_unions(
+    grains: &[Grain; 2],
+    names: &[String; 2],
+    unit: Option<Unit>,
+    pose: &PoseArg,
+) -> Option<PlacedReport> {
     let [first, second] = grains;
     let [one, two] = [first.superquadric()?, second.superquadric()?];
     let frame = second.frame();
@@ -97,7 +106,7 @@ fn of_unions(grains: &[Grain; 2], names: &[String; 2], pose: &PoseArg) -> Option
     };
     let touches = union_contacts((one.body(), &first.frame()), (two.body(), &moved));
     let [one, two] = names.clone();
-    Some(PlacedReport::new(one, two, &touches))
+    Some(PlacedReport::new(one, two, unit, &touches))
 }
 
 /// What is not to be relied on of either grain.
@@ -126,9 +135,10 @@ fn law(args: &ContactArgs, grains: &[Grain; 2]) -> Result<Option<NormalLaw>> {
             metres_per_unit,
         },
         LawArg::Volume => {
-            let volumes = grains
-                .each_ref()
-                .map(|grain| grain_properties(grain).properties.volume);
+            let volumes = grains.each_ref().map(|grain| match grain.superquadric() {
+                Some(union) => solid_properties(union).properties.volume,
+                None => grain_properties(grain).properties.volume,
+            });
             NormalLaw::Volume(VolumeLaw::new(
                 volumes,
                 metres_per_unit,

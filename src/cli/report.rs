@@ -2,7 +2,7 @@
 
 use super::args::ReportArgs;
 use super::console::Console;
-use super::{inputs, outputs, threads};
+use super::{inputs, outputs, solid, threads};
 use crate::bench;
 use crate::fit::{
     Context as FitContext, FitOptions, Fitted, Kind, Seams, fit_scan, whole_or_largest,
@@ -31,6 +31,11 @@ pub(super) fn run(args: ReportArgs, console: Console) -> Result<()> {
         (Some(args.output.as_path()), &["html", "htm"][..]),
         (args.png.as_deref(), &["png"][..]),
     ];
+    if args.truth.is_some() && !args.paths.iter().any(|path| path.is_dir()) {
+        bail!(
+            "--truth tells what is known of the scans in a folder of results: name such a folder"
+        );
+    }
     let console = console.beside(outputs::check(input, &files, false)?);
     let progress = console.progress();
     let (mut grains, mut lots) = (Vec::new(), Vec::new());
@@ -76,6 +81,11 @@ fn grain_part(path: &Path, args: &ReportArgs) -> Result<GrainPart> {
     let hash = ("BLAKE3 of the input", blake3::hash(&bytes).to_string());
     if bytes.trim_ascii_start().starts_with(b"{") {
         let grain = inputs::parse_model(path, &bytes)?;
+        solid::is_seen_whole(
+            &grain,
+            &name,
+            "no page shows it; measure it, or write its mesh",
+        )?;
         let survey = Survey::of_grain(&grain, Scheme::Exact);
         let (measures, warnings) = measured(&survey, &grain, args);
         draw(args, &name, &grain, None)?;

@@ -7,7 +7,7 @@ use crate::measure::{MassProperties, Scheme, Survey, scanned_body};
 use crate::mesh::Mesh;
 use crate::model::{Grain, Surface};
 use crate::report::{Unit, Withheld, sentences};
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result, bail, ensure};
 use std::path::Path;
 
 /// Cells per cube edge of the mesh of a model.
@@ -66,4 +66,16 @@ pub(super) fn read(path: &Path, input: &InputArgs, unit: Option<Unit>) -> Result
         properties,
         grain: None,
     })
+}
+
+/// Refuses a grain for what takes its surface as one over the directions from its centre.
+pub(super) fn is_seen_whole(grain: &Grain, name: &str, what: &str) -> Result<()> {
+    let share = grain.hidden_share();
+    ensure!(
+        share == 0.0,
+        "{name} is a union of superquadrics that hides a part of its surface from its centre, in {:.1} % of the \
+         directions: {what}",
+        100.0 * share
+    );
+    Ok(())
 }

@@ -3,7 +3,7 @@
 use super::args::FitArgs;
 use super::console::Console;
 use super::values::SuperquadricArg;
-use super::{inputs, outputs};
+use super::{inputs, outputs, solid};
 use crate::fit::{
     Context as FitContext, FitOptions, FitWarning, PreparedScan, fit_multi_superquadric,
     fit_superquadric, whole_or_largest,
@@ -28,6 +28,13 @@ pub(super) fn run(
     }
     let progress = console.progress();
     let (grain, scan, report) = fitted(args, form)?;
+    if args.png.is_some() {
+        solid::is_seen_whole(
+            &grain,
+            "the fit",
+            "there is no picture of it; write a --mesh instead",
+        )?;
+    }
     progress.stage("Writing");
     outputs::write_grain(args, &grain, || grain.clone())?;
     if let Some(path) = &args.png {
@@ -46,15 +53,20 @@ fn fitted(args: &FitArgs, form: SuperquadricArg) -> Result<(Grain, Scan, Superqu
     let scan = inputs::scan(&args.fitting.scan, &args.fitting.input)?;
     let (scan, others_left_out) = whole_or_largest(scan, args.fitting.largest);
     let failed = || format!("cannot fit {name}");
-    let options = FitOptions::default();
-    let prepared = PreparedScan::new(&scan, options.symmetry).with_context(failed)?;
-    let points = prepared.points();
-    let of_fit: Vec<FitWarning> = prepared
-        .warnings
-        .iter()
-        .copied()
-        .chain(others_left_out)
-        .collect();
+    let prepared = PreparedScan::new(&scan, FitOptions::default().symmetry);
+    let (points, of_fit) = match (&prepared, form) {
+        // A union needs no centre that sees all points: none is left out because none does.
+        (Err(_), SuperquadricArg::Multi(_)) => (scan.points(), Vec::new()),
+        (Ok(prepared), SuperquadricArg::Multi(_)) if is_for_a_centre(prepared) => {
+            (scan.points(), Vec::new())
+        }
+        _ => {
+            let prepared = prepared.as_ref().map_err(Clone::clone);
+            let prepared = prepared.with_context(failed)?;
+            (prepared.points(), prepared.warnings.clone())
+        }
+    };
+    let of_fit: Vec<FitWarning> = of_fit.into_iter().chain(others_left_out).collect();
     let fitted = FittedScan {
         input: name.clone(),
         unit,
@@ -74,4 +86,15 @@ fn fitted(args: &FitArgs, form: SuperquadricArg) -> Result<(Grain, Scan, Superqu
             Ok((found.grain()?, scan, report))
         }
     }
+}
+
+/// Whether a scan was made ready for a radius, at the cost of points or of surface that its centre does not see.
+fn is_for_a_centre(prepared: &PreparedScan<'_>) -> bool {
+    let lost = |warning: &FitWarning| {
+        matches!(
+            warning,
+            FitWarning::NotStarShaped { .. } | FitWarning::Strays { .. }
+        )
+    };
+    prepared.warnings.iter().any(lost)
 }

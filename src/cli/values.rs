@@ -253,8 +253,8 @@ pub(super) fn tolerance(text: &str) -> Result<Tolerance, String> {
 pub(super) fn vector(text: &str) -> Result<Vector3<f64>, String> {
     let numbers: Result<Vec<f64>, _> = text.split(',').map(|part| part.trim().parse()).collect();
     match numbers.as_deref() {
-        Ok(&[x, y, z]) => Ok(Vector3::new(x, y, z)),
-        _ => Err("expected three numbers such as 10,0,-2.5".into()),
+        Ok(&[x, y, z]) if [x, y, z].iter().all(|x| x.is_finite()) => Ok(Vector3::new(x, y, z)),
+        _ => Err("expected three finite numbers such as 10,0,-2.5".into()),
     }
 }
 

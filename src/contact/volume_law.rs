@@ -19,6 +19,8 @@ pub struct VolumeLaw {
     /// k of U = k V^(5/4): newtons per square metre, over a length to the power 3/4 in the bodies' unit.
     stiffness_pa: f64,
     metres_per_unit: f64,
+    /// R*, in the bodies' unit.
+    radius: f64,
 }
 
 impl VolumeLaw {
@@ -30,7 +32,13 @@ impl VolumeLaw {
             stiffness_pa: 8.0 / 15.0 * effective_modulus_pa * radius.powf(-0.75)
                 / PI.powf(EXPONENT),
             metres_per_unit,
+            radius,
         }
+    }
+
+    /// R*, in the bodies' unit: of spheres of their volumes, as far as the law is Hertz's, the depth is small beside it.
+    pub fn effective_radius(&self) -> f64 {
+        self.radius
     }
 
     /// The energy stored in a region, in joules.

@@ -55,8 +55,8 @@ pub use prepare::{
 };
 pub use standard_errors::{NoInterval, StandardErrors};
 pub use superquadric::{
-    Form, MAX_UNION_PARTS, MultiFit, ParameterErrors, SuperquadricFit, SuperquadricFitError,
-    fit_multi_superquadric, fit_superquadric,
+    AtBound, Form, MAX_UNION_PARTS, MultiFit, ParameterErrors, SuperquadricFit,
+    SuperquadricFitError, fit_multi_superquadric, fit_superquadric,
 };
 pub use warning::FitWarning;
 

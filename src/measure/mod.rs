@@ -82,7 +82,9 @@ pub use spectrum::{RadialExpansion, SPECTRUM_DEGREE, Spectrum};
 pub(crate) use sphericity::equivalent_radius;
 pub use sphericity::{Sphericity, wadell};
 pub use sums::{Integrals, MAX_EVALUATIONS};
-pub use superquadric::{SolidProperties, superquadric_properties, union_properties};
+pub use superquadric::{
+    SolidProperties, solid_properties, superquadric_properties, union_properties,
+};
 pub(crate) use support::support_near;
 pub use support::{Support, support};
 pub use survey::{Scheme, Survey, SurveyError};

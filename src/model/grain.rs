@@ -51,6 +51,13 @@ impl Grain {
         }
     }
 
+    /// Share of the directions in which a ray from the centre leaves the grain and meets it again, of a union of
+    /// superquadrics: its surface is none over these directions, as figures and views of it take it. Zero of all others.
+    pub fn hidden_share(&self) -> f64 {
+        let union = self.superquadric();
+        union.map_or(0.0, SuperquadricGrain::hidden_share)
+    }
+
     pub(super) fn kind(&self) -> &Kind {
         &self.kind
     }

@@ -86,6 +86,10 @@ impl LotPart {
         let surface = |(at, name): (usize, &String)| {
             let model = folder.join("models").join(format!("{name}.json"));
             let grain = load_grain(&model).ok().filter(|_| at < most)?;
+            // Its mesh is none over the directions that all surfaces share.
+            if grain.hidden_share() > 0.0 {
+                return None;
+            }
             let mesh = grain.mesh(resolution);
             let solid = mesh_properties(&mesh).ok()?;
             let axes = solid.principal()?.axes;

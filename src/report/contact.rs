@@ -80,11 +80,14 @@ const HERTZIAN: f64 = 0.1;
 /// A force that is known less well than to this share is told of.
 const UNCERTAIN: f64 = 0.1;
 
-/// What to know of a depth that is such a share of the smaller radius of curvature, if it is too deep for Hertz.
-pub(super) fn beyond_hertz(depth: &str, share: f64) -> Option<String> {
+/// What a depth is compared with where both bodies' curvatures are known.
+pub(super) const CURVED: &str = "smaller radius of curvature";
+
+/// What to know of a depth that is such a share of a radius, if it is too deep for Hertz.
+pub(super) fn beyond_hertz(depth: &str, share: f64, radius: &str) -> Option<String> {
     (share > HERTZIAN).then(|| {
         format!(
-            "{depth} is {:.0} % of the smaller radius of curvature; Hertz's theory is for less than {:.0} %",
+            "{depth} is {:.0} % of the {radius}; Hertz's theory is for less than {:.0} %",
             100.0 * share,
             100.0 * HERTZIAN
         )
@@ -144,7 +147,7 @@ impl ContactReport {
             .map(|(one, other)| force_error(&one, &other, angle_rad));
         let mut warnings = Vec::new();
         let share_of_radius = indentation_m / (relative.smaller_radius() * metres);
-        warnings.extend(beyond_hertz("the indentation", share_of_radius));
+        warnings.extend(beyond_hertz("the indentation", share_of_radius, CURVED));
         match share {
             None => warnings.push(
                 "how certain the curvature is there is not known, so the force has no standard error: fit the scan \

@@ -2,6 +2,7 @@
 
 use super::escape::escaped;
 use super::number::{short, triple};
+use super::unit::{Labels, Unit};
 use crate::contact::UnionContact;
 use crate::scan::plural;
 use serde::Serialize;
@@ -15,6 +16,8 @@ pub struct PlacedReport {
     pub first: String,
     /// The second body.
     pub second: String,
+    /// Unit of the scans' lengths, if it was told.
+    pub unit: Option<Unit>,
     /// Where they touch; nothing if they are apart.
     pub touches: Vec<PlacedTouch>,
 }
@@ -35,7 +38,12 @@ pub struct PlacedTouch {
 
 impl PlacedReport {
     /// The report of these touches.
-    pub fn new(first: String, second: String, touches: &[UnionContact]) -> Self {
+    pub fn new(
+        first: String,
+        second: String,
+        unit: Option<Unit>,
+        touches: &[UnionContact],
+    ) -> Self {
         let touches = touches.iter().map(|touch| PlacedTouch {
             parts: touch.parts,
             point: touch.point.into(),
@@ -45,6 +53,7 @@ impl PlacedReport {
         Self {
             first,
             second,
+            unit,
             touches: touches.collect(),
         }
     }
@@ -52,6 +61,7 @@ impl PlacedReport {
 
 impl fmt::Display for PlacedReport {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let length = Labels(self.unit).length();
         writeln!(f, "first         {}", escaped(&self.first))?;
         writeln!(f, "second        {}", escaped(&self.second))?;
         write!(f, "contact       ")?;
@@ -60,9 +70,9 @@ impl fmt::Display for PlacedReport {
             count => write!(f, "at {}", plural(count, "place"))?,
         }
         for touch in &self.touches {
-            write!(f, "\ntouched at    {}", triple(touch.point))?;
+            write!(f, "\ntouched at    {}{length}", triple(touch.point))?;
             write!(f, "\n  normal      {}", triple(touch.normal))?;
-            write!(f, "\n  overlap     {}", short(touch.overlap))?;
+            write!(f, "\n  overlap     {}{length}", short(touch.overlap))?;
         }
         Ok(())
     }

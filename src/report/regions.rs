@@ -1,6 +1,6 @@
 //! Where two surfaces of any kind overlap that are placed beside each other, and the forces there.
 
-use super::contact::beyond_hertz;
+use super::contact::{CURVED, beyond_hertz};
 use super::escape::escaped;
 use super::number::{short, triple, with_error};
 use super::unit::{Labels, Unit};
@@ -104,7 +104,12 @@ impl RegionsReport {
 impl NormalLaw {
     fn force_n(&self, region: &ContactRegion, warnings: &mut Vec<String>) -> Option<f64> {
         let (modulus, metres) = match self {
-            Self::Volume(law) => return Some(law.force_n(region).norm()),
+            Self::Volume(law) => {
+                let share = region.depth / law.effective_radius();
+                let radius = "effective radius of the bodies' volumes";
+                warnings.extend(beyond_hertz("The depth", share, radius).map(|told| told + "."));
+                return Some(law.force_n(region).norm());
+            }
             Self::Hertz {
                 effective_modulus_pa,
                 metres_per_unit,
@@ -121,7 +126,7 @@ impl NormalLaw {
         match RelativeCurvature::new(one.principal, two.principal, angle) {
             Ok(relative) => {
                 let share = region.depth / relative.smaller_radius();
-                warnings.extend(beyond_hertz("The depth", share).map(|told| told + "."));
+                warnings.extend(beyond_hertz("The depth", share, CURVED).map(|told| told + "."));
                 Some(relative.normal_force_n(metres, region.depth * metres, modulus))
             }
             Err(error) => {

@@ -68,14 +68,20 @@ pub struct SuperquadricRecord {
     pub semi_axes: [[f64; 2]; 3],
     /// Their standard errors; `null` where a number is at a bound, or the points do not determine it.
     pub semi_axes_errors: [[Option<f64>; 2]; 3],
+    /// Whether they are at a bound of the fit, and the points would have them beyond it.
+    pub semi_axes_at_bound: [[bool; 2]; 3],
     /// n1 on either side of z.
     pub n1: [f64; 2],
     /// Their standard errors, likewise.
     pub n1_errors: [Option<f64>; 2],
+    /// Whether they are at a bound, from 1.3 to 20, likewise.
+    pub n1_at_bound: [bool; 2],
     /// n2 by the side of x, then of y.
     pub n2: [[f64; 2]; 2],
     /// Their standard errors, likewise.
     pub n2_errors: [[Option<f64>; 2]; 2],
+    /// Whether they are at a bound, likewise.
+    pub n2_at_bound: [[bool; 2]; 2],
     /// Standard errors of rotations about its axes, in radians, likewise.
     pub rotation_errors_rad: [Option<f64>; 3],
     /// Standard errors of the centre along its axes, likewise.
@@ -89,20 +95,27 @@ impl SuperquadricRecord {
             axes: [0, 1, 2].map(|i| frame.axes.column(i).into_owned().into()),
             semi_axes: shape.semi_axes(),
             semi_axes_errors: errors.semi_axes,
+            semi_axes_at_bound: errors.at_bound.semi_axes,
             n1: shape.n1(),
             n1_errors: errors.n1,
+            n1_at_bound: errors.at_bound.n1,
             n2: shape.n2(),
             n2_errors: errors.n2,
+            n2_at_bound: errors.at_bound.n2,
             rotation_errors_rad: errors.rotation_rad,
             centre_errors: errors.centre,
         }
     }
 
     /// The line of an axis or an exponent: one figure, or one for each side where they differ.
-    fn sides(values: &[f64], errors: &[Option<f64>]) -> String {
-        let each = values.iter().zip(errors);
+    fn sides(values: &[f64], errors: &[Option<f64>], at_bound: &[bool]) -> String {
+        let each = values.iter().zip(errors).zip(at_bound);
         let mut each: Vec<String> = each
-            .map(|(value, error)| with_error(*value, *error))
+            .map(|((value, error), is_at_bound)| match (error, is_at_bound) {
+                (_, true) => format!("{} (its bound)", short(*value)),
+                (None, false) => format!("{} (error not known)", short(*value)),
+                (error, false) => with_error(*value, *error),
+            })
             .collect();
         each.dedup();
         each.join(" | ")
@@ -110,21 +123,22 @@ impl SuperquadricRecord {
 
     fn write(&self, f: &mut fmt::Formatter<'_>, length: &str) -> fmt::Result {
         writeln!(f, "centre        {}{length}", triple(self.centre))?;
-        let axes = self.semi_axes.iter().zip(&self.semi_axes_errors);
-        for ((values, errors), name) in axes.zip(["a", "b", "c"]) {
-            writeln!(
-                f,
-                "semi-axis {name}   {}{length}",
-                Self::sides(values, errors)
-            )?;
+        for (axis, name) in ["a", "b", "c"].into_iter().enumerate() {
+            let sides = Self::sides(
+                &self.semi_axes[axis],
+                &self.semi_axes_errors[axis],
+                &self.semi_axes_at_bound[axis],
+            );
+            writeln!(f, "semi-axis {name}   {sides}{length}")?;
         }
-        writeln!(
-            f,
-            "exponent n1   {}",
-            Self::sides(&self.n1, &self.n1_errors)
-        )?;
-        let (n2, errors) = (self.n2.as_flattened(), self.n2_errors.as_flattened());
-        writeln!(f, "exponent n2   {}", Self::sides(n2, errors))
+        let n1 = Self::sides(&self.n1, &self.n1_errors, &self.n1_at_bound);
+        writeln!(f, "exponent n1   {n1}")?;
+        let n2 = Self::sides(
+            self.n2.as_flattened(),
+            self.n2_errors.as_flattened(),
+            self.n2_at_bound.as_flattened(),
+        );
+        writeln!(f, "exponent n2   {n2}")
     }
 }
 
@@ -170,6 +184,14 @@ impl SuperquadricReport {
         residuals: &Residuals,
         mean_radius: f64,
     ) -> Self {
+        let share = residuals.rms / mean_radius;
+        let rough = (share > ROUGH).then(|| {
+            format!(
+                "The points are {:.0} % of the mean radius (RMS) off the superquadrics: area and volume are theirs, and may be \
+                 far from the grain's.",
+                100.0 * share
+            )
+        });
         Self {
             input: scan.input,
             unit: scan.unit,
@@ -183,13 +205,16 @@ impl SuperquadricReport {
             volume: solid.properties.volume,
             volume_error: solid.volume_error,
             held_out: None,
-            warnings: scan.warnings,
+            warnings: scan.warnings.into_iter().chain(rough).collect(),
         }
     }
 }
 
+/// Share of the mean radius from which on points are told to be far off a fit.
+const ROUGH: f64 = 0.05;
+
 /// Relative tolerance of the area and the volume of unions.
-const UNION_TOLERANCE: f64 = 1e-3;
+const UNION_TOLERANCE: f64 = 1e-5;
 
 impl fmt::Display for SuperquadricReport {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

@@ -229,3 +229,16 @@ fn a_second_batch_on_the_same_folder_refuses() {
     drop(lock);
     succeed(&folder, &batch(&["lot", "-o", "r"]));
 }
+
+#[test]
+fn a_table_of_something_else_is_not_compared() {
+    let folder = folder();
+    std::fs::write(folder.path().join("t.csv"), "OFF\n1\n2\n3\n").unwrap();
+    let output = grainform(&folder, &["compare", "t.csv", "t.csv"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(
+        errors(&output).contains("no table of grains"),
+        "{}",
+        errors(&output)
+    );
+}

@@ -103,6 +103,62 @@ fn an_ellipsoid_on_a_plane_is_pressed_as_hertz_has_it() {
 }
 
 #[test]
+fn a_direction_may_have_any_length() {
+    let folder = ellipsoid();
+    let told = |towards: &str| {
+        let load = [
+            "--unit",
+            "mm",
+            "--indentation-um",
+            "1",
+            "--youngs-modulus-mpa",
+            "9",
+        ];
+        let words = [&["contact", "m.json", "--towards", towards], &load[..]].concat();
+        json(&folder, &words)["normal_force_n"].as_f64().unwrap()
+    };
+    let one = told("1,0,0");
+    for other in ["1e300,0,0", "1e-300,0,0"] {
+        assert!((told(other) / one - 1.0).abs() < 1e-9, "{other}");
+    }
+}
+
+/// A ball of radius 1.
+const BALL: &str = r#"{"format": "grainform model", "version": 5, "centre": [0, 0, 0],
+    "axes": [[1, 0, 0], [0, 1, 0], [0, 0, 1]], "harmonics": [3.544907701811032]}"#;
+
+#[test]
+fn bodies_that_lie_deep_in_each_other_have_no_contact_and_deep_ones_a_warning() {
+    let folder = folder();
+    std::fs::write(folder.path().join("m.json"), BALL).unwrap();
+    let load = [
+        "--unit",
+        "mm",
+        "--youngs-modulus-mpa",
+        "9",
+        "--law",
+        "volume",
+        "--pose-b",
+    ];
+    let words =
+        |pose: &'static str| [&["contact", "m.json", "m.json"], &load[..], &[pose]].concat();
+    let deep = json(&folder, &words("0,0,1.5,1,0,0,0"));
+    let warnings = deep["warnings"].to_string();
+    assert!(
+        warnings.contains("effective radius of the bodies' volumes"),
+        "{warnings}"
+    );
+    let shallow = json(&folder, &words("0,0,1.96,1,0,0,0"));
+    assert_eq!(shallow["warnings"], serde_json::json!([]));
+    for pose in ["0.05,0,0,1,0,0,0", "0,0,0,1,0,0,0"] {
+        let output = grainform(&folder, &words(pose));
+        assert_eq!(output.status.code(), Some(2), "{pose}");
+        let told = errors(&output);
+        assert!(told.contains("so deep in each other"), "{told}");
+    }
+}
+
+#[test]
 fn what_cannot_be_pressed_is_refused_in_a_sentence() {
     let folder = ellipsoid();
     let refused = |more: &[&str]| {
@@ -132,6 +188,22 @@ fn what_cannot_be_pressed_is_refused_in_a_sentence() {
         (
             &["1", "--youngs-modulus-mpa", "9", "--towards", "0,0,0"],
             "the direction of the contact must not be zero",
+        ),
+        (
+            &["1", "--youngs-modulus-mpa", "9", "--towards", "nan,0,1"],
+            "expected three finite numbers",
+        ),
+        (
+            &["1", "--youngs-modulus-mpa", "9", "--edge-radius", "-1"],
+            "the radius that rounds an edge must be above zero, not -1 mm",
+        ),
+        (
+            &["1e300", "--youngs-modulus-mpa", "9", "--towards", "1,0,0"],
+            "beyond the range of numbers",
+        ),
+        (
+            &["1", "--youngs-modulus-mpa", "9", "--other-towards", "0,1,0"],
+            "OTHER.json",
         ),
     ] {
         let message = refused(more);

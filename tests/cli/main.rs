@@ -24,6 +24,7 @@ mod superquadric;
 mod symmetry;
 mod synth;
 mod told;
+mod unions;
 mod units;
 mod volumes;
 mod whole;

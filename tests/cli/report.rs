@@ -219,3 +219,21 @@ fn a_browser_shows_it_all_without_an_error() {
         );
     }
 }
+
+#[test]
+fn a_truth_without_results_is_refused() {
+    let folder = folder();
+    succeed(
+        &folder,
+        &["synth", "ellipsoid", "--points", "386", "-o", "s.ply"],
+    );
+    let words = ["report", "s.ply", "--truth", "no_such.csv", "-o", "r.html"];
+    let output = grainform(&folder, &words);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(
+        errors(&output).contains("name such a folder"),
+        "{}",
+        errors(&output)
+    );
+    assert!(!folder.path().join("r.html").exists());
+}

@@ -220,7 +220,7 @@ pub(super) struct ContactArgs {
 
     /// Likewise of the other grain
     #[arg(long, value_name = "X,Y,Z", default_value = "0,0,1", value_parser = vector,
-          allow_hyphen_values = true)]
+          allow_hyphen_values = true, requires = "other")]
     pub(super) other_towards: Vector3<f64>,
 
     /// Angle between the directions of largest curvature of the two grains
@@ -272,7 +272,7 @@ pub(super) struct ContactArgs {
     pub(super) other_poissons_ratio: Option<f64>,
 
     /// Radius, in the scan's unit, of the cap that rounds an edge by which a grain is touched
-    #[arg(long, value_name = "R")]
+    #[arg(long, value_name = "R", allow_hyphen_values = true)]
     pub(super) edge_radius: Option<f64>,
 
     /// Print one JSON object

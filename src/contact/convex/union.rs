@@ -25,7 +25,8 @@ pub struct UnionContact {
 ///
 /// Parts of a body overlap, and two of them may touch the other body at one place. Contacts count as one touch if
 /// their normals are within 20 degrees and their points within the radius of the patch that a sphere as large as the
-/// smallest part would have there, sqrt(R overlap); the deepest is kept.
+/// smallest part would have there, sqrt(R overlap), or if the way between their points lies in both bodies: then it is one
+/// thing that these share. The deepest is kept.
 pub fn union_contacts(
     first: (&MultiSuperquadric, &Frame),
     second: (&MultiSuperquadric, &Frame),
@@ -57,6 +58,10 @@ pub fn union_contacts(
         let is_same = |deeper: &UnionContact| {
             let places = [(deeper.point, deeper.normal), (touch.point, touch.normal)];
             same_touch(places, radius, deeper.overlap)
+                || [first, second].iter().all(|(union, frame)| {
+                    let [from, to] = places.map(|(point, _)| frame.to_local(&point));
+                    union.holds_way(&from, &to)
+                })
         };
         if !kept.iter().any(is_same) {
             kept.push(touch);
@@ -130,6 +135,19 @@ mod tests {
             assert_eq!((expected.len(), found.len()), (1, 1));
             assert_relative_eq!(found[0].overlap, expected[0].overlap, max_relative = 1e-5);
             assert_relative_eq!(found[0].normal, expected[0].normal, epsilon = 1e-5);
+        }
+    }
+
+    #[test]
+    fn parts_that_touch_in_what_is_shared_at_one_place_touch_once() {
+        // Two balls side by side, so deep in a plate that what they share with it hangs together.
+        let ball = |x: f64| ([1.0; 3], at(x, 0.0, 0.0));
+        let dimer = union(&[ball(-0.3), ball(0.3)]);
+        let plate = union(&[([9.0, 9.0, 0.5], at(0.0, 0.0, 0.0))]);
+        for (height, expected) in [(1.3, 1), (1.49, 2)] {
+            let above = at(0.0, 0.0, height);
+            let found = union_contacts((&plate, &at(0.0, 0.0, 0.0)), (&dimer, &above));
+            assert_eq!(found.len(), expected, "{height}");
         }
     }
 

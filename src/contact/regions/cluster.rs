@@ -20,6 +20,12 @@ const ENOUGH: usize = 1500;
 /// Triangles of a part, at most.
 const MOST: usize = 100_000;
 
+/// Pairs of triangles that may cross, at most: of surfaces that lie on each other all over it is more.
+const MOST_NEAR: usize = 300_000;
+
+/// Area vector of what is shared, as a share of the first body's, that closes all round.
+const CLOSED: f64 = 1e-3;
+
 /// Surfaces that do not cross although they may be off their triangles by so much of their size only are apart.
 const APART: f64 = 1e-8;
 
@@ -105,6 +111,9 @@ impl Cluster {
             [0, 1].map(|side| BoundsTree::new(self.patches[side].bounds(&placed[side], 0.0)));
         let (near, compared) = trees[0].pairs(&trees[1]);
         work.compared += compared;
+        if near.len() > MOST_NEAR {
+            return Err(RegionError::Deep);
+        }
         let sides = [0, 1].map(|side| Side {
             vertices: &placed[side],
             triangles: &self.patches[side].triangles,
@@ -136,11 +145,15 @@ impl Cluster {
                 if is_fine && !crossing.is_sound {
                     return Err(RegionError::Crossing);
                 }
+                let is_closed = regions.iter().all(Region::is_closed);
+                if is_fine && !is_closed {
+                    return Err(RegionError::Deep);
+                }
                 let all = regions.iter().zip(&sums).map(|(region, sums)| {
                     let (extent, starts) = self.deepest(region, &crossing, &placed);
                     self.found(bodies, sums, extent, starts, is_fine)
                 });
-                if let Some(all) = all.collect::<Option<Vec<_>>>() {
+                if let Some(all) = all.collect::<Option<Vec<_>>>().filter(|_| is_closed) {
                     found.extend(all);
                     continue;
                 }
@@ -193,6 +206,8 @@ impl Cluster {
                 let region = regions.entry(sets.of(number(side, triangle))).or_default();
                 region.triangles[side].push(triangle);
                 region.sums += Sums::of(rim, rim[0][0], side == 0);
+                let along = rim.iter().map(|[p, q]| p.coords.cross(&q.coords));
+                region.open += along.sum::<Vector3<f64>>() * 0.5;
             }
         }
         regions.into_values().filter(Region::is_solid).collect()
@@ -287,9 +302,15 @@ impl Cluster {
 struct Region {
     triangles: [Vec<u32>; 2],
     sums: Sums,
+    /// The area vector of both surfaces' parts: zero where these enclose it.
+    open: Vector3<f64>,
 }
 
 impl Region {
+    fn is_closed(&self) -> bool {
+        self.open.norm() <= CLOSED * self.sums.area.norm()
+    }
+
     /// Whether it has a volume and a normal.
     fn is_solid(&self) -> bool {
         self.sums.volume > 0.0 && self.sums.area.norm() > 0.0

@@ -28,12 +28,17 @@ pub use pair::{ContactPair, ContactPlace};
 use patch::Patch;
 use thiserror::Error;
 
+/// Share of the smaller body from which on two bodies are no bodies that touch.
+const LARGEST_SHARE: f64 = 0.9;
+
 /// A surface made ready for contacts: the work that does not depend on where it lies.
 pub struct ContactBody<'a> {
     surface: &'a dyn Surface,
     whole: Patch,
     /// Of a sphere about the centre that the body lies in.
     radius: f64,
+    /// Of the triangles.
+    volume: f64,
 }
 
 impl<'a> ContactBody<'a> {
@@ -42,6 +47,7 @@ impl<'a> ContactBody<'a> {
         let whole = Patch::whole(surface);
         Self {
             radius: whole.radius(&surface.frame().centre),
+            volume: whole.volume(&surface.frame().centre),
             surface,
             whole,
         }
@@ -111,6 +117,11 @@ pub enum RegionError {
     /// There is neither a normal nor a depth.
     #[error("one body lies wholly inside the other")]
     Inside,
+    /// What they share is most of one of them, or is not told apart from it.
+    #[error(
+        "the bodies lie so deep in each other, or so nearly in the same place, that what they share has no depth and no normal"
+    )]
+    Deep,
     /// Its triangles have no inside.
     #[error("the surfaces share no inside there: one goes through itself, or both coincide")]
     Crossing,
@@ -131,6 +142,10 @@ pub fn contact_regions(
 ) -> Result<ContactRegions, RegionError> {
     let common = Common::new([first, second], pose);
     let (found, work) = found_regions([first, second], &common)?;
+    let shared: f64 = found.iter().map(|found| found.sums.volume).sum();
+    if shared > LARGEST_SHARE * first.volume.min(second.volume) {
+        return Err(RegionError::Deep);
+    }
     let mut regions: Vec<_> = found
         .iter()
         .map(|found| found.told(&common.centre))

@@ -160,6 +160,15 @@ impl Patch {
         away.fold(0.0, f64::max) + self.largest_sag()
     }
 
+    /// The volume of the triangles of a whole surface, seen from a point.
+    pub(super) fn volume(&self, from: &Point3<f64>) -> f64 {
+        let cone = |corners: &[u32; 3]| {
+            let [a, b, c] = corners.map(|i| self.vertices[i as usize] - from);
+            a.dot(&b.cross(&c)) / 6.0
+        };
+        self.triangles.iter().map(cone).sum()
+    }
+
     /// The most by which the surface may be off a triangle.
     pub(super) fn largest_sag(&self) -> f64 {
         self.sags.iter().copied().fold(0.0, f64::max)

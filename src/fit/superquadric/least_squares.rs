@@ -81,14 +81,23 @@ pub(super) fn minimised(
     Ok(found)
 }
 
-/// The best of some fits, all weighed as the one that needs the least scale; `None` of none.
+/// The best of some fits; `None` of none.
 pub(super) fn least(tried: Vec<Minimum>, points: &[Vector3<f64>]) -> Option<Minimum> {
-    let scales = tried.iter().map(|found| &found.weighing);
-    let weighing = *scales.min_by(|p, q| p.scale.total_cmp(&q.scale))?;
+    let best = ranked(tried, points).into_iter().next()?;
+    Some(best.1)
+}
+
+/// Fits with their losses, the least first, all weighed as the one that needs the least scale.
+pub(super) fn ranked(tried: Vec<Minimum>, points: &[Vector3<f64>]) -> Vec<(f64, Minimum)> {
+    let scales = tried.iter().map(|found| found.weighing);
+    let Some(weighing) = scales.min_by(|p, q| p.scale.total_cmp(&q.scale)) else {
+        return Vec::new();
+    };
     let loss = |found: &Minimum| NormalEquations::new(&found.bodies, points, &weighing).loss;
     let weighed = tried.into_iter().map(|found| (loss(&found), found));
-    let best = weighed.min_by(|(p, _), (q, _)| p.total_cmp(q))?;
-    Some(best.1)
+    let mut ranked: Vec<_> = weighed.collect();
+    ranked.sort_by(|(p, _), (q, _)| p.total_cmp(q));
+    ranked
 }
 
 /// Goes down with one weighing.

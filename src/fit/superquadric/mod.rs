@@ -20,4 +20,4 @@ pub use error::SuperquadricFitError;
 pub use form::Form;
 pub use multi::{MAX_UNION_PARTS, MultiFit, fit_multi_superquadric};
 pub use single::{SuperquadricFit, fit_superquadric};
-pub use standard_errors::ParameterErrors;
+pub use standard_errors::{AtBound, ParameterErrors};

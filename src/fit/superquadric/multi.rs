@@ -11,11 +11,8 @@ use super::single::best;
 use super::standard_errors::{ParameterErrors, standard_errors};
 use crate::fit::Residuals;
 use crate::fit::context::Context;
-use crate::model::{
-    Frame, Grain, InvalidGrain, MultiSuperquadric, Part, StarSurface, SuperquadricGrain,
-};
+use crate::model::{Frame, Grain, InvalidGrain, MultiSuperquadric, Part, SuperquadricGrain};
 use nalgebra::{Point3, Vector3};
-use rayon::prelude::*;
 
 /// The most parts that can be asked for.
 pub const MAX_UNION_PARTS: usize = 12;
@@ -44,7 +41,7 @@ pub struct MultiFit {
     pub union: MultiSuperquadric,
     /// Where its centre and axes are in the scan.
     pub frame: Frame,
-    /// Distances of the points, along rays from the centre, from where these leave the union.
+    /// Distances of the points from the part that is nearest, along rays from its centre.
     pub residuals: Residuals,
     /// Mean distance of the points from their mean, in the scan's unit.
     pub mean_radius: f64,
@@ -194,14 +191,10 @@ fn told(
     let (union, frame) = about(cloud.centre).or_else(|outside: SuperquadricFitError| {
         largest_part.map_or(Err(outside), |(_, own)| about(own.centre))
     })?;
-    let away = |point: &Vector3<f64>| {
-        let seen = frame.to_local(&(cloud.centre + point * cloud.size));
-        seen.norm() - union.radius(&seen.normalize())
-    };
-    let distances: Vec<f64> = cloud.points.par_iter().map(away).collect();
+    let distances = distances(&found.bodies, &cloud.points);
     let errors = standard_errors(cloud, found);
     Ok(MultiFit {
-        residuals: Residuals::of(distances),
+        residuals: Residuals::of(distances.iter().map(|d| d * cloud.size)),
         mean_radius: cloud.size,
         union,
         frame,

@@ -4,11 +4,11 @@ use super::bodies::Body;
 use super::cloud::Cloud;
 use super::error::SuperquadricFitError;
 use super::form::Form;
-use super::least_squares::{End, Minimum, descended, deviation, least, minimised, weighed};
+use super::least_squares::{End, Minimum, descended, deviation, least, minimised, ranked, weighed};
 use super::normal_equations::{Reach, Weighing, distances};
 use super::standard_errors::{ParameterErrors, standard_errors};
 use crate::fit::Residuals;
-use crate::fit::context::Context;
+use crate::fit::context::{Cancelled, Context};
 use crate::model::{Frame, Grain, InvalidGrain, Superquadric, SuperquadricGrain};
 use nalgebra::{Matrix3, Point3, Vector3};
 
@@ -17,10 +17,21 @@ const ROUGH: End = End {
     steps: 20,
     gain: 1e-4,
 };
-const FINE: End = End {
-    steps: 40,
-    gain: 1e-5,
+const LEANING: End = End {
+    steps: 60,
+    gain: 1e-6,
 };
+const FINE: End = End {
+    steps: 60,
+    gain: 1e-6,
+};
+
+/// The logarithm by which a body that leans is longer to one side, and shorter to the other.
+const LEAN: f64 = 0.3;
+
+/// How many times the least loss of few points may be the least of all points, and by how much more it is another minimum.
+const NEARLY_BEST: f64 = 1.03;
+const SAME_MINIMUM: f64 = 1.0 + 1e-3;
 
 /// Half the points this near, in mean radii, are of the body.
 const NEAR: f64 = 0.01;
@@ -61,8 +72,8 @@ impl SuperquadricFit {
 
 /// Fits a superquadric to points of its surface, some of which may be astray.
 ///
-/// The fit begins with the second moments of the points, in the three orders of axes that make different bodies, and
-/// keeps the best. The result does not depend on where the points lie, how they are turned or scaled.
+/// The fit begins with the second moments of the points, in the three orders of axes that make different bodies, and, of
+/// octants that differ, with the best of these leaning to all sides; it keeps the best. The result does not depend on where the points lie, how they are turned or scaled.
 ///
 /// # Errors
 /// [`SuperquadricFitError`] if there are too few points, or they enclose no volume.
@@ -98,32 +109,94 @@ pub(super) fn best(
     } else {
         &few
     };
-    let wide = best_within(cloud, few, form, Reach::Wide, context)?;
-    let nearness = deviation(&wide.bodies, few);
-    let start = match nearness < NEAR {
-        true => wide,
-        false => {
-            let narrow = best_within(cloud, few, form, Reach::Narrow, context)?;
-            match deviation(&narrow.bodies, few) < MUCH_NEARER * nearness {
-                true => narrow,
-                false => wide,
-            }
-        }
+    let mut tried = starts_tried(cloud, few, form, Reach::Wide, context)?;
+    let wide = ranked(tried.clone(), few);
+    let nearness = match wide.first() {
+        Some((_, wide)) => deviation(&wide.bodies, few),
+        None => return Err(SuperquadricFitError::NoVolume),
     };
-    let weighing = weighed(&start.bodies, &cloud.points, &start.weighing);
-    let mut found = descended(start.bodies, &cloud.points, weighing, FINE, context)?;
-    found.iterations += start.iterations;
-    Ok(found)
+    if nearness >= NEAR {
+        let narrow = starts_tried(cloud, few, form, Reach::Narrow, context)?;
+        let best = ranked(narrow.clone(), few);
+        if best
+            .first()
+            .is_some_and(|(_, best)| deviation(&best.bodies, few) < MUCH_NEARER * nearness)
+        {
+            tried = narrow;
+        }
+    }
+    if form != Form::Single
+        && let Some((_, best)) = ranked(tried.clone(), few).first()
+    {
+        for start in leaning(&best.bodies[0]) {
+            tried.push(minimised(
+                vec![start],
+                few,
+                &best.weighing,
+                LEANING,
+                context,
+            )?);
+        }
+    }
+    let iterations: usize = tried.iter().map(|found| found.iterations).sum();
+    let finer = distinct(ranked(tried, few)).into_iter().map(|start| {
+        let weighing = weighed(&start.bodies, &cloud.points, &start.weighing);
+        descended(start.bodies, &cloud.points, weighing, FINE, context)
+    });
+    let finer = finer.collect::<Result<Vec<_>, _>>()?;
+    let found = least(finer, &cloud.points).ok_or(SuperquadricFitError::NoVolume)?;
+    Ok(Minimum {
+        iterations: iterations + found.iterations,
+        ..found
+    })
 }
 
-/// The best of all starts with one reach of the loss.
-fn best_within(
+/// Of fits in the order of their losses those that may be the best with all points, each minimum once.
+fn distinct(ranked: Vec<(f64, Minimum)>) -> Vec<Minimum> {
+    let least = ranked.first().map_or(0.0, |(loss, _)| *loss);
+    let mut before = f64::NEG_INFINITY;
+    let mut found = Vec::new();
+    for (loss, minimum) in ranked {
+        if loss > NEARLY_BEST * least {
+            break;
+        }
+        if loss > SAME_MINIMUM * before {
+            found.push(minimum);
+        }
+        before = loss;
+    }
+    found
+}
+
+/// A body that leans to one side along each of its axes, in all ways: a body that is nearly alike on both sides may be a
+/// saddle, which fits leave to whichever side rounding has it.
+fn leaning(body: &Body) -> impl Iterator<Item = Body> {
+    (0..8).map(|way| {
+        let mut leaning = *body;
+        for axis in 0..3 {
+            let lean = if way >> axis & 1 == 0 { LEAN } else { -LEAN };
+            let sides = [2 * axis, 2 * axis + 1];
+            let width = |body: &Body| sides.map(|side| body.logs[side].exp());
+            let [positive, negative] = width(body);
+            let middle = (0.5 * (positive + negative)).ln();
+            leaning.logs[sides[0]] = middle + lean;
+            leaning.logs[sides[1]] = middle - lean;
+            let [longer, shorter] = width(&leaning);
+            let aside = 0.5 * ((positive - negative) - (longer - shorter));
+            leaning.centre += body.axes.column(axis) * aside;
+        }
+        leaning
+    })
+}
+
+/// The fits of all starts with one reach of the loss.
+fn starts_tried(
     cloud: &Cloud,
     points: &[Vector3<f64>],
     form: Form,
     reach: Reach,
     context: &Context<'_>,
-) -> Result<Minimum, SuperquadricFitError> {
+) -> Result<Vec<Minimum>, Cancelled> {
     let like = Weighing {
         form,
         reach,
@@ -131,12 +204,9 @@ fn best_within(
         prior: 0.0,
         sharpness: 1.0,
     };
-    let tried = starts(cloud)
+    starts(cloud)
         .map(|start| minimised(vec![start], points, &like, ROUGH, context))
-        .collect::<Result<Vec<_>, _>>()?;
-    let iterations = tried.iter().map(|found| found.iterations).sum();
-    let best = least(tried, points).ok_or(SuperquadricFitError::NoVolume)?;
-    Ok(Minimum { iterations, ..best })
+        .collect()
 }
 
 /// The ellipsoid of equal second moments in three orders of axes.

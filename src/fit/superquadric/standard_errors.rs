@@ -30,6 +30,19 @@ pub struct ParameterErrors {
     pub rotation_rad: [Option<f64>; 3],
     /// Of the centre along the body's axes, in the scan's unit.
     pub centre: [Option<f64>; 3],
+    /// Which numbers are at a bound of the fit, beyond which the points would have them.
+    pub at_bound: AtBound,
+}
+
+/// Which numbers of a superquadric are at a bound of the fit, in the order of [`ParameterErrors`].
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct AtBound {
+    /// Semi-axes.
+    pub semi_axes: [[bool; 2]; 3],
+    /// n1.
+    pub n1: [bool; 2],
+    /// n2.
+    pub n2: [[bool; 2]; 2],
 }
 
 /// Rotations less certain than this, in radians, are not determined.
@@ -68,7 +81,13 @@ fn told(
     };
     let pair = |from: usize| [number(from), number(from + 1)];
     let pose = |i: usize| deviation(form.numbers() + i);
+    let bounds = |from: usize| [from, from + 1].map(|number| body.is_at_bound(number));
     ParameterErrors {
+        at_bound: AtBound {
+            semi_axes: [bounds(0), bounds(2), bounds(4)],
+            n1: bounds(6),
+            n2: [bounds(8), bounds(10)],
+        },
         semi_axes: [pair(0), pair(2), pair(4)],
         n1: pair(6),
         n2: [pair(8), pair(10)],

@@ -112,6 +112,32 @@ fn a_fit_moves_turns_and_grows_with_the_scan_and_forgets_the_order_of_points() {
 }
 
 #[test]
+fn of_a_grain_with_several_minima_the_same_is_found_wherever_it_lies() {
+    let points = grain(Body::Maize);
+    let here = fitted(&points, Form::Poly12);
+    let percent = 100.0 * here.residuals.rms / here.mean_radius;
+    assert!(percent < 3.62, "{percent}");
+    let bounds = here.errors.at_bound.n2;
+    assert!(bounds.as_flattened().contains(&true), "{bounds:?}");
+    for (turn, factor, aside) in [
+        (Vector3::zeros(), 1.0, Vector3::new(13.7, -5.1, 101.3)),
+        (Vector3::zeros(), 100.0, Vector3::zeros()),
+        (Vector3::new(0.4, 0.7, -0.2), 1.0, Vector3::zeros()),
+    ] {
+        let turn = Rotation3::new(turn);
+        let moved: Vec<_> = points.iter().map(|p| turn * p * factor + aside).collect();
+        let there = fitted(&moved, Form::Poly12);
+        let grown = volume(&there.shape) / f64::powi(factor, 3);
+        assert_relative_eq!(volume(&here.shape), grown, max_relative = 1e-3);
+        assert_relative_eq!(
+            factor * here.residuals.rms,
+            there.residuals.rms,
+            max_relative = 1e-3
+        );
+    }
+}
+
+#[test]
 fn grains_are_fitted_as_well_as_so_few_numbers_can() {
     for (body, most) in [
         (Body::Bean, [2.995, 2.415, 1.335]),

@@ -53,25 +53,48 @@ impl Patch {
         body: &Superquadric,
         rule: &GaussLegendre,
     ) -> impl Iterator<Item = Node> {
-        let axis = |i: usize| {
-            let i = (self.face + i) % 3;
-            Vector3::ith(i, self.octant.axes[i] * self.octant.signs[i])
-        };
-        let (normal, du, dv) = (axis(0), axis(1), axis(2));
-        let [[u0, u1], [v0, v1]] = self.sides;
-        rule.on(u0, u1).flat_map(move |(u, wu)| {
-            rule.on(v0, v1).map(move |(v, wv)| {
-                // The face point x is carried to x / g.
-                let x = normal + du * u + dv * v;
-                let (gauge, slope) = body.gauge_and_slope(&x);
-                let along = |t: &Vector3<f64>| (t - x * (slope.dot(t) / gauge)) / gauge;
-                let area = along(&du).cross(&along(&dv)) * (wu * wv);
-                let point = x / gauge;
+        let [along, across] = self.sides;
+        rule.on(along[0], along[1]).flat_map(move |(u, wu)| {
+            let [from, to] = across;
+            rule.on(from, to).map(move |(v, wv)| {
+                let node = self.node(body, [u, v]);
                 Node {
-                    point,
-                    area: area * area.dot(&point).signum(),
+                    area: node.area * (wu * wv),
+                    ..node
                 }
             })
         })
+    }
+
+    /// From and to along its two sides, as shares of the semi-axes.
+    pub(super) fn sides(&self) -> [[f64; 2]; 2] {
+        self.sides
+    }
+
+    /// The point at a place of the patch, and the area there per area of the face: the place x is carried to x / g.
+    pub(super) fn node(&self, body: &Superquadric, [u, v]: [f64; 2]) -> Node {
+        let [normal, du, dv] = [0, 1, 2].map(|i| {
+            let i = (self.face + i) % 3;
+            Vector3::ith(i, self.octant.axes[i] * self.octant.signs[i])
+        });
+        let x = normal + du * u + dv * v;
+        let (gauge, slope) = body.gauge_and_slope(&x);
+        let along = |t: &Vector3<f64>| (t - x * (slope.dot(t) / gauge)) / gauge;
+        let area = along(&du).cross(&along(&dv));
+        let point = x / gauge;
+        Node {
+            point,
+            area: area * area.dot(&point).signum(),
+        }
+    }
+
+    /// The point at a place of the patch.
+    pub(super) fn point(&self, body: &Superquadric, [u, v]: [f64; 2]) -> Vector3<f64> {
+        let mut x = Vector3::zeros();
+        for (i, share) in [1.0, u, v].into_iter().enumerate() {
+            let i = (self.face + i) % 3;
+            x[i] = share * self.octant.axes[i] * self.octant.signs[i];
+        }
+        x / body.gauge(&x)
     }
 }

@@ -4,7 +4,8 @@ use super::{Scheme, SurveyError};
 use crate::Mesh;
 use crate::measure::unit::Unit;
 use crate::measure::{
-    MassProperties, ScannedBody, four_triangles, grain_properties, mesh_properties,
+    MassProperties, ScannedBody, SolidProperties, four_triangles, grain_properties,
+    mesh_properties, solid_properties,
 };
 use crate::model::{Grain, Radial, StarSurface, Surface};
 use crate::sphere::cube_grid;
@@ -55,17 +56,29 @@ impl<'a> Body<'a> {
         Self::mesh(&scanned.mesh, inside)
     }
 
-    /// Area, volume, centroid and inertia.
-    pub(super) fn properties(&self) -> Result<MassProperties, SurveyError> {
-        let found = match self {
-            Self::Grain(grain, Scheme::Exact) => grain_properties(grain.as_ref()).properties,
-            Self::Grain(grain, Scheme::FourTriangles) => {
+    /// Area, volume and moments of a union of superquadrics, and how well they are known; `None` of all else.
+    pub(super) fn union(&self) -> Option<SolidProperties> {
+        match self {
+            Self::Grain(grain, Scheme::Exact) => grain.superquadric().map(solid_properties),
+            _ => None,
+        }
+    }
+
+    /// Area, volume, centroid and inertia; those of a union are known.
+    pub(super) fn properties(
+        &self,
+        union: Option<&SolidProperties>,
+    ) -> Result<MassProperties, SurveyError> {
+        let found = match (self, union) {
+            (_, Some(solid)) => solid.properties,
+            (Self::Grain(grain, Scheme::Exact), _) => grain_properties(grain.as_ref()).properties,
+            (Self::Grain(grain, Scheme::FourTriangles), _) => {
                 let star = grain.star().ok_or(SurveyError::NoRadius)?;
                 four_triangles(star, PUBLISHED_GRID, PUBLISHED_GRID)
             }
-            Self::Known(_, properties) => return Ok(*properties),
-            Self::Mesh(_, Inside::Unknown(error)) => return Err(error.clone()),
-            Self::Mesh(mesh, _) => mesh_properties(mesh)?,
+            (Self::Known(_, properties), _) => return Ok(*properties),
+            (Self::Mesh(_, Inside::Unknown(error)), _) => return Err(error.clone()),
+            (Self::Mesh(mesh, _), _) => mesh_properties(mesh)?,
         };
         let figures = found.inertia.iter().chain(found.centroid.iter());
         let is_finite = found.area.is_finite() && figures.copied().all(f64::is_finite);
@@ -93,12 +106,18 @@ impl<'a> Body<'a> {
         }
     }
 
-    /// The surface, if it has a formula.
-    pub(super) fn surface(&self) -> Option<&(dyn Surface + Sync)> {
+    /// The surface, if it has a formula over directions.
+    ///
+    /// # Errors
+    /// Of a mesh, and of a union that no centre sees whole.
+    pub(super) fn surface(&self) -> Result<&(dyn Surface + Sync), SurveyError> {
         match self {
-            Self::Grain(grain, _) => Some(grain.as_ref()),
-            Self::Known(surface, _) => Some(surface),
-            Self::Mesh(..) => None,
+            Self::Grain(grain, _) => match grain.hidden_share() {
+                0.0 => Ok(grain.as_ref()),
+                share => Err(SurveyError::Hidden { share }),
+            },
+            Self::Known(surface, _) => Ok(surface),
+            Self::Mesh(..) => Err(SurveyError::Flat),
         }
     }
 }

@@ -58,6 +58,15 @@ pub enum SurveyError {
     /// It is made of radii, which the model does not have.
     #[error("it is made from radii, and this model is not one of a star-shaped body")]
     NoRadius,
+    /// Its surface is not one over the directions from its centre.
+    #[error(
+        "in {:.1} % of the directions the union of superquadrics hides a part of its surface from its centre",
+        100.0 * share
+    )]
+    Hidden {
+        /// Share of the directions.
+        share: f64,
+    },
     /// The figure is too large or too small for a number of 64 bits.
     #[error("in this unit it is beyond the range of numbers: change the unit")]
     OutOfRange,

@@ -8,8 +8,8 @@ use crate::measure::elements::{Element, mesh_elements, surface_elements};
 use crate::measure::extents::{RESOLUTION, Reach, sorted};
 use crate::measure::nodes::{Integrand, nodes};
 use crate::measure::{
-    Ball, EquivalentEllipsoid, MassProperties, OrientedBox, PrincipalInertia, convex_hull,
-    enclosing_ball, extents, inscribed_ball, minimum_box,
+    Ball, EquivalentEllipsoid, MassProperties, OrientedBox, PrincipalInertia, SolidProperties,
+    convex_hull, enclosing_ball, extents, inscribed_ball, minimum_box,
 };
 use crate::model::Surface;
 use nalgebra::Vector3;
@@ -22,8 +22,15 @@ const LARGEST_OVERHANG: f64 = 0.01;
 impl Survey<'_> {
     /// Area, volume and moments at unit size.
     pub(crate) fn unit_properties(&self) -> Result<&MassProperties, SurveyError> {
-        let found = self.properties.get_or_init(|| self.body.properties());
+        let found = self
+            .properties
+            .get_or_init(|| self.body.properties(self.unit_union()));
         found.as_ref().map_err(Clone::clone)
+    }
+
+    /// Those of a union of superquadrics, and how well they are known.
+    pub(super) fn unit_union(&self) -> Option<&SolidProperties> {
+        self.union.get_or_init(|| self.body.union()).as_ref()
     }
 
     pub(super) fn unit_principal(&self) -> Result<PrincipalInertia, SurveyError> {
@@ -91,7 +98,7 @@ impl Survey<'_> {
 
     /// The surface, if it has a formula, and where it reaches to.
     pub(super) fn reach(&self) -> Option<Reach<'_>> {
-        let surface = self.body.surface()?;
+        let surface = self.body.surface().ok()?;
         let mesh = self.mesh();
         Some(Reach { surface, mesh })
     }
@@ -106,11 +113,11 @@ impl Survey<'_> {
         self.one_body()?;
         let centroid = self.unit_properties()?.centroid;
         let elements = self.elements.get_or_init(|| match self.body.surface() {
-            Some(surface) => {
+            Ok(surface) => {
                 let shift = surface.frame().centre - centroid;
                 surface_elements(surface, &nodes(surface, Integrand::Slopes), &shift)
             }
-            None => mesh_elements(self.mesh(), &centroid),
+            Err(_) => mesh_elements(self.mesh(), &centroid),
         });
         let (mut front, mut back) = (0.0, 0.0);
         for element in elements {

@@ -1,14 +1,19 @@
 //! The grain that is a union of superquadrics, of one or several.
 
+use super::outside::outside;
 use super::{MultiSuperquadric, Part, Superquadric};
+use crate::mesh::Mesh;
 use crate::model::{Frame, InvalidGrain, Radial, StarSurface, Surface, SurfaceJet, Tiling};
 use nalgebra::{Matrix3, Point3, Vector3};
 
 /// A union of superquadrics and where it lies in the scan, seen as the surface that rays from its centre leave last.
+///
+/// Where these meet it again, that is not its whole surface ([`Self::hidden_share`]); its [mesh](Surface::mesh) is.
 #[derive(Debug, Clone)]
 pub struct SuperquadricGrain {
     frame: Frame,
     body: MultiSuperquadric,
+    hidden_share: f64,
 }
 
 impl SuperquadricGrain {
@@ -30,12 +35,22 @@ impl SuperquadricGrain {
     /// As [`Self::single`].
     pub fn multi(frame: Frame, body: MultiSuperquadric) -> Result<Self, InvalidGrain> {
         frame.check()?;
-        Ok(Self { frame, body })
+        Ok(Self {
+            frame,
+            hidden_share: body.hidden_share(),
+            body,
+        })
     }
 
     /// The superquadrics, in the grain's own frame.
     pub fn body(&self) -> &MultiSuperquadric {
         &self.body
+    }
+
+    /// Share of the directions in which a ray from the centre leaves the union and meets it again: zero of a union that
+    /// the centre sees whole.
+    pub fn hidden_share(&self) -> f64 {
+        self.hidden_share
     }
 
     /// The grain about the origin, so many times as large.
@@ -46,7 +61,21 @@ impl SuperquadricGrain {
                 ..self.frame
             },
             body: self.body.times(factor),
+            hidden_share: self.hidden_share,
         }
+    }
+
+    /// What is known of the surface at a point of it, from the part that it belongs to: the direction from that part's
+    /// centre, and the jet of the part over these directions.
+    pub(crate) fn jet_of_part(&self, point: &Point3<f64>) -> (Vector3<f64>, SurfaceJet) {
+        let local = self.frame.to_local(point);
+        let parts = self.body.parts().iter();
+        let nearest = parts.min_by(|p, q| p.gauge(&local).total_cmp(&q.gauge(&local)));
+        let Part { shape, frame } = nearest.unwrap_or(&self.body.parts()[0]);
+        let seen = frame.to_local(&local.into()).normalize();
+        let axes = self.frame.axes * frame.axes;
+        let n = axes * seen;
+        (n, shape.derivatives(&seen).turned(&axes).radial(&n))
     }
 
     /// Numbers of its shape: those of each part, and six for its pose beside the first.
@@ -88,5 +117,22 @@ impl Surface for SuperquadricGrain {
 
     fn may_cross(&self) -> bool {
         false
+    }
+
+    /// Of a union that the centre does not see whole one over a lattice, about as fine: closed and consistently oriented
+    /// all the same.
+    fn mesh(&self, resolution: usize) -> Mesh {
+        let Frame { centre, axes } = self.frame;
+        let local = match self.hidden_share > 0.0 {
+            true => outside(&self.body, resolution),
+            false => Mesh::radial(resolution, |n| self.body.radius(n)),
+        };
+        let vertices = local.vertices.iter();
+        Mesh {
+            vertices: vertices
+                .map(|vertex| centre + axes * vertex.coords)
+                .collect(),
+            triangles: local.triangles,
+        }
     }
 }

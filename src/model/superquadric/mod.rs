@@ -4,10 +4,13 @@
 //! gauge and the support function are both closed forms, and so contacts of superquadrics are cheap to find and to
 //! prove.
 
+mod connected;
 mod gauge;
 mod grain;
+mod line;
 mod multi;
 mod norm;
+mod outside;
 mod record;
 mod shape;
 mod support;

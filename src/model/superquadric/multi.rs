@@ -1,12 +1,10 @@
 //! A union of superquadrics.
 
+use super::connected::apart;
 use super::{InvalidSuperquadric, Superquadric};
 use crate::model::{Derivatives, Frame, StarSurface};
 use crate::sphere::Jet;
 use nalgebra::{Matrix3, Vector3};
-
-/// Steps allowed to a ray on its way out of a part; Newton's iteration on a convex function takes fewer than ten.
-const MAX_STEPS: usize = 100;
 
 /// A superquadric and where it lies in the union.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -23,28 +21,6 @@ impl Part {
     pub fn gauge(&self, x: &Vector3<f64>) -> f64 {
         self.shape.gauge(&self.frame.to_local(&(*x).into()))
     }
-
-    /// The distance along the unit vector `n` at which a ray from the origin leaves the part for good; `None` where
-    /// it does not meet the part.
-    fn exit(&self, n: &Vector3<f64>) -> Option<f64> {
-        let along = self.frame.axes.tr_mul(n);
-        let from = self.frame.axes.tr_mul(&-self.frame.centre.coords);
-        // Past the far side the gauge rises along the ray, convex, and Newton's iteration comes from there one way.
-        let mut t = -from.dot(&along) + self.shape.bounding_radius();
-        for _ in 0..MAX_STEPS {
-            let (gauge, slope) = self.shape.gauge_and_slope(&(from + along * t));
-            let rise = slope.dot(&along);
-            if rise <= 0.0 {
-                return None;
-            }
-            let step = (gauge - 1.0) / rise;
-            t -= step;
-            if step <= 1e-15 * t.abs() {
-                return Some(t);
-            }
-        }
-        None
-    }
 }
 
 /// A union of superquadrics, each convex, which together need not be so.
@@ -57,10 +33,11 @@ pub struct MultiSuperquadric {
 }
 
 impl MultiSuperquadric {
-    /// The union of parts, one of which at least holds the origin.
+    /// The union of parts that hang together, one of which at least holds the origin.
     ///
     /// # Errors
-    /// [`InvalidSuperquadric`] if there is no part, a frame is not orthonormal, or the origin is outside.
+    /// [`InvalidSuperquadric`] if there is no part, a frame is not orthonormal, the origin is outside, or a part lies apart
+    /// from the others.
     pub fn new(parts: Vec<Part>) -> Result<Self, InvalidSuperquadric> {
         if parts.is_empty() {
             return Err(InvalidSuperquadric::NoParts);
@@ -68,6 +45,9 @@ impl MultiSuperquadric {
         for (index, part) in parts.iter().enumerate() {
             let frame = part.frame.check();
             frame.map_err(|_| InvalidSuperquadric::Frame { part: index })?;
+        }
+        if let Some(part) = apart(&parts) {
+            return Err(InvalidSuperquadric::Apart { part });
         }
         let union = Self { parts };
         match union.gauge(&Vector3::zeros()) < 1.0 {
@@ -104,7 +84,8 @@ impl MultiSuperquadric {
 
     /// The part that a ray leaves last, and where.
     fn last(&self, n: &Vector3<f64>) -> (&Part, f64) {
-        let exits = self.parts.iter().map(|part| (part, part.exit(n)));
+        let from = Vector3::zeros();
+        let exits = self.parts.iter().map(|part| (part, part.exit(&from, n)));
         let none = (&self.parts[0], 0.0);
         exits.fold(none, |last, (part, exit)| match exit {
             Some(exit) if exit > last.1 => (part, exit),
@@ -198,10 +179,15 @@ mod tests {
     }
 
     #[test]
-    fn a_union_without_its_origin_is_refused() {
+    fn a_union_without_its_origin_or_that_falls_apart_is_refused() {
         let aside = part([5.0, 0.0, 0.0], [0.0; 3]);
         let refused = MultiSuperquadric::new(vec![aside]);
         assert_eq!(refused, Err(InvalidSuperquadric::OriginOutside));
+        let far = [0.0, 20.0].map(|x| part([x, 0.0, 0.0], [0.0; 3]));
+        assert_eq!(
+            MultiSuperquadric::new(far.into()),
+            Err(InvalidSuperquadric::Apart { part: 1 })
+        );
         assert_eq!(
             MultiSuperquadric::new(Vec::new()),
             Err(InvalidSuperquadric::NoParts)

@@ -68,6 +68,14 @@ pub enum InvalidSuperquadric {
         /// Index of the part.
         part: usize,
     },
+    /// A part touches no other that hangs together with the first.
+    #[error(
+        "part {part} of the union (the first is 0) lies apart from the others: a grain is one body"
+    )]
+    Apart {
+        /// Index of the part.
+        part: usize,
+    },
     /// The union does not hold its origin.
     #[error("the centre of the union lies in none of its parts")]
     OriginOutside,

@@ -79,9 +79,15 @@ pub struct Measures {
     /// Area.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub area: Option<f64>,
+    /// Its error by quadrature, as a share of it; absent unless the body is a union of superquadrics.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub area_error: Option<f64>,
     /// Volume.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub volume: Option<f64>,
+    /// Its error by quadrature, likewise; that of the moments too, as a share of the volume and the size.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub volume_error: Option<f64>,
     /// Centroid.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub centroid: Option<[f64; 3]>,
@@ -256,8 +262,14 @@ impl NotMeasured {
 impl Measures {
     fn take(&mut self, measure: Measure, survey: &Survey<'_>) -> Result<(), SurveyError> {
         match measure {
-            Measure::Area => self.area = Some(survey.area()?),
-            Measure::Volume => self.volume = Some(survey.volume()?),
+            Measure::Area => {
+                self.area = Some(survey.area()?);
+                self.area_error = survey.quadrature_errors().map(|[area, _]| area);
+            }
+            Measure::Volume => {
+                self.volume = Some(survey.volume()?);
+                self.volume_error = survey.quadrature_errors().map(|[_, volume]| volume);
+            }
             Measure::Centroid => self.centroid = Some(survey.properties()?.centroid.coords.into()),
             Measure::Inertia => self.inertia = Some(rows(&survey.inertia()?)),
             Measure::Principal => self.principal = Some(Principal::new(&survey.principal()?)),

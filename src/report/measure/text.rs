@@ -42,11 +42,17 @@ impl MeasureReport {
     fn mass(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let labels = Labels(self.unit);
         let measures = &self.measures;
+        let told = |value: f64, share: Option<f64>| match share {
+            Some(share) => with_error(value, Some(value * share)),
+            None => short(value),
+        };
         if let Some(area) = measures.area {
-            writeln!(f, "area          {}{}", short(area), labels.area())?;
+            let area = told(area, measures.area_error);
+            writeln!(f, "area          {area}{}", labels.area())?;
         }
         if let Some(volume) = measures.volume {
-            writeln!(f, "volume        {}{}", short(volume), labels.volume())?;
+            let volume = told(volume, measures.volume_error);
+            writeln!(f, "volume        {volume}{}", labels.volume())?;
         }
         if let Some(centroid) = measures.centroid {
             writeln!(f, "centroid      {}{}", triple(centroid), labels.length())?;
