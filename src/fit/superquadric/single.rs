@@ -12,14 +12,10 @@ use crate::fit::context::{Cancelled, Context};
 use crate::model::{Frame, Grain, InvalidGrain, Superquadric, SuperquadricGrain};
 use nalgebra::{Matrix3, Point3, Vector3};
 
-/// How long fits go on with few points, and with all of them.
+/// How long fits go on from a first guess, and after that.
 const ROUGH: End = End {
     steps: 20,
     gain: 1e-4,
-};
-const LEANING: End = End {
-    steps: 60,
-    gain: 1e-6,
 };
 const FINE: End = End {
     steps: 60,
@@ -73,7 +69,8 @@ impl SuperquadricFit {
 /// Fits a superquadric to points of its surface, some of which may be astray.
 ///
 /// The fit begins with the second moments of the points, in the three orders of axes that make different bodies, and, of
-/// octants that differ, with the best of these leaning to all sides; it keeps the best. The result does not depend on where the points lie, how they are turned or scaled.
+/// octants that differ, with the best of these leaning to all sides; it keeps the best. The result does not depend on where
+/// the points lie, how they are turned or scaled.
 ///
 /// # Errors
 /// [`SuperquadricFitError`] if there are too few points, or they enclose no volume.
@@ -125,21 +122,25 @@ pub(super) fn best(
             tried = narrow;
         }
     }
+    for found in &mut tried {
+        let before = found.iterations;
+        *found = descended(found.bodies.clone(), few, found.weighing, FINE, context)?;
+        found.iterations += before;
+    }
     if form != Form::Single
         && let Some((_, best)) = ranked(tried.clone(), few).first()
     {
         for start in leaning(&best.bodies[0]) {
-            tried.push(minimised(
-                vec![start],
-                few,
-                &best.weighing,
-                LEANING,
-                context,
-            )?);
+            tried.push(minimised(vec![start], few, &best.weighing, FINE, context)?);
         }
     }
     let iterations: usize = tried.iter().map(|found| found.iterations).sum();
-    let finer = distinct(ranked(tried, few)).into_iter().map(|start| {
+    let mut nearly_best = distinct(ranked(tried, few));
+    if form == Form::Single {
+        // Few points tell the best of three orders of axes.
+        nearly_best.truncate(1);
+    }
+    let finer = nearly_best.into_iter().map(|start| {
         let weighing = weighed(&start.bodies, &cloud.points, &start.weighing);
         descended(start.bodies, &cloud.points, weighing, FINE, context)
     });
