@@ -152,7 +152,7 @@ fn settings_out_of_range_are_refused_before_work() {
         refuse(&["synth", body, "--axes", axes], &[expected]);
     };
     axes("maize", "2,2,1", "the maize has one size");
-    axes("ellipsoid", "2,2", "three finite numbers");
+    axes("ellipsoid", "2,2", "three numbers");
     axes("ellipsoid", "-2,2,1", "a semi-axis must be 0.000001 to");
     axes("octahedron", "2,nan,1", "not NaN");
     axes("cylinder", "2,1,1", "a cylinder is round");
