@@ -147,7 +147,10 @@ fn settings_out_of_range_are_refused_before_work() {
         &["synth", "pea"],
         &["bean, chickpea, maize, sphere, ellipsoid"],
     );
-    refuse(&["synth", "bean", "--offset", "1,2"], &["three finite numbers"]);
+    refuse(
+        &["synth", "bean", "--offset", "1,2"],
+        &["three finite numbers"],
+    );
     let axes = |body: &str, axes: &str, expected: &str| {
         refuse(&["synth", body, "--axes", axes], &[expected]);
     };
