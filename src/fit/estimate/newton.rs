@@ -194,3 +194,47 @@ fn is_better(place: &Place, best: &Place) -> bool {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// How many places a search looks at where nobody knows the cost, a quadratic one, and proposals go so many times too far;
+    /// and how far off the last one is.
+    fn looks(too_far: f64) -> (usize, f64) {
+        let start = Spectrum::start();
+        let least = Vector5::from(start.logarithms) + Vector5::new(0.3, -0.3, 0.3, 0.3, 0.0);
+        let curvature = Matrix5::from_diagonal(&Vector5::new(400.0, 300.0, 200.0, 5000.0, 1.0));
+        let mut search = Newton::new(0.3);
+        let mut at = start;
+        for look in 1.. {
+            let off = Vector5::from(at.logarithms) - least;
+            let proposed = least - off * (too_far - 1.0);
+            let place = Place {
+                spectrum: at,
+                cost: None,
+                gradient: curvature * off,
+                information: None,
+                proposal: (
+                    at.moved_to(proposed.into()),
+                    0.5 * too_far * off.dot(&(curvature * off)),
+                ),
+                curvature: curvature / too_far,
+            };
+            match search.next(place) {
+                Next::Try(next) => at = next,
+                Next::Here => return (look, off.norm()),
+                Next::Back(_) => panic!("no step fails"),
+            }
+        }
+        unreachable!("searches end")
+    }
+
+    #[test]
+    fn steps_that_go_too_far_are_corrected_by_the_gradients() {
+        for too_far in [1.0, 1.2, 1.6, 1.9] {
+            let (looks, off) = looks(too_far);
+            assert!(looks <= 4 && off < 0.03, "{too_far}: {looks}, {off}");
+        }
+    }
+}
