@@ -7,9 +7,21 @@ use crate::batch::{compare, read_results};
 use crate::report::short;
 use anyhow::{Result, bail};
 use comfy_table::{CellAlignment, Table, presets::NOTHING};
+use std::collections::BTreeSet;
 
 pub(super) fn run(args: CompareArgs, console: Console) -> Result<()> {
-    let comparisons = compare(&read_results(&args.first)?, &read_results(&args.second)?);
+    let lots = [read_results(&args.first)?, read_results(&args.second)?];
+    let units: BTreeSet<&str> = lots
+        .iter()
+        .flat_map(|lot| &lot.units)
+        .map(String::as_str)
+        .collect();
+    if units.len() > 1 {
+        let units = Vec::from_iter(units).join(" and ");
+        bail!("lots in {units} are not to be compared: run batch with the same --unit");
+    }
+    let [first, second] = &lots;
+    let comparisons = compare(first, second);
     if comparisons.is_empty() {
         bail!(
             "there is nothing to compare: {} and {} share no measure that two grains of each have",

@@ -242,3 +242,24 @@ fn a_table_of_something_else_is_not_compared() {
         errors(&output)
     );
 }
+
+#[test]
+fn lots_in_different_units_are_not_compared() {
+    let folder = folder();
+    let lot = |name: &str, unit: &str| {
+        let rows = format!("a.ply,done,{unit},1.5\nb.ply,done,{unit},1.7\n");
+        let table = format!("path,status,unit,volume\n{rows}");
+        std::fs::write(folder.path().join(name), table).unwrap();
+    };
+    lot("mm.csv", "mm");
+    lot("um.csv", "um");
+    lot("none.csv", "");
+    let compared = |other: &str| grainform(&folder, &["compare", "mm.csv", other]);
+    for other in ["mm.csv", "none.csv"] {
+        assert!(compared(other).status.success(), "{other}");
+    }
+    let refused = compared("um.csv");
+    assert_eq!(refused.status.code(), Some(2));
+    let message = errors(&refused);
+    assert!(message.contains("lots in mm and um"), "{message}");
+}
