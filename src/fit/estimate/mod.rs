@@ -152,12 +152,14 @@ pub(crate) fn estimate(
         }
         match next_degree(&fit, degree, cloud.len(), is_factored) {
             Some(next) => {
-                let raised = fit.spectrum.raised(degree, next);
-                lower = Some((degree, fit.clone()));
-                match higher.take().filter(|(higher, _)| *higher == next) {
-                    Some((_, before)) => fit = before,
-                    None => fit.spectrum = raised,
-                }
+                let start = match higher.take().filter(|(higher, _)| *higher == next) {
+                    Some((_, before)) => before,
+                    None => SpectrumFit {
+                        spectrum: fit.spectrum.raised(degree, next),
+                        ..fit.clone()
+                    },
+                };
+                lower = Some((degree, std::mem::replace(&mut fit, start)));
                 degree = next;
             }
             None => break,

@@ -244,7 +244,8 @@ impl Conditioned<'_> {
     /// solved for them, from which another spectrum may start.
     pub(super) fn unlearnt_shares(&self, start: Option<&Solved>) -> (Vec<f64>, Solved) {
         let (diagonal, solved) = self.probed_diagonal(|v| 1.0 / v.sqrt(), start);
-        (self.per_degree(&diagonal), solved)
+        let solved = solved.iter().map(|x| self.whitened(x)).collect();
+        (self.per_degree(&diagonal), Solved(solved))
     }
 
     /// The same, as of an even cloud.
@@ -266,12 +267,12 @@ impl Conditioned<'_> {
     }
 
     /// Estimates of C_jj / v_j whose means are right: h_j (C h)_j over the square of h_j, where h has random signs and a
-    /// size by the variance v_j. Its scatter is that of all variances in units of these sizes.
+    /// size by the variance v_j. Its scatter is that of all variances in units of these sizes. Also C h.
     fn probed_diagonal(
         &self,
         size: impl Fn(&f64) -> f64,
         start: Option<&Solved>,
-    ) -> (Vec<f64>, Solved) {
+    ) -> (Vec<f64>, Vec<Vec<f64>>) {
         let mut random = ChaCha8Rng::seed_from_u64(0);
         let count = self.variances.len();
         let probes = match self.factor {
@@ -311,10 +312,7 @@ impl Conditioned<'_> {
         for (diagonal, v) in diagonal.iter_mut().zip(&self.variances) {
             *diagonal /= v;
         }
-        (
-            diagonal,
-            Solved(solved.iter().map(|x| self.whitened(x)).collect()),
-        )
+        (diagonal, solved)
     }
 
     /// Coefficients in units of their prior standard deviations.

@@ -107,18 +107,14 @@ pub(super) fn best(
         &few
     };
     let mut tried = starts_tried(cloud, few, form, Reach::Wide, context)?;
-    let wide = ranked(tried.clone(), few);
-    let nearness = match wide.first() {
-        Some((_, wide)) => deviation(&wide.bodies, few),
-        None => return Err(SuperquadricFitError::NoVolume),
+    let nearness = |tried: &[Minimum]| match least(tried.to_vec(), few) {
+        Some(best) => Ok(deviation(&best.bodies, few)),
+        None => Err(SuperquadricFitError::NoVolume),
     };
-    if nearness >= NEAR {
+    let wide = nearness(&tried)?;
+    if wide >= NEAR {
         let narrow = starts_tried(cloud, few, form, Reach::Narrow, context)?;
-        let best = ranked(narrow.clone(), few);
-        if best
-            .first()
-            .is_some_and(|(_, best)| deviation(&best.bodies, few) < MUCH_NEARER * nearness)
-        {
+        if nearness(&narrow)? < MUCH_NEARER * wide {
             tried = narrow;
         }
     }
@@ -128,7 +124,7 @@ pub(super) fn best(
         found.iterations += before;
     }
     if form != Form::Single
-        && let Some((_, best)) = ranked(tried.clone(), few).first()
+        && let Some(best) = least(tried.clone(), few)
     {
         for start in leaning(&best.bodies[0]) {
             tried.push(minimised(vec![start], few, &best.weighing, FINE, context)?);

@@ -101,6 +101,15 @@ mod tests {
     use approx::assert_relative_eq;
     use nalgebra::Point3;
 
+    /// Places of balls along x, and then along y.
+    const ELBOW: [[f64; 3]; 5] = [
+        [0.0; 3],
+        [1.5, 0.0, 0.0],
+        [3.0, 0.0, 0.0],
+        [3.0, 1.5, 0.0],
+        [3.0, 3.0, 0.0],
+    ];
+
     /// Balls of radius 1 at these places.
     fn balls(places: &[[f64; 3]]) -> MultiSuperquadric {
         let parts = places.iter().map(|place| Part {
@@ -115,14 +124,7 @@ mod tests {
 
     #[test]
     fn a_line_lies_in_a_union_in_spans() {
-        let row = [
-            [0.0; 3],
-            [1.5, 0.0, 0.0],
-            [3.0, 0.0, 0.0],
-            [3.0, 1.5, 0.0],
-            [3.0, 3.0, 0.0],
-        ];
-        let union = balls(&row);
+        let union = balls(&ELBOW);
         let along = union.spans(&Vector3::zeros(), &Vector3::x());
         assert_eq!(along.len(), 1);
         assert_relative_eq!(along[0][0], -1.0, epsilon = 1e-12);
@@ -136,14 +138,7 @@ mod tests {
 
     #[test]
     fn an_elbow_is_hidden_from_its_end_and_seen_from_its_corner() {
-        let row = [
-            [0.0; 3],
-            [1.5, 0.0, 0.0],
-            [3.0, 0.0, 0.0],
-            [3.0, 1.5, 0.0],
-            [3.0, 3.0, 0.0],
-        ];
-        let hidden = balls(&row).hidden_share();
+        let hidden = balls(&ELBOW).hidden_share();
         assert!((0.01..0.2).contains(&hidden), "{hidden}");
         let seen = balls(&[[0.0; 3], [1.2, 0.0, 0.0], [0.0, 1.2, 0.0]]);
         assert_eq!(seen.hidden_share(), 0.0);
