@@ -5,18 +5,36 @@
 
 struct Kernel<F>(F);
 
-impl<F: FnMut()> pulp::NullaryFnOnce for Kernel<F> {
-    type Output = ();
+impl<T, F: FnMut() -> T> pulp::NullaryFnOnce for Kernel<F> {
+    type Output = T;
 
     #[inline(always)]
-    fn call(mut self) {
-        (self.0)();
+    fn call(mut self) -> T {
+        (self.0)()
     }
 }
 
 /// Runs `kernel`, which should be marked `#[inline(always)]`: only what is inlined here is compiled
 /// for the wide registers. (It is `FnMut`, not `FnOnce`, because the call of an `FnOnce` closure
 /// goes through a shim that is not inlined.)
-pub(crate) fn vectorize(kernel: impl FnMut()) {
-    pulp::Arch::new().dispatch(Kernel(kernel));
+pub(crate) fn vectorize<T>(kernel: impl FnMut() -> T) -> T {
+    pulp::Arch::new().dispatch(Kernel(kernel))
+}
+
+/// Sums of a scalar product that are made side by side.
+const LANES: usize = 8;
+
+/// A scalar product.
+#[inline(always)]
+pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
+    let (a_lanes, a_rest) = a.as_chunks::<LANES>();
+    let (b_lanes, b_rest) = b.as_chunks::<LANES>();
+    let mut sums = [0.0; LANES];
+    for (a, b) in a_lanes.iter().zip(b_lanes) {
+        for i in 0..LANES {
+            sums[i] += a[i] * b[i];
+        }
+    }
+    let rest: f64 = a_rest.iter().zip(b_rest).map(|(a, b)| a * b).sum();
+    sums.iter().sum::<f64>() + rest
 }

@@ -16,13 +16,16 @@
 use super::nodes::Samples;
 use crate::fit::linear::{BlockFactor, BlockMatrix};
 use crate::sphere::{CapBasis, Cover, Places, coefficient_count};
-use crate::vectorize::vectorize;
+use crate::vectorize::{dot, vectorize};
 use faer::linalg::matmul::triangular::{self, BlockStructure};
-use faer::{Accum, Mat, MatRef, Par};
+use faer::{Accum, Mat, MatMut, MatRef, Par};
 use rayon::prelude::*;
 
 /// Steps of iterative refinement: the first leaves 1e-6 of what the equations lost, the second nothing.
 const REFINEMENTS: usize = 2;
+
+/// Patches whose products are held at once: those of all would take hundreds of megabytes.
+const PATCHES_AT_ONCE: usize = 128;
 
 /// The least-squares problem of a cover with a degree per cell.
 pub(super) struct Joint {
@@ -124,25 +127,27 @@ impl Joint {
     }
 
     fn factor(&self) -> Option<BlockFactor> {
-        let products: Vec<Mat<f64>> = self
-            .patches
-            .par_iter()
-            .with_min_len(16)
-            .map(|patch| self.product(patch))
-            .collect();
         let sizes = self.degrees.iter().map(|&d| coefficient_count(d)).collect();
         let mut matrix = BlockMatrix::new(sizes);
-        for (patch, product) in self.patches.iter().zip(&products) {
-            let mut row = 0;
-            for &i in &patch.cells {
-                let height = self.count(i);
-                let mut column = 0;
-                for &j in patch.cells.iter().take_while(|&&j| j <= i) {
-                    let width = self.count(j);
-                    *matrix.block(i, j) += product.submatrix(row, column, height, width);
-                    column += width;
+        for patches in self.patches.chunks(PATCHES_AT_ONCE) {
+            let products = patches.par_iter().with_min_len(16);
+            let products: Vec<Mat<f64>> = products.map(|patch| self.product(patch)).collect();
+            for (patch, product) in patches.iter().zip(&products) {
+                let mut row = 0;
+                for &i in &patch.cells {
+                    let rows = row..row + self.count(i);
+                    let mut column = 0;
+                    for &j in patch.cells.iter().take_while(|&&j| j <= i) {
+                        let block = matrix.block(i, j);
+                        for k in 0..block.ncols() {
+                            let own = &product.col_as_slice(column)[rows.clone()];
+                            let sums = block.col_as_slice_mut(k).iter_mut().zip(own);
+                            sums.for_each(|(sum, own)| *sum += own);
+                            column += 1;
+                        }
+                    }
+                    row = rows.end;
                 }
-                row += height;
             }
         }
         // Rounding of the products: what lies below it is refined, or has no effect.
@@ -159,31 +164,45 @@ impl Joint {
     fn product(&self, patch: &Patch) -> Mat<f64> {
         let rows = patch.weights.len();
         let columns = patch.values.len() / rows;
-        let mut design = patch.values.clone();
-        let mut own = Mat::<f64>::zeros(columns, columns);
-        let mut start = 0;
-        for (at, &cell) in patch.cells.iter().enumerate() {
-            let count = self.count(cell);
-            let shares = &patch.shares[at * rows..(at + 1) * rows];
-            let block = &mut design[start * rows..(start + count) * rows];
-            if self.own > 0.0 {
-                scale(block, rows, |i| {
-                    (self.own * patch.weights[i] * shares[i]).sqrt()
-                });
-                let a = MatRef::from_column_major_slice(&*block, rows, count);
-                multiply(own.as_mut().submatrix_mut(start, start, count, count), a);
-                block.copy_from_slice(&patch.values[start * rows..(start + count) * rows]);
-            }
-            scale(block, rows, |i| shares[i] * patch.weights[i].sqrt());
-            start += count;
-        }
         let mut product = Mat::<f64>::zeros(columns, columns);
-        let a = MatRef::from_column_major_slice(&design, rows, columns);
-        multiply(product.as_mut(), a);
+        let mut design = vec![0.0; patch.values.len()];
+        self.scale(patch, &mut design, |weight, share| share * weight.sqrt());
+        let all = MatRef::from_column_major_slice(&design, rows, columns);
+        multiply(product.as_mut(), Accum::Replace, all);
         if self.own > 0.0 {
-            product += own;
+            self.scale(patch, &mut design, |weight, share| {
+                (self.own * weight * share).sqrt()
+            });
+            let all = MatRef::from_column_major_slice(&design, rows, columns);
+            let mut start = 0;
+            for &cell in &patch.cells {
+                let count = self.count(cell);
+                let block = product.submatrix_mut(start, start, count, count);
+                multiply(block, Accum::Add, all.subcols(start, count));
+                start += count;
+            }
         }
         product
+    }
+
+    /// The values of the bases times a factor by the weight of the sample and the share of the cell.
+    #[inline(always)]
+    fn scale(&self, patch: &Patch, design: &mut [f64], factor: impl Fn(f64, f64) -> f64) {
+        let rows = patch.weights.len();
+        let mut columns = design
+            .chunks_exact_mut(rows)
+            .zip(patch.values.chunks_exact(rows));
+        for (&cell, shares) in patch.cells.iter().zip(patch.shares.chunks_exact(rows)) {
+            let factors = patch.weights.iter().zip(shares);
+            let factors: Vec<f64> = factors
+                .map(|(&weight, &share)| factor(weight, share))
+                .collect();
+            for (scaled, values) in columns.by_ref().take(self.count(cell)) {
+                for ((scaled, value), factor) in scaled.iter_mut().zip(values).zip(&factors) {
+                    *scaled = value * factor;
+                }
+            }
+        }
     }
 
     /// The negative gradient at some coefficients, and the squared error of the blend.
@@ -192,7 +211,12 @@ impl Joint {
             .patches
             .par_iter()
             .with_min_len(32)
-            .map(|patch| self.patch_pass(patch, coefficients))
+            .map(|patch| {
+                vectorize(
+                    #[inline(always)]
+                    || self.patch_pass(patch, coefficients),
+                )
+            })
             .collect();
         let mut pass = Pass {
             gradient: vec![0.0; coefficients.len()],
@@ -213,6 +237,7 @@ impl Joint {
         pass
     }
 
+    #[inline(always)]
     fn patch_pass(&self, patch: &Patch, coefficients: &[f64]) -> (Vec<f64>, f64) {
         let rows = patch.weights.len();
         let mut lacking = vec![0.0; rows * patch.cells.len()];
@@ -251,7 +276,7 @@ impl Joint {
                 own[i] = patch.weights[i] * shares[i] * (blend[i] + self.own * own[i]);
             }
             for column in values.by_ref().take(self.count(cell)) {
-                gradient.push(column.iter().zip(&*own).map(|(a, b)| a * b).sum());
+                gradient.push(dot(column, own));
             }
         }
         (gradient, error)
@@ -332,26 +357,12 @@ impl Patch {
     }
 }
 
-fn scale(block: &mut [f64], rows: usize, factor: impl Fn(usize) -> f64) {
-    let factors: Vec<f64> = (0..rows).map(factor).collect();
-    vectorize(
-        #[inline(always)]
-        || {
-            for column in block.chunks_exact_mut(rows) {
-                for (value, factor) in column.iter_mut().zip(&factors) {
-                    *value *= factor;
-                }
-            }
-        },
-    );
-}
-
 /// The lower part of the product of a matrix' transpose with it.
-fn multiply(to: faer::MatMut<'_, f64>, a: MatRef<'_, f64>) {
+fn multiply(to: MatMut<'_, f64>, sum: Accum, a: MatRef<'_, f64>) {
     triangular::matmul(
         to,
         BlockStructure::TriangularLower,
-        Accum::Replace,
+        sum,
         a.transpose(),
         BlockStructure::Rectangular,
         a,

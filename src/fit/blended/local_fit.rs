@@ -11,6 +11,7 @@
 
 use super::Target;
 use crate::sphere::{CapBasis, CubeCell, GaussLegendre, coefficient_count};
+use crate::vectorize::{dot, vectorize};
 use nalgebra::Vector3;
 use rayon::prelude::*;
 use std::collections::HashMap;
@@ -127,7 +128,11 @@ impl LocalFits {
             .with_min_len(16)
             .map(|((radii, (shape, _)), cell)| {
                 let weight = target.weight(&cell.middle());
-                let errors = self.shapes[shape].errors(radii, self.basis.degree());
+                let shape = &self.shapes[shape];
+                let errors = vectorize(
+                    #[inline(always)]
+                    || shape.errors(radii, self.basis.degree()),
+                );
                 errors.into_iter().map(|e| rounded(weight * e)).collect()
             })
             .collect()
@@ -162,22 +167,23 @@ impl LocalFits {
 
 impl Shape {
     /// The squared errors at every degree; overwrites the radii.
+    #[inline(always)]
     fn errors(&self, radii: &mut [f64], degree: usize) -> Vec<f64> {
         let rows = radii.len();
         for (radius, root) in radii.iter_mut().zip(&self.roots) {
             *radius *= root;
         }
         let floor = ROUNDING * ROUNDING * dot(radii, radii);
-        (0..=degree)
-            .map(|d| {
-                let columns = &self.columns[d * d * rows..(d + 1) * (d + 1) * rows];
-                for column in columns.chunks_exact(rows) {
-                    remove(radii, column);
-                }
-                let error = dot(radii, radii);
-                if error > floor { error } else { 0.0 }
-            })
-            .collect()
+        let mut errors = Vec::with_capacity(degree + 1);
+        for d in 0..=degree {
+            let columns = &self.columns[d * d * rows..(d + 1) * (d + 1) * rows];
+            for column in columns.chunks_exact(rows) {
+                remove(radii, column);
+            }
+            let error = dot(radii, radii);
+            errors.push(if error > floor { error } else { 0.0 });
+        }
+        errors
     }
 }
 
@@ -205,23 +211,10 @@ fn orthonormalize(columns: &mut [f64], rows: usize) {
 }
 
 /// Takes the part along a unit vector away.
+#[inline(always)]
 fn remove(from: &mut [f64], unit: &[f64]) {
     let along = dot(from, unit);
     for (value, unit) in from.iter_mut().zip(unit) {
         *value -= along * unit;
     }
-}
-
-/// A scalar product in four sums that can be made side by side.
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let (a4, a1) = a.as_chunks::<4>();
-    let (b4, b1) = b.as_chunks::<4>();
-    let mut sums = [0.0; 4];
-    for (a, b) in a4.iter().zip(b4) {
-        for i in 0..4 {
-            sums[i] += a[i] * b[i];
-        }
-    }
-    let rest: f64 = a1.iter().zip(b1).map(|(a, b)| a * b).sum();
-    sums.iter().sum::<f64>() + rest
 }

@@ -2,6 +2,8 @@
 
 use super::posterior::{Conditioned, Posterior};
 use super::stopping::Enough;
+use crate::vectorize::{dot, vectorize};
+use rayon::prelude::*;
 use std::f64::consts::PI;
 
 /// Steps of a solution at most.
@@ -12,9 +14,30 @@ impl Conditioned<'_> {
     fn precision(&self, x: &[f64], out: &mut [f64]) {
         let Posterior { sums, cloud, .. } = self.posterior;
         sums.gram(cloud).apply(x, out);
-        for ((out, x), v) in out.iter_mut().zip(x).zip(&self.variances) {
-            *out = *out / self.noise + x / v;
-        }
+        vectorize(
+            #[inline(always)]
+            || {
+                for ((out, x), v) in out.iter_mut().zip(x).zip(&self.variances) {
+                    *out = *out / self.noise + x / v;
+                }
+            },
+        );
+    }
+
+    /// Solves C^-1 x = right for each right-hand side, side by side; `start` tells where each begins.
+    pub(super) fn solve_each(
+        &self,
+        rights: &[Vec<f64>],
+        start: impl Fn(usize) -> Option<Vec<f64>> + Sync,
+        enough: Enough,
+    ) -> Vec<Vec<f64>> {
+        self.posterior.make_gram();
+        let rights = rights.par_iter().enumerate();
+        let solved = rights.map(|(i, right)| {
+            let (x, _) = self.conjugate_gradients(right, start(i).as_deref(), enough);
+            x
+        });
+        solved.collect()
     }
 
     /// Solves C^-1 x = right, from `start`; also tells the number of steps.
@@ -38,27 +61,39 @@ impl Conditioned<'_> {
             self.precision(&x, &mut q);
             r.iter_mut().zip(&q).for_each(|(r, q)| *r -= q);
         }
-        let dot = |a: &[f64], b: &[f64]| -> f64 { a.iter().zip(b).map(|(a, b)| a * b).sum() };
+        let product = |a: &[f64], b: &[f64]| {
+            vectorize(
+                #[inline(always)]
+                || dot(a, b),
+            )
+        };
         let mut z: Vec<f64> = r.iter().zip(&preconditioner).map(|(r, p)| r * p).collect();
         let mut p = z.clone();
-        let mut rz = dot(&r, &z);
+        let mut rz = product(&r, &z);
         let mut energies: Vec<f64> = Vec::new();
         while energies.len() < MOST_STEPS && rz > 0.0 {
             self.precision(&p, &mut q);
-            let step = rz / dot(&p, &q);
-            for i in 0..count {
-                x[i] += step * p[i];
-                r[i] -= step * q[i];
-                z[i] = r[i] * preconditioner[i];
-            }
+            let step = rz / product(&p, &q);
+            vectorize(
+                #[inline(always)]
+                || {
+                    let (p, q, preconditioner) =
+                        (&p[..count], &q[..count], &preconditioner[..count]);
+                    let (x, r, z) = (&mut x[..count], &mut r[..count], &mut z[..count]);
+                    for i in 0..count {
+                        x[i] += step * p[i];
+                        r[i] -= step * q[i];
+                        z[i] = r[i] * preconditioner[i];
+                    }
+                },
+            );
             energies.push(step * rz);
             if enough.is_reached(&energies, rz) {
                 break;
             }
-            let next = dot(&r, &z);
-            for i in 0..count {
-                p[i] = z[i] + next / rz * p[i];
-            }
+            let next = product(&r, &z);
+            let share = next / rz;
+            p.iter_mut().zip(&z).for_each(|(p, z)| *p = z + share * *p);
             rz = next;
         }
         (x, energies.len())

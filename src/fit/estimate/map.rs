@@ -12,6 +12,7 @@ use super::spectrum_fit::{Count, SpectrumFit, first_step, fit_spectrum};
 use crate::fit::context::{Cancelled, Context};
 use crate::fit::prepare::Sample;
 use nalgebra::Vector3;
+use rayon::prelude::*;
 use std::borrow::Cow;
 use std::sync::Arc;
 
@@ -78,7 +79,7 @@ pub(super) fn rounder(
     let mut outliers = 0;
     let mut rounds = 0;
     let mut maps = loop {
-        let maps = strengths.iter().map(|&strength| {
+        let maps = strengths.par_iter().map(|&strength| {
             let cloud = Cloud::new(&samples, counts, stretch(strength));
             let every = cloud.len().div_ceil(COMPARED_POINTS);
             let part = (compared < first).then(|| cloud.every(every));
@@ -112,16 +113,17 @@ pub(super) fn rounder(
     keep(&mut maps, CLOSE * points);
     let mut is_open = maps.len() > 1 && compared < first;
     if is_open && is_small(samples.len()) {
-        for map in &mut maps {
+        maps.par_iter_mut().try_for_each(|map| {
             context.check()?;
             let posterior = Posterior::new(&map.cloud, compared, true);
             map.fit = first_step(&posterior, map.fit.spectrum);
-        }
+            Ok(())
+        })?;
         keep(&mut maps, TIED * points);
         is_open = maps.len() > 1 && !maps.iter().all(|map| map.fit.is_enough());
     }
     if is_open {
-        for map in &mut maps {
+        maps.par_iter_mut().try_for_each(|map| {
             context.check()?;
             map.fit = match is_small(samples.len()) {
                 true => {
@@ -130,7 +132,8 @@ pub(super) fn rounder(
                 }
                 false => fitted(&map.cloud, first, map.fit.spectrum),
             };
-        }
+            Ok(())
+        })?;
     }
     let strength = best(&maps).strength;
     let found = maps.into_iter().find(|map| map.strength == strength);

@@ -106,6 +106,12 @@ impl<'a> Posterior<'a> {
         self.gram.is_some()
     }
 
+    /// Makes what is needed to multiply by Y'WY. Threads that waited for one of them to make it could be given each other's
+    /// work and wait for ever, so it is made before they share any.
+    pub(super) fn make_gram(&self) {
+        self.sums.gram(self.cloud);
+    }
+
     /// The radii that coefficients give at the points.
     pub(crate) fn radii(&self, coefficients: &[f64]) -> Vec<f64> {
         let mut radii = vec![0.0; self.cloud.len()];
@@ -198,10 +204,7 @@ impl Conditioned<'_> {
     pub(crate) fn covariances(&self, functionals: &[Vec<f64>]) -> Vec<Vec<f64>> {
         match &self.factor {
             Some(factor) => self.solve_factored(factor, functionals),
-            None => functionals
-                .iter()
-                .map(|g| self.conjugate_gradients(g, None, Enough::Share(SHARE)).0)
-                .collect(),
+            None => self.solve_each(functionals, |_| None, Enough::Share(SHARE)),
         }
     }
 
@@ -295,13 +298,10 @@ impl Conditioned<'_> {
         let settled = Enough::Energy(PROBES_SETTLED * count as f64);
         let solved = match &self.factor {
             Some(factor) => self.solve_factored(factor, &probes),
-            None => (0..probes.len())
-                .map(|i| {
-                    let start = start.map(|solved| self.unwhitened(&solved.0[i]));
-                    self.conjugate_gradients(&probes[i], start.as_deref(), settled)
-                        .0
-                })
-                .collect(),
+            None => {
+                let start = |i: usize| start.map(|solved| self.unwhitened(&solved.0[i]));
+                self.solve_each(&probes, start, settled)
+            }
         };
         let mut diagonal = vec![0.0; count];
         for (probe, solution) in probes.iter().zip(&solved) {

@@ -186,8 +186,14 @@ impl<'a> Look<'a> {
     ) -> Self {
         let points = posterior.cloud.len() as f64;
         let given = posterior.given(spectrum);
-        let (mean, _) = given.mean(coefficients, count.settled());
-        let told = told(posterior, &given, spectrum, &mean, solved, count);
+        if !posterior.is_factored() {
+            posterior.make_gram();
+        }
+        let ((mean, _), shares) = rayon::join(
+            || given.mean(coefficients, count.settled()),
+            || unlearnt_shares(&given, solved, count),
+        );
+        let told = told(posterior, &given, spectrum, &mean, shares);
         let prior = hyperprior(points, spectrum).0;
         let proposal = told.evidence.most_likely(spectrum);
         let is_near = proposal.1 < FAR * points;
@@ -270,25 +276,32 @@ struct Told {
 /// Squared residuals of the unshrunk coefficients are at least this share of those of the shrunk ones.
 const LEAST_RESIDUALS: f64 = 1e-3;
 
-fn told(
-    posterior: &Posterior<'_>,
+/// Per degree, the share of the prior variance that the points leave, and what was solved for it, from `solved` on.
+fn unlearnt_shares(
     given: &Conditioned<'_>,
-    spectrum: &Spectrum,
-    mean: &[f64],
     solved: Option<&Solved>,
     count: Count,
-) -> Told {
-    let cloud = posterior.cloud;
-    let points = cloud.len() as f64;
-    let noise = spectrum.noise().powi(2);
-    let terms = spectrum.terms(posterior.degree());
-    let (unlearnt, solved) = match posterior.is_factored() || count == Count::Probed {
+) -> (Vec<f64>, Option<Solved>) {
+    match given.posterior.is_factored() || count == Count::Probed {
         true => {
             let (unlearnt, solved) = given.unlearnt_shares(solved);
             (unlearnt, Some(solved))
         }
         false => (given.even_unlearnt(), None),
-    };
+    }
+}
+
+fn told(
+    posterior: &Posterior<'_>,
+    given: &Conditioned<'_>,
+    spectrum: &Spectrum,
+    mean: &[f64],
+    (unlearnt, solved): (Vec<f64>, Option<Solved>),
+) -> Told {
+    let cloud = posterior.cloud;
+    let points = cloud.len() as f64;
+    let noise = spectrum.noise().powi(2);
+    let terms = spectrum.terms(posterior.degree());
     let residuals = posterior.residuals(mean);
     let squares = residuals.iter().zip(&cloud.weights);
     let squared: f64 = squares.map(|(e, w)| w * e * e).sum();

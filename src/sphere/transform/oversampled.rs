@@ -11,6 +11,7 @@
 use super::kernel::KernelTransform;
 use super::polar::{PolarTable, add};
 use crate::sphere::{HarmonicBasis, harmonic_index};
+use crate::vectorize::vectorize;
 use nalgebra::Vector3;
 use std::f64::consts::PI;
 
@@ -43,7 +44,7 @@ pub(super) fn oversampled(
         let values = at_midpoints
             .iter()
             .map(|values| per_order * values[harmonic_index(l, m as isize)]);
-        filter.apply(values, column);
+        filter.apply(&values.collect::<Vec<_>>(), column);
     })
 }
 
@@ -87,9 +88,14 @@ impl Filter {
         Self { rows, columns }
     }
 
-    fn apply(&self, values: impl Iterator<Item = f64>, out: &mut [f64]) {
-        for (value, column) in values.zip(self.columns.chunks_exact(self.rows)) {
-            add(out, value, column);
-        }
+    fn apply(&self, values: &[f64], out: &mut [f64]) {
+        vectorize(
+            #[inline(always)]
+            || {
+                for (&value, column) in values.iter().zip(self.columns.chunks_exact(self.rows)) {
+                    add(out, value, column);
+                }
+            },
+        );
     }
 }

@@ -5,7 +5,7 @@
 //! as l - m is.
 
 use crate::sphere::harmonic_index;
-use crate::vectorize::vectorize;
+use crate::vectorize::{dot, vectorize};
 use realfft::num_complex::Complex;
 
 /// Columns are padded by zeros to a multiple of this.
@@ -18,7 +18,12 @@ pub(super) struct PolarTable {
     rows: usize,
     /// Columns by order m = 0, ..., L and within it degree l = m, ..., L.
     columns: Vec<f64>,
+    /// Of each order, how many rows from the pole on are left out: harmonics of high order are next to nothing there.
+    skipped: Vec<usize>,
 }
+
+/// What is next to nothing: harmonics are of the order of one.
+const NOTHING: f64 = 1e-18;
 
 /// Sums of the columns of one order with l - m even (0) and odd (1), for cosines and for sines.
 struct Halves {
@@ -40,12 +45,25 @@ impl PolarTable {
         for ((l, m), column) in of_orders.zip(columns.chunks_exact_mut(rows)) {
             fill(l, m, column);
         }
-        Self {
+        let mut table = Self {
             degree,
             rings,
             rows,
             columns,
-        }
+            skipped: Vec::new(),
+        };
+        table.skipped = (0..=degree).map(|m| table.rows_of_nothing(m)).collect();
+        table
+    }
+
+    /// How many rows from the pole on hold next to nothing in all columns of an order, as a multiple of [`LANES`].
+    fn rows_of_nothing(&self, m: usize) -> usize {
+        let columns = self.columns(m).chunks_exact(self.rows);
+        let empty = columns.map(|column| {
+            let first = column.iter().position(|entry| entry.abs() > NOTHING);
+            first.unwrap_or(self.rows)
+        });
+        empty.min().unwrap_or(0) / LANES * LANES
     }
 
     /// Length of a column: half of the rings, and zeros.
@@ -76,15 +94,17 @@ impl PolarTable {
             #[inline(always)]
             || {
                 let mut halves = self.halves();
-                self.for_each_order(|m, columns| {
+                for m in 0..=self.degree {
+                    let columns = self.columns(m).chunks_exact(self.rows);
+                    let from = self.skipped[m];
                     let Halves { cosine, sine } = &mut halves;
                     for half in cosine.iter_mut().chain(sine.iter_mut()) {
                         half.fill(0.0);
                     }
-                    for (l, column) in (m..).zip(columns.chunks_exact(self.rows)) {
+                    for (l, column) in (m..).zip(columns) {
                         let [a, b] = pair(coefficients, l, m);
-                        add(&mut cosine[(l - m) % 2], a, column);
-                        add(&mut sine[(l - m) % 2], b, column);
+                        add(&mut cosine[(l - m) % 2][from..], a, &column[from..]);
+                        add(&mut sine[(l - m) % 2][from..], b, &column[from..]);
                     }
                     for i in 0..self.rings.div_ceil(2) {
                         let even = Complex::new(cosine[0][i], sine[0][i]);
@@ -95,7 +115,7 @@ impl PolarTable {
                             terms[mirrored * (self.degree + 1) + m] = even - odd;
                         }
                     }
-                });
+                }
             },
         );
     }
@@ -106,9 +126,11 @@ impl PolarTable {
             #[inline(always)]
             || {
                 let mut halves = self.halves();
-                self.for_each_order(|m, columns| {
+                for m in 0..=self.degree {
+                    let columns = self.columns(m).chunks_exact(self.rows);
+                    let from = self.skipped[m];
                     let Halves { cosine, sine } = &mut halves;
-                    for i in 0..self.rings.div_ceil(2) {
+                    for i in from..self.rings.div_ceil(2) {
                         let mirrored = self.rings - 1 - i;
                         let north = terms[i * (self.degree + 1) + m];
                         let south = match mirrored > i {
@@ -119,15 +141,17 @@ impl PolarTable {
                         (cosine[0][i], sine[0][i]) = (even.re, even.im);
                         (cosine[1][i], sine[1][i]) = (odd.re, odd.im);
                     }
-                    for (l, column) in (m..).zip(columns.chunks_exact(self.rows)) {
+                    for (l, column) in (m..).zip(columns) {
                         let order = m as isize;
-                        let parity = (l - m) % 2;
-                        coefficients[harmonic_index(l, order)] = dot(&cosine[parity], column);
+                        let (parity, column) = ((l - m) % 2, &column[from..]);
+                        coefficients[harmonic_index(l, order)] =
+                            dot(&cosine[parity][from..], column);
                         if m > 0 {
-                            coefficients[harmonic_index(l, -order)] = dot(&sine[parity], column);
+                            coefficients[harmonic_index(l, -order)] =
+                                dot(&sine[parity][from..], column);
                         }
                     }
-                });
+                }
             },
         );
     }
@@ -137,17 +161,6 @@ impl PolarTable {
         Halves {
             cosine: [zeros(), zeros()],
             sine: [zeros(), zeros()],
-        }
-    }
-
-    /// Calls `with` with every order and its columns.
-    #[inline(always)]
-    fn for_each_order(&self, mut with: impl FnMut(usize, &[f64])) {
-        let mut rest = &self.columns[..];
-        for m in 0..=self.degree {
-            let (columns, others) = rest.split_at((self.degree + 1 - m) * self.rows);
-            with(m, columns);
-            rest = others;
         }
     }
 }
@@ -165,15 +178,4 @@ pub(super) fn add(sum: &mut [f64], factor: f64, column: &[f64]) {
     for (sum, entry) in sum.iter_mut().zip(column) {
         *sum += factor * entry;
     }
-}
-
-#[inline(always)]
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let mut lanes = [0.0; LANES];
-    for (a, b) in a.chunks_exact(LANES).zip(b.chunks_exact(LANES)) {
-        for i in 0..LANES {
-            lanes[i] += a[i] * b[i];
-        }
-    }
-    lanes.iter().sum()
 }
