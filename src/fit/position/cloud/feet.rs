@@ -28,11 +28,15 @@ impl Cloud<'_> {
             self.directions[at] = moved(at, 1.0);
         }
         let mut factors = vec![1.0; vertices];
+        let mesh = self.mesh;
+        let triangles = &mesh.triangles;
+        // Triangles of which a corner has moved since they were looked at.
+        let mut open: Vec<usize> = (0..triangles.len()).collect();
         for halving in 0.. {
             let mut is_held = vec![false; vertices];
-            for triangle in 0..self.mesh.triangles.len() {
+            for &triangle in &open {
                 if !is_upright(self.images(triangle)) {
-                    for corner in self.mesh.triangles[triangle] {
+                    for corner in triangles[triangle] {
                         is_held[corner as usize] = true;
                     }
                 }
@@ -55,6 +59,10 @@ impl Cloud<'_> {
             if is_done {
                 break;
             }
+            let has_moved = |corners: &[u32; 3]| corners.iter().any(|&at| is_held[at as usize]);
+            open = (0..triangles.len())
+                .filter(|&triangle| has_moved(&triangles[triangle]))
+                .collect();
         }
         for at in vertices..self.points.len() {
             let place = &self.inside[at - vertices];
