@@ -34,7 +34,7 @@ pub(super) fn files(deck: &Deck) -> Vec<InputFile<'_>> {
         files.push(InputFile::new("in.superquadrics", script));
         told += " in.superquadrics is the same with superquadrics, for a build with atom_style superquadric.";
     }
-    files.push(runs(deck, "LIGGGHTS 3", "liggghts -in in.settle", &told));
+    files.push(runs(deck, "LIGGGHTS 3", "`liggghts -in in.settle`", &told));
     files
 }
 

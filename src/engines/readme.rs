@@ -9,7 +9,7 @@ pub(super) fn runs(deck: &Deck, needs: &str, command: &str, files: &str) -> Inpu
     let count = deck.grains.len();
     let kinds = kinds(deck);
     let first = format!(
-        "{count} grains of {kinds} fall into a box: run `{command}` in this folder ({needs})."
+        "{count} grains of {kinds} fall into a box: run {command} in this folder ({needs})."
     );
     readme(deck, &first, files)
 }

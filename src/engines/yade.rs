@@ -40,7 +40,7 @@ pub(super) fn files(deck: &Deck) -> Vec<InputFile<'_>> {
         runs(
             deck,
             "YADE",
-            "yade -n -x settle.py",
+            "`yade -n -x settle.py`",
             "kinds.csv holds mass and principal moments, spheres.csv the spheres of each kind, grains.csv where grains \
              begin, settle.py the run; settled.csv is where they lie at the end.",
         ),

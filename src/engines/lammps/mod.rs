@@ -33,7 +33,7 @@ pub(super) fn files(deck: &Deck) -> Vec<InputFile<'_>> {
     files.push(runs(
         deck,
         "LAMMPS with the packages GRANULAR and RIGID",
-        "lmp -in in.settle, or mpirun -n 4 lmp -in in.settle",
+        "`lmp -in in.settle`, or `mpirun -n 4 lmp -in in.settle`,",
         &told,
     ));
     files
