@@ -6,13 +6,19 @@
 mod bodies;
 mod cloud;
 mod clusters;
+mod distance;
 mod error;
 mod form;
 mod least_squares;
+mod loss;
 mod multi;
 mod normal_equations;
+mod search;
 mod single;
+mod soft_minimum;
 mod standard_errors;
+mod starts;
+mod sums;
 #[cfg(test)]
 mod tests;
 
