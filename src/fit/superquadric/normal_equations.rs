@@ -30,7 +30,7 @@ pub(super) struct Weighing {
 pub(super) struct NormalEquations {
     pub(super) loss: f64,
     pub(super) gradient: DVector<f64>,
-    /// The lower triangle only.
+    /// The lower triangle; above it is not all.
     pub(super) matrix: DMatrix<f64>,
 }
 

@@ -72,13 +72,7 @@ impl Sums {
             for (sum, slope) in self.gradients[set].iter_mut().zip(weighted) {
                 *sum += slope * distance.value;
             }
-            let block = &mut self.blocks[pair(set, set)];
-            for row in 0..TOUCHED {
-                for column in 0..=row {
-                    block[row][column] += weighted[row] * entry.slopes[column];
-                }
-            }
-            for other in &distance.entries[..index] {
+            for other in &distance.entries[..=index] {
                 let block = pair(set, self.set(other));
                 for (row, slope) in self.blocks[block].iter_mut().zip(weighted) {
                     for (sum, other) in row.iter_mut().zip(other.slopes) {
@@ -89,7 +83,7 @@ impl Sums {
         }
     }
 
-    /// Adds the sums at the places of the parameters; to the lower triangle only.
+    /// Adds the sums at the places of the parameters.
     pub(super) fn add_to(&self, equations: &mut NormalEquations) {
         let places = |set: usize| {
             let sets = sets(self.form);
