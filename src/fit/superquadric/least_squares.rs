@@ -2,7 +2,8 @@
 
 use super::bodies::Body;
 use super::loss::{Loss, Reach};
-use super::normal_equations::{NormalEquations, Weighing, distances};
+use super::normal_equations::{NormalEquations, distances};
+use super::weighing::Weighing;
 use crate::fit::context::{Cancelled, Context};
 use crate::spread::robust_deviation;
 use nalgebra::{Cholesky, DVector, Vector3};

@@ -5,25 +5,14 @@
 
 use super::bodies::{Body, USUAL_EXPONENT};
 use super::distance::ReadyBody;
-use super::form::{EXPONENTS_FROM, Form};
-use super::loss::Loss;
+use super::form::EXPONENTS_FROM;
 use super::sums::Sums;
+use super::weighing::Weighing;
 use nalgebra::{DMatrix, DVector, Vector3};
 use rayon::prelude::*;
 
 /// Points that are added up together, whatever the number of threads.
 const CHUNK: usize = 1024;
-
-/// What a fit weighs points by.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Weighing {
-    pub(super) form: Form,
-    pub(super) loss: Loss,
-    /// What the square of a logarithm of an exponent off the usual one costs.
-    pub(super) prior: f64,
-    /// How sharply the least of the parts' distances is taken, in one over mean radii.
-    pub(super) sharpness: f64,
-}
 
 /// Loss, and its derivatives by the parameters of all bodies in turn.
 #[derive(Debug, Clone)]
@@ -49,7 +38,8 @@ impl NormalEquations {
             matrix: DMatrix::zeros(parameters, parameters),
         };
         for chunk in chunks {
-            chunk.add_to(&mut found);
+            found.loss += chunk.loss;
+            chunk.place(&mut found.gradient, &mut found.matrix);
         }
         found.add_prior(bodies, weighing);
         found

@@ -8,8 +8,8 @@ use super::least_squares::{
     End, Minimum, OTHER_MINIMUM, descended, deviation, distinct, least, minimised, ranked, weighed,
 };
 use super::loss::{Loss, Reach};
-use super::normal_equations::Weighing;
 use super::starts::{leaning, turned, upright};
+use super::weighing::Weighing;
 use crate::fit::context::{Cancelled, Context};
 use nalgebra::Vector3;
 

@@ -6,9 +6,9 @@
 use super::distance::{OCTANTS, ReadyBody, TOUCHED, places};
 use super::form::Form;
 use super::loss::LossSum;
-use super::normal_equations::{NormalEquations, Weighing};
 use super::soft_minimum::{Entry, SoftMinimum};
-use nalgebra::Vector3;
+use super::weighing::Weighing;
+use nalgebra::{DMatrix, DVector, Vector3};
 
 /// Products of slopes, by row and column.
 type Block = [[f64; TOUCHED]; TOUCHED];
@@ -16,7 +16,7 @@ type Block = [[f64; TOUCHED]; TOUCHED];
 /// The sums of some points.
 pub(super) struct Sums {
     form: Form,
-    loss: f64,
+    pub(super) loss: f64,
     /// By set of numbers.
     gradients: Vec<[f64; TOUCHED]>,
     /// By pair of sets, the second no later than the first.
@@ -83,24 +83,23 @@ impl Sums {
         }
     }
 
-    /// Adds the sums at the places of the parameters.
-    pub(super) fn add_to(&self, equations: &mut NormalEquations) {
+    /// Adds the sums of slopes and of their products at the places of the parameters.
+    pub(super) fn place(&self, gradient: &mut DVector<f64>, matrix: &mut DMatrix<f64>) {
         let places = |set: usize| {
             let sets = sets(self.form);
             let from = set / sets * self.form.parameters();
             places(self.form, set % sets).map(|place| from + place)
         };
-        equations.loss += self.loss;
-        for (first, gradient) in self.gradients.iter().enumerate() {
+        for (first, slopes) in self.gradients.iter().enumerate() {
             let rows = places(first);
-            for (row, slope) in rows.into_iter().zip(gradient) {
-                equations.gradient[row] += slope;
+            for (row, slope) in rows.into_iter().zip(slopes) {
+                gradient[row] += slope;
             }
             for second in 0..=first {
                 let block = &self.blocks[pair(first, second)];
                 for (row, sums) in rows.into_iter().zip(block) {
                     for (column, sum) in places(second).into_iter().zip(sums) {
-                        equations.matrix[(row, column)] += sum;
+                        matrix[(row, column)] += sum;
                     }
                 }
             }
