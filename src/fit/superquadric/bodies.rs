@@ -1,12 +1,9 @@
-//! Superquadrics on their way through a fit, and the distance of a point from them.
+//! Superquadrics on their way through a fit.
 
 use super::form::{EXPONENTS_FROM, Form, NUMBERS, POSE};
 use crate::model::{Frame, InvalidSuperquadric, Superquadric};
 use nalgebra::{Matrix3, Point3, Rotation3, SVector, Vector3};
 use std::array::from_fn;
-
-/// Numbers that the distance of a point from one body depends on: three semi-axes, two exponents, rotation, centre.
-pub(super) const TOUCHED: usize = 11;
 
 /// Bounds of the logarithms of semi-axes, in mean radii, and of exponents.
 const SEMI_AXES: [f64; 2] = [-4.0, 4.0];
@@ -22,48 +19,6 @@ pub(super) struct Body {
     pub(super) logs: [f64; NUMBERS],
     pub(super) axes: Matrix3<f64>,
     pub(super) centre: Vector3<f64>,
-}
-
-/// The radial distance of a point from a body, and what it changes by.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Distance {
-    pub(super) value: f64,
-    /// Derivatives by the logarithms of a, b, c, n1, n2 of the octant, rotation and centre in the body's frame.
-    pub(super) slopes: [f64; TOUCHED],
-    /// Which of the twelve numbers the first five are.
-    pub(super) numbers: [usize; 5],
-}
-
-/// The n-norm p of two numbers not below zero; its slopes; and the derivative of its logarithm by that of n.
-struct Norm {
-    value: f64,
-    slopes: [f64; 2],
-    by_exponent: f64,
-}
-
-impl Norm {
-    fn new(x: f64, y: f64, n: f64) -> Self {
-        let (large, small) = (x.max(y), x.min(y));
-        let logarithm = (small / large).ln();
-        let power = (n * logarithm).exp();
-        // The ratio is zero, or so small that its power is: the edge of an octant.
-        let (lean, weighted) = match power > 0.0 {
-            true => (power * large / small, power * logarithm),
-            false => (0.0, 0.0),
-        };
-        let sum = 1.0 + power;
-        let growth = sum.ln() / n;
-        let s = growth.exp();
-        let steep = s / sum;
-        Self {
-            value: s * large,
-            slopes: match x >= y {
-                true => [steep, lean * steep],
-                false => [lean * steep, steep],
-            },
-            by_exponent: weighted / sum - growth,
-        }
-    }
 }
 
 impl Body {
@@ -114,57 +69,6 @@ impl Body {
         }
     }
 
-    /// |y| (1 - 1 / g(y)) of the point y in the body's frame, the way along the ray from the centre to the point.
-    pub(super) fn distance(&self, numbers: &[f64; NUMBERS], point: &Vector3<f64>) -> Distance {
-        let y = self.axes.tr_mul(&(point - self.centre));
-        let side = y.map(|x| usize::from(x < 0.0));
-        let touched = [
-            side.x,
-            2 + side.y,
-            4 + side.z,
-            6 + side.z,
-            8 + 2 * side.x + side.y,
-        ];
-        let [a, b, c, n1, n2] = touched.map(|number| numbers[number]);
-        let inner = Norm::new(y.x.abs() / a, y.y.abs() / b, n2);
-        let outer = Norm::new(inner.value, y.z.abs() / c, n1);
-        let (g, length) = (outer.value, y.norm());
-        if g.is_nan() || g <= 1e-12 {
-            // At the very centre there is no ray.
-            return Distance {
-                value: -numbers[0].min(numbers[2]).min(numbers[4]),
-                slopes: [0.0; TOUCHED],
-                numbers: touched,
-            };
-        }
-        let slope = Vector3::new(
-            outer.slopes[0] * inner.slopes[0] / a * 1_f64.copysign(y.x),
-            outer.slopes[0] * inner.slopes[1] / b * 1_f64.copysign(y.y),
-            outer.slopes[1] / c * 1_f64.copysign(y.z),
-        );
-        let outward = slope * (length / (g * g)) + y * ((1.0 - 1.0 / g) / length);
-        let per = length / (g * g);
-        let turned = outward.cross(&y);
-        let by_n2 = outer.slopes[0] * inner.value * inner.by_exponent;
-        Distance {
-            value: length * (1.0 - 1.0 / g),
-            slopes: [
-                -per * y.x * slope.x,
-                -per * y.y * slope.y,
-                -per * y.z * slope.z,
-                per * g * outer.by_exponent,
-                per * by_n2,
-                turned.x,
-                turned.y,
-                turned.z,
-                -outward.x,
-                -outward.y,
-                -outward.z,
-            ],
-            numbers: touched,
-        }
-    }
-
     /// The twelve numbers.
     pub(super) fn numbers(&self) -> [f64; NUMBERS] {
         self.logs.map(f64::exp)
@@ -193,34 +97,6 @@ impl Body {
 mod tests {
     use super::*;
     use approx::assert_relative_eq;
-
-    #[test]
-    fn distances_have_the_slopes_of_differences() {
-        let body = Body {
-            logs: [0.1, -0.2, 0.3, 0.0, -0.4, 0.2, 1.2, 0.6, 0.9, 1.4, 0.5, 1.1],
-            axes: Rotation3::from_euler_angles(0.3, 0.5, -0.7).into_inner(),
-            centre: Vector3::new(0.1, -0.1, 0.05),
-        };
-        let form = Form::Poly12;
-        let at = |body: &Body, point: &Vector3<f64>| body.distance(&body.numbers(), point).value;
-        for i in 0..40 {
-            let t = 2.4 * f64::from(i) + 0.1;
-            let z = (f64::from(i) + 0.5) / 20.0 - 1.0;
-            let point = Vector3::new(t.cos(), t.sin(), 2.0 * z);
-            let distance = body.distance(&body.numbers(), &point);
-            let pose = std::array::from_fn(|j| NUMBERS + j);
-            let places = [&distance.numbers[..], &<[usize; POSE]>::map(pose, |p| p)].concat();
-            for (slope, place) in distance.slopes.iter().zip(places) {
-                let moved = |step: f64| {
-                    let mut steps = [0.0; NUMBERS + POSE];
-                    steps[place] = step;
-                    at(&body.moved(form, &steps), &point)
-                };
-                let difference = (moved(1e-5) - moved(-1e-5)) / 2e-5;
-                assert_relative_eq!(difference, *slope, epsilon = 1e-8, max_relative = 1e-6);
-            }
-        }
-    }
 
     #[test]
     fn bounds_hold() {

@@ -101,7 +101,7 @@ impl Cloud {
         for points in cells.values_mut() {
             points.sort_by(|p, q| p.norm_squared().total_cmp(&q.norm_squared()));
         }
-        let every = (self.points.len() / FEW).max(1);
+        let every = ((self.points.len() + FEW / 2) / FEW).max(1);
         let ordered = cells.into_values().flatten();
         ordered.skip(every / 2).step_by(every).collect()
     }

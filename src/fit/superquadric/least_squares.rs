@@ -1,24 +1,29 @@
 //! The method of Levenberg and Marquardt, with bounds and a robust loss (Madsen, Nielsen and Tingleff 2004).
 
 use super::bodies::Body;
-use super::normal_equations::{NormalEquations, Reach, Weighing, distances};
+use super::loss::{Loss, Reach};
+use super::normal_equations::{NormalEquations, distances};
+use super::weighing::Weighing;
 use crate::fit::context::{Cancelled, Context};
 use crate::spread::robust_deviation;
 use nalgebra::{Cholesky, DVector, Vector3};
 
-/// Scale of the loss, in mean radii, where few points are astray and where many are.
+/// Scale of the loss where few points are astray and where many are, in mean radii.
 const WIDE: f64 = 0.5;
 const NARROW: f64 = 0.03;
 
-/// Passes with standard deviations of their own, until they change by less than a share.
-const MAX_PASSES: usize = 4;
-const SAME: f64 = 0.1;
+/// And where those astray are left out, in standard deviations; no less than this in mean radii, of points without noise.
+const NEAR: f64 = 2.5;
+const LEAST_NEAR: f64 = 1e-9;
 
 /// The damping to begin with, and beyond which no step helps.
 const DAMPING: [f64; 2] = [1e-3, 1e12];
 
 /// A fit ends when a step changes no parameter by more.
 const SMALL_STEP: f64 = 1e-9;
+
+/// How many times the loss of a minimum that of another one is.
+pub(super) const OTHER_MINIMUM: f64 = 1.0 + 1e-3;
 
 /// When else a fit ends.
 #[derive(Debug, Clone, Copy)]
@@ -46,58 +51,78 @@ pub(super) fn deviation(bodies: &[Body], points: &[Vector3<f64>]) -> f64 {
 pub(super) fn weighed(bodies: &[Body], points: &[Vector3<f64>], like: &Weighing) -> Weighing {
     let deviation = deviation(bodies, points);
     Weighing {
-        scale: match like.reach {
-            Reach::Wide => WIDE,
-            Reach::Narrow => NARROW,
+        loss: Loss {
+            scale: match like.loss.reach {
+                Reach::Wide => WIDE,
+                Reach::Narrow => NARROW,
+                Reach::Near => (NEAR * deviation).max(LEAST_NEAR),
+            },
+            ..like.loss
         },
         prior: deviation * deviation,
         ..*like
     }
 }
 
-/// Fits bodies, again and again with the weighing that their distances then ask for, until it does not change; each
-/// time to the same end.
+/// Fits bodies with the weighing that they ask for, and once more with the one that they then ask for.
 pub(super) fn minimised(
-    mut bodies: Vec<Body>,
+    bodies: Vec<Body>,
     points: &[Vector3<f64>],
     like: &Weighing,
     end: End,
     context: &Context<'_>,
 ) -> Result<Minimum, Cancelled> {
-    let mut weighing = weighed(&bodies, points, like);
-    let mut iterations = 0;
-    for _ in 1..MAX_PASSES {
-        let found = descended(bodies, points, weighing, end, context)?;
-        iterations += found.iterations;
-        bodies = found.bodies;
-        let before = weighing.prior;
-        weighing = weighed(&bodies, points, like);
-        if (weighing.prior / before - 1.0).abs() < SAME {
+    let weighing = weighed(&bodies, points, like);
+    let first = descended(bodies, points, weighing, end, context)?;
+    let weighing = weighed(&first.bodies, points, like);
+    let found = descended(first.bodies, points, weighing, end, context)?;
+    Ok(Minimum {
+        iterations: first.iterations + found.iterations,
+        ..found
+    })
+}
+
+/// Which of some fits is the best; `None` of none.
+pub(super) fn least(tried: &[Minimum], points: &[Vector3<f64>]) -> Option<usize> {
+    let losses = losses(tried, points).into_iter().enumerate();
+    let best = losses.min_by(|(_, p), (_, q)| p.total_cmp(q))?;
+    Some(best.0)
+}
+
+/// Fits with their losses, the least first.
+pub(super) fn ranked(tried: Vec<Minimum>, points: &[Vector3<f64>]) -> Vec<(f64, Minimum)> {
+    let losses = losses(&tried, points);
+    let mut ranked: Vec<_> = losses.into_iter().zip(tried).collect();
+    ranked.sort_by(|(p, _), (q, _)| p.total_cmp(q));
+    ranked
+}
+
+/// Of fits in the order of their losses those whose loss is so many times the least at most, each minimum once: the next
+/// is another if its loss is so many times the last.
+pub(super) fn distinct(ranked: Vec<(f64, Minimum)>, most: f64, another: f64) -> Vec<Minimum> {
+    let least = ranked.first().map_or(0.0, |(loss, _)| *loss);
+    let mut last = f64::NEG_INFINITY;
+    let mut distinct = Vec::new();
+    for (loss, found) in ranked {
+        if loss > most * least {
             break;
         }
+        if loss > another * last {
+            last = loss;
+            distinct.push(found);
+        }
     }
-    let mut found = descended(bodies, points, weighing, end, context)?;
-    found.iterations += iterations;
-    Ok(found)
+    distinct
 }
 
-/// The best of some fits; `None` of none.
-pub(super) fn least(tried: Vec<Minimum>, points: &[Vector3<f64>]) -> Option<Minimum> {
-    let best = ranked(tried, points).into_iter().next()?;
-    Some(best.1)
-}
-
-/// Fits with their losses, the least first, all weighed as the one that needs the least scale.
-pub(super) fn ranked(tried: Vec<Minimum>, points: &[Vector3<f64>]) -> Vec<(f64, Minimum)> {
+/// The losses of fits, all weighed as the one that needs the least scale.
+fn losses(tried: &[Minimum], points: &[Vector3<f64>]) -> Vec<f64> {
     let scales = tried.iter().map(|found| found.weighing);
-    let Some(weighing) = scales.min_by(|p, q| p.scale.total_cmp(&q.scale)) else {
+    let Some(weighing) = scales.min_by(|p, q| p.loss.scale.total_cmp(&q.loss.scale)) else {
         return Vec::new();
     };
     let loss = |found: &Minimum| NormalEquations::new(&found.bodies, points, &weighing).loss;
-    let weighed = tried.into_iter().map(|found| (loss(&found), found));
-    let mut ranked: Vec<_> = weighed.collect();
-    ranked.sort_by(|(p, _), (q, _)| p.total_cmp(q));
-    ranked
+    tried.iter().map(loss).collect()
 }
 
 /// Goes down with one weighing.

@@ -1,20 +1,28 @@
 //! Superquadrics and unions of them, fitted to points: few numbers, at the price of a rougher surface.
 //!
 //! The radial distances of the points are made small by the method of Levenberg and Marquardt, with derivatives in
-//! closed form, bounds, and a loss that large distances do not dominate (Cauchy's).
+//! closed form, bounds, and a loss that large distances do not dominate (Cauchy's, or Welsch's where many points are
+//! astray).
 
 mod bodies;
 mod cloud;
 mod clusters;
+mod distance;
 mod error;
 mod form;
 mod least_squares;
+mod loss;
 mod multi;
 mod normal_equations;
+mod search;
 mod single;
+mod soft_minimum;
 mod standard_errors;
+mod starts;
+mod sums;
 #[cfg(test)]
 mod tests;
+mod weighing;
 
 pub use error::SuperquadricFitError;
 pub use form::Form;

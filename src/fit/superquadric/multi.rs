@@ -1,14 +1,14 @@
 //! A union of superquadrics, with as many parts as held-out points ask for.
 
-use super::bodies::Body;
 use super::cloud::Cloud;
 use super::clusters::{SEEDINGS, ellipsoids};
 use super::error::SuperquadricFitError;
 use super::form::Form;
-use super::least_squares::{End, Minimum, descended, least, weighed};
-use super::normal_equations::{Weighing, distances};
-use super::single::best;
+use super::least_squares::{End, Minimum, OTHER_MINIMUM, descended, distinct, ranked, weighed};
+use super::normal_equations::distances;
+use super::search::best;
 use super::standard_errors::{ParameterErrors, standard_errors};
+use super::weighing::Weighing;
 use crate::fit::Residuals;
 use crate::fit::context::Context;
 use crate::model::{Frame, Grain, InvalidGrain, MultiSuperquadric, Part, SuperquadricGrain};
@@ -26,6 +26,9 @@ const STAGE: End = End {
     gain: 1e-5,
 };
 const LAST: End = End { steps: 60, ..STAGE };
+
+/// How many times the loss of a start that of another one is.
+const OTHER_START: f64 = 1.0 + 1e-9;
 
 /// Cells of directions along an edge of the cube, of which every fifth is held out.
 const HELD_OUT_CELLS: usize = 24;
@@ -116,7 +119,8 @@ fn chosen(
     Ok((chosen, errors))
 }
 
-/// The best fit of so many parts, two at least.
+/// The best fit of so many parts, two at least: all parts at once, from all starts, to minima of distances that get
+/// sharper.
 fn with_parts(
     cloud: &Cloud,
     parts: usize,
@@ -124,37 +128,34 @@ fn with_parts(
     context: &Context<'_>,
 ) -> Result<Minimum, SuperquadricFitError> {
     let few = cloud.thinned();
-    let mut tried = Vec::new();
-    for seeding in SEEDINGS {
-        if let Some(start) = ellipsoids(cloud, &few, parts, seeding) {
-            tried.push(sharpened(start, &few, like, context)?);
-        }
+    let [first, second, last] = SHARPNESS.map(|sharpness| Weighing { sharpness, ..*like });
+    let starts = SEEDINGS
+        .into_iter()
+        .filter_map(|seeding| ellipsoids(cloud, &few, parts, seeding))
+        .map(|bodies| Minimum {
+            weighing: weighed(&bodies, &few, &first),
+            iterations: 0,
+            bodies,
+        });
+    let mut found = distinct(ranked(starts.collect(), &few), f64::INFINITY, OTHER_START);
+    for stage in [first, second, last] {
+        let sharper = found.into_iter().map(|found| {
+            let weighing = weighed(&found.bodies, &few, &stage);
+            descended(found.bodies, &few, weighing, STAGE, context)
+        });
+        let sharper = ranked(sharper.collect::<Result<Vec<_>, _>>()?, &few);
+        found = distinct(sharper, f64::INFINITY, OTHER_MINIMUM);
     }
-    let found = least(tried, &few).ok_or(SuperquadricFitError::NoVolume)?;
-    let weighing = weighed(&found.bodies, &cloud.points, &found.weighing);
+    let best = found.into_iter().next();
+    let best = best.ok_or(SuperquadricFitError::NoVolume)?;
+    let weighing = weighed(&best.bodies, &cloud.points, &best.weighing);
     Ok(descended(
-        found.bodies,
+        best.bodies,
         &cloud.points,
         weighing,
         STAGE,
         context,
     )?)
-}
-
-/// Fits all parts at once, to a minimum of distances that gets sharper.
-fn sharpened(
-    mut bodies: Vec<Body>,
-    points: &[Vector3<f64>],
-    like: &Weighing,
-    context: &Context<'_>,
-) -> Result<Minimum, SuperquadricFitError> {
-    let [first, second, last] = SHARPNESS.map(|sharpness| Weighing { sharpness, ..*like });
-    for stage in [first, second] {
-        let weighing = weighed(&bodies, points, &stage);
-        bodies = descended(bodies, points, weighing, STAGE, context)?.bodies;
-    }
-    let weighing = weighed(&bodies, points, &last);
-    Ok(descended(bodies, points, weighing, STAGE, context)?)
 }
 
 /// The union about the centre of the cloud, or where that is outside about that of the largest part.

@@ -7,9 +7,12 @@
 
 use super::bodies::Body;
 use super::cloud::Cloud;
+use super::distance::ReadyBody;
 use super::form::{EXPONENTS_FROM, Form, NUMBERS};
 use super::least_squares::Minimum;
-use super::normal_equations::{NormalEquations, Row};
+use super::loss::LossSum;
+use super::normal_equations::NormalEquations;
+use super::soft_minimum::SoftMinimum;
 use nalgebra::{Cholesky, DMatrix, DVector};
 use std::collections::BTreeMap;
 
@@ -101,22 +104,20 @@ fn covariance(cloud: &Cloud, found: &Minimum) -> Option<DMatrix<f64>> {
     let weighing = &found.weighing;
     let whole = NormalEquations::new(&found.bodies, &cloud.points, weighing);
     let parameters = whole.gradient.len();
-    let prepared: Vec<_> = found
-        .bodies
-        .iter()
-        .map(|body| (*body, body.numbers()))
-        .collect();
+    let ready: Vec<_> = found.bodies.iter().map(ReadyBody::new).collect();
     let mut regions: BTreeMap<[usize; 3], DVector<f64>> = BTreeMap::new();
-    let (mut row, mut distances) = (Row::new(), Vec::new());
+    let mut distance = SoftMinimum::new();
+    let mut loss = LossSum::new(weighing.loss);
     for point in &cloud.points {
         let region = cloud.cell(point, REGIONS);
         let sum = regions
             .entry(region)
             .or_insert_with(|| DVector::zeros(parameters));
-        row.set(&prepared, &mut distances, weighing, point);
-        let weight = 1.0 / (1.0 + (row.value / weighing.scale).powi(2));
-        for &(place, slope) in &row.entries {
-            sum[place] += weight * row.value * slope;
+        distance.set(&ready, weighing.sharpness, point);
+        let weight = loss.add(distance.value);
+        let entries = distance.entries.iter();
+        for (place, slope) in entries.flat_map(|entry| entry.placed(weighing.form)) {
+            sum[place] += weight * distance.value * slope;
         }
     }
     let count = regions.len();

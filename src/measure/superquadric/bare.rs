@@ -58,7 +58,8 @@ struct Cover<'a> {
 
 impl Cover<'_> {
     fn holds(&self, x: &Vector3<f64>) -> bool {
-        self.part.gauge(x) < self.edge
+        let local = self.part.frame.to_local(&(*x).into());
+        self.part.shape.is_gauge_below(&local, self.edge)
     }
 }
 

@@ -18,6 +18,15 @@ impl Superquadric {
         self.gauge_and_slope(x).0
     }
 
+    /// Whether the gauge of a point is below a bound. It is at least the largest of X, Y and Z, and at most their sum, which
+    /// spares most points its powers.
+    #[inline]
+    pub(crate) fn is_gauge_below(&self, x: &Vector3<f64>, bound: f64) -> bool {
+        let octant = self.octant((*x).into());
+        let scaled = Vector3::from_fn(|axis, _| x[axis].abs() / octant.axes[axis]);
+        scaled.max() < bound && (scaled.sum() < bound || self.gauge(x) < bound)
+    }
+
     /// The gauge and its gradient, which is along the outward normal of the scaled body through the point; zero at the
     /// origin.
     #[inline]
@@ -156,6 +165,19 @@ mod tests {
                     f.powf(1.0 / octant.n1),
                     max_relative = 1e-13
                 );
+            }
+        }
+    }
+
+    #[test]
+    fn a_gauge_is_below_what_is_above_it() {
+        for body in bodies() {
+            for x in directions().chain([Vector3::zeros(), Vector3::x() * 3.0]) {
+                let gauge = body.gauge(&x);
+                for bound in [0.5, 0.99, 1.01, 2.0] {
+                    let bound = bound * gauge.max(0.1);
+                    assert_eq!(body.is_gauge_below(&x, bound), gauge < bound);
+                }
             }
         }
     }
