@@ -11,7 +11,7 @@ use crate::contact::{
 use crate::export::{Detail, MeshFormat};
 use crate::measure::{grain_properties, solid_properties};
 use crate::model::{Frame, Grain, Surface};
-use crate::report::{NormalLaw, PlacedReport, RegionsReport, Unit, Withheld};
+use crate::report::{HertzLaw, NormalLaw, PlacedReport, RegionsReport, Unit, Withheld};
 use anyhow::{Context, Result, anyhow, bail};
 use nalgebra::{Isometry3, Translation3};
 use std::path::Path;
@@ -32,16 +32,24 @@ pub(super) fn run(args: &ContactArgs, pose: &PoseArg, console: Console) -> Resul
     let grains = [read(&args.model)?, read(other)?];
     let names = [inputs::name(&args.model), inputs::name(other)];
     let law = law(args, &grains)?;
-    if law.is_none()
-        && let Some(report) = of_unions(&grains, &names, args.unit, pose)
+    let by_parts = match &law {
+        None => Some(None),
+        Some(NormalLaw::Hertz(hertz)) => {
+            let is_hidden = grains.iter().any(|grain| grain.hidden_share() > 0.0);
+            is_hidden.then_some(Some(hertz))
+        }
+        Some(_) => None,
+    };
+    if let Some(hertz) = by_parts
+        && let Some(report) = of_unions(&grains, &names, args.unit, pose, hertz)
     {
         let touches = report.touches.iter();
         let frames = touches.map(|touch| frame(touch.point, touch.normal));
         draw(args, &grains, pose, &frames.collect::<Vec<_>>())?;
-        return console.tell(&report, args.json, written, &[]);
+        return console.tell(&report, args.json, written, &report.warnings);
     }
     for (grain, name) in grains.iter().zip(&names) {
-        let what = "what it shares with another body is not told; without --youngs-modulus-mpa the places are";
+        let what = "its contacts are told beside another union only, and not by --law volume";
         solid::is_seen_whole(grain, name, what)?;
     }
     let [one, two] = &grains;
@@ -96,6 +104,7 @@ fn of_unions(
     names: &[String; 2],
     unit: Option<Unit>,
     pose: &PoseArg,
+    law: Option<&HertzLaw>,
 ) -> Option<PlacedReport> {
     let [first, second] = grains;
     let [one, two] = [first.superquadric()?, second.superquadric()?];
@@ -104,9 +113,14 @@ fn of_unions(
         centre: pose.turn * frame.centre + pose.aside,
         axes: pose.turn.to_rotation_matrix() * frame.axes,
     };
-    let touches = union_contacts((one.body(), &first.frame()), (two.body(), &moved));
+    let frame = first.frame();
+    let bodies = [(one.body(), &frame), (two.body(), &moved)];
+    let touches = union_contacts(bodies[0], bodies[1]).into_iter();
+    let touches: Vec<_> = touches
+        .map(|touch| (touch, touch.curvatures(bodies)))
+        .collect();
     let [one, two] = names.clone();
-    Some(PlacedReport::new(one, two, unit, &touches))
+    Some(PlacedReport::new(one, two, unit, &touches, law))
 }
 
 /// What is not to be relied on of either grain.
@@ -130,10 +144,10 @@ fn law(args: &ContactArgs, grains: &[Grain; 2]) -> Result<Option<NormalLaw>> {
     }
     let metres_per_unit = unit.metres();
     Ok(Some(match args.law.unwrap_or(LawArg::Hertz) {
-        LawArg::Hertz => NormalLaw::Hertz {
+        LawArg::Hertz => NormalLaw::Hertz(HertzLaw {
             effective_modulus_pa,
             metres_per_unit,
-        },
+        }),
         LawArg::Volume => {
             let volumes = grains.each_ref().map(|grain| match grain.superquadric() {
                 Some(union) => solid_properties(union).properties.volume,

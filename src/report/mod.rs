@@ -14,6 +14,7 @@ mod escape;
 mod estimate;
 mod fit;
 mod harmonics;
+mod hertz;
 mod measure;
 mod number;
 mod placed;
@@ -38,6 +39,7 @@ pub(crate) use escape::escaped;
 pub use estimate::{EstimateRecord, EvaluationRecord};
 pub use fit::{FitReport, ReferenceRecord, Seconds, Skipped, StandardErrorsRecord};
 pub use harmonics::{largest_loss, write_harmonics};
+pub use hertz::HertzLaw;
 pub use measure::{
     BoxRecord, CurvatureRecord, Dimensions, EllipsoidRecord, FacesRecord, FillRecord, Measure,
     MeasureReport, Measured, Measures, NotMeasured, Principal, ProjectionRecord, SphereRecord,

@@ -1,9 +1,11 @@
 //! Where two bodies touch that are placed beside each other.
 
 use super::escape::escaped;
+use super::hertz::HertzLaw;
 use super::number::{short, triple};
 use super::unit::{Labels, Unit};
 use crate::contact::UnionContact;
+use crate::measure::Curvature;
 use crate::scan::plural;
 use serde::Serialize;
 use std::fmt;
@@ -20,6 +22,8 @@ pub struct PlacedReport {
     pub unit: Option<Unit>,
     /// Where they touch; nothing if they are apart.
     pub touches: Vec<PlacedTouch>,
+    /// What to know of these figures.
+    pub warnings: Vec<String>,
 }
 
 /// One touch, in the frame of the first body's scan.
@@ -34,27 +38,37 @@ pub struct PlacedTouch {
     pub normal: [f64; 3],
     /// The overlap along the normal.
     pub overlap: f64,
+    /// Principal curvatures of both bodies there, the larger first; `null` where a part is sharp.
+    pub principal_curvatures: [[f64; 2]; 2],
+    /// Normal force by Hertz in newtons; `null` where none was asked for, or the theory has none.
+    pub normal_force_n: Option<f64>,
 }
 
 impl PlacedReport {
-    /// The report of these touches.
+    /// The report of these touches with the curvatures there, and with forces by a law.
     pub fn new(
         first: String,
         second: String,
         unit: Option<Unit>,
-        touches: &[UnionContact],
+        touches: &[(UnionContact, [Curvature; 2])],
+        law: Option<&HertzLaw>,
     ) -> Self {
-        let touches = touches.iter().map(|touch| PlacedTouch {
+        let mut warnings = Vec::new();
+        let touches = touches.iter().map(|(touch, curvatures)| PlacedTouch {
             parts: touch.parts,
             point: touch.point.into(),
             normal: touch.normal.into(),
             overlap: touch.overlap,
+            principal_curvatures: curvatures.each_ref().map(|curvature| curvature.principal),
+            normal_force_n: law
+                .and_then(|law| law.force_n(touch.overlap, curvatures, &mut warnings)),
         });
         Self {
             first,
             second,
             unit,
             touches: touches.collect(),
+            warnings,
         }
     }
 }
@@ -73,6 +87,9 @@ impl fmt::Display for PlacedReport {
             write!(f, "\ntouched at    {}{length}", triple(touch.point))?;
             write!(f, "\n  normal      {}", triple(touch.normal))?;
             write!(f, "\n  overlap     {}{length}", short(touch.overlap))?;
+            if let Some(force) = touch.normal_force_n {
+                write!(f, "\n  force       {} N", short(force))?;
+            }
         }
         Ok(())
     }

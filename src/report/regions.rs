@@ -1,10 +1,11 @@
 //! Where two surfaces of any kind overlap that are placed beside each other, and the forces there.
 
-use super::contact::{CURVED, beyond_hertz};
+use super::contact::beyond_hertz;
 use super::escape::escaped;
+use super::hertz::HertzLaw;
 use super::number::{short, triple, with_error};
 use super::unit::{Labels, Unit};
-use crate::contact::{ContactRegion, ContactRegions, RelativeCurvature, VolumeLaw};
+use crate::contact::{ContactRegion, ContactRegions, VolumeLaw};
 use crate::scan::plural;
 use serde::Serialize;
 use std::fmt;
@@ -14,12 +15,7 @@ use std::fmt;
 #[non_exhaustive]
 pub enum NormalLaw {
     /// Hertz: of the depth and the curvatures at its two points.
-    Hertz {
-        /// Effective modulus, in pascals.
-        effective_modulus_pa: f64,
-        /// The bodies' unit of length, in metres.
-        metres_per_unit: f64,
-    },
+    Hertz(HertzLaw),
     /// Of the shared volume; it keeps energy.
     Volume(VolumeLaw),
 }
@@ -103,37 +99,20 @@ impl RegionsReport {
 
 impl NormalLaw {
     fn force_n(&self, region: &ContactRegion, warnings: &mut Vec<String>) -> Option<f64> {
-        let (modulus, metres) = match self {
+        let law = match self {
             Self::Volume(law) => {
                 let share = region.depth / law.effective_radius();
                 let radius = "effective radius of the bodies' volumes";
                 warnings.extend(beyond_hertz("The depth", share, radius).map(|told| told + "."));
                 return Some(law.force_n(region).norm());
             }
-            Self::Hertz {
-                effective_modulus_pa,
-                metres_per_unit,
-            } => (*effective_modulus_pa, *metres_per_unit),
+            Self::Hertz(law) => law,
         };
-        let Some([one, two]) = &region.curvatures else {
+        let Some(curvatures) = &region.curvatures else {
             warnings.push("No force by Hertz: a region has no two points whose line is normal to both surfaces.".into());
             return None;
         };
-        let angle = one.directions[0]
-            .dot(&two.directions[0])
-            .clamp(-1.0, 1.0)
-            .acos();
-        match RelativeCurvature::new(one.principal, two.principal, angle) {
-            Ok(relative) => {
-                let share = region.depth / relative.smaller_radius();
-                warnings.extend(beyond_hertz("The depth", share, CURVED).map(|told| told + "."));
-                Some(relative.normal_force_n(metres, region.depth * metres, modulus))
-            }
-            Err(error) => {
-                warnings.push(format!("No force by Hertz: {error}."));
-                None
-            }
-        }
+        law.force_n(region.depth, curvatures, warnings)
     }
 }
 

@@ -98,8 +98,17 @@ fn what_takes_its_surface_over_directions_is_refused() {
     let touches = json(&folder, &placed);
     assert_eq!(touches["unit"], "mm");
     assert_eq!(touches["touches"].as_array().unwrap().len(), 5);
-    let forces = [&placed[..], &["--youngs-modulus-mpa", "10"]].concat();
-    for words in [&forces[..], &["report", "u.json", "-o", "r.html"]] {
+    let hertz = [&placed[..], &["--youngs-modulus-mpa", "10"]].concat();
+    // Two balls with a radius of a millimetre: E* = E / 2 (1 - .3²), R = .5 mm, F = 4/3 E* R^.5 d^1.5.
+    let modulus = 1e7 / (2.0 * 0.91);
+    for touch in json(&folder, &hertz)["touches"].as_array().unwrap() {
+        let depth = 1e-3 * touch["overlap"].as_f64().unwrap();
+        let force = 4.0 / 3.0 * modulus * 5e-4_f64.sqrt() * depth.powf(1.5);
+        let told = touch["normal_force_n"].as_f64().unwrap();
+        assert!((told / force - 1.0).abs() < 1e-6, "{told} {force}");
+    }
+    let shared = [&hertz[..], &["--law", "volume"]].concat();
+    for words in [&shared[..], &["report", "u.json", "-o", "r.html"]] {
         let output = grainform(&folder, words);
         assert_eq!(output.status.code(), Some(2));
         let told = errors(&output);

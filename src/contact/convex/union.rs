@@ -2,6 +2,7 @@
 
 use super::contact::ConvexStatus;
 use super::pair::ConvexPair;
+use crate::measure::Curvature;
 use crate::model::{Frame, MultiSuperquadric, Part};
 use nalgebra::{Point3, Vector3};
 
@@ -19,6 +20,19 @@ pub struct UnionContact {
     pub normal: Vector3<f64>,
     /// The overlap along the normal.
     pub overlap: f64,
+}
+
+impl UnionContact {
+    /// Curvatures of the surfaces of both unions there, of the parts that touch.
+    pub fn curvatures(&self, bodies: [(&MultiSuperquadric, &Frame); 2]) -> [Curvature; 2] {
+        let ends = [0.5, -0.5].map(|half| self.point + self.normal * (half * self.overlap));
+        [0, 1].map(|body| {
+            let (union, frame) = bodies[body];
+            let part = union.parts()[self.parts[body]].placed(frame);
+            let (n, jet) = part.jet_at(&ends[body]);
+            Curvature::new(&n, &jet)
+        })
+    }
 }
 
 /// All touches of two unions whose frames are of the same space, the deepest first.
@@ -83,15 +97,10 @@ fn same_touch(
 
 /// The parts where the body is.
 fn placed((union, frame): (&MultiSuperquadric, &Frame)) -> Vec<Part> {
-    let parts = union.parts().iter();
-    parts
-        .map(|part| Part {
-            shape: part.shape,
-            frame: Frame {
-                centre: frame.to_scan(&part.frame.centre.coords),
-                axes: frame.axes * part.frame.axes,
-            },
-        })
+    union
+        .parts()
+        .iter()
+        .map(|part| part.placed(frame))
         .collect()
 }
 

@@ -71,11 +71,8 @@ impl SuperquadricGrain {
         let local = self.frame.to_local(point);
         let parts = self.body.parts().iter();
         let nearest = parts.min_by(|p, q| p.gauge(&local).total_cmp(&q.gauge(&local)));
-        let Part { shape, frame } = nearest.unwrap_or(&self.body.parts()[0]);
-        let seen = frame.to_local(&local.into()).normalize();
-        let axes = self.frame.axes * frame.axes;
-        let n = axes * seen;
-        (n, shape.derivatives(&seen).turned(&axes).radial(&n))
+        let part = nearest.unwrap_or(&self.body.parts()[0]);
+        part.placed(&self.frame).jet_at(point)
     }
 
     /// Numbers of its shape: those of each part, and six for its pose beside the first.

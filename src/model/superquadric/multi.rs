@@ -2,9 +2,9 @@
 
 use super::connected::apart;
 use super::{InvalidSuperquadric, Superquadric};
-use crate::model::{Derivatives, Frame, StarSurface};
+use crate::model::{Derivatives, Frame, StarSurface, SurfaceJet};
 use crate::sphere::Jet;
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix3, Point3, Vector3};
 
 /// A superquadric and where it lies in the union.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -16,6 +16,25 @@ pub struct Part {
 }
 
 impl Part {
+    /// The part of a union in this frame, in the space of the frame.
+    pub(crate) fn placed(&self, frame: &Frame) -> Self {
+        Self {
+            shape: self.shape,
+            frame: Frame {
+                centre: frame.to_scan(&self.frame.centre.coords),
+                axes: frame.axes * self.frame.axes,
+            },
+        }
+    }
+
+    /// The direction of a point of the surface from the part's centre, and the jet of the surface over these directions.
+    pub(crate) fn jet_at(&self, point: &Point3<f64>) -> (Vector3<f64>, SurfaceJet) {
+        let axes = &self.frame.axes;
+        let seen = self.frame.to_local(point).normalize();
+        let n = axes * seen;
+        (n, self.shape.derivatives(&seen).turned(axes).radial(&n))
+    }
+
     /// The gauge of a point of the union's frame.
     #[inline]
     pub fn gauge(&self, x: &Vector3<f64>) -> f64 {
