@@ -15,6 +15,7 @@ mod forest;
 mod joint;
 mod local_fit;
 mod nodes;
+mod patch;
 mod search;
 #[cfg(test)]
 mod tests;
