@@ -18,12 +18,7 @@ pub(super) struct PolarTable {
     rows: usize,
     /// Columns by order m = 0, ..., L and within it degree l = m, ..., L.
     columns: Vec<f64>,
-    /// Of each order, how many rows from the pole on are left out: harmonics of high order are next to nothing there.
-    skipped: Vec<usize>,
 }
-
-/// What is next to nothing: harmonics are of the order of one.
-const NOTHING: f64 = 1e-18;
 
 /// Sums of the columns of one order with l - m even (0) and odd (1), for cosines and for sines.
 struct Halves {
@@ -45,25 +40,12 @@ impl PolarTable {
         for ((l, m), column) in of_orders.zip(columns.chunks_exact_mut(rows)) {
             fill(l, m, column);
         }
-        let mut table = Self {
+        Self {
             degree,
             rings,
             rows,
             columns,
-            skipped: Vec::new(),
-        };
-        table.skipped = (0..=degree).map(|m| table.rows_of_nothing(m)).collect();
-        table
-    }
-
-    /// How many rows from the pole on hold next to nothing in all columns of an order, as a multiple of [`LANES`].
-    fn rows_of_nothing(&self, m: usize) -> usize {
-        let columns = self.columns(m).chunks_exact(self.rows);
-        let empty = columns.map(|column| {
-            let first = column.iter().position(|entry| entry.abs() > NOTHING);
-            first.unwrap_or(self.rows)
-        });
-        empty.min().unwrap_or(0) / LANES * LANES
+        }
     }
 
     /// Length of a column: half of the rings, and zeros.
@@ -96,15 +78,14 @@ impl PolarTable {
                 let mut halves = self.halves();
                 for m in 0..=self.degree {
                     let columns = self.columns(m).chunks_exact(self.rows);
-                    let from = self.skipped[m];
                     let Halves { cosine, sine } = &mut halves;
                     for half in cosine.iter_mut().chain(sine.iter_mut()) {
                         half.fill(0.0);
                     }
                     for (l, column) in (m..).zip(columns) {
                         let [a, b] = pair(coefficients, l, m);
-                        add(&mut cosine[(l - m) % 2][from..], a, &column[from..]);
-                        add(&mut sine[(l - m) % 2][from..], b, &column[from..]);
+                        add(&mut cosine[(l - m) % 2], a, column);
+                        add(&mut sine[(l - m) % 2], b, column);
                     }
                     for i in 0..self.rings.div_ceil(2) {
                         let even = Complex::new(cosine[0][i], sine[0][i]);
@@ -128,9 +109,8 @@ impl PolarTable {
                 let mut halves = self.halves();
                 for m in 0..=self.degree {
                     let columns = self.columns(m).chunks_exact(self.rows);
-                    let from = self.skipped[m];
                     let Halves { cosine, sine } = &mut halves;
-                    for i in from..self.rings.div_ceil(2) {
+                    for i in 0..self.rings.div_ceil(2) {
                         let mirrored = self.rings - 1 - i;
                         let north = terms[i * (self.degree + 1) + m];
                         let south = match mirrored > i {
@@ -143,12 +123,10 @@ impl PolarTable {
                     }
                     for (l, column) in (m..).zip(columns) {
                         let order = m as isize;
-                        let (parity, column) = ((l - m) % 2, &column[from..]);
-                        coefficients[harmonic_index(l, order)] =
-                            dot(&cosine[parity][from..], column);
+                        let parity = (l - m) % 2;
+                        coefficients[harmonic_index(l, order)] = dot(&cosine[parity], column);
                         if m > 0 {
-                            coefficients[harmonic_index(l, -order)] =
-                                dot(&sine[parity][from..], column);
+                            coefficients[harmonic_index(l, -order)] = dot(&sine[parity], column);
                         }
                     }
                 }
