@@ -228,9 +228,8 @@ impl GrainKind {
         centre: Point3<f64>,
         axes: Matrix3<f64>,
     ) -> impl Iterator<Item = Frame> {
-        self.parts.iter().map(move |KindPart { part, .. }| Frame {
-            centre: centre + axes * part.frame.centre.coords,
-            axes: axes * part.frame.axes,
-        })
+        let frame = Frame { centre, axes };
+        let parts = self.parts.iter();
+        parts.map(move |KindPart { part, .. }| part.frame.within(&frame))
     }
 }

@@ -32,15 +32,12 @@ pub(super) fn run(args: &ContactArgs, pose: &PoseArg, console: Console) -> Resul
     let grains = [read(&args.model)?, read(other)?];
     let names = [inputs::name(&args.model), inputs::name(other)];
     let law = law(args, &grains)?;
-    let by_parts = match &law {
-        None => Some(None),
-        Some(NormalLaw::Hertz(hertz)) => {
-            let is_hidden = grains.iter().any(|grain| grain.hidden_share() > 0.0);
-            is_hidden.then_some(Some(hertz))
-        }
-        Some(_) => None,
+    let hertz = match &law {
+        Some(NormalLaw::Hertz(hertz)) => Some(hertz),
+        _ => None,
     };
-    if let Some(hertz) = by_parts
+    let is_hidden = grains.iter().any(|grain| grain.hidden_share() > 0.0);
+    if (law.is_none() || hertz.is_some() && is_hidden)
         && let Some(report) = of_unions(&grains, &names, args.unit, pose, hertz)
     {
         let touches = report.touches.iter();

@@ -27,6 +27,14 @@ impl Frame {
         self.axes.tr_mul(&(point - self.centre))
     }
 
+    /// This frame, that is told in another one, in the space of that one.
+    pub(crate) fn within(&self, outer: &Self) -> Self {
+        Self {
+            centre: outer.to_scan(&self.centre.coords),
+            axes: outer.axes * self.axes,
+        }
+    }
+
     /// The point of the scan with the given coordinates in this frame.
     pub fn to_scan(&self, local: &Vector3<f64>) -> Point3<f64> {
         self.centre + self.axes * local

@@ -158,11 +158,8 @@ impl SuperquadricReport {
     pub fn of_multi(scan: FittedScan, fitted: &MultiFit) -> Self {
         let parts = fitted.union.parts().iter().zip(&fitted.errors);
         let parts = parts.map(|(part, errors)| {
-            let frame = Frame {
-                centre: fitted.frame.to_scan(&part.frame.centre.coords),
-                axes: fitted.frame.axes * part.frame.axes,
-            };
-            SuperquadricRecord::new(&part.shape, &frame, errors)
+            let placed = part.placed(&fitted.frame);
+            SuperquadricRecord::new(&placed.shape, &placed.frame, errors)
         });
         let solid = union_properties(&fitted.union, UNION_TOLERANCE);
         Self {

@@ -175,22 +175,26 @@ impl Joint {
     }
 
     /// The values of the bases times a factor by the weight of the sample and the share of the cell.
-    #[inline(always)]
     fn scale(&self, patch: &Patch, design: &mut [f64], factor: impl Fn(f64, f64) -> f64) {
         let rows = patch.weights.len();
-        let mut columns = design
-            .chunks_exact_mut(rows)
-            .zip(patch.values.chunks_exact(rows));
+        let values = patch.values.chunks_exact(rows);
+        let mut columns = design.chunks_exact_mut(rows).zip(values);
         for (&cell, shares) in patch.cells.iter().zip(patch.shares.chunks_exact(rows)) {
             let factors = patch.weights.iter().zip(shares);
             let factors: Vec<f64> = factors
                 .map(|(&weight, &share)| factor(weight, share))
                 .collect();
-            for (scaled, values) in columns.by_ref().take(self.count(cell)) {
-                for ((scaled, value), factor) in scaled.iter_mut().zip(values).zip(&factors) {
-                    *scaled = value * factor;
-                }
-            }
+            vectorize(
+                #[inline(always)]
+                || {
+                    for (scaled, values) in columns.by_ref().take(self.count(cell)) {
+                        for ((scaled, value), factor) in scaled.iter_mut().zip(values).zip(&factors)
+                        {
+                            *scaled = value * factor;
+                        }
+                    }
+                },
+            );
         }
     }
 

@@ -20,10 +20,7 @@ impl Part {
     pub(crate) fn placed(&self, frame: &Frame) -> Self {
         Self {
             shape: self.shape,
-            frame: Frame {
-                centre: frame.to_scan(&self.frame.centre.coords),
-                axes: frame.axes * self.frame.axes,
-            },
+            frame: self.frame.within(frame),
         }
     }
 
