@@ -10,7 +10,7 @@ use super::outcome::{EstimateSummary, Fitted, Residuals};
 use super::prepare::{PreparedScan, Sample};
 use super::warning::FitWarning;
 use crate::model::{Family, StarGrain};
-use crate::sphere::coefficient_count;
+use crate::sphere::{Interpolant, coefficient_count};
 use nalgebra::Vector3;
 use rayon::prelude::*;
 use std::iter::once;
@@ -148,7 +148,8 @@ fn cut(estimate: &Estimate, options: &FitOptions, limit: f64) -> Result<Outcome,
         max_segments: options.most_segments(),
         limit,
     };
-    blended::approximate(&Plain(estimate), &settings).ok_or(FitError::NoEstimate)
+    let radius = estimate.stretched_radius();
+    blended::approximate(&Plain { estimate, radius }, &settings).ok_or(FitError::NoEstimate)
 }
 
 /// What was tried: one expansion, and the rounds in which cells were cut.
@@ -187,15 +188,18 @@ fn last_of_size(cut: &Outcome) -> usize {
 }
 
 /// The estimate in its stretched space, its errors weighed as those of the plain radius over all plain directions.
-struct Plain<'a>(&'a Estimate);
+struct Plain<'a> {
+    estimate: &'a Estimate,
+    radius: Interpolant,
+}
 
 impl Target for Plain<'_> {
     fn radii(&self, directions: &[Vector3<f64>]) -> Vec<f64> {
-        self.0.stretched_radii(directions)
+        self.radius.values(directions)
     }
 
     fn weight(&self, n: &Vector3<f64>) -> f64 {
-        self.0.weight(n)
+        self.estimate.weight(n)
     }
 }
 

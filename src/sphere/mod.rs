@@ -44,5 +44,5 @@ pub(crate) use quadrature::GaussLegendre;
 pub(crate) use ring_grid::RingGrid;
 pub use symmetry::{Symmetry, SymmetryError};
 pub(crate) use tangents::tangents;
-pub(crate) use transform::{AccurateHarmonics, HarmonicGram, ScatteredHarmonics};
+pub(crate) use transform::{AccurateHarmonics, HarmonicGram, Interpolant, ScatteredHarmonics};
 pub use triangulation::{TriangulationError, triangulate_directions};

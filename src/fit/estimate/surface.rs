@@ -2,7 +2,7 @@
 
 use super::outcome::{Dense, Estimate, spare, variance};
 use crate::model::{Stretch, Whole};
-use crate::sphere::{RingGrid, ScatteredHarmonics, coefficient_count};
+use crate::sphere::{Interpolant, RingGrid, coefficient_count};
 use nalgebra::Vector3;
 use std::f64::consts::PI;
 
@@ -52,12 +52,17 @@ impl Estimate {
 
     /// Radii in directions of the stretched space, in the scan's unit there.
     pub(crate) fn stretched_radii(&self, directions: &[Vector3<f64>]) -> Vec<f64> {
-        let mut radii = vec![0.0; directions.len()];
-        ScatteredHarmonics::new(self.degree, directions).synthesis(&self.coefficients, &mut radii);
-        radii
-            .iter_mut()
-            .for_each(|radius| *radius *= self.cloud.mean);
-        radii
+        self.stretched_radius().values(directions)
+    }
+
+    /// The radius over directions of the stretched space, in the scan's unit there.
+    pub(crate) fn stretched_radius(&self) -> Interpolant {
+        let scaled: Vec<f64> = self
+            .coefficients
+            .iter()
+            .map(|x| x * self.cloud.mean)
+            .collect();
+        Interpolant::new(self.degree, &scaled)
     }
 
     /// The expansion up to a degree.

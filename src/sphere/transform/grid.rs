@@ -5,6 +5,7 @@ use super::kernel::KernelPolynomials;
 use super::oversampled::oversampled;
 use super::polar::PolarTable;
 use crate::sphere::azimuth_fft::{AzimuthFft, even_smooth_number};
+use nalgebra::Vector3;
 use realfft::num_complex::Complex;
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -60,9 +61,12 @@ impl Grid {
         (self.polar.rings() + 2 * self.halo) * self.stride()
     }
 
-    /// Polar angle in \[0, pi\] and azimuth in \[0, 2 pi\] as coordinates in grid steps, such that
-    /// their ceilings are the first row and column to interpolate from.
-    pub(super) fn place(&self, theta: f64, phi: f64) -> [f64; 2] {
+    /// Polar angle and azimuth of a direction as coordinates in grid steps, such that their ceilings are the first row and
+    /// column to interpolate from.
+    pub(super) fn place(&self, n: &Vector3<f64>) -> [f64; 2] {
+        let theta = n.x.hypot(n.y).atan2(n.z);
+        let phi = n.y.atan2(n.x);
+        let phi = if phi < 0.0 { phi + 2.0 * PI } else { phi };
         let (rows, columns) = (self.around as f64, self.fft.points() as f64);
         [
             (theta / (2.0 * PI) * rows).min(rows / 2.0),

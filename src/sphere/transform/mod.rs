@@ -12,11 +12,13 @@
 //! finite width: below 5e-9 of the norm of the coefficients for a WIDTH of 10, below 1e-13 for one of 16. The
 //! adjoint takes the same steps in reverse, transposed, and is exact as such to rounding.
 //!
-//! One after the other they make the matrix Y'WY of weighted directions; [`gram`] applies it faster.
+//! An [`interpolant`] is evaluated in directions that are asked for once. One after the other the three steps and their
+//! adjoints make the matrix Y'WY of weighted directions; [`gram`] applies it faster.
 
 mod gauss_grid;
 mod gram;
 mod grid;
+mod interpolant;
 mod kept;
 mod kernel;
 mod oversampled;
@@ -25,6 +27,7 @@ mod polar;
 
 pub(crate) use gram::HarmonicGram;
 use grid::Grid;
+pub(crate) use interpolant::Interpolant;
 use nalgebra::Vector3;
 use places::Places;
 use rayon::prelude::*;

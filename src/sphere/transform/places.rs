@@ -3,7 +3,6 @@
 use super::grid::Grid;
 use crate::vectorize::vectorize;
 use nalgebra::Vector3;
-use std::f64::consts::PI;
 
 /// Places are visited in bands of as many rows of the grid, so that what they read stays in cache.
 const BAND: usize = 8;
@@ -30,10 +29,8 @@ impl<const WIDTH: usize> Places<WIDTH> {
             .iter()
             .enumerate()
             .map(|(index, n)| {
-                let phi = n.y.atan2(n.x);
-                let phi = if phi < 0.0 { phi + 2.0 * PI } else { phi };
-                let at = grid.place(n.x.hypot(n.y).atan2(n.z), phi);
-                let [row, column] = at.map(|t| t.ceil() as usize);
+                let at = grid.place(n);
+                let [row, column] = corner(at);
                 ((row / BAND, column, row, index), at)
             })
             .collect();
@@ -69,19 +66,9 @@ impl<const WIDTH: usize> Places<WIDTH> {
         vectorize(
             #[inline(always)]
             || {
-                for (place, [rows, columns]) in self.places.iter().zip(&self.weights) {
-                    let mut sums = [0.0; WIDTH];
-                    for (a, weight) in rows.iter().enumerate() {
-                        let from = &points[place.corner as usize + a * self.stride..][..WIDTH];
-                        for b in 0..WIDTH {
-                            sums[b] += weight * from[b];
-                        }
-                    }
-                    let mut products = [0.0; WIDTH];
-                    for b in 0..WIDTH {
-                        products[b] = sums[b] * columns[b];
-                    }
-                    values[place.index as usize] = products.iter().sum();
+                for (place, weights) in self.places.iter().zip(&self.weights) {
+                    let points = &points[place.corner as usize..];
+                    values[place.index as usize] = weighted_sum(points, self.stride, weights);
                 }
             },
         );
@@ -108,4 +95,31 @@ impl<const WIDTH: usize> Places<WIDTH> {
             },
         );
     }
+}
+
+/// Row and column of the first of the WIDTH x WIDTH points of the grid around a place.
+pub(super) fn corner(place: [f64; 2]) -> [usize; 2] {
+    place.map(|t| t.ceil() as usize)
+}
+
+/// The sum of WIDTH x WIDTH points of a grid, of which the first is the first of `points`, times the weights of their rows
+/// and columns.
+#[inline(always)]
+pub(super) fn weighted_sum<const WIDTH: usize>(
+    points: &[f64],
+    stride: usize,
+    [rows, columns]: &[[f64; WIDTH]; 2],
+) -> f64 {
+    let mut sums = [0.0; WIDTH];
+    for (a, weight) in rows.iter().enumerate() {
+        let from = &points[a * stride..][..WIDTH];
+        for b in 0..WIDTH {
+            sums[b] += weight * from[b];
+        }
+    }
+    let mut products = [0.0; WIDTH];
+    for b in 0..WIDTH {
+        products[b] = sums[b] * columns[b];
+    }
+    products.iter().sum()
 }

@@ -74,6 +74,11 @@ fn synthesis_is_the_direct_sum() {
             .fold(0.0, f64::max);
         let error = error / norm(&coefficients);
         assert!(error < 1e-8, "L = {degree}: {error:e}");
+        // Directions that are asked for once have the same values.
+        assert_eq!(
+            Interpolant::new(degree, &coefficients).values(&directions),
+            values
+        );
     }
 }
 
