@@ -32,6 +32,12 @@ const ALL_TEXTURE: f64 = 0.5;
 /// Texture counts where the finer half of the degrees carries more than noise would by chance, in standard deviations.
 const CLEAR: f64 = 3.0;
 
+/// Standard deviations by which the power of a few degrees may be underestimated.
+const DEVIATIONS: f64 = 2.0;
+
+/// Where points leave more of a degree than this share, they tell nothing of it.
+const MOST_LEFT: f64 = 0.99;
+
 /// Fewer points than the first hardly tell noise from texture, more than the second do by their spectrum.
 const FEW: [f64; 2] = [200.0, 600.0];
 
@@ -43,24 +49,25 @@ pub(super) fn hidden_slopes(estimate: &Estimate) -> f64 {
     let noise = estimate.spectrum.noise().powi(2);
     let points = estimate.cloud.len() as f64;
     let degree = estimate.degree;
-    let variances = estimate.spectrum.variances(FINEST);
+    let expected = estimate.spectrum.variances(FINEST);
+    let resolved = RESOLVED * points.sqrt();
+    let finest_resolved = (resolved as usize).min(FINEST);
+    let kept = share_carried(estimate, &expected, finest_resolved.min(degree))
+        .min(share_carried(estimate, &expected, degree));
     // Of texture that is told by few degrees alone the fall is not known.
-    let last = variances[degree];
-    let kept = share_kept(estimate, &variances);
     let variance = |l: usize| match l <= degree {
-        true => variances[l],
-        false => kept * variances[l].min(last * texture_fall(degree, l)),
+        true => kept * expected[l],
+        false => kept * expected[l].min(expected[degree] * texture_fall(degree, l)),
     };
-    let ratio = |l: usize| variance(l) * points / (4.0 * PI * noise);
+    let to_noise = |variance: f64| variance * points / (4.0 * PI * noise);
     let finer = degree / 2..=degree;
     let orders = |l: usize| (2 * l + 1) as f64;
-    let carried: f64 = finer.clone().map(|l| orders(l) * ratio(l)).sum();
+    let carried = finer.clone().map(|l| orders(l) * to_noise(expected[l]));
     let by_chance = (2.0 * finer.map(orders).sum::<f64>()).sqrt();
-    let resolved = RESOLVED * points.sqrt();
-    let share = (ratio((resolved as usize).min(FINEST)) / ALL_TEXTURE).min(1.0);
+    let share = (to_noise(variance(finest_resolved)) / ALL_TEXTURE).min(1.0);
     let few = ((FEW[1] - points) / (FEW[1] - FEW[0])).clamp(0.0, 1.0);
     let of_few = few * share.max(LEAST_SHARE) * noise * steepness(resolved as usize);
-    if carried < CLEAR * by_chance {
+    if carried.sum::<f64>() < CLEAR * by_chance {
         return of_few;
     }
     let beyond = (degree + 1..=FINEST).map(|l| orders(l) * (l * (l + 1)) as f64 * variance(l));
@@ -68,17 +75,28 @@ pub(super) fn hidden_slopes(estimate: &Estimate) -> f64 {
     beyond.sum::<f64>() / (4.0 * PI) + of_many + of_few
 }
 
-/// The share of what the spectrum expects of the last degrees that these carry, as far as the points tell, 1 at most. A grain
-/// whose detail ends before them has no finer one.
-fn share_kept(estimate: &Estimate, variances: &[f64]) -> f64 {
-    let last = (estimate.degree + 1).saturating_sub(LAST_DEGREES)..=estimate.degree;
-    let sum = |of: &dyn Fn(usize) -> f64| last.clone().map(of).sum::<f64>();
-    let expected = |l: usize| (2 * l + 1) as f64 * variances[l];
-    let found = |l: usize| {
+/// The share of what the spectrum expects of a degree and those just below it that they carry, as far as the points tell:
+/// the largest that is likely, 1 at most.
+///
+/// Of a coefficient of variance v the points leave the share q; the estimate is (1 - q) times what they tell, which has a
+/// variance of v q / (1 - q) by the noise alone.
+fn share_carried(estimate: &Estimate, expected: &[f64], degree: usize) -> f64 {
+    let (mut told, mut by_noise, mut all, mut count) = (0.0, 0.0, 0.0, 0);
+    for l in (degree + 1).saturating_sub(LAST_DEGREES)..=degree {
         let own = &estimate.coefficients[l * l..(l + 1) * (l + 1)];
-        own.iter().map(|x| x * x).sum::<f64>() + estimate.unlearnt[l] * expected(l)
-    };
-    (sum(&found) / sum(&expected)).min(1.0)
+        let left = estimate.unlearnt[l];
+        if left > MOST_LEFT {
+            return 1.0;
+        }
+        let squares: f64 = own.iter().map(|x| x * x).sum();
+        let variance = own.len() as f64 * expected[l];
+        told += squares / (1.0 - left).powi(2);
+        by_noise += variance * left / (1.0 - left);
+        all += variance;
+        count += own.len();
+    }
+    let by_chance = DEVIATIONS * (2.0 / count as f64).sqrt() * told;
+    ((told - by_noise + by_chance) / all).clamp(0.0, 1.0)
 }
 
 /// Mean square of the slopes over that of the radius, of texture from a degree to the [finest](FINEST).
@@ -124,14 +142,24 @@ mod tests {
             finer + passes,
             max_relative = 1e-9
         );
-        // The same of a grain whose last degrees carry a quarter of what is expected of them.
+        // The same of a grain that carries a quarter of what is expected of it.
         estimate.unlearnt.fill(0.0);
         let quarter = |l: usize| (0.25 * texture * texture_fall(24, l)).sqrt();
         let degrees = 0..=estimate.degree;
         let each = degrees.flat_map(|l| std::iter::repeat_n(quarter(l.max(1)), 2 * l + 1));
         estimate.coefficients = each.collect();
+        // So many coefficients have the last four degrees, which are below the finest that the points resolve.
+        let count = 8.0 * estimate.degree as f64 - 8.0;
+        let kept = 0.25 * (1.0 + 2.0 * (2.0 / count).sqrt());
+        let signal = kept * texture * texture_fall(24, 31) * points / (4.0 * PI * noise * noise);
+        let passes = passes * (signal / 0.5).min(1.0);
         let found = hidden_slopes(&estimate);
-        assert_relative_eq!(found, 0.25 * finer + passes, max_relative = 1e-9);
+        assert_relative_eq!(found, kept * finer + passes, max_relative = 1e-9);
+        // Points that tell half of it, and find nothing, say that there is none.
+        estimate.unlearnt.fill(0.5);
+        estimate.coefficients.fill(0.0);
+        assert_eq!(hidden_slopes(&estimate), 0.0);
+        estimate.unlearnt.fill(1.0);
         // Texture far below the noise cannot be told from none.
         estimate.spectrum.logarithms[TEXTURE] -= 5.0;
         assert_eq!(hidden_slopes(&estimate), 0.0);

@@ -2,6 +2,7 @@
 
 mod axes;
 mod bin;
+mod by_direction;
 mod centre;
 mod facets;
 mod gap;

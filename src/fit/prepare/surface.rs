@@ -1,10 +1,11 @@
 //! The surface that a scan draws: a closed mesh through its points, by its own faces or by the
 //! triangulation of their directions.
 
+use super::by_direction::{middle, one_surface};
 use super::gap::Gap;
 use super::pieces::Pieces;
 use super::reference::ReferenceKind;
-use super::strays::{LEAST_STRAY, find_strays};
+use super::strays::LEAST_STRAY;
 use super::thin::{Thinned, WHOLE_CLOUD, thin};
 use crate::fit::error::FitError;
 use crate::fit::warning::FitWarning;
@@ -12,13 +13,9 @@ use crate::measure::{FacesDefect, Fill, SelfCrossing, scanned_body, self_crossin
 use crate::mesh::Mesh;
 use crate::model::Unseen;
 use crate::scan::{Scan, has_neck};
-use crate::sphere::triangulate_directions;
-use nalgebra::{Point3, Vector3};
+use nalgebra::Point3;
 use std::borrow::Cow;
 use std::ops::RangeInclusive;
-
-/// Median scatter of neighbouring radii beyond which points do not form one surface.
-const LARGEST_SCATTER: f64 = 0.1;
 
 /// Share of strays beyond which the scan holds more than one grain.
 const LARGEST_SHARE_OF_STRAYS: f64 = 0.2;
@@ -233,8 +230,7 @@ fn from_directions(points: Cow<'_, [Point3<f64>]>) -> Result<ScannedSurface<'_>,
             } = thin(&points, &centre, LEAST_STRAY);
             refuse_background(strays.len(), points.len())?;
             let representatives = select(&points, &representatives);
-            let mesh = mesh_of_directions(representatives.clone(), &centre)?;
-            refuse_scattered(find_strays(&mesh, &centre).scatter)?;
+            let (mesh, _) = one_surface(&representatives, &centre)?;
             let kept = match strays.is_empty() {
                 true => points,
                 false => Cow::Owned(without(&points, &strays).into_owned()),
@@ -271,26 +267,17 @@ fn whole(mut points: Points<'_>) -> Result<(Mesh, Points<'_>), FitError> {
     let all = points.len();
     for _ in 0..STRAY_ROUNDS {
         let centre = middle(&points);
-        let mesh = mesh_of_directions(points.to_vec(), &centre)?;
-        let strays = find_strays(&mesh, &centre);
-        refuse_scattered(strays.scatter)?;
-        refuse_background(all - points.len() + strays.indices.len(), all)?;
-        if strays.indices.is_empty() {
+        let (mesh, strays) = one_surface(&points, &centre)?;
+        refuse_background(all - points.len() + strays.len(), all)?;
+        if strays.is_empty() {
             return Ok((mesh, points));
         }
         // By value: a stray that the file holds twice goes twice.
-        let strays = select(&points, &strays.indices);
+        let strays = select(&points, &strays);
         points.to_mut().retain(|point| !strays.contains(point));
     }
-    let mesh = mesh_of_directions(points.to_vec(), &middle(&points))?;
+    let (mesh, _) = one_surface(&points, &middle(&points))?;
     Ok((mesh, points))
-}
-
-fn refuse_scattered(scatter: f64) -> Result<(), FitError> {
-    match scatter > LARGEST_SCATTER {
-        true => Err(FitError::Scattered { scatter }),
-        false => Ok(()),
-    }
 }
 
 fn refuse_background(strays: usize, points: usize) -> Result<(), FitError> {
@@ -299,38 +286,6 @@ fn refuse_background(strays: usize, points: usize) -> Result<(), FitError> {
         return Err(FitError::Strays { share });
     }
     Ok(())
-}
-
-/// The mean of the points, from sums that do not lose digits to a far-off origin.
-fn middle(points: &[Point3<f64>]) -> Point3<f64> {
-    let origin = points.first().copied().unwrap_or_else(Point3::origin);
-    let sum: Vector3<f64> = points
-        .chunks(1024)
-        .map(|chunk| chunk.iter().map(|p| p - origin).sum::<Vector3<f64>>())
-        .sum();
-    origin + sum / points.len().max(1) as f64
-}
-
-fn mesh_of_directions(points: Vec<Point3<f64>>, centre: &Point3<f64>) -> Result<Mesh, FitError> {
-    let directions: Vec<Vector3<f64>> = points
-        .iter()
-        .map(|p| {
-            let d = p - centre;
-            let length = d.norm();
-            if length > 0.0 {
-                d / length
-            } else {
-                Vector3::z()
-            }
-        })
-        .collect();
-    let triangles = triangulate_directions(&directions).map_err(|_| FitError::NoVolume {
-        points: points.len(),
-    })?;
-    Ok(Mesh {
-        vertices: points,
-        triangles,
-    })
 }
 
 fn select(points: &[Point3<f64>], indices: &[u32]) -> Vec<Point3<f64>> {

@@ -1,0 +1,137 @@
+//! The mesh that points draw as seen from a centre: the triangulation of their directions.
+
+use super::strays::{Strays, find_strays};
+use crate::fit::error::FitError;
+use crate::measure::mesh_properties;
+use crate::mesh::Mesh;
+use crate::sphere::triangulate_directions;
+use nalgebra::{Matrix3, Point3, Vector3};
+
+/// Median scatter of neighbouring radii beyond which points do not form one surface.
+const LARGEST_SCATTER: f64 = 0.1;
+
+/// Least extent of a body over its largest, below which it is not made rounder.
+const FLATTEST: f64 = 1e-3;
+
+/// The mesh of points that form one surface round a centre, and which of them stand apart from their neighbours.
+///
+/// Few points of a long body differ from their neighbours by its shape: they are looked at in a space in which it is as
+/// wide as it is long.
+pub(super) fn one_surface(
+    points: &[Point3<f64>],
+    centre: &Point3<f64>,
+) -> Result<(Mesh, Vec<u32>), FitError> {
+    let (mesh, Strays { indices, scatter }) = seen(points.to_vec(), centre)?;
+    if scatter <= LARGEST_SCATTER {
+        return Ok((mesh, indices));
+    }
+    let refused = FitError::Scattered { scatter };
+    let places = rounder(&mesh, centre).ok_or_else(|| refused.clone())?;
+    let (Mesh { triangles, .. }, Strays { indices, scatter }) = seen(places, &Point3::origin())?;
+    match scatter <= LARGEST_SCATTER {
+        true => Ok((Mesh { triangles, ..mesh }, indices)),
+        false => Err(refused),
+    }
+}
+
+/// The mesh of points, and those that stand apart.
+fn seen(points: Vec<Point3<f64>>, centre: &Point3<f64>) -> Result<(Mesh, Strays), FitError> {
+    let mesh = mesh_of_directions(points, centre)?;
+    let strays = find_strays(&mesh, centre);
+    Ok((mesh, strays))
+}
+
+/// The vertices of a mesh about its centre, in a space in which its second moments are the same in all directions. `None` if
+/// it is flat.
+fn rounder(mesh: &Mesh, centre: &Point3<f64>) -> Option<Vec<Point3<f64>>> {
+    let rays = mesh.vertices.iter().map(|point| point - centre);
+    let size = rays.clone().map(|ray| ray.norm()).fold(0.0, f64::max);
+    let vertices: Vec<_> = rays.map(|ray| Point3::from(ray / size)).collect();
+    let mut mesh = Mesh {
+        vertices,
+        triangles: mesh.triangles.clone(),
+    };
+    let inertia = mesh_properties(&mesh).ok()?.inertia;
+    let moments = Matrix3::from_diagonal_element(0.5 * inertia.trace()) - inertia;
+    let spread = moments.symmetric_eigen();
+    let [least, most] = [spread.eigenvalues.min(), spread.eigenvalues.max()];
+    (least > FLATTEST * FLATTEST * most).then_some(())?;
+    let scales = spread.eigenvalues.map(|moment| (most / moment).sqrt());
+    let axes = spread.eigenvectors;
+    let map = axes * Matrix3::from_diagonal(&scales) * axes.transpose();
+    for vertex in &mut mesh.vertices {
+        *vertex = map * *vertex;
+    }
+    Some(mesh.vertices)
+}
+
+/// The mean of the points, from sums that do not lose digits to a far-off origin.
+pub(super) fn middle(points: &[Point3<f64>]) -> Point3<f64> {
+    let origin = points.first().copied().unwrap_or_else(Point3::origin);
+    let sum: Vector3<f64> = points
+        .chunks(1024)
+        .map(|chunk| chunk.iter().map(|p| p - origin).sum::<Vector3<f64>>())
+        .sum();
+    origin + sum / points.len().max(1) as f64
+}
+
+fn mesh_of_directions(points: Vec<Point3<f64>>, centre: &Point3<f64>) -> Result<Mesh, FitError> {
+    let directions: Vec<Vector3<f64>> = points
+        .iter()
+        .map(|p| {
+            let d = p - centre;
+            let length = d.norm();
+            if length > 0.0 {
+                d / length
+            } else {
+                Vector3::z()
+            }
+        })
+        .collect();
+    let triangles = triangulate_directions(&directions).map_err(|_| FitError::NoVolume {
+        points: points.len(),
+    })?;
+    Ok(Mesh {
+        vertices: points,
+        triangles,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shapes::Sampling;
+
+    fn points(count: usize, place: impl Fn(&Vector3<f64>) -> Vector3<f64>) -> Vec<Point3<f64>> {
+        let directions = Sampling::Fibonacci.directions(count, 0).unwrap();
+        directions.iter().map(|n| Point3::from(place(n))).collect()
+    }
+
+    #[test]
+    fn few_points_of_a_long_body_are_one_surface_and_its_stray_is_found() {
+        let radius = |n: &Vector3<f64>| 1.0 / n.component_div(&Vector3::new(1.0, 1.5, 6.0)).norm();
+        let mut rice = points(98, |n| n * radius(n));
+        let centre = Point3::origin();
+        assert!(seen(rice.clone(), &centre).unwrap().1.scatter > LARGEST_SCATTER);
+        let (mesh, strays) = one_surface(&rice, &centre).unwrap();
+        assert_eq!(mesh.vertices, rice);
+        assert_eq!(mesh.triangles.len(), 2 * 98 - 4);
+        assert!(strays.is_empty());
+        rice[40] *= 2.0;
+        assert_eq!(one_surface(&rice, &centre).unwrap().1, [40]);
+    }
+
+    #[test]
+    fn points_at_any_distance_are_no_surface() {
+        // Radii that jump from point to point, in no order.
+        let jump = |n: &Vector3<f64>| n * (1.0 + (1e4 * n.x).sin().abs());
+        let cloud = points(300, |n| jump(n).component_mul(&Vector3::new(1.0, 1.0, 4.0)));
+        let found = one_surface(&cloud, &Point3::origin());
+        assert!(matches!(found, Err(FitError::Scattered { .. })));
+        let flat = points(300, |n| {
+            jump(n).component_mul(&Vector3::new(1.0, 1.0, 1e-6))
+        });
+        let found = one_surface(&flat, &Point3::origin());
+        assert!(matches!(found, Err(FitError::Scattered { .. })));
+    }
+}
