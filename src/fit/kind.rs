@@ -1,14 +1,14 @@
 //! Which kind of surface a scan is given: a radius, or the position of points over the sphere.
 //!
 //! A radius first: it takes fewer coefficients where both do. Where it hides area, ends above its limit, or is steep,
-//! the position is fitted too, and the one with fewer coefficients at the limit is kept.
+//! the position is fitted too, as far as it may still be better, and the one with fewer coefficients at the limit is kept.
 
 use super::candidate::{Candidate, Search, Work};
 use super::context::Context;
 use super::error::FitError;
 use super::options::{FitOptions, Kind, Seams};
 use super::outcome::{Fitted, KindChoice, Residuals, Rival};
-use super::position::fit_position;
+use super::position::fit_position_if;
 use super::prepare::PreparedScan;
 use super::warning::FitWarning;
 use crate::measure::{Deviation, feet};
@@ -16,6 +16,7 @@ use crate::model::{Grain, PositionGrain, StarSurface};
 use crate::scan::Scan;
 use crate::sphere::{Symmetry, cube_grid};
 use nalgebra::Vector3;
+use std::sync::OnceLock;
 
 /// Cosine of the angle between a direction and the normal there below which a radius is steep, and ...
 const STEEP: f64 = 0.2;
@@ -52,11 +53,11 @@ pub fn fit_scan(
     let star = || PreparedScan::new(scan, options.symmetry)?.fit(options, context);
     match options.kind {
         Kind::Star => star(),
-        Kind::Position => positioned(scan, options, context, KindChoice::Asked),
+        Kind::Position => positioned(scan, options, context, KindChoice::Asked, &|_| true),
         Kind::Auto => match star() {
             Err(error) => match unseen(&error, options) {
                 None => Err(error),
-                Some(choice) => match positioned(scan, options, context, choice) {
+                Some(choice) => match positioned(scan, options, context, choice, &|_| true) {
                     Err(FitError::NoFaces | FitError::NoInside | FitError::OffCrust { .. }) => {
                         Err(error)
                     }
@@ -120,7 +121,7 @@ fn is_doubtful(fitted: &Fitted) -> bool {
 /// The better of a radius and of positions; the radius where no positions can be fitted.
 fn compared(
     scan: &Scan,
-    star: Fitted,
+    mut star: Fitted,
     options: &FitOptions,
     context: &Context<'_>,
 ) -> Result<Fitted, FitError> {
@@ -130,20 +131,34 @@ fn compared(
         coefficients: star.grain.coefficient_count(),
         rms: distances.rms() * held_out_over_fitted(&star),
     };
-    let mut fitted = match positioned(scan, options, context, KindChoice::Asked) {
-        Err(FitError::Cancelled) => return Err(FitError::Cancelled),
-        Err(_) => return Ok(star),
-        Ok(fitted) => fitted,
-    };
-    let other = Rival {
-        coefficients: fitted.grain.coefficient_count(),
-        rms: fitted.search.choice().heldout_rms.unwrap_or(f64::INFINITY),
-    };
     let is_hiding = hides(&star) && distances.mean_absolute < LONG_TAILS * distances.rms();
     let times = if is_hiding { HIDING } else { 1.0 };
     let weighed = Rival {
         rms: times * own.rms,
         ..own
+    };
+    let outdone = OnceLock::new();
+    let is_worth = |forecast: Rival| {
+        let is_outdone = weighed.is_better(&forecast, limit);
+        if is_outdone {
+            outdone.get_or_init(|| forecast);
+        }
+        !is_outdone
+    };
+    let mut fitted = match positioned(scan, options, context, KindChoice::Asked, &is_worth) {
+        Err(FitError::Cancelled) => return Err(FitError::Cancelled),
+        Err(_) => {
+            if let Some(forecast) = outdone.into_inner() {
+                let kept = own;
+                star.kind = KindChoice::Outdoes { kept, forecast };
+            }
+            return Ok(star);
+        }
+        Ok(fitted) => fitted,
+    };
+    let other = Rival {
+        coefficients: fitted.grain.coefficient_count(),
+        rms: fitted.search.choice().heldout_rms.unwrap_or(f64::INFINITY),
     };
     let is_star = weighed.is_better(&other, limit);
     if is_star {
@@ -184,16 +199,17 @@ fn normal_distances(grain: &Grain, scan: &Scan) -> Deviation {
     Deviation::of(feet.iter().map(|foot| (foot.distance, 1.0)))
 }
 
-/// Fits positions over the sphere.
+/// Fits positions over the sphere, where that is worth its work.
 fn positioned(
     scan: &Scan,
     options: &FitOptions,
     context: &Context<'_>,
     kind: KindChoice,
+    is_worth: &(dyn Fn(Rival) -> bool + Sync),
 ) -> Result<Fitted, FitError> {
     let mut options = options.clone();
     let (fit, grain, cells) = loop {
-        let fit = fit_position(scan, &options, context)?;
+        let fit = fit_position_if(scan, &options, context, is_worth)?;
         let cells = fit.surface.coefficients().len();
         let grain = PositionGrain::new(fit.frame, fit.surface.clone());
         match grain.and_then(|grain| grain.check().map(|()| grain)) {

@@ -68,6 +68,13 @@ pub enum KindChoice {
         /// The other one.
         rival: Rival,
     },
+    /// The position of points was given up, for it cannot be better.
+    Outdoes {
+        /// The radius.
+        kept: Rival,
+        /// The coefficients of the positions, and the least distance that they may come to.
+        forecast: Rival,
+    },
 }
 
 /// A surface that was compared with another one.

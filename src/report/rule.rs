@@ -120,6 +120,13 @@ pub(super) fn kind_rule(fitted: &Fitted, unit: Option<Unit>) -> Option<String> {
                 told(rival)
             ))
         }
+        KindChoice::Outdoes { kept, forecast } => Some(format!(
+            "for it takes {}, where {} of the position of points come no nearer than {}{}",
+            told(kept),
+            plural(forecast.coefficients, "coefficient"),
+            short(forecast.rms),
+            labels.length()
+        )),
         _ => None,
     }
 }

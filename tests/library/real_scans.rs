@@ -1,6 +1,6 @@
 //! Real scans from the folder beside the project. Ignored where it is absent.
 
-use grainform::fit::{Context, MapError, fit_position};
+use grainform::fit::{Context, Kind, KindChoice, MapError, fit_position};
 use grainform::measure::{grain_properties, mesh_properties};
 use grainform::scan::read_scan;
 use grainform::{FitError, FitOptions, Fitted, Surface, fit};
@@ -122,6 +122,23 @@ fn odd_clouds_of_the_hostile_folder_end_as_they_should() {
     let half = try_fit(&made.join("ply_085_half_scan.ply")).expect("half a grain");
     assert!(told(&half, "is a guess"), "{:?}", half.warnings);
     assert!(try_fit(&made.join("ply_078_two_bodies.ply")).is_err());
+}
+
+/// A clean steep particle: its radius meets the limit, to which positions of the most coefficients do not come near.
+#[test]
+#[cfg_attr(not(shared), ignore = "needs ../shared")]
+fn positions_that_cannot_be_better_are_given_up() {
+    let scan = read_scan(&scans().join("nist/cement116-anm-00377_n22_ico5.ply")).expect("a scan");
+    let fitted = fit(&scan, &FitOptions::default()).expect("a grain");
+    let KindChoice::Outdoes { kept, forecast } = fitted.kind else {
+        panic!("{:?}", fitted.kind);
+    };
+    assert!(fitted.grain.star().is_some());
+    assert_eq!(kept.coefficients, fitted.grain.coefficient_count());
+    assert!(kept.rms < fitted.search.limit && forecast.rms > fitted.search.limit);
+    let options = FitOptions::default().with_kind(Kind::Position);
+    let position = fit(&scan, &options).expect("a position");
+    assert!(forecast.rms < position.search.choice().heldout_rms.expect("distances"));
 }
 
 #[test]

@@ -25,24 +25,23 @@ pub(crate) struct BlockMatrix {
 /// Its Cholesky factor: block columns in the order of elimination.
 #[derive(Debug, Clone)]
 pub(crate) struct BlockFactor {
-    pub(super) sizes: Vec<usize>,
-    pub(super) columns: Vec<Column>,
+    columns: Vec<Column>,
 }
 
 /// A block column: the diagonal block and, stacked, the blocks below it.
 #[derive(Debug, Clone)]
-pub(super) struct Column {
+struct Column {
     /// The block row that it belongs to.
-    pub(super) index: usize,
-    pub(super) diagonal: Mat<f64>,
+    index: usize,
+    diagonal: Mat<f64>,
     /// Positions of the blocks below, ascending, and where each begins in `below`.
-    pub(super) rows: Vec<usize>,
-    pub(super) starts: Vec<usize>,
-    pub(super) below: Mat<f64>,
+    rows: Vec<usize>,
+    starts: Vec<usize>,
+    below: Mat<f64>,
 }
 
 impl Column {
-    pub(super) fn start_of(&self, position: usize) -> Option<usize> {
+    fn start_of(&self, position: usize) -> Option<usize> {
         let at = self.rows.binary_search(&position).ok()?;
         Some(self.starts[at])
     }
@@ -125,10 +124,7 @@ impl BlockMatrix {
             );
             column.update(rest, at + 1);
         }
-        Some(BlockFactor {
-            sizes: self.sizes.clone(),
-            columns,
-        })
+        Some(BlockFactor { columns })
     }
 
     fn column(&self, index: usize, pattern: Vec<usize>, position: &[usize]) -> Column {
@@ -172,7 +168,7 @@ impl BlockMatrix {
     }
 }
 
-pub(super) fn copy(mut to: MatMut<'_, f64>, from: MatRef<'_, f64>) {
+fn copy(mut to: MatMut<'_, f64>, from: MatRef<'_, f64>) {
     to.copy_from(from);
 }
 
@@ -221,42 +217,34 @@ impl BlockFactor {
 
     fn forward(&self, right: &mut [Mat<f64>]) {
         for column in &self.columns {
-            let mut own = std::mem::replace(&mut right[column.index], Mat::new());
+            let own = &mut right[column.index];
             solve_lower_triangular_in_place(column.diagonal.as_ref(), own.as_mut(), Par::Seq);
-            for (&row, &start) in column.rows.iter().zip(&column.starts) {
-                let index = self.columns[row].index;
-                let part = column.below.subrows(start, self.sizes[index]);
-                matmul(
-                    right[index].as_mut(),
-                    Accum::Add,
-                    part,
-                    own.as_ref(),
-                    -1.0,
-                    Par::Seq,
-                );
+            let products = &column.below * &*own;
+            let mut start = 0;
+            for &row in &column.rows {
+                let block = &mut right[self.columns[row].index];
+                let rows = block.nrows();
+                *block -= products.subrows(start, rows);
+                start += rows;
             }
-            right[column.index] = own;
         }
     }
 
     /// Solves with the transposed factor.
     fn backward(&self, right: &mut [Mat<f64>]) {
         for column in self.columns.iter().rev() {
-            let mut own = std::mem::replace(&mut right[column.index], Mat::new());
-            for (&row, &start) in column.rows.iter().zip(&column.starts) {
-                let index = self.columns[row].index;
-                let part = column.below.subrows(start, self.sizes[index]);
-                matmul(
-                    own.as_mut(),
-                    Accum::Add,
-                    part.transpose(),
-                    right[index].as_ref(),
-                    -1.0,
-                    Par::Seq,
-                );
+            let columns = right[column.index].ncols();
+            let mut others = Mat::zeros(column.below.nrows(), columns);
+            let mut start = 0;
+            for &row in &column.rows {
+                let block = &right[self.columns[row].index];
+                others.subrows_mut(start, block.nrows()).copy_from(block);
+                start += block.nrows();
             }
+            let own = &mut right[column.index];
+            let part = column.below.transpose();
+            matmul(own.as_mut(), Accum::Add, part, &others, -1.0, Par::Seq);
             solve_upper_triangular_in_place(column.diagonal.transpose(), own.as_mut(), Par::Seq);
-            right[column.index] = own;
         }
     }
 }

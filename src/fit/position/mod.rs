@@ -20,6 +20,7 @@ use super::context::Context;
 use super::crust::surface_of_points;
 use super::error::FitError;
 use super::options::{FitOptions, Tolerance};
+use super::outcome::Rival;
 use super::prepare::{Reference, ReferenceKind, principal_axes, scanned_surface, usable};
 use super::standard_errors::{NoInterval, StandardErrors};
 use super::warning::FitWarning;
@@ -81,6 +82,20 @@ pub fn fit_position(
     options: &FitOptions,
     context: &Context<'_>,
 ) -> Result<PositionFit, FitError> {
+    fit_position_if(scan, options, context, &|_| true)
+}
+
+/// The same, where the fit is worth its rounds: asked is by the number of its coefficients and the least distance that
+/// they may leave.
+///
+/// # Errors
+/// Also [`FitError::NoEstimate`] if it is not.
+pub(super) fn fit_position_if(
+    scan: &Scan,
+    options: &FitOptions,
+    context: &Context<'_>,
+    is_worth: &(dyn Fn(Rival) -> bool + Sync),
+) -> Result<PositionFit, FitError> {
     let Faces {
         mesh,
         kind,
@@ -122,7 +137,13 @@ pub fn fit_position(
         }
         _ => Cloud::new(&local, directions),
     };
-    let found = context.run(|| search(&mut cloud, options, limit, context))?;
+    let is_worth = |coefficients: usize, rms: f64| {
+        is_worth(Rival {
+            coefficients,
+            rms: rms * radius,
+        })
+    };
+    let found = context.run(|| search(&mut cloud, options, limit, &is_worth, context))?;
     let fitted = found.ok_or(FitError::NoEstimate)?;
     let distance = |found: cloud::Distances| Distance {
         rms: found.rms * radius,

@@ -32,6 +32,7 @@ const LEAST_GAIN: f64 = 0.12;
 
 /// Distances of a fit without rounds over those after them: 1.2 to 3.5.
 const GAIN_OF_ROUNDS: f64 = 1.3;
+const MOST_GAIN_OF_ROUNDS: f64 = 5.0;
 
 /// Share of the squared distances that the cells split at once hold.
 const SPLIT_SHARE: f64 = 0.8;
@@ -48,11 +49,13 @@ const ROUGHNESS: f64 = 1e-7;
 const ACROSS: f64 = 0.3;
 
 /// Fits what the options ask for to samples of a body of about radius 1, within a `limit` of held-out distance.
-/// `None` if the samples do not determine a surface.
+/// `None` if the samples do not determine a surface, or if that of cells `is_worth` no more work, by the number of its
+/// coefficients and the least distance that it may come to.
 pub(super) fn search(
     cloud: &mut Cloud<'_>,
     options: &FitOptions,
     limit: f64,
+    is_worth: &(dyn Fn(usize, f64) -> bool + Sync),
     context: &Context<'_>,
 ) -> Result<Option<Fitted>, Cancelled> {
     match options.segments {
@@ -81,8 +84,11 @@ pub(super) fn search(
             return Ok(Some(fitted));
         }
     }
-    let functions = split(cloud, options, limit, context)?;
-    fit(&functions, cloud, context)
+    let (functions, held_out) = split(cloud, options, limit, context)?;
+    match is_worth(3 * functions.count(), held_out / MOST_GAIN_OF_ROUNDS) {
+        true => fit(&functions, cloud, context),
+        false => Ok(None),
+    }
 }
 
 fn is_enough(fitted: &Fitted, limit: f64) -> bool {
@@ -160,13 +166,13 @@ fn home(functions: &Functions, n: &Vector3<f64>) -> usize {
 }
 
 /// Splits cells until held-out samples are met well enough, or hardly any better, or there are too many. Cells of one
-/// size compete with what comes out.
+/// size compete with what comes out. Told is how far held-out samples are from what was fitted once.
 fn split(
     cloud: &mut Cloud<'_>,
     options: &FitOptions,
     limit: f64,
     context: &Context<'_>,
-) -> Result<Functions, Cancelled> {
+) -> Result<(Functions, f64), Cancelled> {
     let mut functions = on_cells(CubeCell::uniform(1), options);
     let most = match options.max_segments {
         Some(segments) => segments,
@@ -200,14 +206,14 @@ fn split(
     }
     let parts = (functions.cell_count() / 6).isqrt() as u16;
     let even = on_cells(CubeCell::uniform(parts), options);
-    let is_better = |even: Once| {
-        once.as_ref()
-            .is_none_or(|once| even.held_out < once.held_out)
-    };
-    if even.count() < functions.count() && try_once(&even, cloud, 0).is_some_and(is_better) {
-        return Ok(even);
+    let held_out = once.map_or(f64::INFINITY, |once| once.held_out);
+    if even.count() < functions.count()
+        && let Some(once) = try_once(&even, cloud, 0)
+        && once.held_out < held_out
+    {
+        return Ok((even, once.held_out));
     }
-    Ok(functions)
+    Ok((functions, held_out))
 }
 
 /// The cells with the largest errors in four, at most so many and a third of all. `None` if that is none.
