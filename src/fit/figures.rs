@@ -31,8 +31,16 @@ pub(super) struct Figures {
     pub(super) inertia: Matrix3<f64>,
     /// Principal moments of inertia, ascending.
     pub(super) moments: Vector3<f64>,
-    /// Length, width and thickness: extents along the principal axes.
+    /// Length, width and thickness: extents along the principal axes, the largest first.
     pub(super) dimensions: Vector3<f64>,
+}
+
+/// Which of the extents along the principal axes is the length, the width and the thickness: they are told by their size,
+/// which is not always that of the moments.
+pub(super) fn by_size(extents: &Vector3<f64>) -> [usize; 3] {
+    let mut order = [0, 1, 2];
+    order.sort_by(|&one, &other| extents[other].total_cmp(&extents[one]));
+    order
 }
 
 /// Area, volume, centroid and inertia as a list, in this order.

@@ -1,11 +1,12 @@
 //! The fit against the exact truth of closed-form grains.
 
 use grainform::fit::FitWarning;
-use grainform::measure::grain_properties;
+use grainform::measure::{Scheme, Survey, grain_properties};
 use grainform::scan::Scan;
 use grainform::shapes::{Body, Sampling, SynthOptions, SyntheticScan, synthesize};
 use grainform::sphere::cube_grid;
 use grainform::{FitOptions, Fitted, Seams, StarSurface, Surface, Tolerance, fit};
+use nalgebra::{Point3, Vector3};
 
 const GRAINS: [Body; 3] = [Body::Bean, Body::Chickpea, Body::Maize];
 
@@ -262,4 +263,30 @@ fn gross_outliers_are_left_out_and_counted() {
     assert_eq!(left_out, moved, "{:?}", fitted.warnings);
     let found = grain_properties(&fitted.grain).properties;
     assert!((found.volume / synthetic.truth.properties.volume - 1.0).abs() < 0.001);
+}
+
+/// Bumps make an ellipsoid longest along another axis than that of its least moment of inertia.
+#[test]
+fn errors_of_length_and_width_go_by_size_and_not_by_moments() {
+    let semi_axes = Vector3::new(1.0, 1.06, 1.1);
+    let radius = |n: &Vector3<f64>| {
+        let bump = 0.07 * (20.0 * (n.y * n.y - 1.0)).exp();
+        1.0 / n.component_div(&semi_axes).norm() + bump
+    };
+    let directions = Sampling::Fibonacci.directions(3000, 0).expect("enough");
+    let points = directions.iter().map(|n| Point3::from(n * radius(n)));
+    let fitted = fit(&Scan::from_points(points.collect()), &FitOptions::default()).expect("a fit");
+    let told = grain_properties(&fitted.grain).properties;
+    let dimensions = Survey::of_grain(&fitted.grain, Scheme::Exact)
+        .dimensions()
+        .expect("sizes");
+    let truth = Vector3::new(2.26, 2.2, 2.0);
+    assert!((dimensions - truth).amax() < 2e-3, "{dimensions}");
+    let longest = fitted.grain.frame().axes.column(1).y.abs();
+    assert!(
+        longest > 0.99,
+        "the length lies along the second axis: {longest}"
+    );
+    let errors = fitted.standard_errors(&told, &dimensions).expect("errors");
+    assert!(errors.dimensions.amax() < 5e-3, "{}", errors.dimensions);
 }

@@ -18,7 +18,7 @@ use super::outcome::Estimate;
 use super::outcome::{slope_variance, variance};
 use super::posterior::Conditioned;
 use super::tips::Tips;
-use crate::fit::figures::INERTIA;
+use crate::fit::figures::{INERTIA, by_size};
 use crate::measure::PrincipalInertia;
 use crate::sphere::HarmonicBasis;
 use nalgebra::Vector3;
@@ -30,7 +30,7 @@ const TURNS: usize = 8;
 /// Standard error as a share of the range of these: an axis may be at one end of it and be told at the other.
 const OF_RANGE: f64 = 0.6;
 
-/// Extents along the principal axes, with their errors.
+/// Length, width and thickness, with their errors.
 pub(super) struct Dimensions {
     pub(super) lengths: Vector3<f64>,
     /// With the allowances.
@@ -96,7 +96,13 @@ pub(super) fn dimensions(
         squares += turned(reach, principal, i, extent.length, &sd);
         found.variances[i] = squares;
     }
-    found
+    let order = by_size(&found.lengths);
+    let by_size = |of: &Vector3<f64>| Vector3::from(order.map(|i| of[i]));
+    Dimensions {
+        lengths: by_size(&found.lengths),
+        variances: by_size(&found.variances),
+        excess: by_size(&found.excess),
+    }
 }
 
 /// Square of what turns of the principal axis `i` do to the extent along it, but for the first order.

@@ -25,7 +25,7 @@ use super::cloud::Cloud;
 use super::functionals::{FIGURES, Figures, Functionals, by_move};
 use super::functions::{Functions, Rows};
 use super::least_squares::values;
-use crate::fit::figures::{INERTIA, INTEGRALS, derivatives, form, mass, unlist};
+use crate::fit::figures::{INERTIA, INTEGRALS, by_size, derivatives, form, mass, unlist};
 use crate::fit::linear::BlockFactor;
 use crate::fit::neighbours::Neighbours;
 use crate::fit::standard_errors::{NoInterval, StandardErrors};
@@ -84,6 +84,7 @@ impl Solved<'_> {
             let form = form(&axis, &axis);
             form.dot(&(inertia * form))
         });
+        let lengths = Vector3::from_fn(|i, _| functionals.length(i));
         let dimensions = Vector3::from_fn(|i, _| {
             let (extent, range) = extent(&functionals, &jacobian, &inertia.into_owned(), i);
             let higher = functionals.ends[i].iter().map(|end| {
@@ -94,10 +95,11 @@ impl Solved<'_> {
                 sd * (2.0 * rivals.max(1.0).ln()).sqrt() + unresolved
             });
             let higher: f64 = higher.sum();
-            let floor = FLOOR * functionals.length(i);
+            let floor = FLOOR * lengths[i];
             let squares = higher * higher + range * range + floor * floor;
             extent.dot(&(covariance * extent)) + squares
         });
+        let dimensions = Vector3::from(by_size(&lengths).map(|i| dimensions[i]));
         let root = |x: f64| x.max(0.0).sqrt();
         Ok(StandardErrors {
             area: root(errors.area).hypot(FLOOR * best.area),
