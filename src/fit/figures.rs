@@ -117,3 +117,14 @@ pub(super) fn unlist(list: &SVector<f64, INTEGRALS>) -> Moments {
         second,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_length_is_the_largest_extent() {
+        assert_eq!(by_size(&Vector3::new(2.2, 2.3, 2.0)), [1, 0, 2]);
+        assert_eq!(by_size(&Vector3::new(1.0, 2.0, 2.0)), [1, 2, 0]);
+    }
+}

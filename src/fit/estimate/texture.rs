@@ -82,14 +82,15 @@ pub(super) fn hidden_slopes(estimate: &Estimate) -> f64 {
 /// variance of v q / (1 - q) by the noise alone.
 fn share_carried(estimate: &Estimate, expected: &[f64], degree: usize) -> f64 {
     let (mut told, mut by_noise, mut all, mut count) = (0.0, 0.0, 0.0, 0);
-    for l in (degree + 1).saturating_sub(LAST_DEGREES)..=degree {
+    let first = (degree + 1).saturating_sub(LAST_DEGREES);
+    for (l, variance) in expected.iter().enumerate().take(degree + 1).skip(first) {
         let own = &estimate.coefficients[l * l..(l + 1) * (l + 1)];
         let left = estimate.unlearnt[l];
         if left > MOST_LEFT {
             return 1.0;
         }
         let squares: f64 = own.iter().map(|x| x * x).sum();
-        let variance = own.len() as f64 * expected[l];
+        let variance = own.len() as f64 * variance;
         told += squares / (1.0 - left).powi(2);
         by_noise += variance * left / (1.0 - left);
         all += variance;
