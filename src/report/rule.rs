@@ -38,7 +38,7 @@ pub(super) fn rule(fitted: &Fitted, options: &FitOptions, unit: Option<Unit>) ->
     if let (Some(estimate), Some(rms)) = (&fitted.estimate, choice.estimate_rms) {
         let source = match (search.limit > tolerance, options.tolerance) {
             (true, _) => format!(
-                "a third of the estimate's standard deviation of {}",
+                "a quarter of the estimate's standard deviation of {}",
                 length(estimate.deviation)
             ),
             (false, Tolerance::Length(_)) => "the tolerance".into(),
