@@ -19,8 +19,11 @@ use std::iter::once;
 const FEW_COEFFICIENTS: usize = 64;
 
 /// Difference from the estimate that is always good enough, as a share of the estimate's own standard deviation:
-/// it adds 3 % to the error. (A third adds 5 %, and takes a sixth fewer coefficients.)
-const GOOD_ENOUGH: f64 = 1.0 / 4.0;
+/// it adds 5 % to the error. Of a smooth grain not even that: cells even out noise that the estimate follows.
+const GOOD_ENOUGH: f64 = 1.0 / 3.0;
+
+/// The same where what is left of the points is no noise but detail: it adds 3 %.
+const GOOD_ENOUGH_OF_DETAIL: f64 = 1.0 / 4.0;
 
 /// A cell on each face of the cube.
 const FEWEST_CELLS: usize = 6;
@@ -42,7 +45,11 @@ impl Aim {
         estimate: &Estimate,
     ) -> Result<Self, FitError> {
         let tolerance = options.tolerance.length(prepared.mean_radius);
-        let limit = tolerance.max(GOOD_ENOUGH * estimate.deviation());
+        let share = match estimate.is_rough() {
+            true => GOOD_ENOUGH_OF_DETAIL,
+            false => GOOD_ENOUGH,
+        };
+        let limit = tolerance.max(share * estimate.deviation());
         let most = options.max_degree.unwrap_or(estimate.degree);
         if options.segments == Some(1) {
             // The estimate itself, unless a tolerance asks for less of it.

@@ -95,7 +95,8 @@ impl Seams {
 /// A radial RMS error.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Tolerance {
-    /// 0.03 % of the mean radius. In every case a quarter of the estimate's own standard deviation is good enough.
+    /// 0.03 % of the mean radius. In every case a third of the estimate's own standard deviation is good enough, or a
+    /// quarter where what it leaves of the points is no noise.
     Auto,
     /// In the scan's unit.
     Length(f64),

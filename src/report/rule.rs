@@ -38,7 +38,8 @@ pub(super) fn rule(fitted: &Fitted, options: &FitOptions, unit: Option<Unit>) ->
     if let (Some(estimate), Some(rms)) = (&fitted.estimate, choice.estimate_rms) {
         let source = match (search.limit > tolerance, options.tolerance) {
             (true, _) => format!(
-                "a quarter of the estimate's standard deviation of {}",
+                "{:.0} % of the estimate's standard deviation of {}",
+                100.0 * search.limit / estimate.deviation,
                 length(estimate.deviation)
             ),
             (false, Tolerance::Length(_)) => "the tolerance".into(),

@@ -23,7 +23,7 @@ use super::left_out::LeftOut;
 use super::outcome::Estimate;
 use super::posterior::Posterior;
 use super::texture::hidden_slopes;
-use super::unresolved::{are_many, is_flat_sided, is_symmetric, kurtosis, limit};
+use super::unresolved::{are_many, is_flat_sided, is_rough, is_symmetric, kurtosis};
 use crate::fit::figures::{
     Figures, INERTIA, INTEGRALS, MassList, derivatives, form, list, mass, unlist,
 };
@@ -58,7 +58,7 @@ impl Estimate {
         let posterior = self.posterior();
         let residuals = posterior.residuals(&self.coefficients);
         let kurtosis = kurtosis(&residuals);
-        let is_rough = kurtosis > limit(self.cloud.len());
+        let is_rough = is_rough(&residuals);
         let may_have_edges = is_rough || are_many(self.outliers, self.cloud.len());
         let is_made = || is_symmetric(&self.coefficients) || is_flat_sided(&self.cloud.points());
         if may_have_edges && is_made() {

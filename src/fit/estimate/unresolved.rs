@@ -19,6 +19,7 @@
 //! pyramid on a lattice the volume is .3 to .7 % off. Beside edges points may also seem to stand alone, and be left out:
 //! of a bicone 4 %.
 
+use super::outcome::Estimate;
 use crate::fit::neighbours::Neighbours;
 use crate::spread::covariance;
 use nalgebra::Vector3;
@@ -89,8 +90,20 @@ pub(super) fn kurtosis(residuals: &[f64]) -> f64 {
     (fourth + 6.0 * second * floor + 3.0 * floor * floor) / (second + floor).powi(2)
 }
 
+/// Whether these residuals are no noise.
+pub(super) fn is_rough(residuals: &[f64]) -> bool {
+    kurtosis(residuals) > limit(residuals.len())
+}
+
+impl Estimate {
+    /// Whether what it leaves of the points is no noise, but edges and detail.
+    pub(crate) fn is_rough(&self) -> bool {
+        is_rough(&self.posterior().residuals(&self.coefficients))
+    }
+}
+
 /// The largest kurtosis of so many residuals that passes for noise.
-pub(super) fn limit(points: usize) -> f64 {
+fn limit(points: usize) -> f64 {
     SMOOTH + DEVIATIONS * (24.0 / points.max(1) as f64).sqrt()
 }
 
