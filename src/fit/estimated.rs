@@ -45,11 +45,11 @@ impl Aim {
         estimate: &Estimate,
     ) -> Result<Self, FitError> {
         let tolerance = options.tolerance.length(prepared.mean_radius);
-        let share = match estimate.is_rough() {
-            true => GOOD_ENOUGH_OF_DETAIL,
-            false => GOOD_ENOUGH,
+        let good_enough = GOOD_ENOUGH * estimate.deviation();
+        let limit = match good_enough > tolerance && estimate.is_rough() {
+            true => tolerance.max(GOOD_ENOUGH_OF_DETAIL * estimate.deviation()),
+            false => tolerance.max(good_enough),
         };
-        let limit = tolerance.max(share * estimate.deviation());
         let most = options.max_degree.unwrap_or(estimate.degree);
         if options.segments == Some(1) {
             // The estimate itself, unless a tolerance asks for less of it.

@@ -97,11 +97,11 @@ pub(super) fn dimensions(
         found.variances[i] = squares;
     }
     let order = by_size(&found.lengths);
-    let by_size = |of: &Vector3<f64>| Vector3::from(order.map(|i| of[i]));
+    let ordered = |of: &Vector3<f64>| Vector3::from(order.map(|i| of[i]));
     Dimensions {
-        lengths: by_size(&found.lengths),
-        variances: by_size(&found.variances),
-        excess: by_size(&found.excess),
+        lengths: ordered(&found.lengths),
+        variances: ordered(&found.variances),
+        excess: ordered(&found.excess),
     }
 }
 

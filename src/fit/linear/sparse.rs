@@ -220,12 +220,9 @@ impl BlockFactor {
             let own = &mut right[column.index];
             solve_lower_triangular_in_place(column.diagonal.as_ref(), own.as_mut(), Par::Seq);
             let products = &column.below * &*own;
-            let mut start = 0;
-            for &row in &column.rows {
+            for (&row, &start) in column.rows.iter().zip(&column.starts) {
                 let block = &mut right[self.columns[row].index];
-                let rows = block.nrows();
-                *block -= products.subrows(start, rows);
-                start += rows;
+                *block -= products.subrows(start, block.nrows());
             }
         }
     }
@@ -235,11 +232,9 @@ impl BlockFactor {
         for column in self.columns.iter().rev() {
             let columns = right[column.index].ncols();
             let mut others = Mat::zeros(column.below.nrows(), columns);
-            let mut start = 0;
-            for &row in &column.rows {
+            for (&row, &start) in column.rows.iter().zip(&column.starts) {
                 let block = &right[self.columns[row].index];
                 others.subrows_mut(start, block.nrows()).copy_from(block);
-                start += block.nrows();
             }
             let own = &mut right[column.index];
             let part = column.below.transpose();

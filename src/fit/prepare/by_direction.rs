@@ -2,7 +2,7 @@
 
 use super::strays::{Strays, find_strays};
 use crate::fit::error::FitError;
-use crate::measure::mesh_properties;
+use crate::measure::{Unit, mesh_properties};
 use crate::mesh::Mesh;
 use crate::sphere::triangulate_directions;
 use nalgebra::{Matrix3, Point3, Vector3};
@@ -44,14 +44,7 @@ fn seen(points: Vec<Point3<f64>>, centre: &Point3<f64>) -> Result<(Mesh, Strays)
 /// The vertices of a mesh about its centre, in a space in which its second moments are the same in all directions. `None` if
 /// it is flat.
 fn rounder(mesh: &Mesh, centre: &Point3<f64>) -> Option<Vec<Point3<f64>>> {
-    let rays = mesh.vertices.iter().map(|point| point - centre);
-    let size = rays.clone().map(|ray| ray.norm()).fold(0.0, f64::max);
-    let vertices: Vec<_> = rays.map(|ray| Point3::from(ray / size)).collect();
-    let mut mesh = Mesh {
-        vertices,
-        triangles: mesh.triangles.clone(),
-    };
-    let inertia = mesh_properties(&mesh).ok()?.inertia;
+    let inertia = mesh_properties(&Unit::of(mesh).mesh(mesh)).ok()?.inertia;
     let moments = Matrix3::from_diagonal_element(0.5 * inertia.trace()) - inertia;
     let spread = moments.symmetric_eigen();
     let [least, most] = [spread.eigenvalues.min(), spread.eigenvalues.max()];
@@ -59,10 +52,8 @@ fn rounder(mesh: &Mesh, centre: &Point3<f64>) -> Option<Vec<Point3<f64>>> {
     let scales = spread.eigenvalues.map(|moment| (most / moment).sqrt());
     let axes = spread.eigenvectors;
     let map = axes * Matrix3::from_diagonal(&scales) * axes.transpose();
-    for vertex in &mut mesh.vertices {
-        *vertex = map * *vertex;
-    }
-    Some(mesh.vertices)
+    let places = mesh.vertices.iter().map(|point| map * (point - centre));
+    Some(places.map(Point3::from).collect())
 }
 
 /// The mean of the points, from sums that do not lose digits to a far-off origin.
