@@ -179,9 +179,14 @@ impl Rival {
     }
 }
 
-/// How many times farther points are from a fitted radius that are held out, by the radial distances of both.
+/// How many times farther points are from a fitted radius that are held out, by the radial distances of both; with the
+/// mean of their leverages, for on a steep flank, where single points decide the radius, they do not decide the distance.
 fn held_out_over_fitted(star: &Fitted) -> f64 {
-    let held_out = star.search.choice().heldout_rms;
+    let choice = star.search.choice();
+    let held_out = match (&star.posterior, choice.estimate_rms) {
+        (Some(estimate), Some(rms)) => Some(rms.hypot(estimate.held_out_by_mean())),
+        _ => choice.heldout_rms,
+    };
     let times = held_out.map_or(1.0, |rms| rms / star.residuals.rms);
     if times.is_finite() {
         times.max(1.0)

@@ -6,6 +6,7 @@ use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::{
     LltParams, LltRegularization, cholesky_in_place, cholesky_in_place_scratch,
 };
+use faer::linalg::triangular_inverse::invert_lower_triangular;
 use faer::linalg::triangular_solve::{
     solve_lower_triangular_in_place, solve_upper_triangular_in_place,
 };
@@ -50,6 +51,16 @@ impl Factor {
     /// The factor L.
     pub(super) fn lower(&self) -> MatRef<'_, f64> {
         MatRef::from_column_major_slice(&self.entries, self.count, self.count)
+    }
+
+    /// The diagonal of the inverse.
+    pub(super) fn inverse_diagonal(&self) -> Vec<f64> {
+        let mut inverse = vec![0.0; self.count * self.count];
+        let matrix = MatMut::from_column_major_slice_mut(&mut inverse, self.count, self.count);
+        invert_lower_triangular(matrix, self.lower(), Par::Seq);
+        let columns = inverse.chunks_exact(self.count).enumerate();
+        let squares = columns.map(|(j, column)| column[j..].iter().map(|x| x * x).sum());
+        squares.collect()
     }
 
     /// The logarithm of the root of the determinant.

@@ -11,14 +11,12 @@
 //! The sum of the squares of d over the points is the variance of the functional whatever the sizes of the misfits (the
 //! jackknife: Quenouille, Tukey), and the sum of d tells what they do together where they are of one sign: so the area
 //! lacks its edges. Both are added to the posterior variance, also where a single point is missed by more than noise can
-//! tell: in a thin part of a cloud it may be all that tells of a beak. For h stands its mean over the points, or over those
-//! of one polar angle, or of one density.
+//! tell: in a thin part of a cloud it may be all that tells of a beak.
 //!
 //! Measured: 95 % intervals hold the volume of 86 and the area of all of 87 barley kernels, with standard errors of .09 and
 //! .9 % (medians), and 100 and 91 to 100 % of those of stones and kernels scanned at random on their faces.
 
 use super::functionals::dot;
-use super::leverage::spares;
 use super::outcome::Estimate;
 use super::posterior::Posterior;
 use super::unresolved::FLOOR;
@@ -53,15 +51,14 @@ impl<'a> LeftOut<'a> {
         residuals: &[f64],
     ) -> Self {
         let noise = estimate.spectrum.noise().powi(2);
-        let spares = spares(estimate);
-        let expected = |spare: f64, weight: f64| (noise / weight + FLOOR * FLOOR) * spare;
+        let spares = estimate.spares();
         let most = 2.0 * (PER_POINT * residuals.len() as f64).ln();
         let weighted = spares.iter().zip(&posterior.cloud.weights);
-        let stand_out = residuals
-            .iter()
-            .zip(weighted)
-            .any(|(e, (&spare, &weight))| e * e > most * expected(spare, weight));
-        let errors = residuals.iter().zip(&spares);
+        let stand_out = residuals.iter().zip(weighted).any(|(e, (spare, weight))| {
+            let expected = noise / (weight * spare) + FLOOR * FLOOR;
+            (e / spare).powi(2) > most * expected
+        });
+        let errors = residuals.iter().zip(spares);
         Self {
             posterior,
             neighbours: OnceCell::new(),

@@ -56,7 +56,7 @@ use outliers::{ROUNDS, alone};
 use patches::{Patches, WHOLE_CLOUD};
 use posterior::{Posterior, is_small};
 use spectrum_fit::{Count, SpectrumFit, fit_spectrum};
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 use stopping::SETTLED;
 use tilt::most_likely;
 
@@ -176,6 +176,7 @@ pub(crate) fn estimate(
         sums: fit.sums,
         factor: fit.factor,
         dense,
+        spares: OnceLock::new(),
     })
 }
 

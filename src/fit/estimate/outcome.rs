@@ -5,7 +5,7 @@ use super::dense::Factor;
 use super::posterior::{Conditioned, Posterior};
 use super::spectrum::Spectrum;
 use super::sums::Sums;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// The estimate of a grain's radius.
 #[derive(Debug, Clone)]
@@ -28,6 +28,8 @@ pub(crate) struct Estimate {
     pub(crate) factor: Option<Arc<Factor>>,
     /// The points of which the cloud is the patch means.
     pub(super) dense: Option<Dense>,
+    /// 1 - the leverage of every point, once it is asked for.
+    pub(super) spares: OnceLock<Vec<f64>>,
 }
 
 /// Points of which patches were made.

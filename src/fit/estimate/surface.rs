@@ -32,9 +32,21 @@ impl Estimate {
         variance(&self.spectrum, &self.unlearnt).sqrt() * self.plain_length()
     }
 
-    /// Error of predictions of a point from all others, as root mean square, in the scan's unit: by generalised
-    /// cross-validation, that is with the mean of the points' leverages.
+    /// Error of predictions of a point from all others, as root mean square, in the scan's unit: by the points'
+    /// leverages; of patches with [the mean of these](Self::held_out_by_mean).
     pub(crate) fn held_out(&self) -> f64 {
+        if self.dense.is_some() {
+            return self.held_out_by_mean();
+        }
+        let errors = self.posterior().residuals(&self.coefficients).into_iter();
+        let errors = errors.zip(self.spares()).zip(&self.cloud.weights);
+        let squares = errors.map(|((e, spare), weight)| weight * (e / spare).powi(2));
+        (squares.sum::<f64>() / self.cloud.len() as f64).sqrt() * self.plain_length()
+    }
+
+    /// The same by generalised cross-validation, that is with the mean of the points' leverages: less than it is where
+    /// single points decide, as on a steep flank.
+    pub(crate) fn held_out_by_mean(&self) -> f64 {
         let (points, square) = match self.dense {
             Some(Dense { points, residuals }) => (points, residuals),
             None => {

@@ -1,0 +1,82 @@
+//! Leverages of many points, by probes.
+//!
+//! A probe is 1 or -1 on the points of one class and 0 on all others; what the estimate follows of it at such a point is
+//! its leverage, and a little of the others of the class, which are far away. By 16 probes the leverages of kernels of
+//! 1500 points are good to 5 % (RMS of 1 - h), where 1 - h is some .4.
+
+use super::super::outcome::Estimate;
+use crate::fit::neighbours::Neighbours;
+use nalgebra::Vector3;
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::{Rng, SeedableRng};
+
+/// Classes of points.
+const CLASSES: usize = 16;
+
+/// Points about one, itself among them, whose mean bounds what its probe tells, ...
+const VICINITY: usize = 9;
+
+/// ... to this many times more, and less.
+const BOUND: f64 = 3.0;
+
+/// Floor of that mean.
+const LEAST: f64 = 1e-3;
+
+/// 1 - h of every point of an estimate whose matrix is factored.
+pub(super) fn probed(estimate: &Estimate) -> Vec<f64> {
+    let cloud = &estimate.cloud;
+    let posterior = estimate.posterior();
+    let given = estimate.given(&posterior);
+    let neighbours = Neighbours::new(&cloud.directions);
+    let classes = classes(&cloud.directions, &neighbours);
+    let mut random = ChaCha8Rng::seed_from_u64(0);
+    let mut sign = || {
+        if random.next_u32() % 2 == 0 {
+            1.0
+        } else {
+            -1.0
+        }
+    };
+    let signs: Vec<f64> = classes.iter().map(|_| sign()).collect();
+
+    let probes = (0..CLASSES).map(|class| {
+        let points = classes.iter().zip(&signs).zip(&cloud.weights);
+        let own = points.map(|((&c, sign), weight)| if c == class { sign * weight } else { 0.0 });
+        posterior.adjoint(&own.collect::<Vec<f64>>())
+    });
+    let known = given.covariances(&probes.collect::<Vec<_>>());
+    let followed: Vec<Vec<f64>> = known.iter().map(|x| posterior.radii(x)).collect();
+    let told = classes.iter().zip(&signs).enumerate();
+    let told: Vec<f64> = told
+        .map(|(i, (&class, sign))| 1.0 - sign * followed[class][i] / given.noise)
+        .collect();
+
+    let points = cloud.directions.iter().zip(&told);
+    let bounded = points.map(|(n, own)| {
+        let near = neighbours.nearest(n, VICINITY);
+        let sum: f64 = near.iter().map(|&i| told[i]).sum();
+        let mean = (sum / near.len().max(1) as f64).max(LEAST);
+        own.clamp(mean / BOUND, mean * BOUND).min(1.0)
+    });
+    bounded.collect()
+}
+
+/// A class for every point: one that none of its neighbours has, or else the one whose nearest point is farthest.
+fn classes(directions: &[Vector3<f64>], neighbours: &Neighbours) -> Vec<usize> {
+    let mut classes: Vec<Option<usize>> = vec![None; directions.len()];
+    let mut sizes = [0_usize; CLASSES];
+    for (i, n) in directions.iter().enumerate() {
+        let mut places = [usize::MAX; CLASSES];
+        let near = neighbours.nearest(n, 3 * CLASSES);
+        for (place, &j) in near.iter().enumerate().rev() {
+            if let Some(class) = classes[j] {
+                places[class] = place;
+            }
+        }
+        let farthest = (0..CLASSES).max_by_key(|&class| (places[class], usize::MAX - sizes[class]));
+        let class = farthest.unwrap_or(0);
+        sizes[class] += 1;
+        classes[i] = Some(class);
+    }
+    classes.into_iter().flatten().collect()
+}
