@@ -58,7 +58,7 @@ impl<'a> LeftOut<'a> {
             let expected = noise / (weight * spare) + FLOOR * FLOOR;
             (e / spare).powi(2) > most * expected
         });
-        let errors = residuals.iter().zip(spares);
+        let errors = residuals.iter().zip(spares.iter());
         Self {
             posterior,
             neighbours: OnceCell::new(),

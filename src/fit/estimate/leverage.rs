@@ -12,22 +12,28 @@ use super::outcome::Estimate;
 use exact::exact;
 use guessed::guessed;
 use probed::probed;
+use std::borrow::Cow;
 
 /// Points of which every leverage is computed: that takes 25 ms of so many.
 const FEW: usize = 800;
 
 impl Estimate {
     /// 1 - h of every point of the cloud.
-    pub(super) fn spares(&self) -> &[f64] {
+    pub(super) fn spares(&self) -> Cow<'_, [f64]> {
+        match self.factor {
+            Some(_) if self.cloud.len() > FEW => Cow::Owned(probed(self)),
+            _ => Cow::Borrowed(self.steady_spares()),
+        }
+    }
+
+    /// The same without probes, in which a cloud and its mirror image differ.
+    pub(super) fn steady_spares(&self) -> &[f64] {
         self.spares.get_or_init(|| {
             let computed = match self.cloud.len() <= FEW {
                 true => exact(self),
                 false => None,
             };
-            computed.unwrap_or_else(|| match self.factor {
-                Some(_) => probed(self),
-                None => guessed(self),
-            })
+            computed.unwrap_or_else(|| guessed(self))
         })
     }
 }
@@ -127,7 +133,7 @@ mod tests {
         let residuals = estimate.posterior().residuals(&estimate.coefficients);
         let told: Vec<f64> = residuals
             .iter()
-            .zip(estimate.spares())
+            .zip(estimate.spares().iter())
             .map(|(e, spare)| e / spare)
             .collect();
         let missed = |i: usize| {

@@ -28,7 +28,7 @@ pub(crate) struct Estimate {
     pub(crate) factor: Option<Arc<Factor>>,
     /// The points of which the cloud is the patch means.
     pub(super) dense: Option<Dense>,
-    /// 1 - the leverage of every point, once it is asked for.
+    /// 1 - the leverage of every point, computed or guessed, once it is asked for.
     pub(super) spares: OnceLock<Vec<f64>>,
 }
 

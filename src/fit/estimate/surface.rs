@@ -39,7 +39,7 @@ impl Estimate {
             return self.held_out_by_mean();
         }
         let errors = self.posterior().residuals(&self.coefficients).into_iter();
-        let errors = errors.zip(self.spares()).zip(&self.cloud.weights);
+        let errors = errors.zip(self.steady_spares()).zip(&self.cloud.weights);
         let squares = errors.map(|((e, spare), weight)| weight * (e / spare).powi(2));
         (squares.sum::<f64>() / self.cloud.len() as f64).sqrt() * self.plain_length()
     }
