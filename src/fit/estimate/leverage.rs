@@ -15,7 +15,7 @@ use probed::probed;
 use std::borrow::Cow;
 
 /// Points of which every leverage is computed: that takes 25 ms of so many.
-const FEW: usize = 800;
+pub(super) const FEW: usize = 800;
 
 impl Estimate {
     /// 1 - h of every point of the cloud.

@@ -1,5 +1,6 @@
 //! An estimate as a surface: its radii, its expansion cut at a degree, and how sure it is as a whole.
 
+use super::leverage::FEW;
 use super::outcome::{Dense, Estimate, spare, variance};
 use crate::model::{Stretch, Whole};
 use crate::sphere::{Interpolant, RingGrid, coefficient_count};
@@ -33,7 +34,12 @@ impl Estimate {
     }
 
     /// Error of predictions of a point from all others, as root mean square, in the scan's unit: by the points'
-    /// leverages; of patches with [the mean of these](Self::held_out_by_mean).
+    /// leverages; of more than a few points, whose leverages are guessed, at least that [by their mean](Self::held_out_by_mean);
+    /// of patches that alone.
+    ///
+    /// Over the RMS of points that the fit has not seen, of twelve real scans: .60 to 1.12, .97 in the median, where the mean
+    /// alone tells .57 to 1.12 and .92; of nine in ten of 93 clouds of 60 to 800 clean points .4 to 1.3, and 1, where it tells .1
+    /// to 1.1, and .5.
     pub(crate) fn held_out(&self) -> f64 {
         if self.dense.is_some() {
             return self.held_out_by_mean();
@@ -41,7 +47,11 @@ impl Estimate {
         let errors = self.posterior().residuals(&self.coefficients).into_iter();
         let errors = errors.zip(self.steady_spares()).zip(&self.cloud.weights);
         let squares = errors.map(|((e, spare), weight)| weight * (e / spare).powi(2));
-        (squares.sum::<f64>() / self.cloud.len() as f64).sqrt() * self.plain_length()
+        let told = (squares.sum::<f64>() / self.cloud.len() as f64).sqrt() * self.plain_length();
+        match self.cloud.len() <= FEW {
+            true => told,
+            false => told.max(self.held_out_by_mean()),
+        }
     }
 
     /// The same by generalised cross-validation, that is with the mean of the points' leverages: less than it is where
