@@ -13,8 +13,8 @@
 //! lacks its edges. Both are added to the posterior variance, also where a single point is missed by more than noise can
 //! tell: in a thin part of a cloud it may be all that tells of a beak.
 //!
-//! Measured: 95 % intervals hold the volume of 86 and the area of all of 87 barley kernels, with standard errors of .09 and
-//! .9 % (medians), and 100 and 91 to 100 % of those of stones and kernels scanned at random on their faces.
+//! Measured: 95 % intervals hold volume and area of all of 87 barley kernels of 1538 points, with standard errors of .25 and
+//! 1.7 % (medians), and 100 and 94 to 100 % of those of stones and kernels scanned at random on their faces.
 
 use super::functionals::dot;
 use super::outcome::Estimate;
