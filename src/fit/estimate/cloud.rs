@@ -77,6 +77,12 @@ impl Cloud {
         self.radii.len()
     }
 
+    /// Weighted mean square of an error per point.
+    pub(super) fn mean_square(&self, errors: impl IntoIterator<Item = f64>) -> f64 {
+        let weighted = errors.into_iter().zip(&self.weights);
+        weighted.map(|(e, w)| w * e * e).sum::<f64>() / self.len() as f64
+    }
+
     /// Whether the points are much denser on one side than on another.
     pub(crate) fn is_uneven(&self) -> bool {
         let basis = HarmonicBasis::new(MOMENTS);

@@ -14,26 +14,28 @@ use guessed::guessed;
 use probed::probed;
 use std::borrow::Cow;
 
-/// Points of which every leverage is computed: that takes 25 ms of so many.
-pub(super) const FEW: usize = 800;
+/// Points of which every leverage is computed: that takes 7 % of a fit of so many.
+const FEW: usize = 800;
 
 impl Estimate {
+    /// Whether every leverage is computed.
+    pub(super) fn has_few_points(&self) -> bool {
+        self.cloud.len() <= FEW
+    }
+
     /// 1 - h of every point of the cloud.
     pub(super) fn spares(&self) -> Cow<'_, [f64]> {
-        match self.factor {
-            Some(_) if self.cloud.len() > FEW => Cow::Owned(probed(self)),
-            _ => Cow::Borrowed(self.steady_spares()),
+        match self.factor.is_some() && !self.has_few_points() {
+            true => Cow::Owned(probed(self)),
+            false => Cow::Borrowed(self.steady_spares()),
         }
     }
 
     /// The same without probes, in which a cloud and its mirror image differ.
     pub(super) fn steady_spares(&self) -> &[f64] {
-        self.spares.get_or_init(|| {
-            let computed = match self.cloud.len() <= FEW {
-                true => exact(self),
-                false => None,
-            };
-            computed.unwrap_or_else(|| guessed(self))
+        self.steady_spares.get_or_init(|| {
+            let computed = self.has_few_points().then(|| exact(self));
+            computed.flatten().unwrap_or_else(|| guessed(self))
         })
     }
 }

@@ -176,7 +176,7 @@ pub(crate) fn estimate(
         sums: fit.sums,
         factor: fit.factor,
         dense,
-        spares: OnceLock::new(),
+        steady_spares: OnceLock::new(),
     })
 }
 

@@ -29,7 +29,7 @@ pub(crate) struct Estimate {
     /// The points of which the cloud is the patch means.
     pub(super) dense: Option<Dense>,
     /// 1 - the leverage of every point, computed or guessed, once it is asked for.
-    pub(super) spares: OnceLock<Vec<f64>>,
+    pub(super) steady_spares: OnceLock<Vec<f64>>,
 }
 
 /// Points of which patches were made.

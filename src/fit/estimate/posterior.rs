@@ -35,6 +35,14 @@ const FACTORED: f64 = 0.45;
 /// ... but only of clouds up to this size, whose matrices of degree 36 take 30 ms.
 const MOST_FACTORED: usize = 3000;
 
+/// 1 or -1, as often.
+pub(super) fn sign(random: &mut ChaCha8Rng) -> f64 {
+    match random.next_u32() & 1 {
+        0 => 1.0,
+        _ => -1.0,
+    }
+}
+
 /// Whether the matrix of so many points may be formed and factored.
 pub(super) fn is_small(points: usize) -> bool {
     points <= MOST_FACTORED
@@ -130,9 +138,7 @@ impl<'a> Posterior<'a> {
 
     /// Weighted mean square of the residuals.
     pub(super) fn mean_square(&self, coefficients: &[f64]) -> f64 {
-        let residuals = self.residuals(coefficients).into_iter();
-        let weighted = residuals.zip(&self.cloud.weights);
-        weighted.map(|(e, w)| w * e * e).sum::<f64>() / self.cloud.len() as f64
+        self.cloud.mean_square(self.residuals(coefficients))
     }
 
     /// Measured less fitted radii.
@@ -285,14 +291,8 @@ impl Conditioned<'_> {
         let sizes: Vec<f64> = self.variances.iter().map(size).collect();
         let probes: Vec<Vec<f64>> = (0..probes)
             .map(|_| {
-                let mut sign = || {
-                    if random.next_u32() & 1 == 0 {
-                        1.0
-                    } else {
-                        -1.0
-                    }
-                };
-                sizes.iter().map(|size| sign() * size).collect()
+                let signs = sizes.iter().map(|size| sign(&mut random) * size);
+                signs.collect()
             })
             .collect();
         let settled = Enough::Energy(PROBES_SETTLED * count as f64);

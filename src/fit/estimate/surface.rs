@@ -1,6 +1,5 @@
 //! An estimate as a surface: its radii, its expansion cut at a degree, and how sure it is as a whole.
 
-use super::leverage::FEW;
 use super::outcome::{Dense, Estimate, spare, variance};
 use crate::model::{Stretch, Whole};
 use crate::sphere::{Interpolant, RingGrid, coefficient_count};
@@ -44,26 +43,32 @@ impl Estimate {
         if self.dense.is_some() {
             return self.held_out_by_mean();
         }
-        let errors = self.posterior().residuals(&self.coefficients).into_iter();
-        let errors = errors.zip(self.steady_spares()).zip(&self.cloud.weights);
-        let squares = errors.map(|((e, spare), weight)| weight * (e / spare).powi(2));
-        let told = (squares.sum::<f64>() / self.cloud.len() as f64).sqrt() * self.plain_length();
-        match self.cloud.len() <= FEW {
+        let residuals = self.posterior().residuals(&self.coefficients);
+        let missed = residuals.iter().zip(self.steady_spares());
+        let square = self.cloud.mean_square(missed.map(|(e, spare)| e / spare));
+        let told = square.sqrt() * self.plain_length();
+        match self.has_few_points() {
             true => told,
-            false => told.max(self.held_out_by_mean()),
+            false => {
+                told.max(self.by_mean(self.cloud.mean_square(residuals), self.cloud.len() as f64))
+            }
         }
     }
 
     /// The same by generalised cross-validation, that is with the mean of the points' leverages: less than it is where
     /// single points decide, as on a steep flank.
     pub(crate) fn held_out_by_mean(&self) -> f64 {
-        let (points, square) = match self.dense {
-            Some(Dense { points, residuals }) => (points, residuals),
+        match self.dense {
+            Some(Dense { points, residuals }) => self.by_mean(residuals, points),
             None => {
                 let square = self.posterior().mean_square(&self.coefficients);
-                (self.cloud.len() as f64, square)
+                self.by_mean(square, self.cloud.len() as f64)
             }
-        };
+        }
+    }
+
+    /// The same of so many points and a mean square of their residuals.
+    fn by_mean(&self, square: f64, points: f64) -> f64 {
         square.sqrt() / spare(&self.unlearnt, points) * self.plain_length()
     }
 

@@ -46,7 +46,7 @@ fn rough(degree: usize, stretch: [f64; 3]) -> Estimate {
         sums: std::sync::Arc::new(crate::fit::estimate::sums::Sums::new(degree)),
         factor: None,
         dense: None,
-        spares: std::sync::OnceLock::new(),
+        steady_spares: std::sync::OnceLock::new(),
     }
 }
 

@@ -5,7 +5,6 @@
 
 use super::super::dense::Factor;
 use super::super::outcome::Estimate;
-use super::super::posterior::Posterior;
 use crate::sphere::HarmonicBasis;
 use faer::linalg::matmul::triangular::{self, BlockStructure};
 use faer::{Accum, MatMut, MatRef, Par};
@@ -13,8 +12,8 @@ use faer::{Accum, MatMut, MatRef, Par};
 /// 1 - h of every point; `None` where the numbers end before that.
 pub(super) fn exact(estimate: &Estimate) -> Option<Vec<f64>> {
     let cloud = &estimate.cloud;
-    let posterior = Posterior::with(cloud, estimate.sums.clone());
-    let given = posterior.given_factored(&estimate.spectrum, None);
+    let posterior = estimate.posterior();
+    let given = estimate.given(&posterior);
     let roots: Vec<f64> = given.variances.iter().map(|v| v.sqrt()).collect();
     let basis = HarmonicBasis::new(estimate.degree);
     let mut rows = vec![0.0; cloud.len() * roots.len()];

@@ -1,14 +1,16 @@
 //! Leverages of many points, by probes.
 //!
 //! A probe is 1 or -1 on the points of one class and 0 on all others; what the estimate follows of it at such a point is
-//! its leverage, and a little of the others of the class, which are far away. By 16 probes the leverages of kernels of
-//! 1500 points are good to 5 % (RMS of 1 - h), where 1 - h is some .4.
+//! its leverage, and a little of the others of the class, which are far away. By 16 probes 1 - h of textured bodies of
+//! 1500 points, some .4, is good to 7 % for eight points of ten.
 
 use super::super::outcome::Estimate;
+use super::super::posterior::sign;
 use crate::fit::neighbours::Neighbours;
 use nalgebra::Vector3;
 use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{Rng, SeedableRng};
+use rand_chacha::rand_core::SeedableRng;
+use std::cmp::Reverse;
 
 /// Classes of points.
 const CLASSES: usize = 16;
@@ -30,14 +32,7 @@ pub(super) fn probed(estimate: &Estimate) -> Vec<f64> {
     let neighbours = Neighbours::new(&cloud.directions);
     let classes = classes(&cloud.directions, &neighbours);
     let mut random = ChaCha8Rng::seed_from_u64(0);
-    let mut sign = || {
-        if random.next_u32() % 2 == 0 {
-            1.0
-        } else {
-            -1.0
-        }
-    };
-    let signs: Vec<f64> = classes.iter().map(|_| sign()).collect();
+    let signs: Vec<f64> = classes.iter().map(|_| sign(&mut random)).collect();
 
     let probes = (0..CLASSES).map(|class| {
         let points = classes.iter().zip(&signs).zip(&cloud.weights);
@@ -73,7 +68,7 @@ fn classes(directions: &[Vector3<f64>], neighbours: &Neighbours) -> Vec<usize> {
                 places[class] = place;
             }
         }
-        let farthest = (0..CLASSES).max_by_key(|&class| (places[class], usize::MAX - sizes[class]));
+        let farthest = (0..CLASSES).max_by_key(|&class| (places[class], Reverse(sizes[class])));
         let class = farthest.unwrap_or(0);
         sizes[class] += 1;
         classes[i] = Some(class);
