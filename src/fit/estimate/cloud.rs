@@ -83,6 +83,12 @@ impl Cloud {
         weighted.map(|(e, w)| w * e * e).sum::<f64>() / self.len() as f64
     }
 
+    /// Errors per point in units of that of one of mean weight: means of many points have smaller ones.
+    pub(super) fn of_mean_weight(&self, errors: &[f64]) -> Vec<f64> {
+        let weighted = errors.iter().zip(&self.weights);
+        weighted.map(|(e, w)| e * w.sqrt()).collect()
+    }
+
     /// Whether the points are much denser on one side than on another.
     pub(crate) fn is_uneven(&self) -> bool {
         let basis = HarmonicBasis::new(MOMENTS);

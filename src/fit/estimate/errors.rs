@@ -57,11 +57,12 @@ impl Estimate {
     ) -> Result<StandardErrors, NoInterval> {
         let posterior = self.posterior();
         let residuals = posterior.residuals(&self.coefficients);
-        let is_rough = is_rough(&residuals);
+        let of_mean_weight = self.cloud.of_mean_weight(&residuals);
+        let is_rough = is_rough(&of_mean_weight);
         let may_have_edges = is_rough || are_many(self.outliers, self.cloud.len());
         let is_made = || is_symmetric(&self.coefficients) || is_flat_sided(&self.cloud.points());
         if may_have_edges && is_made() {
-            let kurtosis = kurtosis(&residuals);
+            let kurtosis = kurtosis(&of_mean_weight);
             return Err(NoInterval::Unresolved { kurtosis });
         }
         let left_out = LeftOut::new(self, &posterior, &residuals);

@@ -80,7 +80,7 @@ pub(crate) fn estimate(
     axes: Vector3<f64>,
     context: &Context<'_>,
 ) -> Result<Estimate, Cancelled> {
-    let mut patches = (samples.len() > WHOLE_CLOUD).then(|| Patches::new(samples));
+    let mut patches = (samples.len() > WHOLE_CLOUD).then(|| Patches::new(samples, &axes));
     let (reduced, counts) = match &patches {
         Some(patches) => (patches.means.as_slice(), Some(patches.counts.as_slice())),
         None => (samples, None),

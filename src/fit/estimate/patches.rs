@@ -50,12 +50,18 @@ pub(crate) struct Patches {
 }
 
 impl Patches {
-    /// Gathers samples in patches.
-    pub(crate) fn new(samples: &[Sample]) -> Self {
+    /// Gathers samples of a grain with these semi-axes, in any unit. Its directions are stretched halfway to where it is round:
+    /// unstretched, one patch would hold all of a long grain's tip (of a slender lemon of 40 000 points the area was .15 % off,
+    /// and is .05 %); stretched all the way, patches along its sides were too long for their texture.
+    pub(crate) fn new(samples: &[Sample], axes: &Vector3<f64>) -> Self {
+        let stretched = axes.map(f64::sqrt);
         let cells = 6 * usize::from(PER_EDGE).pow(2);
         let place: Vec<u32> = samples
             .iter()
-            .map(|&[x, y, z, _]| CubeCell::position(PER_EDGE, &Vector3::new(x, y, z)) as u32)
+            .map(|&[x, y, z, _]| {
+                CubeCell::position(PER_EDGE, &Vector3::new(x, y, z).component_div(&stretched))
+                    as u32
+            })
             .collect();
         let mut starts = vec![0_usize; cells + 1];
         for &cell in &place {
@@ -263,7 +269,7 @@ mod tests {
             [n.x, n.y, n.z, radius + own]
         };
         let samples: Vec<Sample> = cap.iter().enumerate().map(sample).collect();
-        Patches::new(&samples).left_out
+        Patches::new(&samples, &Vector3::repeat(1.0)).left_out
     }
 
     #[test]
@@ -274,11 +280,31 @@ mod tests {
         assert_eq!(left_out(0.01, 0.2), 1);
     }
 
+    /// Of points that lie evenly in the directions in which a grain is round to the half, patches hold alike many; none is left
+    /// with a tip for itself.
+    #[test]
+    fn patches_of_a_long_grain_are_alike_at_its_tips_and_its_sides() {
+        let axes = Vector3::new(9.0, 1.0, 1.0);
+        let even = Sampling::Fibonacci.directions(300_000, 0).unwrap();
+        let sample = |n: &Vector3<f64>| {
+            let n = n.component_mul(&axes.map(f64::sqrt)).normalize();
+            [n.x, n.y, n.z, 1.0 / n.component_div(&axes).norm()]
+        };
+        let samples: Vec<Sample> = even.iter().map(sample).collect();
+        let largest = |axes: &Vector3<f64>| {
+            let counts = Patches::new(&samples, axes).counts;
+            counts.into_iter().fold(0.0, f64::max)
+        };
+        let mean = 300_000.0 / 24_576.0;
+        assert!(largest(&axes) < 2.0 * mean);
+        assert!(largest(&Vector3::repeat(1.0)) > 6.0 * mean);
+    }
+
     /// A function of place of the second degree has the same mean over a patch's places as over its points.
     #[test]
     fn places_stand_for_points_to_the_second_degree() {
         let samples = samples();
-        let patches = Patches::new(&samples);
+        let patches = Patches::new(&samples, &Vector3::repeat(1.0));
         let of_places = |function: fn(&Sample) -> f64| {
             let values: Vec<f64> = patches.places().iter().map(function).collect();
             dot(&patches.means_of(&values), &patches.counts)

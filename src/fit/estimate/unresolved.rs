@@ -98,7 +98,8 @@ pub(super) fn is_rough(residuals: &[f64]) -> bool {
 impl Estimate {
     /// Whether what it leaves of the points is no noise, but edges and detail.
     pub(crate) fn is_rough(&self) -> bool {
-        is_rough(&self.posterior().residuals(&self.coefficients))
+        let residuals = self.posterior().residuals(&self.coefficients);
+        is_rough(&self.cloud.of_mean_weight(&residuals))
     }
 }
 

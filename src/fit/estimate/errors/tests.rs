@@ -2,7 +2,7 @@ use super::*;
 use crate::fit::estimate::trial::{estimated, fibonacci, samples};
 use crate::measure::Survey;
 use crate::model::{Family, Frame, StarGrain};
-use crate::shapes::{Body, SynthOptions, synthesize};
+use crate::shapes::{Body, Sampling, SynthOptions, synthesize};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
@@ -396,4 +396,18 @@ fn texture_between_the_points_is_part_of_the_error_of_the_area() {
     ));
     let error = found.errors(&found.figures).area;
     assert!(found.texture < 0.2 * error, "{} {error}", found.texture);
+}
+
+/// Patches hold one point to a dozen: their means have errors of all sizes, which are no edges.
+#[test]
+fn noise_of_a_dense_cloud_of_random_points_is_no_edge() {
+    let axes = Vector3::new(1.4, 1.2, 1.0);
+    let directions = Sampling::Random.directions(40_000, 1).unwrap();
+    let estimate = estimated(&samples(&directions, ellipsoid(axes), 0.005), axes);
+    assert!(!estimate.is_rough());
+    let told = best(&estimate).figures;
+    let errors = estimate.errors(&told).unwrap();
+    let volume = 4.0 / 3.0 * PI * axes.product();
+    assert!((told.volume - volume).abs() < 3.0 * errors.volume);
+    assert!(errors.volume < 5e-4 * volume);
 }
