@@ -85,18 +85,17 @@ impl Family {
 
     /// The derivatives in many directions, in their order.
     pub(super) fn many_derivatives(&self, directions: &[Vector3<f64>]) -> Vec<Derivatives> {
-        match self {
-            Self::Blended(surface) => {
-                let jets = surface.jets(directions);
-                let found = directions.iter().zip(&jets);
-                found
-                    .map(|(n, jet)| Derivatives::on_sphere(n, jet))
-                    .collect()
+        let jets = match self {
+            Self::Blended(surface) => surface.jets(directions),
+            Self::Whole(surface) => surface.jets(directions),
+            Self::Segmented(_) | Self::Mirrored(_) => {
+                return directions.iter().map(|n| self.derivatives(n)).collect();
             }
-            Self::Segmented(_) | Self::Mirrored(_) | Self::Whole(_) => {
-                directions.iter().map(|n| self.derivatives(n)).collect()
-            }
-        }
+        };
+        let found = directions.iter().zip(&jets);
+        found
+            .map(|(n, jet)| Derivatives::on_sphere(n, jet))
+            .collect()
     }
 
     /// Radii in many directions, likewise.

@@ -5,7 +5,7 @@ mod degrees;
 
 use super::invalid::check_expansion;
 use super::{Derivatives, InvalidGrain, StarSurface};
-use crate::sphere::{HarmonicBasis, Jet};
+use crate::sphere::{HarmonicBasis, Jet, Jets};
 use crate::vectorize::vectorize;
 use azimuth::Azimuth;
 use degrees::{Degrees, Sums};
@@ -25,6 +25,9 @@ pub struct Whole {
 /// Directions evaluated together: more than fit a register, for each step of the recurrence waits for the
 /// one before.
 const LANES: usize = 16;
+
+/// The same with derivatives, which take more registers.
+const FEWER_LANES: usize = 8;
 
 impl Whole {
     /// The largest degree of an expansion.
@@ -64,24 +67,25 @@ impl Whole {
 
     /// Radii in many directions, in their order.
     pub(crate) fn radii(&self, directions: &[Vector3<f64>]) -> Vec<f64> {
-        let tasks = directions.par_chunks(LANES * 16);
-        let parts = tasks.map(|directions| {
-            let mut radii = Vec::with_capacity(directions.len());
-            vectorize(
-                #[inline(always)]
-                || {
-                    for block in directions.chunks(LANES) {
-                        let at = |axis: usize| -> [f64; LANES] {
-                            std::array::from_fn(|lane| block[lane.min(block.len() - 1)][axis])
-                        };
-                        let found = self.values([&at(0), &at(1), &at(2)]);
-                        radii.extend_from_slice(&found[..block.len()]);
-                    }
-                },
-            );
-            radii
-        });
-        parts.flatten_iter().collect()
+        many(
+            directions,
+            #[inline(always)]
+            |[x, y, z], count, radii| {
+                radii.extend_from_slice(&self.values::<LANES>([x, y, z])[..count]);
+            },
+        )
+    }
+
+    /// Radii and their derivatives with respect to the components of the direction, likewise.
+    pub(crate) fn jets(&self, directions: &[Vector3<f64>]) -> Vec<Jet> {
+        many(
+            directions,
+            #[inline(always)]
+            |[x, y, z], count, jets| {
+                let found = self.derivatives_in::<FEWER_LANES>([x, y, z]);
+                jets.extend((0..count).map(|lane| found.jet_at(lane)));
+            },
+        )
     }
 
     /// Radii in N directions, given component by component.
@@ -101,6 +105,48 @@ impl Whole {
             },
         );
         values
+    }
+
+    /// Radii and their derivatives in N directions, likewise.
+    #[inline(always)]
+    fn derivatives_in<const N: usize>(&self, [x, y, z]: [&[f64; N]; 3]) -> Jets<2, N> {
+        let mut jets = Jets::<2, N>::ZERO;
+        // (x + iy)^m, ^(m-1) and ^(m-2); zero where the power is negative.
+        let mut re = [[1.0; N], [0.0; N], [0.0; N]];
+        let mut im = [[0.0; N]; 3];
+        let mut order = 0.0;
+        self.degrees.sums(
+            &self.coefficients,
+            z,
+            #[inline(always)]
+            |a: &Sums<3, N>, b: &Sums<3, N>| {
+                let twice = order * (order - 1.0);
+                for i in 0..N {
+                    let along_x =
+                        |d: usize, low: usize| a[d][i] * re[low][i] + b[d][i] * im[low][i];
+                    let along_y =
+                        |d: usize, low: usize| b[d][i] * re[low][i] - a[d][i] * im[low][i];
+                    jets.value[i] += along_x(0, 0);
+                    jets.gradient[0][i] += order * along_x(0, 1);
+                    jets.gradient[1][i] += order * along_y(0, 1);
+                    jets.gradient[2][i] += along_x(1, 0);
+                    jets.hessian[0][i] += twice * along_x(0, 2);
+                    jets.hessian[1][i] -= twice * along_x(0, 2);
+                    jets.hessian[2][i] += along_x(2, 0);
+                    jets.hessian[3][i] += order * along_y(1, 1);
+                    jets.hessian[4][i] += order * along_x(1, 1);
+                    jets.hessian[5][i] += twice * along_y(0, 2);
+                }
+                (re[2], im[2]) = (re[1], im[1]);
+                (re[1], im[1]) = (re[0], im[0]);
+                for i in 0..N {
+                    let (c, s) = (re[0][i], im[0][i]);
+                    (re[0][i], im[0][i]) = (c * x[i] - s * y[i], c * y[i] + s * x[i]);
+                }
+                order += 1.0;
+            },
+        );
+        jets
     }
 
     /// The expansion in directions of equal z, order by order: A and B of A Re w^m + B Im w^m with w = x + iy.
@@ -132,6 +178,30 @@ impl Whole {
     pub(crate) fn jet(&self, n: &Vector3<f64>) -> Jet {
         self.basis.jet(&self.coefficients, n)
     }
+}
+
+/// What `of` adds, block by block, to a list, from the components of N directions and how many of them are asked for.
+fn many<const N: usize, T: Send>(
+    directions: &[Vector3<f64>],
+    of: impl Fn([&[f64; N]; 3], usize, &mut Vec<T>) + Sync,
+) -> Vec<T> {
+    let tasks = directions.par_chunks(LANES * 16);
+    let parts = tasks.map(|directions| {
+        let mut found = Vec::with_capacity(directions.len());
+        vectorize(
+            #[inline(always)]
+            || {
+                for block in directions.chunks(N) {
+                    let at = |axis: usize| -> [f64; N] {
+                        std::array::from_fn(|lane| block[lane.min(block.len() - 1)][axis])
+                    };
+                    of([&at(0), &at(1), &at(2)], block.len(), &mut found);
+                }
+            },
+        );
+        found
+    });
+    parts.flatten_iter().collect()
 }
 
 impl StarSurface for Whole {

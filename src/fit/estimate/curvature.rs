@@ -22,7 +22,7 @@
 use super::outcome::{Estimate, bending_variance, spare};
 use crate::fit::neighbours::Neighbours;
 use crate::measure::Curvature;
-use crate::model::{CurvatureErrors, Family, StarGrain, Surface};
+use crate::model::{CurvatureErrors, Family, StarGrain, Surface, SurfaceJet};
 use crate::sphere::CubeCell;
 use nalgebra::{Matrix2, Matrix3, Vector3};
 
@@ -48,28 +48,39 @@ impl Estimate {
             let near = neighbours.nearest(&self.stretched(n).normalize(), VICINITY);
             near.iter().map(|&i| misfits[i]).sum::<f64>() / near.len().max(1) as f64
         };
-        let square = |n: &Vector3<f64>, misfit: f64| {
-            let towards = frame.axes * n;
-            let jet = best.jet(&towards);
-            let curvature = Curvature::new(&towards, &jet);
+        let places = || (0..PLACES).map(|i| (i as f64 + 0.5) / PLACES as f64);
+        let of_cell = |cell: &CubeCell| {
+            let squares = places().flat_map(|s| places().map(move |t| (s, t)));
+            squares.map(|(s, t)| cell.at(s, t)).collect::<Vec<_>>()
+        };
+        let cells = CubeCell::uniform(CurvatureErrors::PARTS);
+        let directions: Vec<Vector3<f64>> = cells.iter().flat_map(of_cell).collect();
+        let towards: Vec<Vector3<f64>> = directions.iter().map(|n| frame.axes * n).collect();
+        let jets = best.jets(&towards).into_iter().zip(grain.jets(&towards));
+        let both: Vec<_> = towards.iter().zip(jets).collect();
+        let square = |n: &Vector3<f64>, (towards, jets): &(&Vector3<f64>, _), misfit: f64| {
+            let (best, told): &(SurfaceJet, SurfaceJet) = jets;
+            let curvature = Curvature::new(towards, best);
             let exact = tensor(&curvature);
-            let told = tensor(&Curvature::new(&towards, &grain.jet(&towards)));
+            let told = tensor(&Curvature::new(towards, told));
             let difference = (told - exact).norm_squared();
             let rounding = FLOOR * FLOOR * exact.norm_squared();
             let local = [0, 1].map(|i| frame.axes.tr_mul(&curvature.directions[i]));
             let normal = frame.axes.tr_mul(&curvature.normal);
-            let bend = self.bend(n, jet.place.norm(), &normal, local);
+            let bend = self.bend(n, best.place.norm(), &normal, local);
             difference + rounding + misfit * bending * bend
         };
-        let places = || (0..PLACES).map(|i| (i as f64 + 0.5) / PLACES as f64);
-        let of_cell = |cell: CubeCell| {
-            let squares = places().flat_map(|s| places().map(move |t| (s, t)));
+        let per_cell = PLACES * PLACES;
+        let of_places = directions.chunks(per_cell).zip(both.chunks(per_cell));
+        let errors = cells.iter().zip(of_places).map(|(cell, (own, jets))| {
             let misfit = misfit(&cell.at(0.5, 0.5));
-            let sum: f64 = squares.map(|(s, t)| square(&cell.at(s, t), misfit)).sum();
-            round((sum / (PLACES * PLACES) as f64).sqrt())
-        };
-        let cells = CubeCell::uniform(CurvatureErrors::PARTS).into_iter();
-        CurvatureErrors::new(cells.map(of_cell).collect())
+            let squares = own
+                .iter()
+                .zip(jets)
+                .map(|(n, jets)| square(n, jets, misfit));
+            round((squares.sum::<f64>() / per_cell as f64).sqrt())
+        });
+        CurvatureErrors::new(errors.collect())
     }
 
     /// T n.

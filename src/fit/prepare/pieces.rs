@@ -57,7 +57,16 @@ impl Pieces {
     /// Looks for bodies in a cloud.
     pub(super) fn new(points: &[Point3<f64>]) -> Self {
         let points = drawn(points, MOST_LINKED);
-        let (large, small) = pieces(&points);
+        let (mut large, small) = pieces(&points);
+        if large.len() == 1 && small.is_empty() {
+            let linked = large.remove(0);
+            return Self {
+                largest: linked.len(),
+                linked,
+                bodies: 1,
+                is_dusty: false,
+            };
+        }
         let mut large: Vec<Piece> = large.into_iter().map(Piece::new).collect();
         large.sort_by_key(|piece| Reverse((piece.is_closed, piece.points.len())));
         let (own, others) = match large.split_first() {

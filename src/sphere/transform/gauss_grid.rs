@@ -1,11 +1,10 @@
 //! Values of an expansion at Gauss-Legendre rings of equispaced azimuths, and the transpose.
 
+use super::azimuth::{AzimuthSeries, AzimuthTerms, IMAGES};
 use super::kept::Kept;
 use super::polar::PolarTable;
-use crate::sphere::azimuth_fft::{AzimuthFft, even_smooth_number};
 use crate::sphere::{GaussLegendre, HarmonicBasis, harmonic_index};
 use nalgebra::Vector3;
-use realfft::num_complex::Complex;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
@@ -13,10 +12,11 @@ use std::sync::Arc;
 static GRIDS: Kept<[usize; 2], GaussGrid> = Kept::new();
 
 /// A grid on which sums with [`Self::weights`] are integrals of all polynomials up to a degree, for
-/// expansions up to another. Values are stored ring by ring, from the north pole.
+/// expansions up to another. Values are stored as by an [`AzimuthSeries`], the rings as by
+/// [`PolarTable::synthesis_by_order`]: nodes that stand twice, and those of padding, have no weight.
 pub(super) struct GaussGrid {
     polar: PolarTable,
-    fft: AzimuthFft,
+    series: AzimuthSeries,
     orders: usize,
     /// Solid angle of a node of each ring.
     weights: Vec<f64>,
@@ -29,9 +29,15 @@ impl GaussGrid {
         GRIDS.get([degree, exact], || Self::new(degree, exact))
     }
 
+    /// The grid of products of two expansions up to `degree`: with the nodes of that which is exact for products of such
+    /// products, for expansions up to twice the degree.
+    pub(super) fn wide(degree: usize) -> Arc<Self> {
+        Self::of_degree(2 * degree, 4 * degree)
+    }
+
     fn new(degree: usize, exact: usize) -> Self {
         let rule = GaussLegendre::new(exact / 2 + 1);
-        let fft = AzimuthFft::new(even_smooth_number(exact + 1));
+        let series = AzimuthSeries::new(degree + 1, exact + 1);
         let rings = rule.len();
         let basis = HarmonicBasis::new(degree);
         let mut values = vec![0.0; (degree + 1) * (degree + 1)];
@@ -49,26 +55,41 @@ impl GaussGrid {
                 *entry = values[harmonic_index(l, m as isize)];
             }
         });
-        let per_node = 2.0 * PI / fft.points() as f64;
+        let per_node = 2.0 * PI / series.points() as f64;
         Self {
             polar,
             orders: degree + 1,
             weights: rule.on(-1.0, 1.0).map(|(_, w)| w * per_node).collect(),
-            fft,
+            series,
         }
     }
 
-    /// Number of nodes.
+    /// Number of values.
     pub(super) fn len(&self) -> usize {
-        self.weights.len() * self.fft.points()
+        IMAGES * self.series.of_quarter() * self.rows()
+    }
+
+    /// Values of a point of all rings: of northern ones and of southern ones.
+    fn rows(&self) -> usize {
+        2 * self.polar.column_length()
     }
 
     /// Solid angles of the nodes.
-    pub(super) fn weights(&self) -> impl Iterator<Item = f64> {
-        let azimuths = self.fft.points();
-        self.weights
-            .iter()
-            .flat_map(move |&weight| std::iter::repeat_n(weight, azimuths))
+    pub(super) fn weights(&self) -> Vec<f64> {
+        let northern = self.weights.len().div_ceil(2);
+        let mut of_rings = vec![0.0; self.rows()];
+        let (north, south) = of_rings.split_at_mut(self.polar.column_length());
+        north[..northern].copy_from_slice(&self.weights[..northern]);
+        // An equator is a northern ring.
+        let southern = self.weights.len() - northern;
+        south[..southern].copy_from_slice(&self.weights[..southern]);
+        let points = 0..self.series.of_quarter();
+        let mut weights = Vec::with_capacity(self.len());
+        for (image, point) in (0..IMAGES).flat_map(|i| points.clone().map(move |t| (i, t))) {
+            let own = f64::from(u8::from(self.series.is_own(image, point)));
+            weights.extend(of_rings.iter().map(|weight| own * weight));
+        }
+        weights
     }
 
     /// The polar parts of the harmonics.
@@ -76,45 +97,37 @@ impl GaussGrid {
         &self.polar
     }
 
-    /// The terms of the azimuth, of orders 0 to `order`, of values at the nodes: of each order a column like those of
-    /// [`Self::polar`]. First the sums of a ring's and its mirror image's, then their differences.
-    pub(super) fn folded_terms(&self, values: &[f64], order: usize) -> [Vec<Vec<Complex<f64>>>; 2] {
-        let column = vec![Complex::ZERO; self.polar.column_length()];
-        let mut folded = [(); 2].map(|()| vec![column.clone(); order + 1]);
-        let mut terms = vec![Complex::ZERO; order + 1];
-        let mut workspace = self.fft.workspace();
-        let rings = self.weights.len();
-        for (ring, values) in values.chunks_exact(self.fft.points()).enumerate() {
-            self.fft
-                .adjoint(&mut values.to_vec(), &mut terms, &mut workspace);
-            let mirrored = rings - 1 - ring;
-            for (k, term) in terms.iter().enumerate() {
-                folded[0][k][ring.min(mirrored)] += term;
-                folded[1][k][ring.min(mirrored)] += if ring <= mirrored { *term } else { -term };
-            }
-        }
-        folded
+    /// The terms of the azimuth of values at the nodes, of each order a column like those of [`Self::polar`]: first the
+    /// sums of a ring's and its mirror image's, then their differences; of each that of the cosine and that of the sine.
+    pub(super) fn folded_terms(&self, values: &[f64]) -> [Vec<[Vec<f64>; 2]>; 2] {
+        let mut terms = self.terms();
+        self.series.adjoint(&mut values.to_vec(), &mut terms);
+        [1.0, -1.0].map(|sign| {
+            let folded = |column: &[f64]| {
+                let (north, south) = column.split_at(column.len() / 2);
+                let rings = north.iter().zip(south);
+                rings.map(|(north, south)| north + sign * south).collect()
+            };
+            let of_order = |m: usize| terms.of_order(m).map(folded);
+            (0..self.orders).map(of_order).collect()
+        })
+    }
+
+    fn terms(&self) -> AzimuthTerms {
+        AzimuthTerms::new(self.rows(), self.orders)
     }
 
     /// Values of an expansion at the nodes.
     pub(super) fn synthesis(&self, coefficients: &[f64], values: &mut [f64]) {
-        let mut terms = vec![Complex::ZERO; self.weights.len() * self.orders];
-        self.polar.synthesis(coefficients, &mut terms);
-        let mut workspace = self.fft.workspace();
-        let rings = values.chunks_exact_mut(self.fft.points());
-        for (terms, ring) in terms.chunks_exact(self.orders).zip(rings) {
-            self.fft.synthesis(terms, ring, &mut workspace);
-        }
+        let mut terms = self.terms();
+        self.polar.synthesis_by_order(coefficients, &mut terms);
+        self.series.synthesis(&terms, values);
     }
 
     /// The transpose of [`Self::synthesis`]. Overwrites `values`.
     pub(super) fn adjoint(&self, values: &mut [f64], coefficients: &mut [f64]) {
-        let mut terms = vec![Complex::ZERO; self.weights.len() * self.orders];
-        let mut workspace = self.fft.workspace();
-        let rings = values.chunks_exact_mut(self.fft.points());
-        for (terms, ring) in terms.chunks_exact_mut(self.orders).zip(rings) {
-            self.fft.adjoint(ring, terms, &mut workspace);
-        }
-        self.polar.adjoint(&terms, coefficients);
+        let mut terms = self.terms();
+        self.series.adjoint(values, &mut terms);
+        self.polar.adjoint_by_order(&terms, coefficients);
     }
 }

@@ -19,7 +19,6 @@ use super::gauss_grid::GaussGrid;
 use crate::sphere::{coefficient_count, harmonic_index};
 use faer::linalg::matmul::matmul;
 use faer::{Accum, MatMut, MatRef, Par};
-use realfft::num_complex::Complex;
 use std::sync::Arc;
 
 /// The matrix as an operator.
@@ -35,7 +34,7 @@ impl HarmonicGram {
     /// # Panics
     /// If there are fewer than (2 `degree` + 1)² of them.
     pub(crate) fn new(degree: usize, moments: &[f64]) -> Self {
-        let wide = GaussGrid::of_degree(2 * degree, 4 * degree);
+        let wide = GaussGrid::wide(degree);
         let mut diagonal = vec![0.0; wide.len()];
         wide.synthesis(moments, &mut diagonal);
         for (entry, weight) in diagonal.iter_mut().zip(wide.weights()) {
@@ -65,7 +64,8 @@ impl HarmonicGram {
     pub(crate) fn lower_triangle(&self) -> Vec<f64> {
         let count = coefficient_count(self.degree);
         let mut matrix = vec![0.0; count * count];
-        let folded = self.grid.folded_terms(&self.diagonal, 2 * self.degree);
+        let wide = GaussGrid::wide(self.degree);
+        let folded = wide.folded_terms(&self.diagonal);
         let polar = self.grid.polar();
         let rows = polar.column_length();
         let (mut right, mut places) = (Vec::new(), Vec::new());
@@ -155,20 +155,19 @@ impl Trig {
 /// 2 cos a cos b = cos(a - b) + cos(a + b)    2 sin a sin b = cos(a - b) - cos(a + b)    2 sin a cos b = sin(a + b) + sin(a - b)
 /// ```
 fn azimuthal(
-    terms: &[Vec<Complex<f64>>],
+    terms: &[[Vec<f64>; 2]],
     (m, trig): (usize, Trig),
     (other, other_trig): (usize, Trig),
 ) -> Vec<f64> {
-    let pairs = terms[other - m].iter().zip(&terms[other + m]);
-    let of = |entry: fn(&Complex<f64>, &Complex<f64>) -> f64| {
-        pairs
-            .map(|(difference, sum)| 0.5 * entry(difference, sum))
-            .collect()
+    let (part, [by_difference, by_sum]) = match (trig, other_trig) {
+        (Trig::Cosine, Trig::Cosine) => (0, [0.5, 0.5]),
+        (Trig::Sine, Trig::Sine) => (0, [0.5, -0.5]),
+        (Trig::Cosine, Trig::Sine) => (1, [0.5, 0.5]),
+        (Trig::Sine, Trig::Cosine) => (1, [-0.5, 0.5]),
     };
-    match (trig, other_trig) {
-        (Trig::Cosine, Trig::Cosine) => of(|difference, sum| difference.re + sum.re),
-        (Trig::Sine, Trig::Sine) => of(|difference, sum| difference.re - sum.re),
-        (Trig::Cosine, Trig::Sine) => of(|difference, sum| sum.im + difference.im),
-        (Trig::Sine, Trig::Cosine) => of(|difference, sum| sum.im - difference.im),
-    }
+    let [differences, sums] = [other - m, other + m].map(|order| &terms[order][part]);
+    let pairs = differences.iter().zip(sums);
+    pairs
+        .map(|(difference, sum)| by_difference * difference + by_sum * sum)
+        .collect()
 }

@@ -15,6 +15,7 @@
 //! An [`interpolant`] is evaluated in directions that are asked for once. One after the other the three steps and their
 //! adjoints make the matrix Y'WY of weighted directions; [`gram`] applies it faster.
 
+mod azimuth;
 mod gauss_grid;
 mod gram;
 mod grid;

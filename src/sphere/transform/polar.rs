@@ -4,6 +4,7 @@
 //! The table has (L+1)^2/2 columns of half the rings, the other half being their mirror images, even or odd
 //! as l - m is.
 
+use super::azimuth::AzimuthTerms;
 use crate::sphere::harmonic_index;
 use crate::vectorize::{dot, vectorize};
 use realfft::num_complex::Complex;
@@ -72,6 +73,82 @@ impl PolarTable {
     /// The terms of the azimuth on every ring, ring by ring, orders 0, ..., L: the cosine's as real
     /// part, the sine's as imaginary part.
     pub(super) fn synthesis(&self, coefficients: &[f64], terms: &mut [Complex<f64>]) {
+        self.sum_degrees(
+            coefficients,
+            #[inline(always)]
+            |m, Halves { cosine, sine }| {
+                for i in 0..self.rings.div_ceil(2) {
+                    let even = Complex::new(cosine[0][i], sine[0][i]);
+                    let odd = Complex::new(cosine[1][i], sine[1][i]);
+                    let mirrored = self.rings - 1 - i;
+                    terms[i * (self.degree + 1) + m] = even + odd;
+                    if mirrored > i {
+                        terms[mirrored * (self.degree + 1) + m] = even - odd;
+                    }
+                }
+            },
+        );
+    }
+
+    /// The transpose of [`Self::synthesis`].
+    pub(super) fn adjoint(&self, terms: &[Complex<f64>], coefficients: &mut [f64]) {
+        self.sum_rings(
+            coefficients,
+            #[inline(always)]
+            |m, Halves { cosine, sine }| {
+                for i in 0..self.rings.div_ceil(2) {
+                    let mirrored = self.rings - 1 - i;
+                    let north = terms[i * (self.degree + 1) + m];
+                    let south = match mirrored > i {
+                        true => terms[mirrored * (self.degree + 1) + m],
+                        false => Complex::ZERO,
+                    };
+                    let (even, odd) = (north + south, north - south);
+                    (cosine[0][i], sine[0][i]) = (even.re, even.im);
+                    (cosine[1][i], sine[1][i]) = (odd.re, odd.im);
+                }
+            },
+        );
+    }
+
+    /// The terms of the azimuth, order by order: first of the northern rings, a column's length with its padding, then as
+    /// many of their mirror images.
+    pub(super) fn synthesis_by_order(&self, coefficients: &[f64], terms: &mut AzimuthTerms) {
+        self.sum_degrees(
+            coefficients,
+            #[inline(always)]
+            |m, Halves { cosine, sine }| {
+                for (own, [even, odd]) in terms.of_order_mut(m).into_iter().zip([cosine, sine]) {
+                    let (north, south) = own.split_at_mut(self.rows);
+                    let halves = even.iter().zip(odd.iter());
+                    for ((north, south), (even, odd)) in north.iter_mut().zip(south).zip(halves) {
+                        (*north, *south) = (even + odd, even - odd);
+                    }
+                }
+            },
+        );
+    }
+
+    /// The transpose of [`Self::synthesis_by_order`].
+    pub(super) fn adjoint_by_order(&self, terms: &AzimuthTerms, coefficients: &mut [f64]) {
+        self.sum_rings(
+            coefficients,
+            #[inline(always)]
+            |m, Halves { cosine, sine }| {
+                for (own, [even, odd]) in terms.of_order(m).into_iter().zip([cosine, sine]) {
+                    let (north, south) = own.split_at(self.rows);
+                    let halves = even.iter_mut().zip(odd.iter_mut());
+                    for ((even, odd), (north, south)) in halves.zip(north.iter().zip(south)) {
+                        (*even, *odd) = (north + south, north - south);
+                    }
+                }
+            },
+        );
+    }
+
+    /// Sums over the degrees, order by order.
+    #[inline(always)]
+    fn sum_degrees(&self, coefficients: &[f64], mut put: impl FnMut(usize, &Halves)) {
         vectorize(
             #[inline(always)]
             || {
@@ -87,40 +164,23 @@ impl PolarTable {
                         add(&mut cosine[(l - m) % 2], a, column);
                         add(&mut sine[(l - m) % 2], b, column);
                     }
-                    for i in 0..self.rings.div_ceil(2) {
-                        let even = Complex::new(cosine[0][i], sine[0][i]);
-                        let odd = Complex::new(cosine[1][i], sine[1][i]);
-                        let mirrored = self.rings - 1 - i;
-                        terms[i * (self.degree + 1) + m] = even + odd;
-                        if mirrored > i {
-                            terms[mirrored * (self.degree + 1) + m] = even - odd;
-                        }
-                    }
+                    put(m, &halves);
                 }
             },
         );
     }
 
-    /// The transpose of [`Self::synthesis`].
-    pub(super) fn adjoint(&self, terms: &[Complex<f64>], coefficients: &mut [f64]) {
+    /// Sums over the rings, order by order.
+    #[inline(always)]
+    fn sum_rings(&self, coefficients: &mut [f64], mut take: impl FnMut(usize, &mut Halves)) {
         vectorize(
             #[inline(always)]
             || {
                 let mut halves = self.halves();
                 for m in 0..=self.degree {
+                    take(m, &mut halves);
+                    let Halves { cosine, sine } = &halves;
                     let columns = self.columns(m).chunks_exact(self.rows);
-                    let Halves { cosine, sine } = &mut halves;
-                    for i in 0..self.rings.div_ceil(2) {
-                        let mirrored = self.rings - 1 - i;
-                        let north = terms[i * (self.degree + 1) + m];
-                        let south = match mirrored > i {
-                            true => terms[mirrored * (self.degree + 1) + m],
-                            false => Complex::ZERO,
-                        };
-                        let (even, odd) = (north + south, north - south);
-                        (cosine[0][i], sine[0][i]) = (even.re, even.im);
-                        (cosine[1][i], sine[1][i]) = (odd.re, odd.im);
-                    }
                     for (l, column) in (m..).zip(columns) {
                         let order = m as isize;
                         let parity = (l - m) % 2;

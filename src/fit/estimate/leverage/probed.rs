@@ -30,7 +30,9 @@ pub(super) fn probed(estimate: &Estimate) -> Vec<f64> {
     let posterior = estimate.posterior();
     let given = estimate.given(&posterior);
     let neighbours = Neighbours::new(&cloud.directions);
-    let classes = classes(&cloud.directions, &neighbours);
+    let near = |n: &Vector3<f64>| neighbours.nearest(n, 3 * CLASSES);
+    let near: Vec<Vec<usize>> = cloud.directions.iter().map(near).collect();
+    let classes = classes(&near);
     let mut random = ChaCha8Rng::seed_from_u64(0);
     let signs: Vec<f64> = classes.iter().map(|_| sign(&mut random)).collect();
 
@@ -46,9 +48,8 @@ pub(super) fn probed(estimate: &Estimate) -> Vec<f64> {
         .map(|(i, (&class, sign))| 1.0 - sign * followed[class][i] / given.noise)
         .collect();
 
-    let points = cloud.directions.iter().zip(&told);
-    let bounded = points.map(|(n, own)| {
-        let near = neighbours.nearest(n, VICINITY);
+    let bounded = near.iter().zip(&told).map(|(near, own)| {
+        let near = &near[..VICINITY.min(near.len())];
         let sum: f64 = near.iter().map(|&i| told[i]).sum();
         let mean = (sum / near.len().max(1) as f64).max(LEAST);
         own.clamp(mean / BOUND, mean * BOUND).min(1.0)
@@ -56,13 +57,13 @@ pub(super) fn probed(estimate: &Estimate) -> Vec<f64> {
     bounded.collect()
 }
 
-/// A class for every point: one that none of its neighbours has, or else the one whose nearest point is farthest.
-fn classes(directions: &[Vector3<f64>], neighbours: &Neighbours) -> Vec<usize> {
-    let mut classes: Vec<Option<usize>> = vec![None; directions.len()];
+/// A class for every point, of which the nearest ones are given: one that none of these has, or else the one whose nearest
+/// point is farthest.
+fn classes(near: &[Vec<usize>]) -> Vec<usize> {
+    let mut classes: Vec<Option<usize>> = vec![None; near.len()];
     let mut sizes = [0_usize; CLASSES];
-    for (i, n) in directions.iter().enumerate() {
+    for (i, near) in near.iter().enumerate() {
         let mut places = [usize::MAX; CLASSES];
-        let near = neighbours.nearest(n, 3 * CLASSES);
         for (place, &j) in near.iter().enumerate().rev() {
             if let Some(class) = classes[j] {
                 places[class] = place;
