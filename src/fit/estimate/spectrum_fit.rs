@@ -21,6 +21,11 @@ const MOST_ROUNDS: usize = 40;
 /// Where the cost may fall by more than this per point, second derivatives say little.
 const FAR: f64 = 0.2;
 
+/// The evidence of uneven points may promise texture that is not there: where the exact likelihood begins so much worse, in
+/// its logarithm, the search for it is given up. Of kernels that begin 13 worse it ends 8 better, of those that begin 22 to
+/// 57 000 worse 40 worse to 5 better, after five rounds.
+const HOPELESS: f64 = 20.0;
+
 /// A spectrum and the coefficients under it.
 #[derive(Debug, Clone)]
 pub(crate) struct SpectrumFit {
@@ -117,6 +122,7 @@ pub(crate) fn fit_spectrum(
     let mut is_last = false;
     let mut may_be_smooth = true;
     let mut solved = None;
+    let mut smooth: Option<SpectrumFit> = None;
     for round in 1.. {
         let mut look = Look::new(
             posterior,
@@ -125,6 +131,16 @@ pub(crate) fn fit_spectrum(
             solved.as_ref(),
             counted,
         );
+        let is_hopeless = |smooth: &mut SpectrumFit| {
+            let cost = look
+                .place
+                .cost
+                .map(|cost| cost - posterior.cloud.compression);
+            newton.is_none() && cost.is_some_and(|cost| cost > smooth.cost + HOPELESS)
+        };
+        if let Some(smooth) = smooth.take_if(is_hopeless) {
+            return smooth;
+        }
         let search = newton.get_or_insert_with(|| Newton::new(counted.enough()));
         let next = match is_last || round >= MOST_ROUNDS {
             true => Next::Here,
@@ -134,12 +150,23 @@ pub(crate) fn fit_spectrum(
             Next::Here => {
                 let textured = may_be_smooth.then(|| look.textured()).flatten();
                 if counted == count && textured.is_none() {
-                    return look.fit();
+                    let fit = look.fit();
+                    return smooth
+                        .filter(|smooth| smooth.cost < fit.cost)
+                        .unwrap_or(fit);
                 }
-                may_be_smooth &= textured.is_none();
-                spectrum = textured.unwrap_or(spectrum);
                 counted = count;
                 newton = None;
+                if let Some(textured) = textured {
+                    may_be_smooth = false;
+                    spectrum = textured;
+                    if look.place.cost.is_some() {
+                        let fit = look.fit();
+                        coefficients = Some(fit.coefficients.clone());
+                        smooth = Some(fit);
+                        continue;
+                    }
+                }
             }
             Next::Try(next) => spectrum = next,
             Next::Back(best) => {
