@@ -218,3 +218,27 @@ impl StarSurface for Whole {
         Derivatives::on_sphere(n, &self.jet(n))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shapes::Sampling;
+    use approx::assert_relative_eq;
+
+    /// Of more directions than lanes, the poles among them.
+    #[test]
+    fn many_jets_are_those_of_each_direction() {
+        let coefficients = (0..81).map(|i| (1.3 * f64::from(i) + 0.4).sin()).collect();
+        let whole = Whole::new(coefficients).unwrap();
+        let mut directions = Sampling::Fibonacci.directions(19, 0).unwrap();
+        directions.extend([Vector3::z(), -Vector3::z()]);
+        let many = whole.jets(&directions);
+        assert_eq!(many.len(), directions.len());
+        for (n, found) in directions.iter().zip(many) {
+            let own = whole.jet(n);
+            assert_relative_eq!(found.value, own.value, epsilon = 1e-12);
+            assert_relative_eq!(found.gradient, own.gradient, epsilon = 1e-11);
+            assert_relative_eq!(found.hessian, own.hessian, epsilon = 1e-10);
+        }
+    }
+}

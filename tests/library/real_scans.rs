@@ -79,6 +79,22 @@ fn every_third_kernel_of_the_batch_is_fitted() {
     }
 }
 
+/// Of these kernels the points seem to tell of texture that the exact likelihood denies, by 9 to 50 in its logarithm: with
+/// it the first was held out with 2.39 % of its mean radius, the second with 2.19.
+#[test]
+#[cfg_attr(not(shared), ignore = "needs ../shared")]
+fn texture_that_makes_points_less_likely_is_given_up() {
+    for (name, largest) in [("l1_25", 0.022), ("l1_26", 0.021)] {
+        let path = scans().join(format!("barley_batch/{name}.ply"));
+        let fitted = try_fit(&path).expect("a grain");
+        let held_out = fitted.search.choice().heldout_rms.expect("an estimate");
+        assert!(
+            held_out < largest * fitted.mean_radius,
+            "{name}: {held_out}"
+        );
+    }
+}
+
 #[test]
 #[cfg_attr(not(shared), ignore = "needs ../shared")]
 fn what_is_no_ball_is_refused_with_the_reason() {

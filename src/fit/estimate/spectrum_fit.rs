@@ -22,9 +22,9 @@ const MOST_ROUNDS: usize = 40;
 const FAR: f64 = 0.2;
 
 /// The evidence of uneven points may promise texture that is not there: where the exact likelihood begins so much worse, in
-/// its logarithm, the search for it is given up. Of kernels that begin 13 worse it ends 8 better, of those that begin 22 to
-/// 57 000 worse 40 worse to 5 better, after five rounds.
-const HOPELESS: f64 = 20.0;
+/// its logarithm, the search for it is given up. Of kernels that begin 3 to 164 worse it mostly ends better, of those that
+/// begin 650 to 57 000 worse it ends 9 to 50 worse, after eight rounds.
+const HOPELESS: f64 = 200.0;
 
 /// A spectrum and the coefficients under it.
 #[derive(Debug, Clone)]
