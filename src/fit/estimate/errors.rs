@@ -6,7 +6,7 @@
 //! - the difference between the figure that is told (of the surface that stands for the estimate) and the best
 //!   value of the estimate;
 //! - allowances for what second order brings: half of the area's excess, for it rests on degrees that the points
-//!   do not tell; [texture](super::texture) between the points; those of the [extents](super::dimension_errors); the
+//!   do not tell; [texture](super::texture) between the points, and [blurred](super::blur) by noise; those of the [extents](super::dimension_errors); the
 //!   repulsion of nearly equal moments;
 //! - a floor, for rounding and quadrature.
 //!
@@ -16,6 +16,7 @@
 //! There are none where neither can be trusted: beside a large hole, and of bodies with
 //! [edges](super::unresolved) that are symmetric or have flat sides.
 
+use super::blur::Blur;
 use super::dimension_errors::dimensions;
 use super::dimensions::Reach;
 use super::functionals::{RingSurface, combined, dot};
@@ -68,10 +69,12 @@ impl Estimate {
         let left_out = LeftOut::new(self, &posterior, &residuals);
         let left_out = (is_rough || left_out.stand_out).then_some(left_out);
         // Of a rough surface the points left out tell.
-        let slopes = if is_rough { 0.0 } else { hidden_slopes(self) };
+        let blur = Blur::new(self, &residuals);
+        let hidden = if is_rough { 0.0 } else { hidden_slopes(self) };
+        let slopes = hidden + blur.slopes;
         let best = Best::new(self, &posterior, left_out.as_ref(), slopes);
         let best = best.ok_or(NoInterval::NotFinite)?;
-        Ok(best.errors(told))
+        Ok(blur.with_swelling(best.errors(told), told))
     }
 }
 

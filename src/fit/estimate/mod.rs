@@ -10,6 +10,7 @@
 //!
 //! The posterior covariance says how well every functional of the radius is known.
 
+mod blur;
 mod cloud;
 mod conjugate_gradients;
 mod curvature;

@@ -20,11 +20,15 @@ impl Estimate {
 
     /// Standard deviation of the noise of one point, as a mean over all directions, in the scan's unit.
     pub(crate) fn noise(&self) -> f64 {
-        let noise = match self.dense {
+        self.noise_of_points() * self.plain_length()
+    }
+
+    /// The same in the stretched space, in units of the mean radius.
+    pub(super) fn noise_of_points(&self) -> f64 {
+        match self.dense {
             Some(Dense { points, residuals }) => (residuals / spare(&self.unlearnt, points)).sqrt(),
             None => self.spectrum.noise(),
-        };
-        noise * self.plain_length()
+        }
     }
 
     /// Standard deviation of the radius, as root mean square over all directions, in the scan's unit.
