@@ -20,6 +20,10 @@ use std::f64::consts::PI;
 /// Points whose residuals are compared, at most.
 const MOST_COMPARED: usize = 4000;
 
+/// Where the share of such noise is known no better, as of a ball, all of it may be: squares of normal residuals scatter by the
+/// root of 2 of their mean.
+const UNKNOWN: f64 = 0.5;
+
 /// Shares of figures that do not count.
 const NOTHING: f64 = 2e-6;
 
@@ -108,8 +112,12 @@ fn share_in_all_directions(estimate: &Estimate, residuals: &[f64]) -> f64 {
     let mean = |of: fn(&[f64; 2]) -> f64| pairs.iter().map(of).sum::<f64>() / count;
     let (added, square) = (mean(|[added, _]| *added), mean(|[_, square]| *square));
     let (product, spread) = (mean(|[a, s]| a * s), mean(|[a, _]| a * a));
-    let along = product - added * square;
-    let slope = along / (spread - added * added);
+    let spread = spread - added * added;
+    let is_known = (2.0 / (count * spread)).sqrt() < UNKNOWN;
+    if !is_known {
+        return 1.0;
+    }
+    let slope = (product - added * square) / spread;
     let level = square - slope * added;
     match slope > 0.0 {
         true => (slope / level.max(slope)).min(1.0),
@@ -164,6 +172,9 @@ mod tests {
         assert!(along_rays.swelling < 0.3 * found.swelling);
         assert!(along_rays.slopes < 0.3 * found.slopes);
         assert_eq!(blur(&samples(&directions, radius, 0.0)).0.slopes, 0.0);
+        // Of a ball it is not known.
+        let (ball, estimate) = blur(&samples(&directions, |_| 1.0, S));
+        assert_relative_eq!(ball.swelling, estimate.noise_of_points().powi(2));
     }
 
     #[test]

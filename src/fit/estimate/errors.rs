@@ -6,8 +6,8 @@
 //! - the difference between the figure that is told (of the surface that stands for the estimate) and the best
 //!   value of the estimate;
 //! - allowances for what second order brings: half of the area's excess, for it rests on degrees that the points
-//!   do not tell; [texture](super::texture) between the points, and [blurred](super::blur) by noise; those of the [extents](super::dimension_errors); the
-//!   repulsion of nearly equal moments;
+//!   do not tell; [texture](super::texture) between the points, and what noise along the surface [blurs](super::blur) of it;
+//!   those of the [extents](super::dimension_errors); the repulsion of nearly equal moments;
 //! - a floor, for rounding and quadrature.
 //!
 //! Where what is left of the points, or of one of them, is no noise, the variances grow by what
