@@ -110,6 +110,7 @@ fn limit(points: usize) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::cloud::Cloud;
     use super::*;
     use crate::shapes::Sampling;
     use rand_chacha::ChaCha8Rng;
@@ -145,6 +146,15 @@ mod tests {
             .collect();
         assert!(!is_flat_sided(&rough));
         assert!(!are_many(2, 98) && are_many(4, 96));
+    }
+
+    #[test]
+    fn means_of_one_and_of_sixteen_points_scatter_alike_when_weighed() {
+        let samples = [[1.0, 0.0, 0.0, 1.0], [0.0, 1.0, 0.0, 1.0]];
+        let cloud = Cloud::new(&samples, Some(&[1.0, 16.0]), Vector3::repeat(1.0));
+        let weighed = cloud.of_mean_weight(&[4.0, 1.0]);
+        let expected = 4.0 / 8.5_f64.sqrt();
+        assert!(weighed.iter().all(|e| (e - expected).abs() < 1e-12));
     }
 
     #[test]
