@@ -35,6 +35,19 @@ pub(super) struct Figures {
     pub(super) dimensions: Vector3<f64>,
 }
 
+#[cfg(test)]
+impl Figures {
+    /// Those of no body in particular.
+    pub(super) const SOME: Self = Self {
+        area: 10.0,
+        volume: 8.0,
+        centroid: Vector3::new(0.0, 0.0, 0.0),
+        inertia: Matrix3::new(1.0, 0.0, 0.0, 0.0, 2.0, 0.0, 0.0, 0.0, 3.0),
+        moments: Vector3::new(1.0, 2.0, 3.0),
+        dimensions: Vector3::new(2.0, 2.0, 2.0),
+    };
+}
+
 /// Which of the extents along the principal axes is the length, the width and the thickness: they are told by their size,
 /// which is not always that of the moments.
 pub(super) fn by_size(extents: &Vector3<f64>) -> [usize; 3] {

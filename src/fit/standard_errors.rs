@@ -24,6 +24,17 @@ pub struct StandardErrors {
 }
 
 impl StandardErrors {
+    /// Of figures that are exact.
+    pub(crate) const NONE: Self = Self {
+        area: 0.0,
+        volume: 0.0,
+        centroid: Vector3::new(0.0, 0.0, 0.0),
+        inertia: Matrix3::new(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0),
+        moments: Vector3::new(0.0, 0.0, 0.0),
+        dimensions: Vector3::new(0.0, 0.0, 0.0),
+        dimensions_excess: Vector3::new(0.0, 0.0, 0.0),
+    };
+
     /// Those of a grain so many times as large.
     pub(crate) fn times(self, factor: f64) -> Self {
         let [square, cube, fifth] = [2, 3, 5].map(|power| factor.powi(power));

@@ -4,7 +4,6 @@ use super::figures::Figures;
 use super::gaps::random_gap;
 use super::standard_errors::StandardErrors;
 use crate::model::Unseen;
-use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::PI;
 
 /// Half-angle, in radians, of the largest hole that is told of as if it were seen. In holes of 20 degrees the radius is
@@ -31,15 +30,7 @@ impl Unseen {
         mean_radius: f64,
         known: Option<StandardErrors>,
     ) -> StandardErrors {
-        let known = known.unwrap_or(StandardErrors {
-            area: 0.0,
-            volume: 0.0,
-            centroid: Vector3::zeros(),
-            inertia: Matrix3::zeros(),
-            moments: Vector3::zeros(),
-            dimensions: Vector3::zeros(),
-            dimensions_excess: Vector3::zeros(),
-        });
+        let known = known.unwrap_or(StandardErrors::NONE);
         let of_all = GUESS * self.share();
         let inertia = 5.0 * of_all * told.inertia.trace() / 3.0;
         StandardErrors {
@@ -76,14 +67,7 @@ mod tests {
             share: 0.25,
         };
         assert_relative_eq!(open.share(), 0.2);
-        let told = Figures {
-            area: 10.0,
-            volume: 8.0,
-            centroid: Vector3::zeros(),
-            inertia: Matrix3::from_diagonal(&Vector3::new(1.0, 2.0, 3.0)),
-            moments: Vector3::new(1.0, 2.0, 3.0),
-            dimensions: Vector3::repeat(2.0),
-        };
+        let told = Figures::SOME;
         let guess = hole.errors(&told, 4.0, None);
         assert_relative_eq!(guess.area, 2.0 * 0.0625 * 10.0, max_relative = 1e-14);
         assert_relative_eq!(guess.volume, 3.0 * 0.0625 * 8.0, max_relative = 1e-14);

@@ -14,7 +14,6 @@
 use super::outcome::Estimate;
 use crate::fit::figures::Figures;
 use crate::fit::standard_errors::StandardErrors;
-use nalgebra::Vector3;
 use std::f64::consts::PI;
 
 /// Points whose residuals are compared, at most.
@@ -88,36 +87,31 @@ fn missing(estimate: &Estimate) -> f64 {
 /// The share of the noise that is of equal size in all directions: the line through the squares of residuals against what the
 /// inclination adds to those of such noise.
 fn share_in_all_directions(estimate: &Estimate, residuals: &[f64]) -> f64 {
-    let cloud = &estimate.cloud;
-    let every = cloud.len().div_ceil(MOST_COMPARED);
-    let some = |i: &usize| i.is_multiple_of(every);
-    let places: Vec<usize> = (0..cloud.len()).filter(some).collect();
-    let directions: Vec<Vector3<f64>> = places.iter().map(|&i| cloud.directions[i]).collect();
-    let jets = estimate.expansion(estimate.degree).jets(&directions);
+    let every = estimate.cloud.len().div_ceil(MOST_COMPARED);
+    let cloud = estimate.cloud.every(every);
+    let residuals = residuals.iter().step_by(every).zip(&cloud.weights);
+    let jets = estimate.expansion(estimate.degree).jets(&cloud.directions);
+    let places = cloud.directions.iter().zip(jets).zip(residuals);
     let pairs: Vec<[f64; 2]> = places
-        .iter()
-        .zip(&directions)
-        .zip(jets)
-        .map(|((&i, n), jet)| {
+        .map(|((n, jet), (residual, weight))| {
             let slope = jet.gradient - n * n.dot(&jet.gradient);
             let normal = n * jet.value - slope;
             let plain_ray = n.component_div(&cloud.stretch);
             let plain_normal = normal.component_mul(&cloud.stretch);
             let cosine = plain_ray.dot(&plain_normal) / (plain_ray.norm() * plain_normal.norm());
-            let square = cloud.weights[i] * residuals[i].powi(2) * plain_ray.norm_squared();
+            let square = weight * residual.powi(2) * plain_ray.norm_squared();
             [cosine.powi(-2) - 1.0, square]
         })
         .collect();
     let count = pairs.len() as f64;
-    let mean = |of: fn(&[f64; 2]) -> f64| pairs.iter().map(of).sum::<f64>() / count;
-    let (added, square) = (mean(|[added, _]| *added), mean(|[_, square]| *square));
-    let (product, spread) = (mean(|[a, s]| a * s), mean(|[a, _]| a * a));
-    let spread = spread - added * added;
+    let mean = |of: &dyn Fn(&[f64; 2]) -> f64| pairs.iter().map(of).sum::<f64>() / count;
+    let (added, square) = (mean(&|[added, _]| *added), mean(&|[_, square]| *square));
+    let spread = mean(&|[own, _]| (own - added).powi(2));
     let is_known = (2.0 / (count * spread)).sqrt() < UNKNOWN;
     if !is_known {
         return 1.0;
     }
-    let slope = (product - added * square) / spread;
+    let slope = mean(&|[own, square]| (own - added) * square) / spread;
     let level = square - slope * added;
     match slope > 0.0 {
         true => (slope / level.max(slope)).min(1.0),
@@ -132,7 +126,7 @@ mod tests {
     use super::*;
     use crate::fit::prepare::Sample;
     use approx::assert_relative_eq;
-    use nalgebra::Matrix3;
+    use nalgebra::Vector3;
     use rand_chacha::ChaCha8Rng;
     use rand_chacha::rand_core::SeedableRng;
     use rand_distr::{Distribution, StandardNormal};
@@ -191,22 +185,11 @@ mod tests {
 
     #[test]
     fn figures_of_what_swells_go_with_the_powers_of_its_radius() {
-        let told = Figures {
-            area: 10.0,
-            volume: 8.0,
-            centroid: Vector3::zeros(),
-            inertia: Matrix3::from_diagonal(&Vector3::new(1.0, 2.0, 3.0)),
-            moments: Vector3::new(1.0, 2.0, 3.0),
-            dimensions: Vector3::repeat(2.0),
-        };
+        let told = Figures::SOME;
         let none = StandardErrors {
-            area: 0.0,
             volume: 0.24,
             centroid: Vector3::repeat(0.1),
-            inertia: Matrix3::zeros(),
-            moments: Vector3::zeros(),
-            dimensions: Vector3::zeros(),
-            dimensions_excess: Vector3::zeros(),
+            ..StandardErrors::NONE
         };
         let blur = Blur {
             slopes: 0.0,

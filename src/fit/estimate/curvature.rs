@@ -48,21 +48,11 @@ impl Estimate {
             let near = neighbours.nearest(&self.stretched(n).normalize(), VICINITY);
             near.iter().map(|&i| misfits[i]).sum::<f64>() / near.len().max(1) as f64
         };
-        let places = || (0..PLACES).map(|i| (i as f64 + 0.5) / PLACES as f64);
-        let of_cell = |cell: &CubeCell| {
-            let squares = places().flat_map(|s| places().map(move |t| (s, t)));
-            squares.map(|(s, t)| cell.at(s, t)).collect::<Vec<_>>()
-        };
-        let cells = CubeCell::uniform(CurvatureErrors::PARTS);
-        let directions: Vec<Vector3<f64>> = cells.iter().flat_map(of_cell).collect();
-        let towards: Vec<Vector3<f64>> = directions.iter().map(|n| frame.axes * n).collect();
-        let jets = best.jets(&towards).into_iter().zip(grain.jets(&towards));
-        let both: Vec<_> = towards.iter().zip(jets).collect();
-        let square = |n: &Vector3<f64>, (towards, jets): &(&Vector3<f64>, _), misfit: f64| {
-            let (best, told): &(SurfaceJet, SurfaceJet) = jets;
-            let curvature = Curvature::new(towards, best);
+        let square = |n: &Vector3<f64>, best: &SurfaceJet, told: &SurfaceJet, misfit: f64| {
+            let towards = frame.axes * n;
+            let curvature = Curvature::new(&towards, best);
             let exact = tensor(&curvature);
-            let told = tensor(&Curvature::new(towards, told));
+            let told = tensor(&Curvature::new(&towards, told));
             let difference = (told - exact).norm_squared();
             let rounding = FLOOR * FLOOR * exact.norm_squared();
             let local = [0, 1].map(|i| frame.axes.tr_mul(&curvature.directions[i]));
@@ -70,15 +60,16 @@ impl Estimate {
             let bend = self.bend(n, best.place.norm(), &normal, local);
             difference + rounding + misfit * bending * bend
         };
-        let per_cell = PLACES * PLACES;
-        let of_places = directions.chunks(per_cell).zip(both.chunks(per_cell));
-        let errors = cells.iter().zip(of_places).map(|(cell, (own, jets))| {
+        let cells = CubeCell::uniform(CurvatureErrors::PARTS);
+        let directions: Vec<Vector3<f64>> = cells.iter().flat_map(places).collect();
+        let towards: Vec<Vector3<f64>> = directions.iter().map(|n| frame.axes * n).collect();
+        let jets = best.jets(&towards).into_iter().zip(grain.jets(&towards));
+        let mut known = directions.iter().zip(jets);
+        let errors = cells.iter().map(|cell| {
             let misfit = misfit(&cell.at(0.5, 0.5));
-            let squares = own
-                .iter()
-                .zip(jets)
-                .map(|(n, jets)| square(n, jets, misfit));
-            round((squares.sum::<f64>() / per_cell as f64).sqrt())
+            let own = known.by_ref().take(PLACES * PLACES);
+            let squares = own.map(|(n, (best, told))| square(n, &best, &told, misfit));
+            round((squares.sum::<f64>() / (PLACES * PLACES) as f64).sqrt())
         });
         CurvatureErrors::new(errors.collect())
     }
@@ -117,6 +108,13 @@ impl Estimate {
         let weighted = residuals.iter().zip(&self.cloud.weights);
         weighted.map(|(e, w)| w * e * e / expected).collect()
     }
+}
+
+/// Directions spread over a cell.
+fn places(cell: &CubeCell) -> Vec<Vector3<f64>> {
+    let along = || (0..PLACES).map(|i| (i as f64 + 0.5) / PLACES as f64);
+    let both = along().flat_map(|s| along().map(move |t| (s, t)));
+    both.map(|(s, t)| cell.at(s, t)).collect()
 }
 
 /// To three digits: an error needs no more.

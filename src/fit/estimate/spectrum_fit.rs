@@ -120,9 +120,8 @@ pub(crate) fn fit_spectrum(
     };
     let mut newton: Option<Newton> = None;
     let mut is_last = false;
-    let mut may_be_smooth = true;
     let mut solved = None;
-    let mut smooth: Option<SpectrumFit> = None;
+    let mut smooth: Option<Look<'_>> = None;
     for round in 1.. {
         let mut look = Look::new(
             posterior,
@@ -131,15 +130,9 @@ pub(crate) fn fit_spectrum(
             solved.as_ref(),
             counted,
         );
-        let is_hopeless = |smooth: &mut SpectrumFit| {
-            let cost = look
-                .place
-                .cost
-                .map(|cost| cost - posterior.cloud.compression);
-            newton.is_none() && cost.is_some_and(|cost| cost > smooth.cost + HOPELESS)
-        };
-        if let Some(smooth) = smooth.take_if(is_hopeless) {
-            return smooth;
+        let is_first = newton.is_none();
+        if let Some(smooth) = smooth.take_if(|smooth| is_first && look.is_worse(smooth, HOPELESS)) {
+            return smooth.fit();
         }
         let search = newton.get_or_insert_with(|| Newton::new(counted.enough()));
         let next = match is_last || round >= MOST_ROUNDS {
@@ -148,24 +141,19 @@ pub(crate) fn fit_spectrum(
         };
         match next {
             Next::Here => {
-                let textured = may_be_smooth.then(|| look.textured()).flatten();
+                let textured = smooth.is_none().then(|| look.textured()).flatten();
                 if counted == count && textured.is_none() {
-                    let fit = look.fit();
-                    return smooth
-                        .filter(|smooth| smooth.cost < fit.cost)
-                        .unwrap_or(fit);
+                    let likelier = smooth.filter(|smooth| look.is_worse(smooth, 0.0));
+                    return likelier.unwrap_or(look).fit();
                 }
                 counted = count;
                 newton = None;
                 if let Some(textured) = textured {
-                    may_be_smooth = false;
                     spectrum = textured;
-                    if look.place.cost.is_some() {
-                        let fit = look.fit();
-                        coefficients = Some(fit.coefficients.clone());
-                        smooth = Some(fit);
-                        continue;
-                    }
+                    solved = look.told.solved.take();
+                    coefficients = Some(look.mean.clone());
+                    smooth = Some(look);
+                    continue;
                 }
             }
             Next::Try(next) => spectrum = next,
@@ -251,6 +239,12 @@ impl<'a> Look<'a> {
             true => self.told.evidence.textured(spectrum),
             false => None,
         }
+    }
+
+    /// Whether the points are less likely by more than this, as far as both likelihoods are exact.
+    fn is_worse(&self, other: &Self, by: f64) -> bool {
+        let costs = self.place.cost.zip(other.place.cost);
+        costs.is_some_and(|(own, other)| own > other + by)
     }
 
     fn fit(self) -> SpectrumFit {

@@ -100,10 +100,6 @@ impl AzimuthSeries {
         for (i, (part, table)) in parts.enumerate() {
             let (columns, parity) = (&terms.columns[i / 2], i % 2);
             let orders = table.len() / self.of_quarter();
-            if orders == 0 {
-                part.fill(0.0);
-                continue;
-            }
             matmul(
                 MatMut::from_column_major_slice_mut(part, terms.rings, self.of_quarter()),
                 Accum::Replace,
@@ -142,9 +138,6 @@ impl AzimuthSeries {
         for (i, (part, table)) in parts.enumerate() {
             let (columns, parity) = (&mut terms.columns[i / 2], i % 2);
             let orders = table.len() / self.of_quarter();
-            if orders == 0 {
-                continue;
-            }
             matmul(
                 MatMut::from_column_major_slice_with_stride_mut(
                     &mut columns[parity * terms.rings..],

@@ -1,6 +1,6 @@
 //! Values of an expansion at Gauss-Legendre rings of equispaced azimuths, and the transpose.
 
-use super::azimuth::{AzimuthSeries, AzimuthTerms, IMAGES};
+use super::azimuth::{AzimuthSeries, IMAGES};
 use super::kept::Kept;
 use super::polar::PolarTable;
 use crate::sphere::{GaussLegendre, HarmonicBasis, harmonic_index};
@@ -13,7 +13,7 @@ static GRIDS: Kept<[usize; 2], GaussGrid> = Kept::new();
 
 /// A grid on which sums with [`Self::weights`] are integrals of all polynomials up to a degree, for
 /// expansions up to another. Values are stored as by an [`AzimuthSeries`], the rings as by
-/// [`PolarTable::synthesis_by_order`]: nodes that stand twice, and those of padding, have no weight.
+/// [`PolarTable::row`]: nodes that stand twice, and those of padding, have no weight.
 pub(super) struct GaussGrid {
     polar: PolarTable,
     series: AzimuthSeries,
@@ -100,7 +100,7 @@ impl GaussGrid {
     /// The terms of the azimuth of values at the nodes, of each order a column like those of [`Self::polar`]: first the
     /// sums of a ring's and its mirror image's, then their differences; of each that of the cosine and that of the sine.
     pub(super) fn folded_terms(&self, values: &[f64]) -> [Vec<[Vec<f64>; 2]>; 2] {
-        let mut terms = self.terms();
+        let mut terms = self.polar.terms();
         self.series.adjoint(&mut values.to_vec(), &mut terms);
         [1.0, -1.0].map(|sign| {
             let folded = |column: &[f64]| {
@@ -113,21 +113,16 @@ impl GaussGrid {
         })
     }
 
-    fn terms(&self) -> AzimuthTerms {
-        AzimuthTerms::new(self.rows(), self.orders)
-    }
-
     /// Values of an expansion at the nodes.
     pub(super) fn synthesis(&self, coefficients: &[f64], values: &mut [f64]) {
-        let mut terms = self.terms();
-        self.polar.synthesis_by_order(coefficients, &mut terms);
+        let terms = self.polar.synthesis(coefficients);
         self.series.synthesis(&terms, values);
     }
 
     /// The transpose of [`Self::synthesis`]. Overwrites `values`.
     pub(super) fn adjoint(&self, values: &mut [f64], coefficients: &mut [f64]) {
-        let mut terms = self.terms();
+        let mut terms = self.polar.terms();
         self.series.adjoint(values, &mut terms);
-        self.polar.adjoint_by_order(&terms, coefficients);
+        self.polar.adjoint(&terms, coefficients);
     }
 }

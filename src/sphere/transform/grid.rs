@@ -76,12 +76,18 @@ impl Grid {
 
     /// The expansion, each of its waves divided by the kernel's transform, on the grid and its halo.
     pub(super) fn synthesis(&self, coefficients: &[f64]) -> Vec<f64> {
-        let mut terms = vec![Complex::ZERO; self.polar.rings() * self.orders];
-        self.polar.synthesis(coefficients, &mut terms);
+        let terms = self.polar.synthesis(coefficients);
+        let mut of_ring = vec![Complex::ZERO; self.orders];
         let mut points = vec![0.0; self.len()];
         let mut workspace = self.fft.workspace();
-        for (terms, row) in terms.chunks_exact(self.orders).zip(self.rings(&mut points)) {
-            self.fft.synthesis(terms, self.inner(row), &mut workspace);
+        for (ring, row) in self.rings(&mut points).enumerate() {
+            let at = self.polar.row(ring);
+            for (m, term) in of_ring.iter_mut().enumerate() {
+                let [cosine, sine] = terms.of_order(m);
+                *term = Complex::new(cosine[at], sine[at]);
+            }
+            self.fft
+                .synthesis(&of_ring, self.inner(row), &mut workspace);
         }
         for (ring, beyond) in self.beyond_poles() {
             let (ring, beyond) = self.two_rows(&mut points, ring, beyond);
@@ -116,10 +122,17 @@ impl Grid {
                 ring[i] += beyond[half + i];
             }
         }
-        let mut terms = vec![Complex::ZERO; self.polar.rings() * self.orders];
+        let mut terms = self.polar.terms();
+        let mut of_ring = vec![Complex::ZERO; self.orders];
         let mut workspace = self.fft.workspace();
-        for (terms, row) in terms.chunks_exact_mut(self.orders).zip(self.rings(points)) {
-            self.fft.adjoint(self.inner(row), terms, &mut workspace);
+        for (ring, row) in self.rings(points).enumerate() {
+            self.fft
+                .adjoint(self.inner(row), &mut of_ring, &mut workspace);
+            let at = self.polar.row(ring);
+            for (m, term) in of_ring.iter().enumerate() {
+                let [cosine, sine] = terms.of_order_mut(m);
+                (cosine[at], sine[at]) = (term.re, term.im);
+            }
         }
         self.polar.adjoint(&terms, coefficients);
     }

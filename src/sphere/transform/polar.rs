@@ -7,7 +7,6 @@
 use super::azimuth::AzimuthTerms;
 use crate::sphere::harmonic_index;
 use crate::vectorize::{dot, vectorize};
-use realfft::num_complex::Complex;
 
 /// Columns are padded by zeros to a multiple of this.
 const LANES: usize = 8;
@@ -70,85 +69,25 @@ impl PolarTable {
         self.rings
     }
 
-    /// The terms of the azimuth on every ring, ring by ring, orders 0, ..., L: the cosine's as real
-    /// part, the sine's as imaginary part.
-    pub(super) fn synthesis(&self, coefficients: &[f64], terms: &mut [Complex<f64>]) {
-        self.sum_degrees(
-            coefficients,
-            #[inline(always)]
-            |m, Halves { cosine, sine }| {
-                for i in 0..self.rings.div_ceil(2) {
-                    let even = Complex::new(cosine[0][i], sine[0][i]);
-                    let odd = Complex::new(cosine[1][i], sine[1][i]);
-                    let mirrored = self.rings - 1 - i;
-                    terms[i * (self.degree + 1) + m] = even + odd;
-                    if mirrored > i {
-                        terms[mirrored * (self.degree + 1) + m] = even - odd;
-                    }
-                }
-            },
-        );
+    /// The row of a ring in the terms of the azimuth: first stand the northern ones, a column's length with its padding, then
+    /// as many of their mirror images. An equator stands first, and a second time that is not read.
+    pub(super) fn row(&self, ring: usize) -> usize {
+        let mirrored = self.rings - 1 - ring;
+        if ring <= mirrored {
+            ring
+        } else {
+            self.rows + mirrored
+        }
     }
 
-    /// The transpose of [`Self::synthesis`].
-    pub(super) fn adjoint(&self, terms: &[Complex<f64>], coefficients: &mut [f64]) {
-        self.sum_rings(
-            coefficients,
-            #[inline(always)]
-            |m, Halves { cosine, sine }| {
-                for i in 0..self.rings.div_ceil(2) {
-                    let mirrored = self.rings - 1 - i;
-                    let north = terms[i * (self.degree + 1) + m];
-                    let south = match mirrored > i {
-                        true => terms[mirrored * (self.degree + 1) + m],
-                        false => Complex::ZERO,
-                    };
-                    let (even, odd) = (north + south, north - south);
-                    (cosine[0][i], sine[0][i]) = (even.re, even.im);
-                    (cosine[1][i], sine[1][i]) = (odd.re, odd.im);
-                }
-            },
-        );
+    /// Terms of the azimuth for the orders and the rows of this table.
+    pub(super) fn terms(&self) -> AzimuthTerms {
+        AzimuthTerms::new(2 * self.rows, self.degree + 1)
     }
 
-    /// The terms of the azimuth, order by order: first of the northern rings, a column's length with its padding, then as
-    /// many of their mirror images.
-    pub(super) fn synthesis_by_order(&self, coefficients: &[f64], terms: &mut AzimuthTerms) {
-        self.sum_degrees(
-            coefficients,
-            #[inline(always)]
-            |m, Halves { cosine, sine }| {
-                for (own, [even, odd]) in terms.of_order_mut(m).into_iter().zip([cosine, sine]) {
-                    let (north, south) = own.split_at_mut(self.rows);
-                    let halves = even.iter().zip(odd.iter());
-                    for ((north, south), (even, odd)) in north.iter_mut().zip(south).zip(halves) {
-                        (*north, *south) = (even + odd, even - odd);
-                    }
-                }
-            },
-        );
-    }
-
-    /// The transpose of [`Self::synthesis_by_order`].
-    pub(super) fn adjoint_by_order(&self, terms: &AzimuthTerms, coefficients: &mut [f64]) {
-        self.sum_rings(
-            coefficients,
-            #[inline(always)]
-            |m, Halves { cosine, sine }| {
-                for (own, [even, odd]) in terms.of_order(m).into_iter().zip([cosine, sine]) {
-                    let (north, south) = own.split_at(self.rows);
-                    let halves = even.iter_mut().zip(odd.iter_mut());
-                    for ((even, odd), (north, south)) in halves.zip(north.iter().zip(south)) {
-                        (*even, *odd) = (north + south, north - south);
-                    }
-                }
-            },
-        );
-    }
-
-    /// Sums over the degrees, order by order.
-    #[inline(always)]
-    fn sum_degrees(&self, coefficients: &[f64], mut put: impl FnMut(usize, &Halves)) {
+    /// The terms of the azimuth on every ring.
+    pub(super) fn synthesis(&self, coefficients: &[f64]) -> AzimuthTerms {
+        let mut terms = self.terms();
         vectorize(
             #[inline(always)]
             || {
@@ -164,23 +103,41 @@ impl PolarTable {
                         add(&mut cosine[(l - m) % 2], a, column);
                         add(&mut sine[(l - m) % 2], b, column);
                     }
-                    put(m, &halves);
+                    for (own, [even, odd]) in terms.of_order_mut(m).into_iter().zip([cosine, sine])
+                    {
+                        let (north, south) = own.split_at_mut(self.rows);
+                        let halves = even.iter().zip(odd.iter());
+                        for ((north, south), (even, odd)) in north.iter_mut().zip(south).zip(halves)
+                        {
+                            (*north, *south) = (even + odd, even - odd);
+                        }
+                    }
                 }
             },
         );
+        terms
     }
 
-    /// Sums over the rings, order by order.
-    #[inline(always)]
-    fn sum_rings(&self, coefficients: &mut [f64], mut take: impl FnMut(usize, &mut Halves)) {
+    /// The transpose of [`Self::synthesis`]; the second row of an equator and those of padding hold zero.
+    pub(super) fn adjoint(&self, terms: &AzimuthTerms, coefficients: &mut [f64]) {
         vectorize(
             #[inline(always)]
             || {
                 let mut halves = self.halves();
                 for m in 0..=self.degree {
-                    take(m, &mut halves);
-                    let Halves { cosine, sine } = &halves;
                     let columns = self.columns(m).chunks_exact(self.rows);
+                    let Halves { cosine, sine } = &mut halves;
+                    for (own, [even, odd]) in terms
+                        .of_order(m)
+                        .into_iter()
+                        .zip([&mut *cosine, &mut *sine])
+                    {
+                        let (north, south) = own.split_at(self.rows);
+                        let halves = even.iter_mut().zip(odd.iter_mut());
+                        for ((even, odd), (north, south)) in halves.zip(north.iter().zip(south)) {
+                            (*even, *odd) = (north + south, north - south);
+                        }
+                    }
                     for (l, column) in (m..).zip(columns) {
                         let order = m as isize;
                         let parity = (l - m) % 2;
