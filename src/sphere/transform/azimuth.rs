@@ -1,8 +1,8 @@
 //! Fourier series of the azimuth on many rings at once, as products of small matrices.
 //!
 //! The points of a quarter, phi = 2 pi t / n, t = 0, ..., n / 4, stand for those of a ring: at -phi, pi - phi and
-//! pi + phi cosines and sines of even and odd orders are those at phi but for signs. Up to some hundred orders these products
-//! take a third of the time of fast Fourier transforms, ring by ring. Error: rounding.
+//! pi + phi cosines and sines of even and odd orders are those at phi but for signs. With these products in place of fast
+//! Fourier transforms, ring by ring, a fit of 6146 points of a maize kernel takes 8 % less time. Error: rounding.
 
 use crate::vectorize::vectorize;
 use faer::linalg::matmul::matmul;
