@@ -67,9 +67,10 @@ const DEGREES: [usize; 5] = [36, 48, 60, 72, 80];
 /// Degrees that count as last.
 const LAST_DEGREES: usize = 4;
 
-/// A higher degree is kept if it lowers the negative log likelihood by this: else what the last degrees carried was
-/// noise, of which the prior expected more.
-const WORTH_A_DEGREE: f64 = 5.0;
+/// A higher degree is kept if points that are left out are missed by this share less: else what the last degrees carried was
+/// noise, of which the prior expected more. The likelihood does not tell: as far as it is known of so many points it is off by
+/// a thousand in its logarithm, one way or the other.
+const WORTH_A_DEGREE: f64 = 0.01;
 
 /// Coefficients per point beyond which a higher degree is not tried.
 const MOST_PER_POINT: f64 = 0.9;
@@ -146,7 +147,7 @@ pub(crate) fn estimate(
             continue;
         }
         if let Some((lower, before)) = lower.take()
-            && fit.cost > before.cost - WORTH_A_DEGREE
+            && fit.held_out(&cloud) > (1.0 - WORTH_A_DEGREE) * before.held_out(&cloud)
         {
             (degree, fit) = (lower, before);
             break;

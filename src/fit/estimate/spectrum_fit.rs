@@ -4,10 +4,11 @@
 //! most likely spectrum. Of a cloud whose matrix is not factored, the first rounds take it as even
 //! (N_l = n / 4 pi); then random probes tell N_l.
 
+use super::cloud::Cloud;
 use super::dense::Factor;
 use super::likelihood::{Evidence, hyperprior, hyperprior_curvature, positive};
 use super::newton::{Newton, Next, Place};
-use super::outcome::variance;
+use super::outcome::{learnt, variance};
 use super::posterior::{Conditioned, Posterior, Solved};
 use super::spectrum::{HIGHEST, PARAMETERS, Spectrum};
 use super::stopping::{ROUGHLY_SETTLED, SETTLED};
@@ -67,6 +68,14 @@ impl SpectrumFit {
         let variances = spectrum.variances(to).into_iter().enumerate();
         let found: f64 = variances.skip(from + 1).map(learnt).sum();
         self.hides(found / (4.0 * PI * NOT_MUCH))
+    }
+
+    /// By how much points of its cloud that are left out are missed, as RMS: generalized cross-validation (Golub, Heath, Wahba
+    /// 1979).
+    pub(crate) fn held_out(&self, cloud: &Cloud) -> f64 {
+        let posterior = Posterior::with(cloud, Arc::clone(&self.sums));
+        let left = posterior.mean_square(&self.coefficients).sqrt();
+        left / (1.0 - learnt(&self.unlearnt) / cloud.len() as f64)
     }
 
     /// Whether the prior expects nothing to speak of beyond its degree.
