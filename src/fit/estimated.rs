@@ -15,8 +15,9 @@ use nalgebra::Vector3;
 use rayon::prelude::*;
 use std::iter::once;
 
-/// An expansion of the whole sphere with no more coefficients than this needs no cells: they would touch as many.
-const FEW_COEFFICIENTS: usize = 64;
+/// An expansion of the whole sphere with no more coefficients than this needs no cells, which would touch as many: of degree 8 it
+/// is evaluated in less time than any cells.
+const FEW_COEFFICIENTS: usize = 81;
 
 /// Difference from the estimate that is always good enough, as a share of the estimate's own standard deviation:
 /// it adds 5 % to the error. Of a smooth grain not even that: cells even out noise that the estimate follows.

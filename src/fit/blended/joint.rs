@@ -3,11 +3,13 @@
 //! With shares s_i, expansions f_i and quadrature weights q at the samples, it makes
 //!
 //! ```text
-//! sum of q (sum of s_i f_i - r)^2  +  own * sum of q s_i (f_i - r)^2
+//! sum of q (sum of s_i f_i - r)^2  +  own * sum of q s_i^(1/4) (f_i - r)^2
 //! ```
 //!
 //! least. The second sum keeps each expansion near the target where it counts at all: without it
-//! neighbours cancel each other's errors, which normals and curvature show. Its matrix is block diagonal.
+//! neighbours cancel each other's errors, which normals and curvature show. The root is taken because a share bends most where
+//! it is small: there a difference between neighbours counts little in the radius, but fully in the curvature. Its matrix is
+//! block diagonal.
 //!
 //! The normal equations are formed in the cap bases, factored by blocks, and refined with residuals
 //! taken from the samples: their condition is the square of the design's (1e5 at worst), and a step of
@@ -164,7 +166,7 @@ impl Joint {
         multiply(product.as_mut(), Accum::Replace, all);
         if self.own > 0.0 {
             self.scale(patch, &mut design, |weight, share| {
-                (self.own * weight * share).sqrt()
+                (self.own * weight * counted(share)).sqrt()
             });
             let all = MatRef::from_column_major_slice(&design, rows, columns);
             let mut start = 0;
@@ -270,7 +272,8 @@ impl Joint {
             let own = &mut lacking[at * rows..(at + 1) * rows];
             let shares = &patch.shares[at * rows..(at + 1) * rows];
             for i in 0..rows {
-                own[i] = patch.weights[i] * shares[i] * (blend[i] + self.own * own[i]);
+                own[i] = patch.weights[i]
+                    * (shares[i] * blend[i] + self.own * counted(shares[i]) * own[i]);
             }
             for column in values.by_ref().take(self.count(cell)) {
                 gradient.push(dot(column, own));
@@ -278,6 +281,12 @@ impl Joint {
         }
         (gradient, error)
     }
+}
+
+/// How much the own error of an expansion counts where it has a share.
+#[inline(always)]
+pub(super) fn counted(share: f64) -> f64 {
+    share.sqrt().sqrt()
 }
 
 /// What one pass over all samples gives.

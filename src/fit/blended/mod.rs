@@ -100,7 +100,7 @@ struct Blend {
 /// up to 3 % more coefficients. Margins of .6 and .7 need as many coefficients, and touch 15 and 30 % more.
 const CHOSEN: Blend = Blend {
     margin: 0.5,
-    own: 3e-4,
+    own: 7e-5,
 };
 
 /// Where the degree is given. Of degree 3 against margin .4 without own errors: on the closed-form grains
@@ -108,7 +108,7 @@ const CHOSEN: Blend = Blend {
 /// curvature errs a third to a half less.
 const GIVEN: Blend = Blend {
     margin: 0.6,
-    own: 3e-4,
+    own: 7e-5,
 };
 
 /// The surface that is asked for, or the nearest found where the limit is not met within

@@ -1,6 +1,7 @@
 //! The joint fit against an orthogonal factorization of the whole design.
 
 use super::{Target, anywhere, found, texture};
+use crate::fit::blended::joint::counted;
 use crate::fit::blended::nodes::{Sampler, nodes_per_side};
 use crate::fit::blended::{GIVEN, Settings};
 use crate::model::Blended;
@@ -48,7 +49,7 @@ fn dense(target: &dyn Target, surface: &Blended, degree: usize) -> Blended {
                 cover.cap(at).locate(&[[n.x, n.y, n.z, 0.0]], &mut places);
                 basis.evaluate(&places, &mut values, 1);
                 let mut own = vec![0.0; blend.len()];
-                let weight = (GIVEN.own * samples.weights[i] * share).sqrt();
+                let weight = (GIVEN.own * samples.weights[i] * counted(share)).sqrt();
                 let root = samples.weights[i].sqrt();
                 for (j, value) in values.iter().enumerate() {
                     blend[at * count + j] = root * share * value;
