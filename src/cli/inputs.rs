@@ -59,6 +59,12 @@ pub(super) fn parse_scan(path: &Path, bytes: &[u8], input: &InputArgs) -> Result
             name(path)
         );
     }
+    if bytes.trim_ascii_start().starts_with(b"{") {
+        bail!(
+            "{} is no scan: it starts as a model does, which measure, mesh, report and contact read",
+            name(path)
+        );
+    }
     let format = input.format.map(|format| format.0);
     Ok(parse_file(called(path), bytes, format)?)
 }

@@ -8,9 +8,10 @@ use crate::measure::{Scheme, Survey, scanned_body, smoothed_area};
 use crate::mesh::Mesh;
 use crate::report::{Measure, MeasureReport, Withheld, percent, sentences};
 use anyhow::{Context, Result, bail};
+use std::ops::RangeInclusive;
 
-/// How much the roughness of points may add to the area of their polyhedron without a word.
-const LARGEST_EXCESS: f64 = 0.01;
+/// What the roughness of points adds to the area of their polyhedron, where it is told all the same.
+const WORTH_A_WORD: RangeInclusive<f64> = 0.01..=0.05;
 
 pub(super) fn run(args: MeasureArgs, console: Console) -> Result<()> {
     threads::start(0, console)?;
@@ -53,19 +54,28 @@ fn measure(args: &MeasureArgs) -> Result<MeasureReport> {
     let survey =
         Survey::of_mesh(&surface.mesh).with_context(|| format!("cannot measure {input}"))?;
     let mut warnings = sentences(&scan.warnings, &surface.warnings, args.unit);
-    warnings.extend(noisy(&survey, &surface.mesh));
-    let report = MeasureReport::new(input, surface.kind.into(), &survey, only, warnings);
+    let roughness = roughness(&survey, &surface.mesh);
+    if WORTH_A_WORD.contains(&roughness) {
+        warnings.push(format!(
+            "The points are rough: the area is {} larger than it is where each point is moved half-way to the mean of its \
+             neighbours. Of noise all of that and more is false: fit the scan, and measure the model.",
+            percent(roughness)
+        ));
+    }
+    let report = MeasureReport::of_points(
+        input,
+        &surface,
+        &survey,
+        only,
+        roughness,
+        args.extrapolate,
+        warnings,
+    );
     Ok(report.in_unit(args.unit))
 }
 
-/// What to know of the area of a polyhedron whose vertices are noisy points.
-fn noisy(survey: &Survey, mesh: &Mesh) -> Option<String> {
-    let excess = survey.area().ok()? / smoothed_area(mesh) - 1.0;
-    (excess > LARGEST_EXCESS).then(|| {
-        format!(
-            "The points are rough: the area is {} larger than it is where each point is moved half-way to the mean of its \
-             neighbours. Of noise all of that and more is false: fit the scan, and measure the model.",
-            percent(excess)
-        )
-    })
+/// What the roughness of points adds to the area of their polyhedron, as a share.
+fn roughness(survey: &Survey, mesh: &Mesh) -> f64 {
+    let area = survey.area();
+    area.map_or(0.0, |area| area / smoothed_area(mesh) - 1.0)
 }

@@ -44,6 +44,8 @@ fn sentence(text: &str, command: Option<&str>) -> String {
             let tips = paragraph.split("tip: ").skip(1);
             tips.map(|tip| tip.trim().to_owned()).collect::<Vec<_>>()
         })
+        // How to name a file that looks like an option helps nobody who has mistyped one.
+        .filter(|tip| !tip.contains("as a value"))
         .collect();
     if !tips.is_empty() {
         return format!("{message}; {}", tips.join("; "));
@@ -68,6 +70,10 @@ mod tests {
             (
                 &["fit", "a.ply", "--tolerence", "1"][..],
                 "unexpected argument '--tolerence' found; a similar argument exists: '--tolerance'",
+            ),
+            (
+                &["measure", "a.ply", "--largest"],
+                "unexpected argument '--largest' found; see grainform measure --help",
             ),
             (
                 &["fit"],

@@ -96,7 +96,7 @@ pub enum FitError {
     /// The scan holds several bodies.
     #[error(
         "the scan holds at least {bodies} separate bodies, and one grain can be fitted: split it (grainform split), or \
-         keep the largest (--largest)"
+         fit the largest (fit --largest)"
     )]
     SeveralBodies {
         /// Number of bodies.
@@ -180,6 +180,17 @@ pub enum FitError {
         100.0 * share
     )]
     Strays {
+        /// Share of such points.
+        share: f64,
+    },
+    /// Points stand apart from the surface that the others draw, and yet close to each other.
+    #[error(
+        "{:.1} % of the points stand apart from the surface by more than a tenth of the radius, and yet close to each other, as \
+         outliers do not: a table under the grain, the wall of a hole, a second body or a thin stalk; cut the grain out \
+         (grainform split, or a mesh editor)",
+        100.0 * share
+    )]
+    SecondSurface {
         /// Share of such points.
         share: f64,
     },

@@ -89,6 +89,7 @@ fn unseen(error: &FitError, options: &FitOptions) -> Option<KindChoice> {
         FitError::NotStarShaped { share } => Some(KindChoice::Hidden { share }),
         FitError::Scattered { .. }
         | FitError::Strays { .. }
+        | FitError::SecondSurface { .. }
         | FitError::FarFromPoints { .. }
         | FitError::FarBeyondPoints { .. }
         | FitError::NotPositive { .. } => is_free(options).then_some(KindChoice::NoRadius),

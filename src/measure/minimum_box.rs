@@ -6,11 +6,13 @@
 //! its minima lie in creases (O'Rourke 1985: two adjacent faces of the least box each hold an edge of
 //! the hull; his exact search takes O(n³)). So, as Chang, Gorissen and Melchior 2011 do it:
 //!
-//! 1. V is found in the directions of a grid in the principal frame, so that the result does not
-//!    depend on how the body is turned; of small hulls also along the normals of facets and across
+//! 1. V is found in the directions of a grid; of small hulls also along the normals of facets and across
 //!    pairs of edges, which finds the box of a cuboid or a tetrahedron.
 //! 2. The least of these are refined by simplex searches (Nelder and Mead 1965) and by turning the box
 //!    about each of its own axes.
+//!
+//! All of it is done in the body's own frame, so that the result does not depend on how it is turned: its principal axes, each
+//! towards the end that reaches farther.
 //!
 //! Both are done on a few hundred points of the hull, at first those extreme in the directions of a
 //! grid, and to a thousandth of a simplex. The box found is then tried on the whole hull, and points that are extreme near
@@ -68,17 +70,16 @@ const NEARBY: f64 = 0.02;
 ///
 /// [`MeshIntegralError`] if the mesh is broken or has no volume.
 pub fn minimum_box(hull: &Mesh) -> Result<OrientedBox, MeshIntegralError> {
-    let unit = of_unit_size(hull);
-    let principal = mesh_properties(&unit)?.principal();
-    let frame = principal.map_or_else(Matrix3::identity, |principal| principal.axes);
-    let grid = |n| {
-        let half = cube_grid(n).0.into_iter().filter(is_in_half);
-        half.map(move |direction| frame * direction)
-    };
+    let mut unit = of_unit_size(hull);
+    let frame = own_frame(&unit)?;
+    for vertex in &mut unit.vertices {
+        *vertex = frame.tr_mul(&vertex.coords).into();
+    }
+    let grid = |n| cube_grid(n).0.into_iter().filter(is_in_half);
     let mut few = ExtremePoints::new(&unit.vertices, grid(EXTREMES));
     let is_small = unit.triangles.len() <= SMALL_TRIANGLES;
     let mut tried: Vec<Candidate> = grid(if is_small { SMALL_GRID } else { GRID })
-        .chain(frame.column_iter().map(|axis| axis.into_owned()))
+        .chain((0..3).map(|axis| Vector3::ith(axis, 1.0)))
         .chain(natural_directions(&unit))
         .filter_map(|direction| few.least_box(&direction))
         .collect();
@@ -97,8 +98,8 @@ pub fn minimum_box(hull: &Mesh) -> Result<OrientedBox, MeshIntegralError> {
             starts.push(candidate);
         }
     }
-    let principal = box_along(&unit.vertices, &frame);
-    let mut least = (principal.volume(), frame);
+    let principal = box_along(&unit.vertices, &Matrix3::identity());
+    let mut least = (principal.volume(), Matrix3::identity());
     for start in starts {
         let mut best = few.refine(start, apart / 2.0, 2, apart * COARSE);
         let mut is_refined = false;
@@ -131,7 +132,27 @@ pub fn minimum_box(hull: &Mesh) -> Result<OrientedBox, MeshIntegralError> {
             };
         }
     }
-    Ok(box_along(&hull.vertices, &least.1))
+    Ok(box_along(&hull.vertices, &(frame * least.1)))
+}
+
+/// The principal axes of a mesh, a rotation, of which the first two point to where it reaches farther from its centroid.
+fn own_frame(mesh: &Mesh) -> Result<Matrix3<f64>, MeshIntegralError> {
+    let properties = mesh_properties(mesh)?;
+    let Some(principal) = properties.principal() else {
+        return Ok(Matrix3::identity());
+    };
+    let centroid = properties.centroid.coords;
+    let [low, high] = bounds(&mesh.vertices, &principal.axes);
+    let middle = (low + high) / 2.0 - principal.axes.tr_mul(&centroid);
+    let [first, second] = [0, 1].map(|i| {
+        let axis = principal.axes.column(i).into_owned();
+        axis * middle[i].signum()
+    });
+    Ok(Matrix3::from_columns(&[
+        first,
+        second,
+        first.cross(&second),
+    ]))
 }
 
 /// The mesh moved to the origin and scaled to a size of one.

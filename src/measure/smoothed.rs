@@ -1,5 +1,6 @@
 //! The area of a polyhedron without the noise of its vertices.
 
+use super::Unit;
 use crate::Mesh;
 use nalgebra::{Point3, Vector3};
 
@@ -7,6 +8,8 @@ use nalgebra::{Point3, Vector3};
 /// the vertices it is joined to. Of smooth bodies it is the same but for the square of the spacing; noise, which makes facets
 /// steep and their area large, is mostly gone. All triangles must name vertices that exist.
 pub(crate) fn smoothed_area(mesh: &Mesh) -> f64 {
+    let unit = Unit::of(mesh);
+    let mesh = unit.mesh(mesh);
     let Some(first) = mesh.vertices.first() else {
         return 0.0;
     };
@@ -41,7 +44,7 @@ pub(crate) fn smoothed_area(mesh: &Mesh) -> f64 {
         let [a, b, c] = corners.map(|corner| vertices[corner as usize]);
         0.5 * (b - a).cross(&(c - a)).norm()
     };
-    mesh.triangles.iter().map(area).sum()
+    unit.area(mesh.triangles.iter().map(area).sum())
 }
 
 #[cfg(test)]
@@ -67,5 +70,10 @@ mod tests {
             "{area} {smoothed}"
         );
         assert_eq!(smoothed_area(&Mesh::default()), 0.0);
+        for vertex in &mut rough.vertices {
+            *vertex *= 1e-99;
+        }
+        let tiny = smoothed_area(&rough) * 1e99 * 1e99 / (4.0 * PI);
+        assert!((tiny / smoothed - 1.0).abs() < 1e-12, "{tiny} {smoothed}");
     }
 }

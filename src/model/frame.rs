@@ -3,6 +3,9 @@
 use super::InvalidGrain;
 use nalgebra::{Matrix3, Point3, Vector3};
 
+/// Coordinates beyond this are no numbers of a grain, of which moments are taken: scans have no larger ones.
+const FARTHEST: f64 = 1e100;
+
 /// How far axes may be from orthonormal: the rounding of a file with fewer digits than f64 has.
 const AXES_TOLERANCE: f64 = 1e-9;
 
@@ -40,9 +43,9 @@ impl Frame {
         self.centre + self.axes * local
     }
 
-    /// Refuses a frame that is not finite, or whose axes are not orthonormal and right-handed.
+    /// Refuses a frame that is not finite or too far away for numbers, or whose axes are not orthonormal and right-handed.
     pub(in crate::model) fn check(&self) -> Result<(), InvalidGrain> {
-        if !self.centre.iter().all(|x| x.is_finite()) {
+        if !self.centre.iter().all(|x| x.abs() <= FARTHEST) {
             return Err(InvalidGrain::NotFinite {
                 what: "the centre".into(),
             });

@@ -89,7 +89,7 @@ fn warnings(topology: &Topology) -> impl Iterator<Item = String> {
         ),
         count(topology.unreferenced.len(), "No triangle uses", "point"),
         (topology.bodies > 1)
-            .then(|| format!("The scan holds {} separate bodies.", topology.bodies)),
+            .then(|| format!("The faces are in {} separate parts.", topology.bodies)),
     ]
     .into_iter()
     .flatten()

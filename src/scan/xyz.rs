@@ -11,6 +11,9 @@ use super::error::ParseError;
 use super::text::{Lines, integer, number, quote, unexpected, words};
 use super::{Scan, plural};
 
+/// Fewer rows may be numbered by chance.
+const LEAST_COUNTED: usize = 4;
+
 pub(super) fn parse(bytes: &[u8]) -> Result<Scan, ParseError> {
     let mut scan = Scan::default();
     let mut rows = Lines::after(0, bytes)
@@ -37,6 +40,8 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Scan, ParseError> {
         }
     }
     let mut skipped = 0;
+    let is_named = heading.is_some();
+    let start = rows.peek().copied();
     for (line, row) in rows {
         let point = read_row(line, row, separator, columns, axes)?;
         if point.iter().all(|c| c.is_finite()) {
@@ -51,6 +56,15 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Scan, ParseError> {
             "Dropped {rows} with a coordinate that is not finite."
         ));
     }
+    if let Some((line, row)) = start
+        && !is_named
+        && columns > 3
+        && counts_rows(&scan.points)
+    {
+        let expected = "coordinates in the first three columns, but the first one counts the rows: take it out, or name the columns in \
+                        a first line such as `id x y z`";
+        return Err(unexpected(line, expected, row));
+    }
     let read = scan.points.len() + skipped;
     if let Some(count) = count
         && count != read as i64
@@ -61,6 +75,15 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Scan, ParseError> {
         ));
     }
     Ok(scan)
+}
+
+/// Whether the first coordinate is the number of its row, from 0 or 1 on.
+fn counts_rows(points: &[Point3<f64>]) -> bool {
+    let first = points.first().map_or(f64::NAN, |point| point.x);
+    let mut rows = points.iter().enumerate();
+    points.len() >= LEAST_COUNTED
+        && (first == 0.0 || first == 1.0)
+        && rows.all(|(row, point)| point.x == first + row as f64)
 }
 
 fn is_remark(line: &[u8]) -> bool {
@@ -193,6 +216,24 @@ mod tests {
                 scan.warnings
             );
         }
+    }
+
+    #[test]
+    fn a_column_that_counts_the_rows_is_no_coordinate() {
+        for first in [0, 1] {
+            let rows = (0..9).map(|row| format!("{} 0.5 {row}.25 -1\n", first + row));
+            let error = parse(rows.collect::<String>().as_bytes()).unwrap_err();
+            let told = error.to_string();
+            assert!(
+                told.starts_with("line 1:") && told.contains("counts the rows"),
+                "{told}"
+            );
+        }
+        let rows = (0..9).map(|row| format!("{row} 0.5 {row}.25 -1\n"));
+        let named = format!("id x y z\n{}", rows.collect::<String>());
+        assert_eq!(first(&named), [0.5, 0.25, -1.0]);
+        let grid = (0..9).map(|row| format!("{row} 0.5 0\n"));
+        assert!(parse(grid.collect::<String>().as_bytes()).is_ok());
     }
 
     #[test]

@@ -274,6 +274,52 @@ fn the_four_triangle_scheme_reads_a_model_low_by_as_much_as_the_source_does() {
     assert!(errors(&output).contains("integration schemes are for models"));
 }
 
+/// Of points alone nothing is told beside a large hole, and nothing of their area where noise is most of its roughness.
+#[test]
+fn what_points_do_not_tell_is_withheld() {
+    let folder = folder();
+    let told = |words: &str| {
+        let words: Vec<&str> = words.split(' ').collect();
+        succeed(
+            &folder,
+            &[&["synth", "bean", "-o", "s.ply"], &words[..]].concat(),
+        );
+        json(
+            &folder,
+            &["measure", "s.ply", "--only", "area,volume,sphericity"],
+        )
+    };
+    let hole = told("--missing-cap 60");
+    for name in ["area", "volume", "sphericity"] {
+        assert!(hole[name].is_null(), "{hole}");
+    }
+    assert_eq!(hole["not_measured"].as_array().unwrap().len(), 3);
+    let guess = json(
+        &folder,
+        &["measure", "s.ply", "--only", "volume", "--extrapolate"],
+    );
+    assert!(guess["volume"].is_number());
+    let rough = told("--noise 0.015");
+    assert!(
+        rough["area"].is_null() && rough["sphericity"].is_null() && rough["volume"].is_number()
+    );
+    let fine = told("--noise 0.001");
+    assert!(fine["area"].is_number());
+}
+
+#[test]
+fn a_model_is_no_scan_to_be_fitted() {
+    let folder = folder();
+    succeed(
+        &folder,
+        &["synth", "bean", "--points", "500", "-o", "s.ply"],
+    );
+    succeed(&folder, &["fit", "s.ply", "-o", "m.json"]);
+    let output = grainform(&folder, &["fit", "m.json"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(errors(&output).contains("is no scan: it starts as a model does"));
+}
+
 /// A fit writes what its scan did not see, and how well the largest curvature is known.
 #[test]
 fn a_fit_tells_measure_of_holes_and_of_curvature() {

@@ -88,6 +88,30 @@ fn two_beans_in_one_cloud_are_refused_and_the_largest_is_fitted_if_asked_for() {
     assert_eq!(measured.status.code(), Some(2));
 }
 
+/// Points on the table about a grain are in company of each other, as outliers strewn about it are not.
+#[test]
+fn a_grain_on_its_table_is_refused_and_one_among_outliers_is_not() {
+    let folder = folder();
+    let bean = points(&folder, &["bean"]);
+    let low = bean.iter().map(|p| p[2]).fold(f64::INFINITY, f64::min);
+    let at = |i: i32| 0.2 * f64::from(i);
+    let table = (-35..=35).flat_map(|i| (-30..=30).map(move |j| [at(i), at(j), low]));
+    save(
+        &folder,
+        "table.xyz",
+        &[bean.clone(), table.collect()].concat(),
+    );
+    refused(&folder, "table.xyz", "close to each other");
+    let mut strewn = bean;
+    for (number, point) in strewn.iter_mut().step_by(12).enumerate() {
+        *point = point.map(|x| x * (1.15 + 0.01 * (number % 40) as f64));
+    }
+    save(&folder, "strewn.xyz", &strewn);
+    let truth = json(&folder, &["synth", "bean"]);
+    let report = json(&folder, &["fit", "strewn.xyz"]);
+    assert!(deviation(&report, &truth, "volume") < 1e-3);
+}
+
 #[test]
 fn two_balls_and_a_hollow_in_one_mesh_are_refused_and_the_largest_is_fitted_if_asked_for() {
     let folder = folder();

@@ -2,11 +2,11 @@
 //! or scaled.
 
 use approx::assert_relative_eq;
-use grainform::measure::{Scheme, Survey, SurveyError};
+use grainform::measure::{Scheme, Survey, SurveyError, convex_hull};
 use grainform::scan::Scan;
 use grainform::shapes::{Body, Ellipsoid, SynthOptions, synthesize};
 use grainform::{FitOptions, Mesh, StarSurface, Tolerance, fit};
-use nalgebra::{Rotation3, Vector3};
+use nalgebra::{Point3, Rotation3, Vector3};
 use proptest::prelude::*;
 
 fn mesh(surface: &(impl StarSurface + ?Sized), resolution: usize) -> Mesh {
@@ -71,6 +71,28 @@ proptest! {
             let expected = one * size.powi(power);
             prop_assert!((other - expected).abs() <= 1e-6 * expected.abs() + 1e-9, "figure {i}");
         }
+    }
+}
+
+/// Its moments are equal, and its principal axes may be any.
+#[test]
+fn a_turned_cube_is_as_long_as_wide_and_thick() {
+    let corner = |i: usize| Point3::from([i & 1, i >> 1 & 1, i >> 2].map(|c| c as f64));
+    let cube = convex_hull(&(0..8).map(corner).collect::<Vec<_>>()).unwrap();
+    let column = |height: f64| {
+        let mut mesh = cube.clone();
+        mesh.vertices.iter_mut().for_each(|p| p.z *= height);
+        let turn = Rotation3::from_euler_angles(0.4, 0.7, -1.1);
+        moved(&mesh, &turn, &Vector3::new(1.0, 2.0, 3.0), 2.0)
+    };
+    for (height, expected) in [
+        (1.0, [2.0, 2.0, 2.0]),
+        (3.0, [6.0, 2.0, 2.0]),
+        (0.5, [2.0, 2.0, 1.0]),
+    ] {
+        let mesh = column(height);
+        let dimensions = Survey::of_mesh(&mesh).unwrap().dimensions().unwrap();
+        assert_relative_eq!(dimensions, Vector3::from(expected), max_relative = 1e-8);
     }
 }
 

@@ -36,8 +36,11 @@ const FLOOR: f64 = 1e-5;
 const VICINITY: usize = 40;
 
 impl Estimate {
-    /// Standard errors of the curvature of a grain that stands for the estimate.
+    /// Standard errors of the curvature of a grain that stands for the estimate; none where edges hide them.
     pub(crate) fn curvature_errors(&self, grain: &StarGrain) -> Option<CurvatureErrors> {
+        if self.hides_edges(self.is_rough()) {
+            return None;
+        }
         let frame = grain.frame();
         let expansion = Family::Whole(self.expansion(self.degree));
         let best = StarGrain::stretched(frame, self.stretch(), expansion).ok()?;

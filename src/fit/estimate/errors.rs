@@ -24,7 +24,7 @@ use super::left_out::LeftOut;
 use super::outcome::Estimate;
 use super::posterior::Posterior;
 use super::texture::hidden_slopes;
-use super::unresolved::{are_many, is_flat_sided, is_rough, is_symmetric, kurtosis};
+use super::unresolved::{is_rough, kurtosis};
 use crate::fit::figures::{
     Figures, INERTIA, INTEGRALS, MassList, derivatives, form, list, mass, unlist,
 };
@@ -60,9 +60,7 @@ impl Estimate {
         let residuals = posterior.residuals(&self.coefficients);
         let of_mean_weight = self.cloud.of_mean_weight(&residuals);
         let is_rough = is_rough(&of_mean_weight);
-        let may_have_edges = is_rough || are_many(self.outliers, self.cloud.len());
-        let is_made = || is_symmetric(&self.coefficients) || is_flat_sided(&self.cloud.points());
-        if may_have_edges && is_made() {
+        if self.hides_edges(is_rough) {
             let kurtosis = kurtosis(&of_mean_weight);
             return Err(NoInterval::Unresolved { kurtosis });
         }

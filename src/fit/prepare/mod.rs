@@ -13,6 +13,7 @@ mod samples;
 mod strays;
 mod surface;
 mod thin;
+mod together;
 
 pub(crate) use axes::principal_axes;
 pub use largest::largest_body;

@@ -7,6 +7,7 @@ use super::pieces::Pieces;
 use super::reference::ReferenceKind;
 use super::strays::LEAST_STRAY;
 use super::thin::{Thinned, WHOLE_CLOUD, thin};
+use super::together::together;
 use crate::fit::error::FitError;
 use crate::fit::warning::FitWarning;
 use crate::measure::{FacesDefect, Fill, SelfCrossing, scanned_body, self_crossing, without_dust};
@@ -19,6 +20,9 @@ use std::ops::RangeInclusive;
 
 /// Share of strays beyond which the scan holds more than one grain.
 const LARGEST_SHARE_OF_STRAYS: f64 = 0.2;
+
+/// Share of points that stand apart, and yet close to each other, beyond which they are no outliers: awns and rims have less.
+const LARGEST_SHARE_TOGETHER: f64 = 0.01;
 
 /// Points of the scan, or a part of them.
 type Points<'a> = Cow<'a, [Point3<f64>]>;
@@ -217,6 +221,7 @@ fn from_directions(points: Cow<'_, [Point3<f64>]>) -> Result<ScannedSurface<'_>,
         true => Cow::Owned(pieces.largest(&points)),
         false => points,
     };
+    let cloud = points.clone();
     let (mesh, points, representatives) = match points.len() <= WHOLE_CLOUD {
         true => {
             let (mesh, points) = whole(points)?;
@@ -240,6 +245,7 @@ fn from_directions(points: Cow<'_, [Point3<f64>]>) -> Result<ScannedSurface<'_>,
     };
     let strays = all - points.len();
     refuse_background(strays, all)?;
+    refuse_second_surface(&cloud, &points)?;
     let gap = Gap::new(&mesh);
     let strays = (strays > 0).then_some(FitWarning::Strays {
         strays,
@@ -286,6 +292,20 @@ fn refuse_background(strays: usize, points: usize) -> Result<(), FitError> {
         return Err(FitError::Strays { share });
     }
     Ok(())
+}
+
+/// Points that stand apart are outliers, unless they lie close to each other.
+fn refuse_second_surface(points: &[Point3<f64>], kept: &[Point3<f64>]) -> Result<(), FitError> {
+    let most = LARGEST_SHARE_TOGETHER * points.len() as f64;
+    if (points.len() - kept.len()) as f64 <= most {
+        return Ok(());
+    }
+    match together(points, kept) as f64 {
+        count if count > most => Err(FitError::SecondSurface {
+            share: count / points.len() as f64,
+        }),
+        _ => Ok(()),
+    }
 }
 
 fn select(points: &[Point3<f64>], indices: &[u32]) -> Vec<Point3<f64>> {

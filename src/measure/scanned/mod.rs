@@ -46,8 +46,8 @@ pub struct ScannedBody {
 pub enum FacesDefect {
     /// There are holes whose fills would be a guess.
     #[error(
-        "the faces leave {} open, {:.0} % of the area or more; scan what is missing, or fit the scan and \
-         measure the model",
+        "the faces leave {} open, {:.0} % of the area or more; scan what is missing, or fit a guess of it \
+         (fit --extrapolate)",
         plural(*holes, "hole"),
         100.0 * share
     )]

@@ -12,12 +12,15 @@ use crate::measure::{
     convex_hull, enclosing_ball, extents, inscribed_ball, minimum_box,
 };
 use crate::model::Surface;
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::PI;
 
 /// Share of the directions from the centroid that may meet the surface more than once where the radius
 /// from there is expanded or compared.
 const LARGEST_OVERHANG: f64 = 0.01;
+
+/// Moments that differ by less than this share of the largest have axes by rounding alone.
+const EQUAL: f64 = 1e-6;
 
 impl Survey<'_> {
     /// Area, volume and moments at unit size.
@@ -47,13 +50,38 @@ impl Survey<'_> {
     pub(super) fn unit_dimensions(&self) -> Result<Vector3<f64>, SurveyError> {
         let dimensions = || {
             self.one_body()?;
-            let axes = self.unit_principal()?.axes;
+            let axes = self.own_axes()?;
             Ok(match self.reach() {
                 Some(reach) => reach.dimensions(&axes),
                 None => sorted(extents(self.mesh(), &axes)),
             })
         };
         self.extents.get_or_init(dimensions).clone()
+    }
+
+    /// The principal axes, and of equal moments, whose axes may be any, those along the sides of the least box.
+    fn own_axes(&self) -> Result<Matrix3<f64>, SurveyError> {
+        let principal = self.unit_principal()?;
+        let moments = principal.moments;
+        let are_equal = |i: usize, j: usize| moments[j] - moments[i] <= EQUAL * moments.max();
+        let single = match [are_equal(0, 1), are_equal(1, 2)] {
+            [false, false] => return Ok(principal.axes),
+            [true, true] => return Ok(self.unit_minimum_box()?.axes),
+            [true, false] => principal.axes.column(2).into_owned(),
+            [false, true] => principal.axes.column(0).into_owned(),
+        };
+        let sides = self.unit_minimum_box()?.axes;
+        let across = (0..3).map(|i| {
+            let side = sides.column(i).into_owned();
+            side - single * single.dot(&side)
+        });
+        let longest = across.max_by(|a, b| a.norm_squared().total_cmp(&b.norm_squared()));
+        let first = longest.unwrap_or_default().normalize();
+        Ok(Matrix3::from_columns(&[
+            first,
+            single.cross(&first),
+            single,
+        ]))
     }
 
     pub(super) fn unit_minimum_box(&self) -> Result<OrientedBox, SurveyError> {

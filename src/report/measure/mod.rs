@@ -16,7 +16,7 @@ pub use records::{
 pub(crate) use withheld::{Withheld, by_reason};
 
 use super::unit::{Labels, Unit};
-use crate::fit::ReferenceKind;
+use crate::fit::{ReferenceKind, ScannedSurface};
 use crate::measure::{
     Convexity, Form, ScannedBody, SideRatios, Spectrum, Sphericity, Survey, SurveyError,
 };
@@ -177,6 +177,29 @@ impl MeasureReport {
         Self::without(&withheld, input, Measured::Faces, &survey, only, warnings)
             .in_unit(unit)
             .with_faces(scanned)
+    }
+
+    /// The same of the polyhedron through the points of a scan, without what they do not tell; `roughness`: what theirs adds to its
+    /// area, as a share.
+    #[cfg(feature = "cli")]
+    pub(crate) fn of_points(
+        input: String,
+        surface: &ScannedSurface<'_>,
+        survey: &Survey<'_>,
+        only: &[Measure],
+        roughness: f64,
+        is_guess_told: bool,
+        warnings: Vec<String>,
+    ) -> Self {
+        let withheld = Withheld::of_points(surface, roughness, is_guess_told);
+        Self::without(
+            &withheld,
+            input,
+            surface.kind.into(),
+            survey,
+            only,
+            warnings,
+        )
     }
 
     /// The same of a model, without what is withheld of it, which is not computed either.

@@ -1,8 +1,10 @@
 //! What of a grain is not told, though it could be computed.
 
 use super::{Measure, NotMeasured};
+use crate::fit::ScannedSurface;
 use crate::measure::{ScannedBody, SelfCrossing};
 use crate::model::{Contradicted, Grain, Unseen};
+use crate::report::percent;
 
 /// What of a grain is not to be relied on.
 #[derive(Debug, Clone, Copy, Default)]
@@ -10,7 +12,12 @@ pub(crate) struct Withheld {
     unseen: Option<Unseen>,
     contradicted: Option<Contradicted>,
     crossing: Option<SelfCrossing>,
+    /// By how much the roughness of points adds to the area of the polyhedron through them, as a share.
+    roughness: Option<f64>,
 }
+
+/// How much that may add.
+const LARGEST_ROUGHNESS: f64 = 0.05;
 
 impl Withheld {
     /// Of a grain, what was not seen of it unless that is to be told as a guess.
@@ -18,7 +25,22 @@ impl Withheld {
         Self {
             unseen: grain.unseen().filter(|_| !is_guess_told),
             contradicted: grain.contradicted(),
-            crossing: None,
+            ..Self::default()
+        }
+    }
+
+    /// Of the polyhedron through points, what was not seen of it unless that is to be told as a guess, and what is made of its
+    /// area where roughness is much of that.
+    pub(super) fn of_points(
+        surface: &ScannedSurface<'_>,
+        roughness: f64,
+        is_guess_told: bool,
+    ) -> Self {
+        let is_withheld = |_: &Unseen| !is_guess_told && !surface.is_sparse;
+        Self {
+            unseen: surface.unseen.filter(is_withheld),
+            roughness: (roughness > LARGEST_ROUGHNESS).then_some(roughness),
+            ..Self::default()
         }
     }
 
@@ -40,6 +62,13 @@ impl Withheld {
         }
         if let Some(crossing) = self.crossing.filter(|_| is_made_of_area(measure)) {
             return Some(format!("{crossing}; mend the mesh"));
+        }
+        if let Some(roughness) = self.roughness.filter(|_| is_made_of_area(measure)) {
+            return Some(format!(
+                "the points are rough: the area of the polyhedron through them is {} larger than where each point is moved \
+                 half-way to the mean of its neighbours; fit the scan, and measure the model",
+                percent(roughness)
+            ));
         }
         let contradicted = self.contradicted?;
         let area = contradicted.area.filter(|_| rests_on_area(measure));
