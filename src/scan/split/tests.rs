@@ -71,6 +71,73 @@ fn a_tray_that_is_moved_turned_scaled_and_shuffled_has_the_same_grains() {
     }
 }
 
+/// The points of a tray of which so much of the table is left, turned and bent; and what they were taken from.
+fn changed(tray: &SyntheticTray, table: f64, tilt: f64, bow: f64) -> SyntheticTray {
+    let turn = Rotation3::from_euler_angles(tilt, 0.0, -tilt);
+    let farthest = tray.points.iter().map(|point| point.coords.norm());
+    let farthest = farthest.fold(0.0, f64::max);
+    let kept = (0..).zip(tray.points.iter().zip(&tray.origins));
+    let kept = kept.filter(|(i, (_, origin))| match origin {
+        Origin::Plane => f64::from(i % 100) < 100.0 * table,
+        _ => true,
+    });
+    let bent = |point: &Point3<f64>| {
+        let share = point.coords.norm() / farthest;
+        turn * (point + Vector3::z() * (bow * share * share))
+    };
+    let (points, origins) = kept.map(|(_, (p, &origin))| (bent(p), origin)).unzip();
+    SyntheticTray {
+        points,
+        origins,
+        touching: tray.touching.clone(),
+    }
+}
+
+#[test]
+fn grains_are_found_on_any_share_of_a_table_and_without_one() {
+    for (seed, noise, table, tilt, bow) in [
+        (1, 0.0, 0.0, 0.0, 0.0),
+        (2, 0.002, 0.0, 0.7, 0.0),
+        (3, 0.01, 0.0, 0.0, 0.0),
+        (4, 0.0, 0.1, 0.7, 0.0),
+        (5, 0.002, 0.1, 0.0, 0.0),
+        (6, 0.01, 0.1, 1.5, 0.0),
+        (7, 0.0, 0.4, 0.0, 0.5),
+        (8, 0.002, 0.4, 0.7, 0.0),
+        (9, 0.01, 1.0, 3.0, 0.0),
+        (10, 0.002, 1.0, 0.0, 0.5),
+    ] {
+        let case = format!("seed {seed}, noise {noise}, table {table}, tilt {tilt}, bow {bow}");
+        let options = TrayOptions::clean(12).with_noise(noise).with_seed(seed);
+        let tray = changed(&synthesize_tray(&options).unwrap(), table, tilt, bow);
+        let found = split(&Scan::from_points(tray.points.clone())).unwrap();
+        assert_eq!(found.plane.is_some(), table > 0.0, "{case}");
+        assert_eq!(found.grains.len(), 12, "{case}");
+        for grain in &found.grains {
+            let (_, kept, foreign) = judged(grain, &tray);
+            let least = if bow > 0.0 { 0.95 } else { 0.98 };
+            assert!(
+                kept >= least && foreign <= 0.02,
+                "{case}: {kept}, {foreign}"
+            );
+        }
+        let of_plane = |origin: &&Origin| **origin == Origin::Plane;
+        let table = tray.origins.iter().filter(of_plane).count();
+        assert!(found.plane_points * 50 <= table * 51, "{case}");
+    }
+}
+
+#[test]
+fn a_table_with_nothing_on_it_has_no_grain() {
+    let mut tray = tray();
+    let mut origins = tray.origins.iter();
+    tray.points
+        .retain(|_| origins.next() == Some(&Origin::Plane));
+    let found = split(&Scan::from_points(tray.points.clone())).unwrap();
+    assert_eq!(found.plane_points, tray.points.len());
+    assert!(found.grains.is_empty());
+}
+
 #[test]
 fn a_body_is_one_grain_however_its_points_are_laid_out() {
     for body in Body::ALL {
