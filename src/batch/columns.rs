@@ -100,6 +100,14 @@ pub(crate) fn columns(measures: &[Measure]) -> Vec<Column> {
     first.chain(figures).collect()
 }
 
+/// The columns of measures among those of a table, without their standard errors.
+pub(crate) fn measures(columns: &[String]) -> Vec<String> {
+    let is_measure = |name: &&String| {
+        !name.ends_with("_se") && FIRST.iter().all(|(first, _)| *first != name.as_str())
+    };
+    columns.iter().filter(is_measure).cloned().collect()
+}
+
 /// The figures of some measures, in their order.
 pub(super) fn figures(measures: &[Measure]) -> Vec<Figure> {
     measures

@@ -23,7 +23,7 @@ pub(crate) enum BatchError {
         /// The pattern or folder.
         path: PathBuf,
         /// How the names of scans end.
-        endings: &'static [&'static str],
+        endings: Vec<&'static str>,
     },
     /// A folder or list cannot be read.
     #[error("cannot read {}: {source}", path.display())]
@@ -41,6 +41,14 @@ pub(crate) enum BatchError {
     Locked {
         /// The folder.
         folder: PathBuf,
+    },
+    /// The folder for results cannot be made.
+    #[error("cannot make the folder {}: {source}; give another one with -o", folder.display())]
+    NoFolder {
+        /// The folder.
+        folder: PathBuf,
+        /// Why.
+        source: io::Error,
     },
     /// The folder for results cannot be written to.
     #[error(

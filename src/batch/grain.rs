@@ -6,10 +6,10 @@ use crate::export::{SaveError, save_grain, save_mesh};
 use crate::fit::{Context, FitOptions, Fitted, fit_scan, whole_or_largest};
 use crate::model::Surface;
 use crate::report::{FitReport, Measure, MeasureReport, Unit, Withheld, by_reason, sentences};
-use crate::scan::{parse_file, read_stream};
+use crate::scan::Scan;
 use serde_json::Value;
 use std::error::Error;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// What is asked of every grain of a batch.
 #[derive(Debug, Clone, PartialEq)]
@@ -58,24 +58,32 @@ pub(super) struct Outputs {
 }
 
 impl Outputs {
-    /// Whether all are there.
-    pub(super) fn exist(&self) -> bool {
-        let mut paths = self.model.iter().chain(&self.mesh);
-        paths.all(|path| path.is_file())
+    /// Whether all are there as they were saved with a row.
+    pub(super) fn are_of(&self, row: &Row) -> bool {
+        let is_same = |path: &Option<PathBuf>, saved: &Option<String>| {
+            let is_saved = |path| saved.is_some() && hash(path) == *saved;
+            path.as_ref().is_none_or(is_saved)
+        };
+        is_same(&self.model, &row.model_hash) && is_same(&self.mesh, &row.mesh_hash)
     }
 }
 
-/// Fits and measures the scan in the bytes of a file; what is wrong with it is told in the row.
+/// The hash of a file that can be read.
+fn hash(path: &PathBuf) -> Option<String> {
+    let bytes = std::fs::read(path).ok()?;
+    Some(blake3::hash(&bytes).to_hex().to_string())
+}
+
+/// Fits and measures a scan; what is wrong with it is told in the row.
 ///
 /// # Errors
 /// Where an output cannot be saved.
 pub(super) fn grain(
-    path: &Path,
-    bytes: &[u8],
+    scan: Result<Scan, String>,
     settings: &Settings,
     outputs: &Outputs,
 ) -> Result<Row, SaveError> {
-    let (fitted, warnings) = match fit(path, bytes, settings) {
+    let (fitted, warnings) = match scan.and_then(|scan| fit(scan, settings)) {
         Ok(found) => found,
         Err(reason) => {
             return Ok(Row {
@@ -90,12 +98,14 @@ pub(super) fn grain(
     if let (Some(path), Some(cells)) = (&outputs.mesh, settings.meshes) {
         save_mesh(path, &fitted.grain.mesh(cells))?;
     }
-    Ok(row(&fitted, &warnings, settings))
+    Ok(Row {
+        model_hash: outputs.model.as_ref().and_then(hash),
+        mesh_hash: outputs.mesh.as_ref().and_then(hash),
+        ..row(&fitted, &warnings, settings)
+    })
 }
 
-fn fit(path: &Path, bytes: &[u8], settings: &Settings) -> Result<(Fitted, Vec<String>), String> {
-    let bytes = read_stream(bytes, path, settings.max_bytes).map_err(|error| told(&error))?;
-    let scan = parse_file(path, &bytes, None).map_err(|error| told(&error))?;
+fn fit(scan: Scan, settings: &Settings) -> Result<(Fitted, Vec<String>), String> {
     let (scan, left_out) = whole_or_largest(scan, settings.largest);
     let context = Context::default();
     let mut fitted = fit_scan(&scan, &settings.fit, &context).map_err(|error| told(&error))?;
@@ -104,7 +114,7 @@ fn fit(path: &Path, bytes: &[u8], settings: &Settings) -> Result<(Fitted, Vec<St
 }
 
 /// An error and what caused it, in one sentence.
-fn told(error: &dyn Error) -> String {
+pub(super) fn told(error: &dyn Error) -> String {
     match error.source() {
         Some(cause) => format!("{error}: {}", told(cause)),
         None => error.to_string(),

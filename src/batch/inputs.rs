@@ -3,15 +3,21 @@
 use super::error::BatchError;
 use std::collections::HashSet;
 use std::ffi::OsStr;
-use std::path::{Path, PathBuf};
+use std::io;
+use std::path::{Component, Path, PathBuf};
 
-/// How the names of scans end, packed or not.
-const EXTENSIONS: [&str; 12] = [
-    "ply", "stl", "obj", "xyz", "nrrd", "nhdr", "mha", "mhd", "nii", "npy", "tif", "tiff",
-];
+/// How the names of scans end, packed or not: of meshes and points, ...
+const SURFACES: [&str; 4] = ["ply", "stl", "obj", "xyz"];
 
-/// The files that paths name, in their order and each once: a file is itself, a folder the scans right in it by name,
-/// `@list.txt` the paths in its lines, and what is no file is a pattern such as `lot*/*.ply`.
+/// ... and of images of labels.
+const IMAGES: [&str; 8] = ["nrrd", "nhdr", "mha", "mhd", "nii", "npy", "tif", "tiff"];
+
+/// The file that makes a folder one of results: no scans are looked for in it.
+pub(super) const JOURNAL: &str = "journal.jsonl";
+
+/// The files that paths name, in their order and each once, by its first name: a file is itself, a folder the scans in it
+/// and in its folders, `@list.txt` the paths in its lines, and what is no file is a pattern such as `lot*/*.ply`. Links
+/// to folders are not followed in folders, nor by `**`.
 ///
 /// # Errors
 /// [`BatchError`] where a folder or list cannot be read, or where nothing is found. A file that is not there is told in
@@ -22,8 +28,14 @@ pub(crate) fn inputs(paths: &[PathBuf]) -> Result<Vec<PathBuf>, BatchError> {
         all.extend(named(path)?);
     }
     let mut seen = HashSet::new();
-    all.retain(|path| seen.insert(path.clone()));
+    all.retain(|path| seen.insert(place(path)));
     Ok(all)
+}
+
+/// Where a path leads; of a file that is not there, where it would.
+fn place(path: &Path) -> PathBuf {
+    let found = path.canonicalize().or_else(|_| std::path::absolute(path));
+    found.unwrap_or_else(|_| path.into())
 }
 
 fn named(path: &Path) -> Result<Vec<PathBuf>, BatchError> {
@@ -39,81 +51,187 @@ fn named(path: &Path) -> Result<Vec<PathBuf>, BatchError> {
             .collect());
     }
     let found = if path.is_dir() {
-        scans_in(path)?
+        let mut files = files_in(path)?;
+        files.retain(|path| is_scan(path));
+        files
     } else if path.exists() || !text.contains(['*', '?', '[']) {
         vec![path.to_path_buf()]
     } else {
-        let pattern = glob::glob(&text).map_err(|source| BatchError::Pattern {
-            pattern: text.into_owned(),
-            source,
-        })?;
-        pattern.flatten().filter(|path| path.is_file()).collect()
+        matching(&text)?
     };
     match found.is_empty() {
         true => Err(BatchError::Empty {
             path: path.into(),
-            endings: &EXTENSIONS,
+            endings: [&SURFACES[..], &IMAGES].concat(),
         }),
         false => Ok(found),
     }
 }
 
-fn scans_in(folder: &Path) -> Result<Vec<PathBuf>, BatchError> {
-    let entries = folder.read_dir().map_err(|source| BatchError::Read {
+/// The files that match a pattern.
+fn matching(text: &str) -> Result<Vec<PathBuf>, BatchError> {
+    let failed = |source| BatchError::Pattern {
+        pattern: text.into(),
+        source,
+    };
+    let Some((before, _)) = text.split_once("**") else {
+        let found = glob::glob(text).map_err(failed)?;
+        return Ok(found.flatten().filter(|path| !path.is_dir()).collect());
+    };
+    let pattern = glob::Pattern::new(text).map_err(failed)?;
+    let is_plain = |part: &Component| !part.as_os_str().to_string_lossy().contains(['*', '?', '[']);
+    let folder: PathBuf = Path::new(before)
+        .components()
+        .take_while(is_plain)
+        .collect();
+    let (folder, is_here) = match folder.as_os_str().is_empty() {
+        true => (Path::new("."), true),
+        false => (folder.as_path(), false),
+    };
+    let options = glob::MatchOptions {
+        require_literal_separator: true,
+        ..glob::MatchOptions::new()
+    };
+    let files = files_in(folder)?.into_iter();
+    let files = files.map(|file| match file.strip_prefix(".") {
+        Ok(own) if is_here => own.to_path_buf(),
+        _ => file,
+    });
+    Ok(files
+        .filter(|file| pattern.matches_path_with(file, options))
+        .collect())
+}
+
+/// The files in a folder and in its folders, by name; also those that are not to be read.
+fn files_in(folder: &Path) -> Result<Vec<PathBuf>, BatchError> {
+    let mut files = Vec::new();
+    walk(folder, &mut files).map_err(|source| BatchError::Read {
         path: folder.into(),
         source,
     })?;
-    let mut scans: Vec<PathBuf> = entries
-        .flatten()
-        .map(|entry| entry.path())
-        .filter(|path| path.is_file() && is_scan(path))
-        .collect();
-    scans.sort();
-    Ok(scans)
+    files.sort();
+    Ok(files)
+}
+
+fn walk(folder: &Path, files: &mut Vec<PathBuf>) -> io::Result<()> {
+    if folder.join(JOURNAL).is_file() {
+        return Ok(());
+    }
+    for entry in folder.read_dir()? {
+        let path = entry?.path();
+        let is_hidden = path
+            .file_name()
+            .is_some_and(|name| name.as_encoded_bytes().starts_with(b"."));
+        match (path.is_dir(), path.is_symlink()) {
+            _ if is_hidden => {}
+            (true, true) => {}
+            (true, false) => walk(&path, files)?,
+            (false, _) => files.push(path),
+        }
+    }
+    Ok(())
+}
+
+/// Whether a file is named as an image of labels.
+pub(super) fn is_image(path: &Path) -> bool {
+    ends_with(path, &IMAGES)
 }
 
 fn is_scan(path: &Path) -> bool {
+    is_image(path) || ends_with(path, &SURFACES)
+}
+
+fn ends_with(path: &Path, extensions: &[&str]) -> bool {
     let is = |path: &Path, extension: &str| {
         path.extension()
+            .and_then(OsStr::to_str)
             .is_some_and(|own| own.eq_ignore_ascii_case(extension))
     };
-    let name = path.file_name().and_then(OsStr::to_str).unwrap_or_default();
     let unpacked = match is(path, "gz") {
         true => Path::new(path.file_stem().unwrap_or_default()),
         false => path,
     };
-    !name.starts_with('.') && EXTENSIONS.iter().any(|extension| is(unpacked, extension))
+    extensions.iter().any(|extension| is(unpacked, extension))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    fn write(folder: &Path, names: &[&str]) {
+        for name in names {
+            let path = folder.join(name);
+            std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+            std::fs::write(path, "").unwrap();
+        }
+    }
+
+    /// The scans that paths name, without the folder.
+    fn of(folder: &Path, paths: &[PathBuf]) -> Vec<String> {
+        let own = |path: PathBuf| path.strip_prefix(folder).unwrap().display().to_string();
+        inputs(paths).unwrap().into_iter().map(own).collect()
+    }
+
     #[test]
     fn folders_patterns_and_lists_name_scans_each_once() {
         let folder = tempfile::tempdir().unwrap();
         let path = |name: &str| folder.path().join(name);
-        for name in ["b.ply", "a.STL", "c.xyz.gz", "notes.txt", ".d.ply"] {
-            std::fs::write(path(name), "").unwrap();
-        }
+        write(
+            folder.path(),
+            &["b.ply", "a.STL", "c.xyz.gz", "notes.txt", ".d.ply"],
+        );
         let list = format!(
             "{}\n\n{}\n",
             path("notes.txt").display(),
             path("b.ply").display()
         );
         std::fs::write(path("list.txt"), list).unwrap();
-        let of = |paths: &[PathBuf]| -> Vec<String> {
-            let names = inputs(paths).unwrap().into_iter();
-            names
-                .map(|path| path.file_name().unwrap().to_str().unwrap().into())
-                .collect()
-        };
+        let of = |paths: &[PathBuf]| of(folder.path(), paths);
         assert_eq!(of(&[folder.path().into()]), ["a.STL", "b.ply", "c.xyz.gz"]);
         assert_eq!(of(&[path("[bn]*")]), ["b.ply", "notes.txt"]);
         let list = PathBuf::from(format!("@{}", path("list.txt").display()));
         assert_eq!(of(&[path("b.ply"), list]), ["b.ply", "notes.txt"]);
+        assert_eq!(of(&[path("./b.ply"), path("b.ply")]), ["b.ply"]);
         assert_eq!(of(&[path("gone.ply")]), ["gone.ply"]);
         let nothing = inputs(&[path("*.obj")]);
         assert!(matches!(nothing, Err(BatchError::Empty { .. })));
+    }
+
+    #[test]
+    fn folders_in_folders_are_looked_into_but_for_results() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = |name: &str| folder.path().join(name);
+        write(
+            folder.path(),
+            &[
+                "z.ply",
+                "a/b/y.ply",
+                "a/x.nrrd",
+                ".git/w.ply",
+                "a/notes.txt",
+            ],
+        );
+        write(folder.path(), &["r/journal.jsonl", "r/meshes/z.ply"]);
+        let all = ["a/b/y.ply", "a/x.nrrd", "z.ply"];
+        assert_eq!(of(folder.path(), &[folder.path().into()]), all);
+        let of = |pattern: &str| of(folder.path(), &[path(pattern)]);
+        assert_eq!(of("**/*.ply"), ["a/b/y.ply", "z.ply"]);
+        assert_eq!(of("a*/**/y.ply"), ["a/b/y.ply"]);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn links_lead_to_each_file_once_and_a_dangling_one_is_named() {
+        use std::os::unix::fs::symlink;
+        let folder = tempfile::tempdir().unwrap();
+        let path = |name: &str| folder.path().join(name);
+        write(folder.path(), &["a.ply", "in/b.ply"]);
+        symlink("..", path("in/loop")).unwrap();
+        symlink("a.ply", path("c.ply")).unwrap();
+        symlink("nowhere", path("d.ply")).unwrap();
+        let all = ["a.ply", "d.ply", "in/b.ply"];
+        assert_eq!(of(folder.path(), &[folder.path().into()]), all);
+        assert_eq!(of(folder.path(), &[path("**/*.ply")]), all);
+        assert_eq!(of(folder.path(), &[path("*.ply")]), all[..2]);
     }
 }

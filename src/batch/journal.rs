@@ -62,6 +62,11 @@ pub(crate) struct Row {
     pub warnings: Vec<String>,
     /// The figures and their standard errors, in the order of the columns.
     pub figures: Vec<Option<f64>>,
+    /// Hashes of the model and of the mesh that were saved.
+    #[serde(default)]
+    pub model_hash: Option<String>,
+    #[serde(default)]
+    pub mesh_hash: Option<String>,
     /// Seconds that the grain took.
     pub seconds: f64,
 }

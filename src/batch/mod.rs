@@ -1,7 +1,7 @@
 //! Many scans, one row each: fitted, measured, and written as a table that is the same whatever happens on the way.
 //!
 //! ```text
-//! inputs -> grain (one scan: fit, measures) -> journal -> results -> population, comparison
+//! inputs -> queue (labels) -> grain (one scan: fit, measures) -> journal -> results -> population, comparison
 //! ```
 //!
 //! Each grain is worked on by one thread. Its row goes into a journal as soon as it is known, and the final files are
@@ -14,14 +14,18 @@ mod error;
 mod grain;
 mod inputs;
 mod journal;
+mod names;
 mod population;
+mod queue;
 mod results;
 mod run;
 mod table;
 
+pub(crate) use columns::measures;
 pub(crate) use comparison::compare;
 pub(crate) use grain::Settings;
 pub(crate) use inputs::inputs;
+pub(crate) use names::names;
 pub(crate) use population::Population;
-pub(crate) use run::{Batch, names, run};
+pub(crate) use run::{Batch, run};
 pub(crate) use table::{read_lot, read_results};

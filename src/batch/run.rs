@@ -3,18 +3,19 @@
 use super::columns::columns;
 use super::error::BatchError;
 use super::grain::{Outputs, Settings, grain};
+use super::inputs::JOURNAL;
 use super::journal::{Journal, Place, Row, key};
+use super::names::of_scans;
 use super::population::Population;
+use super::queue::{Queue, Task, with_label};
 use super::results::write_results;
 use crate::export::sweep;
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 use std::fs::{File, TryLockError};
-use std::io::{self, Read};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::sync::PoisonError;
-use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
 /// What a batch does.
@@ -26,7 +27,7 @@ pub(crate) struct Batch {
     pub folder: PathBuf,
     /// What is asked of every grain.
     pub settings: Settings,
-    /// Threads, each of which works on one grain.
+    /// Threads, each of which works on one grain at a time.
     pub jobs: usize,
 }
 
@@ -37,7 +38,7 @@ pub(crate) struct Progress {
     pub done: usize,
     /// Of these, grains of earlier runs.
     pub kept: usize,
-    /// All grains.
+    /// All grains that are known of: the labels of an image are when it is read.
     pub all: usize,
 }
 
@@ -45,11 +46,11 @@ pub(crate) struct Progress {
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub(crate) struct Done {
-    /// Number of scans.
+    /// Number of grains.
     pub all: usize,
-    /// Of these, scans whose rows earlier runs left.
+    /// Of these, grains whose rows earlier runs left.
     pub kept: usize,
-    /// Scans without a result, and why, in the order of the inputs.
+    /// Grains without a result, and why, in the order of the inputs.
     pub failed: Vec<(String, String)>,
     /// The figures of all others.
     pub population: Population,
@@ -67,7 +68,7 @@ pub(crate) struct Done {
 /// in its row.
 pub(crate) fn run(batch: &Batch, progress: &(dyn Fn(Progress) + Sync)) -> Result<Done, BatchError> {
     let folder = &batch.folder;
-    std::fs::create_dir_all(folder).map_err(|source| BatchError::Write {
+    std::fs::create_dir_all(folder).map_err(|source| BatchError::NoFolder {
         folder: folder.clone(),
         source,
     })?;
@@ -98,22 +99,21 @@ fn work(batch: &Batch, progress: &(dyn Fn(Progress) + Sync)) -> Result<Done, Bat
             sweep(&path);
         }
     }
-    let journal = Journal::open(&folder.join("journal.jsonl")).map_err(failed)?;
+    let journal = Journal::open(&folder.join(JOURNAL)).map_err(failed)?;
     let work = Work {
         batch,
-        names: names(&batch.inputs),
+        names: of_scans(&batch.inputs),
         settings: batch.settings.text(),
-        next: AtomicUsize::new(0),
+        queue: Queue::new(&batch.inputs, batch.settings.max_bytes),
         state: Mutex::new(State {
             journal,
-            places: vec![None; batch.inputs.len()],
-            done: 0,
+            places: BTreeMap::new(),
             kept: 0,
             error: None,
         }),
         progress,
     };
-    let pools: Vec<rayon::ThreadPool> = (0..batch.jobs.clamp(1, batch.inputs.len().max(1)))
+    let pools: Vec<rayon::ThreadPool> = (0..batch.jobs.max(1))
         .map(|_| rayon::ThreadPoolBuilder::new().num_threads(1).build())
         .collect::<Result<_, _>>()
         .map_err(|source| BatchError::Threads { source })?;
@@ -136,8 +136,7 @@ fn work(batch: &Batch, progress: &(dyn Fn(Progress) + Sync)) -> Result<Done, Bat
         return Err(error);
     }
     journal.force().map_err(failed)?;
-    let places: Vec<Place> = places.into_iter().flatten().collect();
-    let rows = || places.iter().map(|place| journal.read(*place));
+    let rows = || places.values().map(|place| journal.read(*place));
     let columns = columns(&batch.settings.measures);
     let mut failures = Vec::new();
     let mut population = Population::new(&columns);
@@ -151,7 +150,7 @@ fn work(batch: &Batch, progress: &(dyn Fn(Progress) + Sync)) -> Result<Done, Bat
     population.finish();
     let files = write_results(folder, &columns, &rows, &population)?;
     Ok(Done {
-        all: batch.inputs.len(),
+        all: places.len(),
         kept,
         failed: failures,
         population,
@@ -178,60 +177,58 @@ fn lock(folder: &Path) -> Result<File, BatchError> {
 /// What the threads share.
 struct Work<'a> {
     batch: &'a Batch,
-    /// What models and meshes are called.
+    /// What models and meshes of each scan are called.
     names: Vec<String>,
     settings: String,
-    next: AtomicUsize,
+    queue: Queue<'a>,
     state: Mutex<State>,
     progress: &'a (dyn Fn(Progress) + Sync),
 }
 
 struct State {
     journal: Journal,
-    places: Vec<Option<Place>>,
-    done: usize,
+    /// Where the row of each grain stands, by the number of its scan and its own.
+    places: BTreeMap<(usize, usize), Place>,
     kept: usize,
     /// What stops the batch.
     error: Option<BatchError>,
 }
 
 impl Work<'_> {
-    /// Takes one scan after the other until none is left.
+    /// Takes one grain after the other until none is left.
     fn go_on(&self) {
-        loop {
-            let number = self.next.fetch_add(1, Ordering::Relaxed);
-            let Some(path) = self.batch.inputs.get(number) else {
-                return;
-            };
-            if !self.one(number, path) {
+        while let Some(task) = self.queue.next() {
+            if !self.one(&task) {
                 return;
             }
         }
     }
 
-    /// Works on one scan; tells whether to go on.
-    fn one(&self, number: usize, path: &Path) -> bool {
+    /// Works on one grain; tells whether to go on.
+    fn one(&self, task: &Task) -> bool {
         let started = Instant::now();
-        let outputs = self.outputs(number);
-        let shown = path.display().to_string();
+        let settings = &self.batch.settings;
+        let outputs = self.outputs(task);
+        let shown = task.name();
         let version = env!("CARGO_PKG_VERSION");
-        let bytes = read(path, self.batch.settings.max_bytes);
-        let hash = bytes
-            .as_ref()
-            .ok()
-            .map(|bytes| blake3::hash(bytes).to_hex().to_string());
+        let content = task.content(settings.max_bytes);
+        let hash = content.as_ref().ok().map(|content| content.hash());
         let known = hash.as_ref().and_then(|hash| {
             let key = key(&shown, hash, &self.settings, version);
             self.state().journal.find(&key)
         });
         if let Some(place) = known
-            && (outputs.exist() || self.is_failure(place))
+            && self.is_whole(place, &outputs)
         {
-            return self.note(number, true, |_| Ok(place));
+            return self.note(task, true, |_| Ok(place));
         }
-        let row = match &bytes {
-            Ok(bytes) => catch_unwind(AssertUnwindSafe(|| {
-                grain(path, bytes, &self.batch.settings, &outputs)
+        let row = match &content {
+            Ok(content) => catch_unwind(AssertUnwindSafe(|| {
+                grain(
+                    content.scan(task.path, settings.max_bytes),
+                    settings,
+                    &outputs,
+                )
             }))
             .unwrap_or_else(|_| {
                 Ok(Row {
@@ -254,7 +251,7 @@ impl Work<'_> {
             seconds: started.elapsed().as_secs_f64(),
             ..row
         });
-        self.note(number, false, |journal| {
+        self.note(task, false, |journal| {
             journal.add(&row?).map_err(|source| BatchError::Write {
                 folder: self.batch.folder.clone(),
                 source,
@@ -262,29 +259,31 @@ impl Work<'_> {
         })
     }
 
-    fn is_failure(&self, place: Place) -> bool {
+    /// Whether a row that is known is all that is asked for.
+    fn is_whole(&self, place: Place, outputs: &Outputs) -> bool {
         let row = self.state().journal.read(place);
-        row.is_ok_and(|row| row.reason.is_some())
+        row.is_ok_and(|row| row.reason.is_some() || outputs.are_of(&row))
     }
 
-    /// Notes where the row of a scan stands; tells whether to go on.
+    /// Notes where the row of a grain stands; tells whether to go on.
     fn note(
         &self,
-        number: usize,
+        task: &Task,
         is_kept: bool,
         place: impl FnOnce(&mut Journal) -> Result<Place, BatchError>,
     ) -> bool {
         let mut state = self.state();
         match place(&mut state.journal) {
-            Ok(place) => state.places[number] = Some(place),
+            Ok(place) => {
+                state.places.insert(task.number, place);
+            }
             Err(error) => state.error = Some(error),
         }
-        state.done += 1;
         state.kept += usize::from(is_kept);
         let told = Progress {
-            done: state.done,
+            done: state.places.len(),
             kept: state.kept,
-            all: self.batch.inputs.len(),
+            all: self.queue.count(),
         };
         let goes_on = state.error.is_none() && self.batch.folder.is_dir();
         drop(state);
@@ -296,51 +295,16 @@ impl Work<'_> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    fn outputs(&self, number: usize) -> Outputs {
+    fn outputs(&self, task: &Task) -> Outputs {
         let settings = &self.batch.settings;
+        let name = with_label(&self.names[task.number.0], task.label);
         let named = |folder: &str, extension: &str| {
-            let name = format!("{}.{extension}", self.names[number]);
-            self.batch.folder.join(folder).join(name)
+            let file = format!("{name}.{extension}");
+            self.batch.folder.join(folder).join(file)
         };
         Outputs {
             model: settings.models.then(|| named("models", "json")),
             mesh: settings.meshes.map(|_| named("meshes", "ply")),
         }
     }
-}
-
-/// The bytes of a file as they are, at most so many.
-fn read(path: &Path, limit: u64) -> io::Result<Vec<u8>> {
-    let mut bytes = Vec::new();
-    let file = File::open(path)?;
-    if file.metadata()?.is_dir() {
-        return Err(io::ErrorKind::IsADirectory.into());
-    }
-    file.take(limit.saturating_add(1)).read_to_end(&mut bytes)?;
-    match bytes.len() as u64 > limit {
-        true => Err(io::Error::other(format!(
-            "it holds more than {limit} bytes; allow more with --max-bytes"
-        ))),
-        false => Ok(bytes),
-    }
-}
-
-/// A name for every scan, by which its model and its mesh are saved: that of its file, or where several have it, that of
-/// its path.
-pub(crate) fn names(inputs: &[PathBuf]) -> Vec<String> {
-    let stem = |path: &Path| {
-        path.file_stem()
-            .unwrap_or_default()
-            .to_string_lossy()
-            .into_owned()
-    };
-    let mut counts = HashMap::new();
-    for path in inputs {
-        *counts.entry(stem(path)).or_insert(0_usize) += 1;
-    }
-    let name = |path: &PathBuf| match counts.get(&stem(path)) {
-        Some(1) => stem(path),
-        _ => path.to_string_lossy().replace(['/', '\\', ':'], "_"),
-    };
-    inputs.iter().map(name).collect()
 }

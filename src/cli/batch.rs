@@ -50,7 +50,9 @@ pub(super) fn run(args: BatchArgs, console: Console) -> Result<()> {
         },
     };
     let count = Count::new(batch.inputs.len(), console);
-    let done = run_batch(&batch, &|progress| count.step(progress.done, progress.kept))?;
+    let done = run_batch(&batch, &|progress| {
+        count.step(progress.done, progress.kept, progress.all);
+    })?;
     drop(count);
 
     if done.kept > 0 {

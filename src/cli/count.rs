@@ -17,7 +17,6 @@ const EVERY: Duration = Duration::from_secs(10);
 pub(super) enum Count {
     Bar(ProgressBar),
     Lines {
-        all: usize,
         started: Instant,
         told: Mutex<Instant>,
     },
@@ -34,18 +33,20 @@ impl Count {
                 Self::Bar(ProgressBar::new(all as u64).with_style(style))
             }
             _ => Self::Lines {
-                all,
                 started,
                 told: Mutex::new(started),
             },
         }
     }
 
-    /// So many are done, some of which took no time.
-    pub(super) fn step(&self, done: usize, kept: usize) {
+    /// So many are done, some of which took no time, of so many.
+    pub(super) fn step(&self, done: usize, kept: usize, all: usize) {
         match self {
-            Self::Bar(bar) => bar.set_position(done as u64),
-            Self::Lines { all, started, told } => {
+            Self::Bar(bar) => {
+                bar.set_length(all as u64);
+                bar.set_position(done as u64);
+            }
+            Self::Lines { started, told } => {
                 let mut told = told.lock().unwrap_or_else(PoisonError::into_inner);
                 if told.elapsed() < EVERY {
                     return;

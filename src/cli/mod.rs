@@ -90,7 +90,7 @@ pub fn run() -> ExitCode {
 fn sentence(error: &anyhow::Error) -> String {
     let mut told = error.to_string();
     for cause in error.chain().skip(1).map(ToString::to_string) {
-        if !told.ends_with(&cause) {
+        if !told.contains(&cause) {
             told += &format!(": {cause}");
         }
     }

@@ -181,16 +181,22 @@ fn draw(args: &ReportArgs, name: &str, grain: &Grain, scan: Option<&Scan>) -> Re
 /// What the fit rests on and how good it is.
 fn facts(report: &FitReport, fitted: &Fitted) -> Vec<(&'static str, String)> {
     let unit = report.unit.map_or(String::new(), |unit| format!(" {unit}"));
+    let radius = match report.surface {
+        "star" => "mean radius",
+        _ => "radius of the ball of equal volume",
+    };
     let length = |length: f64| {
         let share = 100.0 * length / report.mean_radius;
         let share = match share.abs() {
             0.0 | 0.001.. => format!("{share:.3}"),
             _ => format!("{share:.1e}"),
         };
-        format!("{}{unit} ({share} % of the mean radius)", short(length))
+        format!("{}{unit} ({share} % of the {radius})", short(length))
     };
-    let mut facts = vec![
-        ("scan", plural(report.points, "point")),
+    let mut facts = vec![("scan", plural(report.points, "point"))];
+    let rule = report.surface_rule.as_ref();
+    facts.extend(rule.map(|rule| ("surface", format!("{}, {rule}", report.surface))));
+    facts.extend([
         (
             "model",
             format!(
@@ -209,13 +215,10 @@ fn facts(report: &FitReport, fitted: &Fitted) -> Vec<(&'static str, String)> {
                 short(report.max)
             ),
         ),
-    ];
+    ]);
     facts.extend(report.heldout_rms.map(|rms| ("held-out RMS", length(rms))));
     facts.extend(report.noise.map(|noise| ("noise", length(noise))));
-    facts.push((
-        "mean radius",
-        format!("{}{unit}", short(fitted.mean_radius)),
-    ));
+    facts.push((radius, format!("{}{unit}", short(fitted.mean_radius))));
     facts.extend(
         report
             .no_standard_errors

@@ -5,8 +5,7 @@ use super::clearance::largest_from;
 use super::even_places::even_places;
 use super::medial::{deepest, feet};
 use super::triangle_tree::TriangleTree;
-use super::winding::winding_number;
-use crate::Mesh;
+use crate::mesh::{Mesh, winding_number};
 use nalgebra::Vector3;
 use thiserror::Error;
 

@@ -44,7 +44,6 @@ mod support;
 mod survey;
 mod triangle_tree;
 mod unit;
-mod winding;
 
 pub use bounds::OutOfBounds;
 pub use convexity::Convexity;

@@ -6,9 +6,8 @@ use super::convex_polygon::ConvexPolygon;
 use super::medial::{Foot, deepest};
 use super::roundness::roundness;
 use super::triangle_tree::TriangleTree;
-use super::winding::polygon_winding_number;
 use super::{Ball, enclosing_ball};
-use crate::Mesh;
+use crate::mesh::{Mesh, polygon_winding_number};
 use nalgebra::{Point3, Vector2, Vector3};
 use std::f64::consts::PI;
 

@@ -12,6 +12,9 @@ use thiserror::Error;
 /// Cells along an edge of the cube of directions of small surfaces, of few grains and of many.
 const RESOLUTIONS: [(usize, usize); 2] = [(200, 14), (1000, 8)];
 
+/// Measures that an error names.
+const MOST_NAMED: usize = 12;
+
 /// Why a folder of results is not shown.
 #[derive(Debug, Error)]
 #[non_exhaustive]
@@ -21,6 +24,32 @@ pub(crate) enum LotError {
     NoTable {
         /// The folder.
         folder: PathBuf,
+    },
+    /// A table of truths tells nothing of the grains.
+    #[error(
+        "no scan of {} is named in the first column of {}: name there the files of the scans, such as {example}",
+        folder.display(), truth.display()
+    )]
+    NoGrain {
+        /// The folder of results.
+        folder: PathBuf,
+        /// The table.
+        truth: PathBuf,
+        /// The name of one of the scans.
+        example: String,
+    },
+    /// A table of truths tells nothing that was measured.
+    #[error(
+        "no column of {} is called as a measure in {}; call them as these are: {}",
+        truth.display(), folder.display(), measures.join(", ")
+    )]
+    NoMeasure {
+        /// The folder of results.
+        folder: PathBuf,
+        /// The table.
+        truth: PathBuf,
+        /// Names of measures.
+        measures: Vec<String>,
     },
     /// The table is none.
     #[error("cannot read {} as CSV: {source}", path.display())]
@@ -62,7 +91,7 @@ impl LotPart {
     /// is a table whose first column names the files of scans, and whose others are called as those of results.
     ///
     /// # Errors
-    /// [`LotError`] where there is no table.
+    /// [`LotError`] where there is no table, or where `truth` tells nothing of what it holds.
     pub(crate) fn read(folder: &Path, truth: Option<&Path>) -> Result<Self, LotError> {
         let path = folder.join("results.csv");
         if !path.is_file() {
@@ -71,18 +100,12 @@ impl LotPart {
             });
         }
         let (columns, rows) = table(&path)?;
-        let paths = columns.iter().position(|column| column == "path");
-        let inputs: Vec<PathBuf> = rows
-            .iter()
-            .map(|row| {
-                paths
-                    .and_then(|at| row.get(at))
-                    .map_or(PathBuf::new(), PathBuf::from)
-            })
-            .collect();
+        let at = columns.iter().position(|column| column == "path");
+        let path = |row: &Vec<String>| at.and_then(|at| row.get(at)).cloned().unwrap_or_default();
+        let paths: Vec<String> = rows.iter().map(path).collect();
         let most = RESOLUTIONS.iter().find(|(most, _)| rows.len() <= *most);
         let (most, resolution) = *most.unwrap_or(&RESOLUTIONS[1]);
-        let names = crate::batch::names(&inputs);
+        let names = crate::batch::names(&paths);
         let surface = |(at, name): (usize, &String)| {
             let model = folder.join("models").join(format!("{name}.json"));
             let grain = load_grain(&model).ok().filter(|_| at < most)?;
@@ -96,10 +119,15 @@ impl LotPart {
             let seen = |vertex: &Point3<f64>| axes.tr_mul(&(vertex - solid.centroid));
             Some(Packed::vectors(mesh.vertices.iter().map(seen)))
         };
+        let known = truth.map(|path| {
+            let known = Truth::read(path, &paths)?;
+            known.check(path, folder, &paths, &columns)?;
+            Ok(known)
+        });
         Ok(Self {
             name: folder.display().to_string(),
+            truth: known.transpose()?,
             columns,
-            truth: truth.map(|path| Truth::read(path, &inputs)).transpose()?,
             resolution,
             surfaces: names.par_iter().enumerate().map(surface).collect(),
             rows,
@@ -109,19 +137,49 @@ impl LotPart {
 
 impl Truth {
     /// Reads what is known of some scans.
-    fn read(path: &Path, inputs: &[PathBuf]) -> Result<Self, LotError> {
+    fn read(path: &Path, paths: &[String]) -> Result<Self, LotError> {
         let (columns, rows) = table(path)?;
-        let of = |input: &PathBuf| {
+        let of = |input: &String| {
             let is_of = |row: &&Vec<String>| {
                 let name = row.first().map(Path::new).and_then(Path::file_name);
-                name.is_some() && name == input.file_name()
+                name.is_some() && name == Path::new(input).file_name()
             };
             rows.iter().find(is_of).cloned()
         };
         Ok(Self {
-            rows: inputs.iter().map(of).collect(),
+            rows: paths.iter().map(of).collect(),
             columns,
         })
+    }
+
+    /// Whether it tells anything of grains and of measures of them.
+    fn check(
+        &self,
+        truth: &Path,
+        folder: &Path,
+        paths: &[String],
+        columns: &[String],
+    ) -> Result<(), LotError> {
+        let (truth, folder) = (truth.to_path_buf(), folder.to_path_buf());
+        let measures = crate::batch::measures(columns);
+        if !self.columns.iter().any(|own| measures.contains(own)) {
+            let measures = measures.into_iter().take(MOST_NAMED).collect();
+            return Err(LotError::NoMeasure {
+                folder,
+                truth,
+                measures,
+            });
+        }
+        if self.rows.iter().all(Option::is_none) {
+            let name = paths.first().map(Path::new).and_then(Path::file_name);
+            let example = name.unwrap_or_default().to_string_lossy().into_owned();
+            return Err(LotError::NoGrain {
+                folder,
+                truth,
+                example,
+            });
+        }
+        Ok(())
     }
 }
 

@@ -77,7 +77,7 @@ impl SplitReport {
         let touching = grains.iter().filter(|grain| grain.may_touch);
         let warnings = touching.map(|grain| {
             format!(
-                "{} may be several grains that touch: it has a waist, but no neck to cut.",
+                "{} may be several grains that touch, or is bent: no neck was found to cut it at.",
                 grain.file
             )
         });

@@ -33,6 +33,8 @@ pub(crate) use split::has_neck;
 pub use split::{Plane, Split, SplitGrain, split, split_labels};
 pub use topology::Topology;
 pub(crate) use topology::each_edge;
+#[cfg(feature = "cli")]
+pub(crate) use volume::Extent;
 pub use volume::{Volume, VolumeError, parse_volume};
 
 /// The points of a scan, in f64, in the file's own frame and unit, and the triangles between them.

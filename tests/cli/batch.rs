@@ -217,6 +217,55 @@ fn what_was_changed_is_done_again_and_nothing_else() {
 }
 
 #[test]
+fn a_model_that_was_damaged_is_made_again() {
+    let folder = lot(1);
+    let words = batch(&["lot", "-o", "r", "--models", "--meshes"]);
+    succeed(&folder, &words);
+    for file in ["r/models/00.json", "r/meshes/00.ply"] {
+        let path = folder.path().join(file);
+        let whole = std::fs::read(&path).unwrap();
+        std::fs::write(&path, "xx").unwrap();
+        succeed(&folder, &words);
+        assert!(std::fs::read(&path).unwrap() == whole, "{file}");
+    }
+}
+
+#[test]
+fn results_cannot_go_into_a_file_and_the_reason_is_told_once() {
+    let folder = lot(1);
+    std::fs::write(folder.path().join("r"), "").unwrap();
+    let told = errors(&grainform(&folder, &batch(&["lot", "-o", "r"])));
+    assert!(
+        told.starts_with("error: cannot make the folder r: "),
+        "{told}"
+    );
+    assert_eq!(told.matches("os error").count(), 1, "{told}");
+}
+
+#[cfg(unix)]
+#[test]
+fn folders_are_looked_into_and_a_dangling_link_is_told() {
+    let folder = lot(1);
+    let path = |name: &str| folder.path().join(name);
+    std::fs::create_dir(path("lot/nested")).unwrap();
+    std::fs::rename(path("lot/00.xyz"), path("lot/nested/00.xyz")).unwrap();
+    std::os::unix::fs::symlink("..", path("lot/nested/loop")).unwrap();
+    std::os::unix::fs::symlink("nowhere", path("lot/gone.ply")).unwrap();
+    for named in ["lot", "lot/**/*.[px][ly]?"] {
+        let output = grainform(&folder, &batch(&[named, "-o", "lot/r", "--meshes"]));
+        assert_eq!(output.status.code(), Some(1));
+        let rows = rows(&path("lot/r/results.csv"));
+        let told: Vec<[&str; 2]> = rows
+            .iter()
+            .map(|row| [row["path"].as_str(), row["status"].as_str()])
+            .collect();
+        let expected = [["lot/gone.ply", "failed"], ["lot/nested/00.xyz", "ok"]];
+        assert_eq!(told, expected, "{named}");
+        assert!(rows[0]["reason"].contains("cannot read the file lot/gone.ply"));
+    }
+}
+
+#[test]
 fn a_second_batch_on_the_same_folder_refuses() {
     let folder = lot(1);
     std::fs::create_dir(folder.path().join("r")).unwrap();

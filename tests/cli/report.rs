@@ -221,6 +221,45 @@ fn a_browser_shows_it_all_without_an_error() {
 }
 
 #[test]
+fn a_truth_that_tells_nothing_of_the_results_is_refused() {
+    let folder = folder();
+    fs::create_dir(folder.path().join("lot")).unwrap();
+    let table = "path,status,degree,area,area_se,volume\na/one.ply,ok,3,2.5,0.1,7\n";
+    fs::write(folder.path().join("lot/results.csv"), table).unwrap();
+    let told = |truth: &str| {
+        fs::write(folder.path().join("truth.csv"), truth).unwrap();
+        let words = ["report", "lot", "--truth", "truth.csv", "-o", "r.html"];
+        let output = grainform(&folder, &words);
+        (output.status.code(), errors(&output))
+    };
+    let (code, message) = told("file,mesh_area\none.ply,2.4\n");
+    assert_eq!(code, Some(2));
+    assert!(
+        message.ends_with("as these are: area, volume\n"),
+        "{message}"
+    );
+    let (code, message) = told("file,area\nanother.ply,2.4\n");
+    assert_eq!(code, Some(2));
+    assert!(message.contains("such as one.ply"), "{message}");
+    assert_eq!(told("file,mesh_area,area\none.ply,2.4,2.4\n").0, Some(0));
+}
+
+#[test]
+fn a_page_of_positions_tells_why_and_names_their_ball() {
+    let folder = folder();
+    succeed(&folder, &["synth", "banana", "-o", "banana.ply"]);
+    succeed(&folder, &["report", "banana.ply", "-o", "r.html"]);
+    let page = fs::read_to_string(folder.path().join("r.html")).unwrap();
+    assert!(
+        page.contains("[\"surface\",\"position, "),
+        "the rule is told"
+    );
+    assert!(page.contains("radius of the ball of equal volume"));
+    assert!(!page.contains("mean radius\","), "there is none");
+    assert!(page.contains("X_u × X_v"));
+}
+
+#[test]
 fn a_truth_without_results_is_refused() {
     let folder = folder();
     succeed(

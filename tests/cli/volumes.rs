@@ -61,3 +61,72 @@ fn a_label_is_fitted_with_its_volume_and_split_writes_all() {
     ));
     assert!(refused.contains("leave --label out"), "{refused}");
 }
+
+#[test]
+fn a_batch_has_a_row_for_each_label_of_an_image() {
+    let folder = folder();
+    balls(&folder.path().join("ct.nrrd"));
+    let words = |output: &'static str, jobs: &'static str| {
+        let only = ["--only", "area,volume", "--models", "--meshes"];
+        [
+            &["batch", "ct.nrrd", "-o", output, "--jobs", jobs][..],
+            &only,
+        ]
+        .concat()
+    };
+    succeed(&folder, &words("one", "1"));
+    succeed(&folder, &words("three", "3"));
+    let read = |name: &str| std::fs::read(folder.path().join(name)).unwrap();
+    for name in ["results.csv", "results.parquet", "summary.json"] {
+        let [one, three] = ["one", "three"].map(|output| read(&format!("{output}/{name}")));
+        assert!(one == three, "{name}");
+    }
+    let mut reader = csv::Reader::from_path(folder.path().join("one/results.csv")).unwrap();
+    let rows: Vec<std::collections::BTreeMap<String, String>> =
+        reader.deserialize().map(|row| row.unwrap()).collect();
+    assert_eq!(rows.len(), 2);
+    let hash = blake3::hash(&read("ct.nrrd")).to_hex().to_string();
+    for (row, label) in rows.iter().zip(["4", "9"]) {
+        assert_eq!(row["path"], format!("ct.nrrd#{label}"));
+        assert_eq!(row["hash"], hash);
+        let words = ["fit", "ct.nrrd", "--label", label];
+        let fitted = number(&json(&folder, &words), "volume");
+        assert_eq!(row["volume"].parse().ok(), Some(fitted), "{label}");
+    }
+    assert_eq!(
+        names(&folder.path().join("one/models")),
+        ["ct#4.json", "ct#9.json"]
+    );
+    assert_eq!(
+        names(&folder.path().join("one/meshes")),
+        ["ct#4.ply", "ct#9.ply"]
+    );
+    let again = grainform(&folder, &words("one", "2"));
+    assert!(errors(&again).contains("2 of 2 rows are those of an earlier run"));
+    std::fs::write(
+        folder.path().join("truth.csv"),
+        "file,volume\nct.nrrd#9,523.6\n",
+    )
+    .unwrap();
+    succeed(
+        &folder,
+        &["report", "one", "--truth", "truth.csv", "-o", "one.html"],
+    );
+}
+
+#[test]
+fn a_speck_of_an_image_is_dust() {
+    let folder = folder();
+    let path = folder.path().join("ct.nrrd");
+    balls(&path);
+    let mut bytes = std::fs::read(&path).unwrap();
+    let last = bytes.len() - 2000;
+    bytes[last] = 77;
+    std::fs::write(&path, bytes).unwrap();
+    let report = json(&folder, &["split", "ct.nrrd", "-o", "grains"]);
+    assert_eq!(report["grains"].as_array().unwrap().len(), 2);
+    assert_eq!(
+        (&report["dust"], &report["dust_points"]),
+        (&1.into(), &6.into())
+    );
+}

@@ -9,7 +9,7 @@ use std::path::PathBuf;
 
 /// Split a scan of many grains into a file for each
 ///
-/// Of a mesh, a grain is what shares no point with the rest. Of a cloud, the plane that grains lie on is left out, and
+/// Of a mesh, a grain is what shares no point with the rest, with its hollows. Of a cloud, the plane that grains lie on is left out, and
 /// a grain is what hangs together by the distances between its points; grains that touch are cut apart at their neck.
 /// Of a segmented volume, a grain is what has a label. What is too small for a grain is dust. Files are numbered by where the grains lie, and keep the frame of the scan.
 #[derive(Args)]
@@ -43,10 +43,12 @@ pub(in crate::cli) struct SplitArgs {
 ///
 /// Writes results.csv and results.parquet (the same rows), summary.json and seconds.csv. A run that was stopped goes on
 /// where it was when it is started again: what an earlier run found for the same scan and the same settings is kept, in
-/// journal.jsonl. A scan that cannot be fitted is told with its reason and stops nothing.
+/// journal.jsonl. A scan that cannot be fitted is told with its reason and stops nothing. Of a segmented volume each label
+/// is a row, such as ct.nrrd#3.
 #[derive(Args)]
 pub(in crate::cli) struct BatchArgs {
-    /// Scans; folders of scans; patterns in quotes, such as 'lot*/*.ply'; or @list.txt, a path per line
+    /// Scans; folders of scans, also within each other; patterns in quotes, such as 'lot*/*.ply'; or @list.txt, a path
+    /// per line
     #[arg(value_name = "PATH", required = true)]
     pub(in crate::cli) paths: Vec<PathBuf>,
 

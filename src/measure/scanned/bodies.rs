@@ -2,9 +2,8 @@
 
 use super::{FacesDefect, Fill, ScannedBody};
 use crate::measure::crossings::clear_crossings;
-use crate::measure::winding::winding_number;
 use crate::measure::{SelfCrossing, self_crossing};
-use crate::mesh::{Mesh, part, parts};
+use crate::mesh::{Mesh, part, parts, winding_number};
 use nalgebra::{Point3, Vector3};
 
 /// Places in a part by which it is told whether they are inside of another.

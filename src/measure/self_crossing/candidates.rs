@@ -4,9 +4,7 @@
 //! point than towards it. Where two triangles cross, nearby directions meet both of them, and so a third one, and one of
 //! these faces the point. So only triangles in the directions of those that face it can cross any: of most grains a few.
 
-use crate::Mesh;
-use crate::measure::winding::winding_number;
-use crate::mesh::{Bounds, BoundsTree};
+use crate::mesh::{Bounds, BoundsTree, Mesh, winding_number};
 use crate::predicates::orient3d;
 use nalgebra::Point3;
 

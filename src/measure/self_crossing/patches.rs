@@ -5,9 +5,8 @@
 //! what is counted twice, or the wrong way round. The triangles that cross are false in part.
 
 use super::{SelfCrossing, cone};
-use crate::Mesh;
 use crate::disjoint_sets::DisjointSets;
-use crate::measure::winding::winding_number;
+use crate::mesh::{Mesh, winding_number};
 use crate::scan::each_edge;
 use nalgebra::{Point3, Vector3};
 use std::cmp::Reverse;

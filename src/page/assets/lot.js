@@ -36,7 +36,13 @@ function normalQuantile(share) {
 // Bias and spread of what has a truth, and whether standard errors are as large as errors.
 function truthPart(lot, all, number, nameOf) {
   const { columns, rows } = lot.truth;
-  const measures = columns.filter((name) => lot.columns.includes(name) && name !== 'path');
+  const measures = columns.slice(1).filter((name) => lot.columns.includes(name) && name !== 'path');
+  const others = columns.slice(1).filter((name) => !measures.includes(name));
+  const missing = rows.filter((row) => !row).length;
+  const notes = [
+    others.length ? `No measure is called as these columns: ${others.join(', ')}.` : '',
+    missing ? `Of ${missing} of ${rows.length} scans no truth is known.` : '',
+  ].filter(Boolean);
   const found = measures.map((name) => {
     const known = all.map((row) => {
       const cell = rows[row] ? rows[row][columns.indexOf(name)] : '';
@@ -57,6 +63,7 @@ function truthPart(lot, all, number, nameOf) {
     x: normalQuantile((at + 0.5) / scaled.length), y: z, series, label: nameOf(row),
   })));
   return el('div', {}, el('table', {}, el('thead', {}, el('tr', {}, heads)), el('tbody', {}, found.map((one) => el('tr', {}, cells(one))))),
+    notes.length ? el('p', { class: 'note' }, notes.join(' ')) : [],
     points.length ? scatter({
       title: 'Calibration of standard errors', xTitle: 'quantile of the normal distribution', yTitle: 'error / standard error',
       points, within: [-2, 2], guides: [[-2, -2, 2, 2]], series: found.map(({ name }) => name),

@@ -1,9 +1,12 @@
 //! A scan that holds many grains, as one scan for each.
 //!
-//! Of a mesh, a grain is what shares no point with the rest. Of a cloud, the plane that grains lie on is taken away,
+//! Of a mesh, a grain is what shares no point with the rest, its hollows included. Of a cloud, the plane that grains lie on is taken away,
 //! and a grain is what hangs together by distances that the cloud itself tells; grains that touch are cut apart at
 //! their neck. What is too small for a grain is dust. Every grain keeps the frame of the scan.
 
+mod bodies;
+mod cut;
+mod dust;
 mod links;
 mod neck;
 mod outline;
@@ -13,21 +16,14 @@ pub use plane::Plane;
 
 use super::drawn::{by_coordinates, drawn};
 use super::{ParseError, Scan, Volume, VolumeError};
-use crate::mesh::{Mesh, part, parts};
+use bodies::bodies;
+use cut::{Clump, cut};
+use dust::{LEAST_POINTS, without_dust};
 use links::Links;
 use nalgebra::Point3;
 use neck::Neck;
 use rayon::prelude::*;
 use std::cmp::Ordering;
-
-/// Points of the smallest grain ...
-const LEAST_POINTS: usize = 30;
-
-/// ... and its share of a grain in which the middle one of all points lies; less is dust.
-const LEAST_SHARE: f64 = 0.02;
-
-/// Cuts of one clump, at most so many one after the other.
-const MOST_CUTS: usize = 12;
 
 /// The grains of a scan, and what else there was.
 #[derive(Debug, Clone, PartialEq)]
@@ -42,7 +38,7 @@ pub struct Split {
     pub plane: Option<Plane>,
     /// Points on the plane, and beyond it.
     pub plane_points: usize,
-    /// Clumps, or parts of a mesh, too small for a grain.
+    /// Clumps, bodies of a mesh, or labels that are too small for a grain.
     pub dust: usize,
     /// Points of these.
     pub dust_points: usize,
@@ -60,7 +56,7 @@ pub struct SplitGrain {
     pub indices: Vec<u32>,
     /// Its label in a segmented volume.
     pub label: Option<i64>,
-    /// Whether it may be several that touch: it has a waist, but no neck.
+    /// Whether it may be several that touch, though no neck was found: it has a waist, or is not convex by far.
     pub may_touch: bool,
 }
 
@@ -96,46 +92,44 @@ pub(crate) fn has_neck(points: &[Point3<f64>]) -> bool {
 /// # Errors
 /// [`VolumeError`] where there is no label, or the values are none.
 pub fn split_labels(volume: &Volume) -> Result<Split, VolumeError> {
-    let grain = |(label, scan)| SplitGrain {
-        scan,
-        indices: Vec::new(),
-        label: Some(label),
-        may_touch: false,
-    };
-    Ok(Split {
-        grains: volume.scans()?.into_iter().map(grain).collect(),
-        distance: None,
-        plane: None,
-        plane_points: 0,
-        dust: 0,
-        dust_points: 0,
-        cuts: 0,
-    })
+    let scans = volume.scans()?.into_iter();
+    let scans = scans.map(|(label, scan)| (Some(label), scan));
+    Ok(without_small(scans))
 }
 
 fn split_faces(scan: &Scan) -> Split {
-    let mesh = scan.welded();
-    let (grains, dust): (Vec<Mesh>, Vec<Mesh>) = without_dust(
-        parts(&mesh).iter().map(|triangles| part(&mesh, triangles)),
-        |part| part.vertices.len(),
-    );
+    let bodies = bodies(&scan.welded()).into_iter();
+    without_small(bodies.map(|body| (None, Scan::from_part(body))))
+}
+
+/// The bodies but for those whose area is that of dust.
+fn without_small(bodies: impl Iterator<Item = (Option<i64>, Scan)>) -> Split {
+    let (grains, dust) = without_dust(bodies, 0.0, |(_, body)| area(body));
     Split {
         distance: None,
         plane: None,
         plane_points: 0,
         dust: dust.len(),
-        dust_points: dust.iter().map(|part| part.vertices.len()).sum(),
+        dust_points: dust.iter().map(|(_, body)| body.points.len()).sum(),
         cuts: 0,
         grains: grains
             .into_iter()
-            .map(|mesh| SplitGrain {
-                scan: Scan::from_part(mesh),
+            .map(|(label, scan)| SplitGrain {
+                scan,
                 indices: Vec::new(),
-                label: None,
+                label,
                 may_touch: false,
             })
             .collect(),
     }
+}
+
+fn area(body: &Scan) -> f64 {
+    let area = |corners: &[u32; 3]| {
+        let [a, b, c] = corners.map(|corner| body.points[corner as usize]);
+        (b - a).cross(&(c - a)).norm() / 2.0
+    };
+    body.triangles.iter().map(area).sum()
 }
 
 fn split_points(all: &[Point3<f64>]) -> Split {
@@ -155,7 +149,9 @@ fn split_points(all: &[Point3<f64>]) -> Split {
     let links = Links::new(&places);
     let distance = links.as_ref().map(|links| links.distance);
     let clumps = links.map_or_else(Vec::new, |links| links.clumps());
-    let (clumps, dust) = without_dust(clumps.into_iter(), Vec::len);
+    let (clumps, dust) = without_dust(clumps.into_iter(), LEAST_POINTS as f64, |clump| {
+        clump.len() as f64
+    });
     let cut: Vec<Vec<Clump>> = clumps
         .into_par_iter()
         .map(|clump| cut(&places, clump, distance.unwrap_or(0.0)))
@@ -219,66 +215,6 @@ fn split_points(all: &[Point3<f64>]) -> Split {
             })
             .collect(),
     }
-}
-
-/// Points that hang together.
-struct Clump {
-    points: Vec<u32>,
-    may_touch: bool,
-}
-
-/// Cuts a clump at its necks, one after the other.
-fn cut(places: &[Point3<f64>], clump: Vec<u32>, distance: f64) -> Vec<Clump> {
-    let mut whole = Vec::new();
-    let mut left = vec![clump];
-    while let Some(points) = left.pop() {
-        let own: Vec<Point3<f64>> = points.iter().map(|&i| places[i as usize]).collect();
-        let neck = Neck::find(&own, distance).filter(Neck::is_waist);
-        let may_touch = neck.is_some();
-        let is_last = whole.len() + left.len() >= MOST_CUTS;
-        let sides = neck
-            .filter(|_| !is_last)
-            .and_then(|neck| neck.cut(&own))
-            .map(|beyond| sides(&points, &beyond))
-            .filter(|sides| sides.iter().all(|side| side.len() >= LEAST_POINTS));
-        match sides {
-            Some(sides) => left.extend(sides),
-            None => whole.push(Clump { points, may_touch }),
-        }
-    }
-    whole
-}
-
-/// The points before and beyond a neck.
-fn sides(points: &[u32], beyond: &[bool]) -> [Vec<u32>; 2] {
-    [false, true].map(|side| {
-        let own = points
-            .iter()
-            .zip(beyond)
-            .filter(|(_, other)| **other == side);
-        own.map(|(point, _)| *point).collect()
-    })
-}
-
-/// What is large enough for a grain, and the rest.
-fn without_dust<T>(all: impl Iterator<Item = T>, size: impl Fn(&T) -> usize) -> (Vec<T>, Vec<T>) {
-    let (large, mut dust): (Vec<T>, Vec<T>) = all.partition(|one| size(one) >= LEAST_POINTS);
-    let mut sizes: Vec<usize> = large.iter().map(&size).collect();
-    sizes.sort_unstable();
-    let half = sizes.iter().sum::<usize>() / 2;
-    let typical = sizes.iter().scan(0, |sum, size| {
-        *sum += size;
-        Some((*sum, *size))
-    });
-    let typical = typical
-        .filter(|(sum, _)| *sum >= half)
-        .map(|(_, size)| size)
-        .next();
-    let least = LEAST_SHARE * typical.unwrap_or(0) as f64;
-    let (large, small): (Vec<T>, Vec<T>) =
-        large.into_iter().partition(|one| size(one) as f64 >= least);
-    dust.extend(small);
-    (large, dust)
 }
 
 /// Positions of the points, by their places.

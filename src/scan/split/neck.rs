@@ -3,6 +3,7 @@
 //! Seen along any axis, the sections of a convex body grow and then shrink (Brunn and Minkowski). Between two grains
 //! that touch there is a section much smaller than those on both sides: the neck.
 
+use super::dust::LEAST_POINTS;
 use super::outline::Outline;
 use super::plane::across;
 use crate::sphere::compass;
@@ -156,6 +157,49 @@ impl Neck {
             }
         }
         sides
+    }
+}
+
+/// Gives each point beside one of the necks to the grain whose outline it is nearest to.
+pub(super) fn settle(places: &[Point3<f64>], grains: &mut [Vec<u32>], necks: &[Neck]) {
+    let place = |&index: &u32| places[index as usize];
+    let is_beside = |point: &Point3<f64>| {
+        let mut necks = necks.iter();
+        necks.any(|neck| (neck.axis.dot(&point.coords) - neck.at).abs() < BESIDE * neck.radius)
+    };
+    for _ in 0..ROUNDS {
+        let outlines = grains.iter().map(|grain| {
+            let own: Vec<Point3<f64>> = grain.iter().map(place).collect();
+            Outline::through(&own)
+        });
+        let Some(outlines) = outlines.collect::<Option<Vec<_>>>() else {
+            return;
+        };
+        let nearest = |point: &Point3<f64>, own: usize| {
+            let others = (0..outlines.len()).filter(|_| is_beside(point));
+            let nearest = others.min_by(|&one, &other| {
+                let distance = |at: usize| outlines[at].distance(point);
+                distance(one).total_cmp(&distance(other))
+            });
+            nearest.unwrap_or(own)
+        };
+        let mut settled = vec![Vec::new(); grains.len()];
+        for (own, grain) in grains.iter().enumerate() {
+            for index in grain {
+                settled[nearest(&place(index), own)].push(*index);
+            }
+        }
+        for grain in &mut settled {
+            grain.sort_unstable();
+        }
+        let is_same = settled == grains;
+        if settled.iter().any(|grain| grain.len() < LEAST_POINTS) {
+            return;
+        }
+        grains.clone_from_slice(&settled);
+        if is_same {
+            return;
+        }
     }
 }
 

@@ -88,6 +88,20 @@ impl Outline {
         (1.0 - radius / ray.norm()).abs() * (point - self.middle).norm()
     }
 
+    /// RMS distance of points from the outline through them, over its radius; zero where they have none.
+    pub(super) fn misses(points: &[Point3<f64>]) -> f64 {
+        let step = points.len().div_ceil(MOST_POINTS).max(1);
+        let Some(outline) = Self::through(points) else {
+            return 0.0;
+        };
+        let (mut squares, mut radii) = (0.0, 0.0);
+        for point in points.iter().step_by(step) {
+            squares += outline.distance(point).powi(2);
+            radii += (point - outline.middle).norm_squared();
+        }
+        (squares / radii).sqrt()
+    }
+
     fn ray(&self, point: &Point3<f64>) -> Vector3<f64> {
         self.unstretch * (point - self.middle)
     }

@@ -2,7 +2,8 @@
 //!
 //! It is looked for by planes through three points each (Fischler and Bolles 1981): that on which most points lie, of
 //! those that have nothing on one side. A flat face of a body is one too; but what lies opposite covers it, and a tray
-//! goes on beside its grains.
+//! goes on beside its grains. The plane's noise is told by the points below it: those above may be of grains. What is
+//! not thin beside the grains is no plane, but a layer of them.
 
 use super::links::{nearest, nearest_distance};
 use crate::polygon_hull::polygon_hull;
@@ -16,8 +17,11 @@ use rayon::prelude::*;
 /// Points by which planes are compared.
 const MOST_COMPARED: usize = 1500;
 
-/// Planes that are tried: of points of which a tenth lies on a plane, three do in one of a thousand.
-const TRIALS: usize = 4000;
+/// Planes that are tried: of points of which a twentieth lies on a plane, three do in one of eight thousand.
+const TRIALS: usize = 30_000;
+
+/// Points by which the plane that was found and its noise are told.
+const MOST_REFINED: usize = 50_000;
 
 /// Share of the points that lie on the plane at least.
 const LEAST_SHARE: f64 = 0.05;
@@ -34,6 +38,15 @@ const DEVIATIONS: f64 = 5.0;
 /// ... between these shares of the size: rounding to 32 bits far from the origin, and what is no plane.
 const LEAST_REACH: f64 = 1e-6;
 const LARGEST_REACH: f64 = 0.02;
+
+/// The plane is laid through the points within so many standard deviations: few of these are of grains.
+const CORE: f64 = 2.0;
+
+/// Its reach over the height of what stands on it, or over the distance between its points, at most.
+const THIN: f64 = 0.25;
+
+/// The height of what stands on it is exceeded by so few of the points.
+const STRAYS: f64 = 1e-3;
 
 /// Rounds in which plane and noise are told from what lies on the plane.
 const ROUNDS: usize = 12;
@@ -68,10 +81,13 @@ impl Plane {
         let drawn: Vec<Point3<f64>> = points.iter().step_by(step).copied().collect();
         let size = size(points)?;
         let tried = Self::most_met(&drawn, FIRST_REACH * size)?;
-        let plane = tried.refined(points, size)?;
+        let step = points.len().div_ceil(MOST_REFINED);
+        let drawn: Vec<Point3<f64>> = points.iter().step_by(step).copied().collect();
+        let plane = tried.refined(&drawn, size)?;
         let on = points.iter().filter(|point| plane.carries(point)).count();
         let is_tray = on as f64 >= LEAST_SHARE * points.len() as f64
             && plane.is_clear_below(points)
+            && plane.is_thin(points, on)
             && plane.is_bare(points, on);
         is_tray.then_some(plane)
     }
@@ -137,23 +153,52 @@ impl Plane {
 
     /// The plane through the points that it carries, and how far these scatter about it.
     fn refined(mut self, points: &[Point3<f64>], size: f64) -> Option<Self> {
+        let mut core = self.reach;
         for _ in 0..ROUNDS {
-            let on: Vec<&Point3<f64>> = points.iter().filter(|point| self.carries(point)).collect();
-            if on.len() < 3 {
+            let near = points
+                .iter()
+                .filter(|point| self.height(point).abs() < core);
+            let near: Vec<&Point3<f64>> = near.collect();
+            if near.len() < 3 {
                 return None;
             }
             let from = self.point;
-            let (shift, moments) = covariance(on.iter().map(|point| *point - from));
+            let (shift, moments) = covariance(near.iter().map(|point| *point - from));
             let axes = moments.symmetric_eigen();
             let least = axes.eigenvalues.imin();
             let normal = Unit::try_new(axes.eigenvectors.column(least).into_owned(), 0.0)?;
             let is_turned = normal.dot(&self.normal) < 0.0;
             self.normal = if is_turned { -normal } else { normal };
             self.point = from + shift;
-            let reach = DEVIATIONS * robust_deviation(on.iter().map(|point| self.height(point)));
+            let heights = points.iter().map(|point| self.height(point));
+            let below = heights.filter(|height| (-self.reach..0.0).contains(height));
+            let reach = DEVIATIONS * robust_deviation(below);
             self.reach = reach.clamp(LEAST_REACH * size, LARGEST_REACH * size);
+            core = CORE / DEVIATIONS * self.reach;
         }
         Some(self)
+    }
+
+    /// Whether the points that the plane carries are a sheet: one beside the grains, or beside the distance of its own.
+    fn is_thin(&self, points: &[Point3<f64>], on: usize) -> bool {
+        let mut heights: Vec<f64> = points.iter().map(|point| self.height(point)).collect();
+        let at = ((1.0 - STRAYS) * (heights.len() - 1) as f64) as usize;
+        let (_, highest, _) = heights.select_nth_unstable_by(at, f64::total_cmp);
+        self.reach < THIN * highest.max(self.spacing(points, on))
+    }
+
+    /// About how far the points on the plane are apart.
+    fn spacing(&self, points: &[Point3<f64>], on: usize) -> f64 {
+        let carried = points.iter().filter(|point| self.carries(point));
+        let places: Vec<[f64; 2]> = carried.map(|point| self.seen(point)).collect();
+        let sides = [0, 1].map(|axis| {
+            let places = places.iter().map(|place| place[axis]);
+            let (low, high) = places.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
+                (low.min(x), high.max(x))
+            });
+            high - low
+        });
+        (sides[0] * sides[1] / on as f64).sqrt()
     }
 
     /// Whether much of the plane has nothing above it: a face of a body has.
@@ -170,14 +215,7 @@ impl Plane {
             .map(|point| self.seen(point))
             .collect();
         let Some(tree) = tree(above) else { return true };
-        let sides = [0, 1].map(|axis| {
-            let places = carried.iter().map(|place| place[axis]);
-            let (low, high) = places.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
-                (low.min(x), high.max(x))
-            });
-            high - low
-        });
-        let spacing = (sides[0] * sides[1] / on as f64).sqrt();
+        let spacing = self.spacing(points, on);
         let is_bare = |place: &&[f64; 2]| nearest_distance(&tree, place) > BARE * spacing;
         let bare = carried.iter().filter(is_bare).count();
         bare as f64 > LEAST_BARE * carried.len() as f64

@@ -1,4 +1,5 @@
 use super::*;
+use crate::mesh::Mesh;
 use crate::shapes::{
     Body, Origin, Sampling, SynthOptions, SyntheticTray, TrayOptions, synthesize, synthesize_tray,
 };
@@ -69,6 +70,73 @@ fn a_tray_that_is_moved_turned_scaled_and_shuffled_has_the_same_grains() {
             "grain {own}: {kept}, {foreign}"
         );
     }
+}
+
+/// The points of a tray of which so much of the table is left, turned and bent; and what they were taken from.
+fn changed(tray: &SyntheticTray, table: f64, tilt: f64, bow: f64) -> SyntheticTray {
+    let turn = Rotation3::from_euler_angles(tilt, 0.0, -tilt);
+    let farthest = tray.points.iter().map(|point| point.coords.norm());
+    let farthest = farthest.fold(0.0, f64::max);
+    let kept = (0..).zip(tray.points.iter().zip(&tray.origins));
+    let kept = kept.filter(|(i, (_, origin))| match origin {
+        Origin::Plane => f64::from(i % 100) < 100.0 * table,
+        _ => true,
+    });
+    let bent = |point: &Point3<f64>| {
+        let share = point.coords.norm() / farthest;
+        turn * (point + Vector3::z() * (bow * share * share))
+    };
+    let (points, origins) = kept.map(|(_, (p, &origin))| (bent(p), origin)).unzip();
+    SyntheticTray {
+        points,
+        origins,
+        touching: tray.touching.clone(),
+    }
+}
+
+#[test]
+fn grains_are_found_on_any_share_of_a_table_and_without_one() {
+    for (seed, noise, table, tilt, bow) in [
+        (1, 0.0, 0.0, 0.0, 0.0),
+        (2, 0.002, 0.0, 0.7, 0.0),
+        (3, 0.01, 0.0, 0.0, 0.0),
+        (4, 0.0, 0.1, 0.7, 0.0),
+        (5, 0.002, 0.1, 0.0, 0.0),
+        (6, 0.01, 0.1, 1.5, 0.0),
+        (7, 0.0, 0.4, 0.0, 0.5),
+        (8, 0.002, 0.4, 0.7, 0.0),
+        (9, 0.01, 1.0, 3.0, 0.0),
+        (10, 0.002, 1.0, 0.0, 0.5),
+    ] {
+        let case = format!("seed {seed}, noise {noise}, table {table}, tilt {tilt}, bow {bow}");
+        let options = TrayOptions::clean(12).with_noise(noise).with_seed(seed);
+        let tray = changed(&synthesize_tray(&options).unwrap(), table, tilt, bow);
+        let found = split(&Scan::from_points(tray.points.clone())).unwrap();
+        assert_eq!(found.plane.is_some(), table > 0.0, "{case}");
+        assert_eq!(found.grains.len(), 12, "{case}");
+        for grain in &found.grains {
+            let (_, kept, foreign) = judged(grain, &tray);
+            let least = if bow > 0.0 { 0.95 } else { 0.98 };
+            assert!(
+                kept >= least && foreign <= 0.02,
+                "{case}: {kept}, {foreign}"
+            );
+        }
+        let of_plane = |origin: &&Origin| **origin == Origin::Plane;
+        let table = tray.origins.iter().filter(of_plane).count();
+        assert!(found.plane_points * 50 <= table * 51, "{case}");
+    }
+}
+
+#[test]
+fn a_table_with_nothing_on_it_has_no_grain() {
+    let mut tray = tray();
+    let mut origins = tray.origins.iter();
+    tray.points
+        .retain(|_| origins.next() == Some(&Origin::Plane));
+    let found = split(&Scan::from_points(tray.points.clone())).unwrap();
+    assert_eq!(found.plane_points, tray.points.len());
+    assert!(found.grains.is_empty());
 }
 
 #[test]
@@ -144,4 +212,90 @@ fn a_cloud_of_two_grains_that_touch_has_a_neck_and_one_grain_has_none() {
         points.extend(grain(Body::Bean).iter().map(|point| point + aside));
         assert!(has_neck(&points), "{aside}");
     }
+}
+
+/// Balls of some radii about places on a line, each wound inwards where its radius is negative.
+fn balls(balls: &[(f64, f64)]) -> Mesh {
+    let mut mesh = Mesh::default();
+    for &(x, radius) in balls {
+        let ball = Mesh::radial(8, |_| radius.abs());
+        let first = mesh.vertices.len() as u32;
+        mesh.vertices
+            .extend(ball.vertices.iter().map(|v| v + Vector3::x() * x));
+        mesh.triangles.extend(ball.triangles.iter().map(|corners| {
+            let [a, b, c] = corners.map(|i| i + first);
+            if radius > 0.0 { [a, b, c] } else { [a, c, b] }
+        }));
+    }
+    mesh
+}
+
+#[test]
+fn a_hollow_is_of_the_body_round_it_and_a_body_in_the_hollow_is_another() {
+    let mesh = balls(&[(0.0, -3.0), (0.0, 4.0), (9.0, 4.0), (0.0, 2.0), (0.0, -1.0)]);
+    let found = split(&Scan::from_mesh(mesh).unwrap()).unwrap();
+    let volume = |scan: &Scan| scan.topology().unwrap().volume;
+    let unit = volume(&Scan::from_mesh(Mesh::radial(8, |_| 1.0)).unwrap());
+    let grains = found.grains.iter();
+    let mut volumes: Vec<f64> = grains.map(|grain| volume(&grain.scan) / unit).collect();
+    volumes.sort_by(f64::total_cmp);
+    let expected = [8.0 - 1.0, 64.0 - 27.0, 64.0];
+    assert_eq!(volumes.len(), 3);
+    for (found, expected) in volumes.iter().zip(expected) {
+        assert!((found - expected).abs() < 1e-9, "{volumes:?}");
+    }
+}
+
+#[test]
+fn a_small_body_of_a_mesh_is_dust_however_many_points_it_has() {
+    let mesh = balls(&[(0.0, 4.0), (9.0, 4.0), (18.0, 0.08), (27.0, 1.0)]);
+    let speck = Mesh::radial(8, |_| 1.0).vertices.len();
+    let found = split(&Scan::from_mesh(mesh).unwrap()).unwrap();
+    assert_eq!(
+        (found.grains.len(), found.dust, found.dust_points),
+        (3, 1, speck)
+    );
+}
+
+/// Points of balls of radius 3 about some places, 4000 of each.
+fn touching(middles: &[[f64; 3]]) -> Vec<Point3<f64>> {
+    let options = SynthOptions {
+        points: 4000,
+        ..SynthOptions::clean(Body::Sphere).with_sampling(Sampling::Random)
+    };
+    let ball = synthesize(&options).unwrap().points;
+    let radius = ball[0].coords.norm();
+    let middles = middles.iter().copied().map(Vector3::from);
+    middles
+        .flat_map(|middle| ball.iter().map(move |p| p * (3.0 / radius) + middle))
+        .collect()
+}
+
+#[test]
+fn a_row_of_balls_that_touch_is_cut_into_them() {
+    let points = touching(&[[0.0; 3], [5.95, 0.0, 0.0], [11.9, 0.0, 0.0]]);
+    let of_each = points.len() / 3;
+    let found = split(&Scan::from_points(points)).unwrap();
+    assert_eq!((found.grains.len(), found.cuts), (3, 2));
+    for (own, grain) in found.grains.iter().enumerate() {
+        let indices = grain.indices.iter();
+        let kept = indices.filter(|&&i| i as usize / of_each == own).count();
+        let foreign = grain.indices.len() - kept;
+        assert!(kept * 100 >= of_each * 97, "{kept} of {of_each}");
+        assert!(foreign * 100 <= of_each * 3, "{foreign}");
+        assert!(!grain.may_touch);
+    }
+}
+
+#[test]
+fn a_pile_that_has_no_neck_is_told_to_be_one() {
+    let points = touching(&[
+        [0.0; 3],
+        [5.95, 0.0, 0.0],
+        [2.975, 5.15, 0.0],
+        [2.975, 1.72, 4.86],
+    ]);
+    let found = split(&Scan::from_points(points)).unwrap();
+    let is_told = found.grains.iter().all(|grain| grain.may_touch);
+    assert!(is_told || found.grains.len() == 4);
 }

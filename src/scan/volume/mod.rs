@@ -219,6 +219,16 @@ impl Volume {
     /// # Errors
     /// [`VolumeError`] if there is no label.
     pub fn scans(&self) -> Result<Vec<(i64, Scan)>, VolumeError> {
+        let extents = self.grains()?;
+        let grain = |(label, extent): (&i64, &Extent)| Ok((*label, self.grain(*label, extent)?));
+        extents.iter().map(grain).collect()
+    }
+
+    /// Where all labels are.
+    ///
+    /// # Errors
+    /// [`VolumeError`] if there is no label, or if these are none.
+    pub(crate) fn grains(&self) -> Result<BTreeMap<i64, Extent>, VolumeError> {
         let extents = self.extents()?;
         if extents.is_empty() {
             return Err(VolumeError::NoLabels);
@@ -229,12 +239,15 @@ impl Volume {
             let times = boxes / image;
             return Err(VolumeError::Interleaved { times });
         }
-        let grain = |(label, extent): (&i64, &Extent)| Ok((*label, self.grain(*label, extent)?));
-        extents.iter().map(grain).collect()
+        Ok(extents)
     }
 
     /// The boundary of a label within its extent.
-    fn grain(&self, label: i64, Extent { low, high, .. }: &Extent) -> Result<Scan, VolumeError> {
+    pub(crate) fn grain(
+        &self,
+        label: i64,
+        Extent { low, high, .. }: &Extent,
+    ) -> Result<Scan, VolumeError> {
         let mut grid = Grid::new(std::array::from_fn(|axis| high[axis] - low[axis] + 1));
         let [width, height, _] = self.size;
         for z in low[2]..=high[2] {
@@ -255,7 +268,7 @@ impl Volume {
 
 /// Where the voxels of a label are.
 #[derive(Debug, Clone, Copy)]
-struct Extent {
+pub(crate) struct Extent {
     voxels: usize,
     low: [usize; 3],
     high: [usize; 3],

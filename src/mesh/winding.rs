@@ -1,6 +1,6 @@
 //! How often a closed surface goes round a point: whether the point is inside.
 
-use crate::Mesh;
+use super::Mesh;
 use nalgebra::{Point3, Vector2, Vector3};
 use std::f64::consts::TAU;
 
@@ -8,7 +8,7 @@ use std::f64::consts::TAU;
 /// 4 pi (van Oosterom and Strackee 1983). One inside of a closed mesh that is wound counter-clockwise
 /// from outside, zero outside and in cavities; of an open one, a fraction (Jacobson, Kavan and
 /// Sorkine-Hornung 2013). All triangles must name vertices that exist.
-pub(super) fn winding_number(mesh: &Mesh, point: &Point3<f64>) -> f64 {
+pub(crate) fn winding_number(mesh: &Mesh, point: &Point3<f64>) -> f64 {
     let away = |vertex: &Point3<f64>| (vertex - point, (vertex - point).norm());
     let seen: Vec<(Vector3<f64>, f64)> = mesh.vertices.iter().map(away).collect();
     let half_angles = mesh.triangles.iter().map(|corners| {
@@ -41,7 +41,7 @@ fn sum_of_angles(vectors: impl Iterator<Item = Vector2<f64>>) -> f64 {
 }
 
 /// The winding number of a closed polygon about a point of the plane.
-pub(super) fn polygon_winding_number(corners: &[Vector2<f64>], point: &Vector2<f64>) -> f64 {
+pub(crate) fn polygon_winding_number(corners: &[Vector2<f64>], point: &Vector2<f64>) -> f64 {
     let next = corners.iter().cycle().skip(1);
     let angles = corners.iter().zip(next).map(|(from, to)| {
         let (from, to) = (from - point, to - point);

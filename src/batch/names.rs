@@ -1,0 +1,53 @@
+//! What models and meshes of a batch are called.
+
+use super::queue::{with_label, without_label};
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+
+/// A name for every scan, by which its model and its mesh are saved: that of its file, or where several have it, that of
+/// its path.
+pub(super) fn of_scans(scans: &[PathBuf]) -> Vec<String> {
+    let mut counts = HashMap::new();
+    for path in scans {
+        *counts.entry(stem(path)).or_insert(0_usize) += 1;
+    }
+    let name = |path: &PathBuf| match counts.get(&stem(path)) {
+        Some(1) => stem(path),
+        _ => path.to_string_lossy().replace(['/', '\\', ':'], "_"),
+    };
+    scans.iter().map(name).collect()
+}
+
+/// The names of models by the rows of results.
+pub(crate) fn names(rows: &[String]) -> Vec<String> {
+    let rows = rows.iter().map(|row| without_label(row));
+    let mut scans: Vec<PathBuf> = rows.clone().map(|(scan, _)| scan.into()).collect();
+    // The labels of an image are in a row.
+    scans.dedup();
+    let names = of_scans(&scans);
+    let mut at = 0;
+    rows.map(|(scan, label)| {
+        while scans[at] != Path::new(scan) {
+            at += 1;
+        }
+        with_label(&names[at], label)
+    })
+    .collect()
+}
+
+fn stem(path: &Path) -> String {
+    let stem = path.file_stem().unwrap_or_default();
+    stem.to_string_lossy().into_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn models_are_called_as_their_scans_or_their_paths_and_by_their_labels() {
+        let rows = ["a/ct.nrrd#1", "a/ct.nrrd#-2", "a/b.ply", "c/b.ply", "d#3"].map(String::from);
+        let expected = ["ct#1", "ct#-2", "a_b.ply", "c_b.ply", "d#3"];
+        assert_eq!(names(&rows), expected);
+    }
+}

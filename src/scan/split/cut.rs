@@ -1,0 +1,72 @@
+//! Grains that touch, cut apart.
+
+use super::dust::LEAST_POINTS;
+use super::neck::{Neck, settle};
+use super::outline::Outline;
+use nalgebra::Point3;
+
+/// Cuts of one clump, at most so many one after the other.
+const MOST_CUTS: usize = 12;
+
+/// RMS distance of the points of a grain from its outline over its radius, at most. Of kernels it is below .06, of bodies
+/// with edges below .04, of three balls or more that touch above .1, as of bent bodies.
+const FOLLOWED: f64 = 0.1;
+
+/// Points that hang together.
+pub(super) struct Clump {
+    pub(super) points: Vec<u32>,
+    pub(super) may_touch: bool,
+}
+
+/// Cuts a clump at its necks, one after the other.
+pub(super) fn cut(places: &[Point3<f64>], clump: Vec<u32>, distance: f64) -> Vec<Clump> {
+    let of = |points: &[u32]| -> Vec<Point3<f64>> {
+        points.iter().map(|&i| places[i as usize]).collect()
+    };
+    let (mut whole, mut waists, mut necks) = (Vec::new(), Vec::new(), Vec::new());
+    let mut left = vec![clump];
+    while let Some(points) = left.pop() {
+        let own = of(&points);
+        let neck = Neck::find(&own, distance).filter(Neck::is_waist);
+        let has_waist = neck.is_some();
+        let is_last = whole.len() + left.len() >= MOST_CUTS;
+        let cut = neck.filter(|_| !is_last).and_then(|neck| {
+            let sides = sides(&points, &neck.cut(&own)?);
+            let are_grains = sides.iter().all(|side| side.len() >= LEAST_POINTS);
+            are_grains.then_some((neck, sides))
+        });
+        match cut {
+            Some((neck, sides)) => {
+                necks.push(neck);
+                left.extend(sides);
+            }
+            None => {
+                whole.push(points);
+                waists.push(has_waist);
+            }
+        }
+    }
+    // The first of several cuts was made by outlines of grains that still touched.
+    if necks.len() > 1 {
+        settle(places, &mut whole, &necks);
+    }
+    whole
+        .into_iter()
+        .zip(waists)
+        .map(|(points, has_waist)| Clump {
+            may_touch: has_waist || Outline::misses(&of(&points)) > FOLLOWED,
+            points,
+        })
+        .collect()
+}
+
+/// The points before and beyond a neck.
+fn sides(points: &[u32], beyond: &[bool]) -> [Vec<u32>; 2] {
+    [false, true].map(|side| {
+        let own = points
+            .iter()
+            .zip(beyond)
+            .filter(|(_, other)| **other == side);
+        own.map(|(point, _)| *point).collect()
+    })
+}
