@@ -45,6 +45,9 @@ pub struct Scan {
     pub(crate) topology: Option<Topology>,
     /// See [`Self::scatter`].
     pub(crate) scatter: f64,
+    /// Of voxels the standard deviation of their volume from that of the grain, over the root of the grain's area; else
+    /// zero.
+    pub(crate) miscount: f64,
     pub(crate) warnings: Vec<String>,
 }
 

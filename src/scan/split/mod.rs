@@ -48,6 +48,8 @@ pub struct Split {
     pub dust_points: usize,
     /// Places where grains that touched were cut apart.
     pub cuts: usize,
+    /// Why labels of a segmented volume are no grains.
+    pub left_out: Vec<VolumeError>,
 }
 
 /// One grain of several.
@@ -96,14 +98,21 @@ pub(crate) fn has_neck(points: &[Point3<f64>]) -> bool {
 /// # Errors
 /// [`VolumeError`] where there is no label, or the values are none.
 pub fn split_labels(volume: &Volume) -> Result<Split, VolumeError> {
-    let grain = |(label, scan)| SplitGrain {
-        scan,
-        indices: Vec::new(),
-        label: Some(label),
-        may_touch: false,
-    };
+    let (mut grains, mut left_out) = (Vec::new(), Vec::new());
+    for (label, found) in volume.scans()? {
+        match found {
+            Ok(scan) => grains.push(SplitGrain {
+                scan,
+                indices: Vec::new(),
+                label: Some(label),
+                may_touch: false,
+            }),
+            Err(reason) => left_out.push(reason),
+        }
+    }
     Ok(Split {
-        grains: volume.scans()?.into_iter().map(grain).collect(),
+        grains,
+        left_out,
         distance: None,
         plane: None,
         plane_points: 0,
@@ -126,6 +135,7 @@ fn split_faces(scan: &Scan) -> Split {
         dust: dust.len(),
         dust_points: dust.iter().map(|part| part.vertices.len()).sum(),
         cuts: 0,
+        left_out: Vec::new(),
         grains: grains
             .into_iter()
             .map(|mesh| SplitGrain {
@@ -204,6 +214,7 @@ fn split_points(all: &[Point3<f64>]) -> Split {
         dust: dust.len(),
         dust_points,
         cuts,
+        left_out: Vec::new(),
         grains: members
             .into_iter()
             .zip(grains)
