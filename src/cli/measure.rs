@@ -6,12 +6,16 @@ use super::{inputs, threads};
 use crate::fit::scanned_surface;
 use crate::measure::{Scheme, Survey, scanned_body, smoothed_area};
 use crate::mesh::Mesh;
-use crate::report::{Measure, MeasureReport, Withheld, percent, sentences};
+use crate::report::{Measure, MeasureReport, Measured, Withheld, percent, sentences};
 use anyhow::{Context, Result, bail};
 use std::ops::RangeInclusive;
 
 /// What the roughness of points adds to the area of their polyhedron, where it is told all the same.
 const WORTH_A_WORD: RangeInclusive<f64> = 0.01..=0.05;
+
+/// What to know of faces between voxels.
+const STEPS: &str = "The faces are those between voxels: their steps make the area larger than the grain's, by up to a \
+                     tenth. Fit the volume, and measure the model.";
 
 pub(super) fn run(args: MeasureArgs, console: Console) -> Result<()> {
     threads::start(0, console)?;
@@ -45,9 +49,16 @@ fn measure(args: &MeasureArgs) -> Result<MeasureReport> {
         bail!("cannot measure {input}: all points lie in one plane, they do not enclose a body");
     }
     if let Some(scanned) = scanned_body(&scan) {
-        let warnings = scan.warnings.clone();
+        let mut warnings = scan.warnings.clone();
+        let of = match scan.scatter() > 0.0 {
+            true => Measured::Voxels,
+            false => Measured::Faces,
+        };
+        if of == Measured::Voxels {
+            warnings.push(STEPS.into());
+        }
         return Ok(MeasureReport::of_faces(
-            input, &scanned, only, args.unit, warnings,
+            input, &scanned, of, only, args.unit, warnings,
         ));
     }
     let surface = scanned_surface(&scan).with_context(|| format!("cannot measure {input}"))?;

@@ -22,7 +22,7 @@ impl Fitted {
     pub(super) fn beside_polyhedron(mut self) -> Self {
         let is_closed = self.grain.unseen().is_none();
         let may_contradict = match self.reference.kind {
-            ReferenceKind::Faces => true,
+            ReferenceKind::Faces | ReferenceKind::Voxels => true,
             ReferenceKind::Directions => self.posterior.is_some(),
             ReferenceKind::Crust => false,
         };
@@ -37,13 +37,17 @@ impl Fitted {
     fn contradicted(&self) -> Option<Contradicted> {
         let survey = self.survey();
         let told = survey.properties().ok()?;
-        let has_faces = self.reference.kind == ReferenceKind::Faces;
+        let has_faces = matches!(
+            self.reference.kind,
+            ReferenceKind::Faces | ReferenceKind::Voxels
+        );
         let area = told.area - self.reference.area;
         let volume = told.volume - self.reference.volume;
-        let (shown, sag) = match has_faces {
-            true => (area, 0.0),
-            // Noise makes what is drawn between points larger than the body.
-            false => (area.max(0.0), SAG / self.points as f64),
+        let (shown, sag) = match self.reference.kind {
+            ReferenceKind::Faces => (area, 0.0),
+            // Steps make what is drawn between voxels larger than the body, and so does noise between points.
+            ReferenceKind::Voxels => (area.max(0.0), 0.0),
+            _ => (area.max(0.0), SAG / self.points as f64),
         };
         let shares = [shown / self.reference.area, volume / self.reference.volume];
         let found = Contradicted::beyond(LARGEST_DIFFERENCE + sag, shares)?;

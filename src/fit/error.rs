@@ -5,7 +5,7 @@ use super::position::map::MapError;
 use crate::measure::SelfCrossing;
 use crate::model::InvalidGrain;
 use crate::scan::plural;
-use nalgebra::Vector3;
+use nalgebra::{Point3, Vector3};
 
 /// Why a fit cannot be made.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -104,8 +104,9 @@ pub enum FitError {
     },
     /// There are inner surfaces, which the radius of a grain cannot tell.
     #[error(
-        "the scan holds {cavities} inner surfaces, hollows that a fitted surface has not: keep the outer surface \
-         (--largest), and its volume is that of the grain without hollows"
+        "the scan holds {}, hollows that a fitted surface has not: keep the outer surface (--largest), and its volume is \
+         that of the grain without hollows",
+        plural(*cavities, "inner surface")
     )]
     Hollow {
         /// Number of inner surfaces.
@@ -215,6 +216,28 @@ pub enum FitError {
         "positions over the sphere have no mirrors and no independent segments: leave --symmetry and --seams out"
     )]
     OnlyOfRadii,
+    /// A surface of degree 0 is one place.
+    #[error("positions of degree 0 are a point and no surface: ask for degree 1 or more")]
+    PointOfDegreeZero,
+    /// The fitted surface goes through itself.
+    #[error(
+        "the fitted surface goes through itself near ({:.4}, {:.4}, {:.4}), and so it has no volume: look whether the \
+         scan does there, or is thin and has few points; scan it more densely or smooth it, or ask for another number \
+         of cells (--segments 24, 96 or 384)",
+        place.x, place.y, place.z
+    )]
+    GoesThroughItself {
+        /// Where, in the scan's frame.
+        place: Point3<f64>,
+    },
+    /// Neither a radius nor positions can be fitted to points without faces.
+    #[error("{position}. A radius cannot be fitted either: {radius}")]
+    NoKind {
+        /// Why no radius can.
+        radius: Box<FitError>,
+        /// Why no positions can.
+        position: Box<FitError>,
+    },
     /// What was fitted is no surface of a body.
     #[error("no position over the sphere can be fitted: {0}")]
     NoSurface(InvalidGrain),
@@ -259,13 +282,15 @@ pub enum FitError {
 impl FitError {
     /// Whether it is a fault of what was fitted, so that other settings may give a body.
     pub fn is_of_fit(&self) -> bool {
-        matches!(
-            self,
+        match self {
+            Self::NoKind { radius, .. } => radius.is_of_fit(),
             Self::NotPositive { .. }
-                | Self::Unproved { .. }
-                | Self::FarFromPoints { .. }
-                | Self::FarBeyondPoints { .. }
-        )
+            | Self::Unproved { .. }
+            | Self::FarFromPoints { .. }
+            | Self::FarBeyondPoints { .. }
+            | Self::GoesThroughItself { .. } => true,
+            _ => false,
+        }
     }
 }
 

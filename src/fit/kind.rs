@@ -2,17 +2,18 @@
 //!
 //! A radius first: it takes fewer coefficients where both do. Where it hides area, ends above its limit, or is steep,
 //! the position is fitted too, as far as it may still be better, and the one with fewer coefficients at the limit is kept.
+//! Of voxels the position alone, for a radius follows their steps as if they were texture.
 
 use super::candidate::{Candidate, Search, Work};
 use super::context::Context;
 use super::error::FitError;
 use super::options::{FitOptions, Kind, Seams};
 use super::outcome::{Fitted, KindChoice, Residuals, Rival};
-use super::position::fit_position_if;
+use super::position::{PositionFit, fit_position_if};
 use super::prepare::PreparedScan;
 use super::warning::FitWarning;
 use crate::measure::{Deviation, feet};
-use crate::model::{Grain, PositionGrain, StarSurface};
+use crate::model::{Grain, InvalidGrain, PositionGrain, StarSurface, Surface};
 use crate::scan::Scan;
 use crate::sphere::{Symmetry, cube_grid};
 use nalgebra::Vector3;
@@ -54,12 +55,23 @@ pub fn fit_scan(
     match options.kind {
         Kind::Star => star(),
         Kind::Position => positioned(scan, options, context, KindChoice::Asked, &|_| true),
+        Kind::Auto if scan.scatter > 0.0 && is_free(options) => {
+            match positioned(scan, options, context, KindChoice::Voxels, &|_| true) {
+                Err(FitError::Cancelled) => Err(FitError::Cancelled),
+                Err(_) => star(),
+                found => found,
+            }
+        }
         Kind::Auto => match star() {
             Err(error) => match unseen(&error, options) {
                 None => Err(error),
                 Some(choice) => match positioned(scan, options, context, choice, &|_| true) {
-                    Err(FitError::NoFaces | FitError::NoInside | FitError::OffCrust { .. }) => {
-                        Err(error)
+                    Err(FitError::NoFaces) => Err(error),
+                    Err(position @ (FitError::NoInside | FitError::OffCrust { .. })) => {
+                        Err(FitError::NoKind {
+                            radius: error.into(),
+                            position: position.into(),
+                        })
                     }
                     found => found,
                 },
@@ -86,7 +98,9 @@ fn is_free(options: &FitOptions) -> bool {
 /// Why positions may be fitted where no radius can.
 fn unseen(error: &FitError, options: &FitOptions) -> Option<KindChoice> {
     match *error {
-        FitError::NotStarShaped { share } => Some(KindChoice::Hidden { share }),
+        FitError::NotStarShaped { share } => {
+            (!options.is_of_points()).then_some(KindChoice::Hidden { share })
+        }
         FitError::Scattered { .. }
         | FitError::Strays { .. }
         | FitError::SecondSurface { .. }
@@ -205,6 +219,20 @@ fn normal_distances(grain: &Grain, scan: &Scan) -> Deviation {
     Deviation::of(feet.iter().map(|foot| (foot.distance, 1.0)))
 }
 
+/// The grain that was fitted, if its surface does not go through itself.
+fn sound(fit: &PositionFit) -> Result<PositionGrain, FitError> {
+    let grain = PositionGrain::new(fit.frame, fit.surface.clone()).map_err(FitError::NoSurface)?;
+    let folded_at = match grain.check() {
+        Ok(()) => None,
+        Err(InvalidGrain::Folded { direction }) => Some(grain.point(&direction.into())),
+        Err(error) => return Err(FitError::NoSurface(error)),
+    };
+    match folded_at.or(fit.crossing) {
+        Some(place) => Err(FitError::GoesThroughItself { place }),
+        None => Ok(grain),
+    }
+}
+
 /// Fits positions over the sphere, where that is worth its work.
 fn positioned(
     scan: &Scan,
@@ -217,13 +245,12 @@ fn positioned(
     let (fit, grain, cells) = loop {
         let fit = fit_position_if(scan, &options, context, is_worth)?;
         let cells = fit.surface.coefficients().len();
-        let grain = PositionGrain::new(fit.frame, fit.surface.clone());
-        match grain.and_then(|grain| grain.check().map(|()| grain)) {
+        match sound(&fit) {
             Ok(grain) => break (fit, grain, cells),
             Err(_) if options.segments.is_none() && cells > FEWEST_CELLS => {
                 options.max_segments = Some((cells / 2).max(FEWEST_CELLS));
             }
-            Err(error) => return Err(FitError::NoSurface(error)),
+            Err(error) => return Err(error),
         }
     };
     let (degree, radius) = (fit.surface.degree(), fit.radius);
@@ -233,11 +260,6 @@ fn positioned(
         ..Candidate::unfitted(degree, cells, grain.coefficient_count())
     };
     let mut warnings = fit.warnings;
-    if fit.crossings > 0 {
-        warnings.push(FitWarning::Crossings {
-            pairs: fit.crossings,
-        });
-    }
     if fit.turned_over > 0 {
         warnings.push(FitWarning::TurnedOver {
             samples: fit.turned_over,
@@ -250,7 +272,7 @@ fn positioned(
             seams: Seams::Blended,
             chosen: 0,
             candidates: vec![candidate],
-            limit: options.tolerance.length(radius),
+            limit: fit.limit,
             noise: None,
             work: Work::default(),
         },
@@ -270,4 +292,26 @@ fn positioned(
         errors: Some(fit.errors),
     };
     Ok(fitted.beside_polyhedron())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fit::position::fit_position;
+    use crate::mesh::Mesh;
+    use nalgebra::Point3;
+
+    #[test]
+    fn a_surface_that_goes_through_itself_is_refused_with_the_place() {
+        let ball = Scan::from_mesh(Mesh::radial(8, |_| 1.0)).unwrap();
+        let options = FitOptions::default().with_segments(1).with_degree(1);
+        let mut fit = fit_position(&ball, &options, &Context::default()).unwrap();
+        assert!(sound(&fit).is_ok());
+        let place = Point3::new(0.5, 0.0, 1.0);
+        fit.crossing = Some(place);
+        let refused = sound(&fit).unwrap_err();
+        assert_eq!(refused, FitError::GoesThroughItself { place });
+        let told = refused.to_string();
+        assert!(told.contains("near (0.5000, 0.0000, 1.0000)"), "{told}");
+    }
 }

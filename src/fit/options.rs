@@ -29,7 +29,8 @@ pub struct FitOptions {
     /// Number of segments. Blended: 1 for the estimate itself, an expansion of the whole sphere, or 6 n^2 cells;
     /// `None` refines adaptively. Independent: k^2; `None` searches all squares up to `max_segments`.
     pub segments: Option<usize>,
-    /// Largest degree searched; `None` for 4 in blended cells and 3 elsewhere.
+    /// Largest degree searched; `None` for 4 in blended cells and 3 elsewhere. Positions are searched up to degree 7 over
+    /// the whole sphere and 3 in cells, and not beyond this in either.
     pub max_degree: Option<usize>,
     /// Largest number of segments searched; `None` for [`Seams::most_segments`].
     pub max_segments: Option<usize>,
@@ -63,7 +64,7 @@ impl Default for FitOptions {
 #[non_exhaustive]
 pub enum Kind {
     /// A radius; where it hides area, ends above its limit or is steep, the better of it and of positions, and where no
-    /// radius follows the points, positions.
+    /// radius follows the points, or they lie between voxels, positions.
     Auto,
     /// A radius in every direction from a centre.
     Star,
@@ -220,6 +221,9 @@ impl FitOptions {
         if self.symmetry != Symmetry::NONE && (self.seams != Seams::Blended || segments.is_some()) {
             return Err(FitError::SymmetryOfSegments);
         }
+        if self.kind == Kind::Position && self.is_of_points() {
+            return Err(FitError::PointOfDegreeZero);
+        }
         if self.kind == Kind::Position
             && (self.symmetry != Symmetry::NONE || self.seams != Seams::Blended)
         {
@@ -238,6 +242,11 @@ impl FitOptions {
             _ => MOST_DEGREE_SEARCHED,
         };
         self.degree.or(self.max_degree).unwrap_or(searched)
+    }
+
+    /// Whether positions would be points.
+    pub(super) fn is_of_points(&self) -> bool {
+        self.top_degree() == 0
     }
 
     /// The degrees of the candidates that are fitted to the points themselves.

@@ -61,6 +61,8 @@ pub enum KindChoice {
     },
     /// No radius follows the points.
     NoRadius,
+    /// The scan is of voxels, whose steps a radius would follow.
+    Voxels,
     /// It is better than the other kind, which was fitted too.
     Compared {
         /// The one that was kept.

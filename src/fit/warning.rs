@@ -51,11 +51,6 @@ pub enum FitWarning {
         /// Its share of the area.
         share: f64,
     },
-    /// The surface goes through itself.
-    Crossings {
-        /// Pairs of triangles of its mesh that cross.
-        pairs: usize,
-    },
     /// The surface is turned over in places.
     TurnedOver {
         /// Samples at which it is.

@@ -65,6 +65,25 @@ impl Grid {
             .count()
     }
 
+    /// The number of voxels inside in a layer across an axis.
+    pub(crate) fn layer(&self, axis: usize, at: usize) -> usize {
+        let step = [1, self.size[0], self.size[0] * self.size[1]][axis];
+        let inside = self.is_inside.iter().enumerate();
+        inside
+            .filter(|(index, is_inside)| **is_inside && index / step % self.size[axis] == at + 1)
+            .count()
+    }
+
+    /// The number of faces between a voxel inside and one outside.
+    pub(crate) fn faces(&self) -> usize {
+        let steps = [1, self.size[0], self.size[0] * self.size[1]];
+        let between = steps.map(|step| {
+            let pairs = self.is_inside.iter().zip(&self.is_inside[step..]);
+            pairs.filter(|(one, other)| one != other).count()
+        });
+        between.iter().sum()
+    }
+
     /// Bits that tell which of the eight voxels at a corner are inside: the first axis has the lowest bit.
     fn mask(&self, first: usize) -> usize {
         let [width, height, _] = self.size;

@@ -106,6 +106,9 @@ pub(super) fn kind_rule(fitted: &Fitted, unit: Option<Unit>) -> Option<String> {
             "for {:.1} % of the area faces away from the best centre",
             100.0 * share
         )),
+        KindChoice::Voxels => {
+            Some("for the steps between voxels are no texture of the grain".into())
+        }
         KindChoice::NoRadius => Some("for no radius follows the points".into()),
         KindChoice::Compared { kept, rival } => {
             let other = match fitted.grain.star() {

@@ -81,6 +81,10 @@ impl SplitReport {
                 grain.file
             )
         });
+        let left_out = split
+            .left_out
+            .iter()
+            .map(|reason| format!("Left out: {reason}."));
         Self {
             input,
             unit: None,
@@ -94,7 +98,7 @@ impl SplitReport {
             dust: split.dust,
             dust_points: split.dust_points,
             cuts: split.cuts,
-            warnings: warnings.collect(),
+            warnings: warnings.chain(left_out).collect(),
             grains,
         }
     }

@@ -131,11 +131,6 @@ impl FitWarning {
                  centre and is smoothed over.",
                 100.0 * share
             ),
-            Self::Crossings { pairs } => write!(
-                f,
-                "The surface goes through itself: {} of its mesh cross. Contacts of it are refused.",
-                plural(pairs, "pair")
-            ),
             Self::TurnedOver { samples } => write!(
                 f,
                 "The surface is turned over at {}: its area and curvature are off there.",

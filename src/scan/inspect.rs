@@ -88,8 +88,12 @@ fn warnings(topology: &Topology) -> impl Iterator<Item = String> {
             "edge",
         ),
         count(topology.unreferenced.len(), "No triangle uses", "point"),
-        (topology.bodies > 1)
-            .then(|| format!("The faces are in {} separate parts.", topology.bodies)),
+        (topology.bodies > 1).then(|| {
+            format!(
+                "The scan holds {} separate surfaces: bodies, or hollows in them.",
+                topology.bodies
+            )
+        }),
     ]
     .into_iter()
     .flatten()

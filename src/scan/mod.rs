@@ -35,7 +35,7 @@ pub use topology::Topology;
 pub(crate) use topology::each_edge;
 #[cfg(feature = "cli")]
 pub(crate) use volume::Extent;
-pub use volume::{Volume, VolumeError, parse_volume};
+pub use volume::{LabelScan, Volume, VolumeError, parse_volume};
 
 /// The points of a scan, in f64, in the file's own frame and unit, and the triangles between them.
 ///
@@ -47,6 +47,9 @@ pub struct Scan {
     pub(crate) topology: Option<Topology>,
     /// See [`Self::scatter`].
     pub(crate) scatter: f64,
+    /// Of voxels the standard deviation of their volume from that of the grain, over the root of the grain's area; else
+    /// zero.
+    pub(crate) miscount: f64,
     pub(crate) warnings: Vec<String>,
 }
 

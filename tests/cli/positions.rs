@@ -96,3 +96,39 @@ fn points_of_a_banana_are_fitted_without_faces() {
     }
     succeed(&folder, &["measure", "b.json", "--only", "dimensions"]);
 }
+
+#[test]
+fn degrees_that_are_asked_for_are_kept_and_one_that_is_a_point_refused() {
+    let folder = folder();
+    let mut mesh = Mesh::radial(16, |_| 1.0);
+    for vertex in &mut mesh.vertices {
+        vertex.x *= 10.0;
+        vertex.y += 0.05 * vertex.x * vertex.x;
+    }
+    save_mesh(&folder.path().join("bent.ply"), &mesh).unwrap();
+    let fit = |more: &[&str]| {
+        let words = [&["fit", "bent.ply", "--surface", "position"], more].concat();
+        json(&folder, &words)
+    };
+    assert_eq!(number(&fit(&["--degree", "1"]), "degree"), 1.0);
+    assert!(number(&fit(&["--max-degree", "2"]), "degree") <= 2.0);
+    let words = ["--segments", "1", "--max-degree", "2"];
+    assert_eq!(number(&fit(&words), "degree"), 2.0);
+    let words = "fit bent.ply --surface position --segments 1 --degree 0";
+    let words: Vec<&str> = words.split(' ').collect();
+    let refused = errors(&grainform(&folder, &words));
+    assert!(refused.contains("ask for degree 1 or more"), "{refused}");
+}
+
+#[test]
+fn points_that_no_kind_fits_are_told_why_for_both() {
+    let folder = folder();
+    succeed(
+        &folder,
+        &["synth", "cup", "--points", "300", "-o", "cup.xyz"],
+    );
+    let refused = errors(&grainform(&folder, &["fit", "cup.xyz"]));
+    for part in ["mesh the points", "A radius cannot be fitted either"] {
+        assert!(refused.contains(part), "{refused}");
+    }
+}

@@ -3,6 +3,16 @@
 use super::{errors, folder, grainform, json, names, number, succeed};
 use std::path::Path;
 
+/// A header of bytes in steps of .5, .5 and 1, as NRRD.
+fn header(size: [u32; 3]) -> Vec<u8> {
+    let [width, height, depth] = size;
+    format!(
+        "NRRD0004\ntype: uchar\ndimension: 3\nsizes: {width} {height} {depth}\nencoding: raw\n\
+         spacings: 0.5 0.5 1\n\n"
+    )
+    .into_bytes()
+}
+
 /// Two balls of radii 8 and 5 with the labels 4 and 9, in voxels of sides .5, .5 and 1, as NRRD.
 fn balls(path: &Path) {
     let [width, height, depth] = [80_u32, 40, 20];
@@ -20,11 +30,7 @@ fn balls(path: &Path) {
     };
     let voxels = (0..depth)
         .flat_map(|z| (0..height).flat_map(move |y| (0..width).map(move |x| label(x, y, z))));
-    let mut bytes = format!(
-        "NRRD0004\ntype: uchar\ndimension: 3\nsizes: {width} {height} {depth}\nencoding: raw\n\
-         spacings: 0.5 0.5 1\n\n"
-    )
-    .into_bytes();
+    let mut bytes = header([width, height, depth]);
     bytes.extend(voxels);
     std::fs::write(path, bytes).unwrap();
 }
@@ -115,7 +121,36 @@ fn a_batch_has_a_row_for_each_label_of_an_image() {
 }
 
 #[test]
-fn a_speck_of_an_image_is_dust() {
+fn the_steps_between_voxels_are_no_texture() {
+    let folder = folder();
+    balls(&folder.path().join("ct.nrrd"));
+    for (label, radius) in [("4", 8.0_f64), ("9", 5.0)] {
+        let report = json(&folder, &["fit", "ct.nrrd", "--label", label]);
+        assert_eq!(report["surface"], "position");
+        assert_eq!(report["reference"]["kind"], "voxels");
+        let area = 4.0 * std::f64::consts::PI * radius * radius;
+        let truth = [("area", area), ("volume", area * radius / 3.0)];
+        for (figure, truth) in truth {
+            let off = number(&report, figure) - truth;
+            let error = number(&report["standard_errors"], figure);
+            assert!(off.abs() < 2.0 * error, "{figure} {off} {error}");
+            assert!(error < 0.02 * truth, "{figure} {error}");
+        }
+    }
+    let measured = json(
+        &folder,
+        &["measure", "ct.nrrd", "--label", "4", "--only", "area"],
+    );
+    assert_eq!(measured["of"], "voxels");
+    let warning = measured["warnings"][0].as_str().unwrap();
+    assert!(
+        warning.contains("their steps make the area larger"),
+        "{warning}"
+    );
+}
+
+#[test]
+fn a_speck_of_an_image_is_no_grain() {
     let folder = folder();
     let path = folder.path().join("ct.nrrd");
     balls(&path);
@@ -125,8 +160,36 @@ fn a_speck_of_an_image_is_dust() {
     std::fs::write(&path, bytes).unwrap();
     let report = json(&folder, &["split", "ct.nrrd", "-o", "grains"]);
     assert_eq!(report["grains"].as_array().unwrap().len(), 2);
-    assert_eq!(
-        (&report["dust"], &report["dust_points"]),
-        (&1.into(), &6.into())
-    );
+    let warnings = report["warnings"].to_string();
+    assert!(warnings.contains("too few"), "{warnings}");
+}
+
+#[test]
+fn labels_that_the_border_cuts_off_or_of_few_voxels_are_refused() {
+    let folder = folder();
+    let size = [20, 20, 20];
+    let label = |x: u32, y: u32, z: u32| {
+        let squares = [x, y, z].map(|i| (f64::from(i) - 9.3).powi(2));
+        // A ball that touches a side, one in a corner that is cut off, and a speck.
+        match squares.iter().sum::<f64>() < 95.0 {
+            true => 1,
+            false if x + y + z < 6 => 2,
+            false if [x, y, z] == [18, 18, 18] => 3,
+            false => 0,
+        }
+    };
+    let mut bytes = header(size);
+    let all = (0..20).flat_map(|z| (0..20).flat_map(move |y| (0..20).map(move |x| (x, y, z))));
+    bytes.extend(all.map(|(x, y, z)| label(x, y, z)));
+    std::fs::write(folder.path().join("ct.nrrd"), bytes).unwrap();
+    for (label, reason) in [("2", "cut off at the border"), ("3", "1 voxel, too few")] {
+        let refused = errors(&grainform(&folder, &["fit", "ct.nrrd", "--label", label]));
+        assert!(refused.contains(reason), "{refused}");
+    }
+    let report = json(&folder, &["fit", "ct.nrrd", "--label", "1"]);
+    let warnings = report["warnings"].to_string();
+    assert!(warnings.contains("touches the border"), "{warnings}");
+    let report = json(&folder, &["split", "ct.nrrd", "-o", "grains"]);
+    assert_eq!(names(&folder.path().join("grains")).len(), 1);
+    assert_eq!(report["warnings"].as_array().unwrap().len(), 2);
 }

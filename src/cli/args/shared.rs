@@ -63,7 +63,8 @@ pub(in crate::cli) struct FittingArgs {
     #[arg(long, value_name = "AXES|none", default_value_t = Symmetry::NONE, help_heading = SEARCH)]
     pub(in crate::cli) symmetry: Symmetry,
 
-    /// Degree of every segment's expansion, or auto to search
+    /// Degree of every segment's expansion, or auto to search. Of positions also that of the whole sphere, which is tried
+    /// before cells
     #[arg(long, value_name = "L|auto", default_value = "auto", help_heading = SEARCH)]
     pub(in crate::cli) degree: Auto,
 
@@ -72,7 +73,8 @@ pub(in crate::cli) struct FittingArgs {
     #[arg(long, value_name = "N|adaptive", default_value = "adaptive", help_heading = SEARCH)]
     pub(in crate::cli) segments: Auto,
 
-    /// Largest degree searched: bounds the cost of an evaluation [default: 4 in blended cells, else 3]
+    /// Largest degree searched: bounds the cost of an evaluation [default: 4 in blended cells, else 3; of positions 7 on
+    /// the whole sphere, which is tried before cells, and 3 in these]
     #[arg(long, value_name = "L", help_heading = SEARCH)]
     pub(in crate::cli) max_degree: Option<usize>,
 

@@ -38,6 +38,10 @@ pub(super) struct Cloud<'a> {
     inside: Vec<OnMesh>,
     /// Whether they are the points of the scan, and the vertices are none.
     is_of_points: bool,
+    /// Of the middles between voxels the standard deviation of the volume that they tell, over the root of the area.
+    pub(super) miscount: f64,
+    /// Of the ellipsoid of equal moments.
+    pub(super) semi_axes: Vector3<f64>,
     /// Every so many of the vertices, in order of height on the sphere, and the places in triangles that touch them; or
     /// of the points.
     pub(super) is_left_out: Vec<bool>,
@@ -70,6 +74,8 @@ impl<'a> Cloud<'a> {
             weights: Vec::new(),
             inside: Vec::new(),
             is_of_points: false,
+            miscount: 0.0,
+            semi_axes: Vector3::repeat(1.0),
             mesh,
             directions: map.clone(),
             map,
@@ -252,6 +258,14 @@ impl<'a> Cloud<'a> {
             self.is_left_out.push(touches);
         }
         self.weigh();
+    }
+
+    /// Takes the directions to be those in which the samples would lie on the ellipsoid of equal moments.
+    pub(super) fn start_on_ellipsoid(&mut self) {
+        for (n, point) in self.directions.iter_mut().zip(&self.points) {
+            let on_sphere = point.component_div(&self.semi_axes);
+            *n = on_sphere.try_normalize(0.0).unwrap_or(*n);
+        }
     }
 
     /// Weights by area and by solid angle: of a triangle with places inside half a place goes to its corners.

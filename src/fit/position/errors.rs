@@ -15,6 +15,8 @@
 //!   leave more than noise; and the same of held-out points, which see what the surface does between the others, as far
 //!   as it is more than they scatter; and the same of the vertices alone, for the body bulges over faces that are chords;
 //!   and of points without faces the same by the area that is nearest to each, for where they are sparse each tells more;
+//! - of voxels, that the volume of those inside is not that of the grain: as if all of the surface moved, and at the ends
+//!   of lengths what a function reaches of it;
 //! - what is [not resolved](Solved::unresolved): a part of it is taken to have the same sign everywhere;
 //! - of the area what second order brings: ripples of noise that the surface has, and of the grain that it has not;
 //! - of extents that the highest of many ripples is higher than the surface.
@@ -96,7 +98,8 @@ impl Solved<'_> {
             });
             let higher: f64 = higher.sum();
             let floor = FLOOR * lengths[i];
-            let squares = higher * higher + range * range + floor * floor;
+            let at_ends = 2.0 * self.miscounted().powi(2) * self.told();
+            let squares = higher * higher + range * range + floor * floor + at_ends;
             extent.dot(&(covariance * extent)) + squares
         });
         let dimensions = Vector3::from(by_size(&lengths).map(|i| dimensions[i]));
@@ -200,7 +203,8 @@ impl Solved<'_> {
         let square = |x: SVector<f64, INTEGRALS>| x * x.transpose();
         let mut squares = square(fitted * (all * self.held_out()));
         squares += square(by_area * self.held_out());
-        squares += square(even * (all * ONE_SIDED * unresolved));
+        let one_sided = (ONE_SIDED * unresolved).hypot(self.miscounted());
+        squares += square(even * (all * one_sided));
         if weights[2] > 0.0 {
             squares += square(at_vertices * vertices);
         }
@@ -209,6 +213,11 @@ impl Solved<'_> {
             squares[(at, at)] += beyond[(at, at)].max(0.0);
         }
         squares
+    }
+
+    /// Standard deviation of the height of a surface between voxels, on average over all of it.
+    fn miscounted(&self) -> f64 {
+        self.cloud.miscount / self.cloud.area().sqrt()
     }
 
     /// Functions of which the roughness leaves the points to decide.

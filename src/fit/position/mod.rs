@@ -19,9 +19,11 @@ mod search;
 use super::context::Context;
 use super::crust::surface_of_points;
 use super::error::FitError;
-use super::options::{FitOptions, Tolerance};
+use super::options::FitOptions;
 use super::outcome::Rival;
-use super::prepare::{Reference, ReferenceKind, principal_axes, scanned_surface, usable};
+use super::prepare::{
+    Reference, ReferenceKind, principal_axes, scanned_surface, semi_axes, usable,
+};
 use super::standard_errors::{NoInterval, StandardErrors};
 use super::warning::FitWarning;
 use crate::measure::{Unit, equivalent_radius, mesh_properties};
@@ -52,15 +54,23 @@ pub struct PositionFit {
     pub held_out: Distance,
     /// Weight of the roughness beside the mean squared distance, both in units of the radius.
     pub roughness: f64,
+    /// Distance of held-out points that was good enough.
+    pub limit: f64,
     /// Samples at which the surface is turned over.
     pub turned_over: usize,
     /// Pairs of triangles of the surface's mesh that cross.
     pub crossings: usize,
+    /// Where the first of them do, in the scan's frame.
+    pub crossing: Option<Point3<f64>>,
     /// Standard errors of its figures.
     pub errors: Result<StandardErrors, NoInterval>,
     /// What a user should know of the scan.
     pub warnings: Vec<FitWarning>,
 }
+
+/// Distances that are good enough, over the scatter that the scan is known to have: by so much a body of its own
+/// directions may differ from the mean of all.
+const OVER_SCATTER: f64 = 1.1;
 
 /// Distances in the scan's unit.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -71,8 +81,8 @@ pub struct Distance {
     pub max: f64,
 }
 
-/// Fits positions over the sphere to the faces of a scan, or to its points if it has none. Of the options, `segments`, `degree`, `max_segments` and
-/// `tolerance` count; the tolerance is one of held-out distance, relative to the radius of the ball of equal volume.
+/// Fits positions over the sphere to the faces of a scan, or to its points if it has none. Of the options, `segments`, `degree`,
+/// `max_segments`, `max_degree` and `tolerance` count; the tolerance is one of held-out distance, relative to the radius of the ball of equal volume.
 ///
 /// # Errors
 /// [`FitError`] if the scan's faces are not closed or its points enclose nothing, if they have no map to the sphere, if they do not determine a surface,
@@ -96,6 +106,9 @@ pub(super) fn fit_position_if(
     context: &Context<'_>,
     is_worth: &(dyn Fn(Rival) -> bool + Sync),
 ) -> Result<PositionFit, FitError> {
+    if options.is_of_points() {
+        return Err(FitError::PointOfDegreeZero);
+    }
     let Faces {
         mesh,
         kind,
@@ -119,11 +132,10 @@ pub(super) fn fit_position_if(
         triangles: at_unit.triangles,
     };
     let radius = size * unit.length;
-    let limit = match options.tolerance {
-        Tolerance::Length(length) => length / radius,
-        tolerance => tolerance.length(1.0),
-    };
-    let limit = limit.max(scan.scatter / radius);
+    let limit = options
+        .tolerance
+        .length(radius)
+        .max(OVER_SCATTER * scan.scatter);
     let directions = spherical_map(&local, context)?;
     let mut cloud = match kind {
         ReferenceKind::Crust => {
@@ -137,24 +149,30 @@ pub(super) fn fit_position_if(
         }
         _ => Cloud::new(&local, directions),
     };
+    cloud.semi_axes = semi_axes(&properties, &at_unit_frame) / size;
+    cloud.miscount = scan.miscount / (radius * radius);
     let is_worth = |coefficients: usize, rms: f64| {
         is_worth(Rival {
             coefficients,
             rms: rms * radius,
         })
     };
-    let found = context.run(|| search(&mut cloud, options, limit, &is_worth, context))?;
+    let found = context.run(|| search(&mut cloud, options, limit / radius, &is_worth, context))?;
     let fitted = found.ok_or(FitError::NoEstimate)?;
     let distance = |found: cloud::Distances| Distance {
         rms: found.rms * radius,
         max: found.max * radius,
     };
     let [turned_over, crossings] = fitted.faults;
+    let frame = Frame {
+        centre: unit.point(&at_unit_frame.centre),
+        ..at_unit_frame
+    };
     Ok(PositionFit {
-        frame: Frame {
-            centre: unit.point(&at_unit_frame.centre),
-            ..at_unit_frame
-        },
+        crossing: fitted
+            .crossing
+            .map(|place| frame.to_scan(&(place * radius))),
+        frame,
         surface: fitted.surface.times(radius),
         reference: Reference {
             kind,
@@ -166,6 +184,7 @@ pub(super) fn fit_position_if(
         distance: distance(fitted.distances),
         held_out: distance(fitted.held_out),
         roughness: fitted.roughness,
+        limit,
         turned_over,
         crossings,
         errors: fitted.errors.map(|errors| errors.times(radius)),
@@ -192,7 +211,7 @@ fn faces(scan: &Scan) -> Result<Faces, FitError> {
     }
     let surface = scanned_surface(scan)?;
     match surface.kind {
-        ReferenceKind::Faces => Ok(Faces {
+        ReferenceKind::Faces | ReferenceKind::Voxels => Ok(Faces {
             mesh: compact(&surface.mesh),
             kind: surface.kind,
             warnings: surface.warnings,

@@ -16,7 +16,7 @@ use crate::measure::crossings;
 use crate::mesh::Mesh;
 use crate::model::Position;
 use crate::sphere::cube_grid;
-use nalgebra::{Matrix3, Point3};
+use nalgebra::{Matrix3, Point3, Vector3};
 
 /// Weights of errors across the normal, beside 1 along it, round by round.
 const ACROSS: [f64; 5] = [0.3, 0.1, 0.03, 0.03, 0.03];
@@ -60,6 +60,8 @@ pub(super) struct Fitted {
     pub(super) roughness: f64,
     /// Samples at which the surface is turned over, and pairs of triangles of its mesh that cross.
     pub(super) faults: [usize; 2],
+    /// Where the first of these are.
+    pub(super) crossing: Option<Vector3<f64>>,
     /// Of its figures.
     pub(super) errors: Result<StandardErrors, NoInterval>,
 }
@@ -197,7 +199,8 @@ impl<'a> Problem<'a> {
         };
         let (distances, _) = cloud.distances(&surface, |at| cloud.is_scanned(at));
         let (held_out, _) = cloud.distances(&other, |at| cloud.is_held_out(at));
-        let faults = [cloud.turned_over(&surface), crossing_pairs(&surface)];
+        let crossings = crossing_places(&surface);
+        let faults = [cloud.turned_over(&surface), crossings.len()];
         let errors = match faults {
             [0, 0] => Solved {
                 functions: self.functions,
@@ -214,6 +217,7 @@ impl<'a> Problem<'a> {
         };
         Ok(Some(Fitted {
             faults,
+            crossing: crossings.first().copied(),
             errors,
             surface,
             distances,
@@ -223,13 +227,17 @@ impl<'a> Problem<'a> {
     }
 }
 
-/// Pairs of triangles of the surface's mesh that cross without sharing a vertex.
-pub(super) fn crossing_pairs(surface: &Position) -> usize {
+/// Where triangles of the surface's mesh cross others without sharing a vertex, a place for each pair.
+pub(super) fn crossing_places(surface: &Position) -> Vec<Vector3<f64>> {
     let (directions, triangles) = cube_grid(RESOLUTION);
     let points = surface.points_and_tangents(&directions).into_iter();
-    crossings(&Mesh {
+    let mesh = Mesh {
         vertices: points.map(|(point, _)| Point3::from(point)).collect(),
         triangles,
-    })
-    .len()
+    };
+    let middle = |[first, _]: [usize; 2]| {
+        let corners = mesh.triangles[first].map(|corner| mesh.vertices[corner as usize].coords);
+        corners.iter().sum::<Vector3<f64>>() / 3.0
+    };
+    crossings(&mesh).into_iter().map(middle).collect()
 }

@@ -6,13 +6,16 @@ use super::functions::Functions;
 use super::rounds::{Fitted, Problem, Used};
 use crate::fit::context::{Cancelled, Context, Stage};
 use crate::fit::options::FitOptions;
-use crate::sphere::CubeCell;
+use crate::sphere::{CubeCell, MAX_FACE_PARTS};
 use nalgebra::Vector3;
 use std::f64::consts::PI;
 
 /// Degrees of expansions of the whole sphere that are tried first: an ellipsoid, and up to as many functions as an
 /// evaluation of cells touches.
 const WHOLE_DEGREES: [usize; 3] = [1, 3, 7];
+
+/// Functions of degree 1.
+const OF_ELLIPSOIDS: usize = 4;
 
 /// Degree of cells where none is asked for.
 const DEGREE: usize = 3;
@@ -37,9 +40,15 @@ const MOST_GAIN_OF_ROUNDS: f64 = 5.0;
 /// Share of the squared distances that the cells split at once hold.
 const SPLIT_SHARE: f64 = 0.8;
 
-/// Rounds of expansions of the whole sphere before they are judged: an ellipsoid is linear in n only over its own foot
+/// Most rounds of expansions of the whole sphere before they are judged: a body is simple only over its own foot
 /// points.
-const ROUNDS_OF_WHOLE: usize = 12;
+const ROUNDS_OF_WHOLE: usize = 50;
+
+/// Fewest such rounds.
+const LEAST_ROUNDS_OF_WHOLE: usize = 12;
+
+/// They end where held-out distances fall by less than this share in a round.
+const SETTLED: f64 = 0.01;
 
 /// Where an expansion of the whole sphere is so many times farther off than it should be, higher degrees are not tried.
 const FAR: f64 = 10.0;
@@ -60,8 +69,11 @@ pub(super) fn search(
 ) -> Result<Option<Fitted>, Cancelled> {
     match options.segments {
         Some(1) => {
-            let degree = options.degree.unwrap_or(WHOLE_DEGREES[2]);
-            return fit(&Functions::whole(degree), cloud, context);
+            let bound = options.max_degree.unwrap_or(usize::MAX);
+            let degree = options.degree.unwrap_or(WHOLE_DEGREES[2].min(bound));
+            let functions = Functions::whole(degree);
+            settle(&functions, cloud);
+            return Problem::new(&functions).run(cloud, context);
         }
         Some(segments) => {
             let parts = (segments / 6).isqrt() as u16;
@@ -69,15 +81,16 @@ pub(super) fn search(
         }
         None => {}
     }
-    for degree in WHOLE_DEGREES {
+    for degree in whole_degrees(options) {
+        context.check()?;
         let functions = Functions::whole(degree);
-        let Some(once) = try_once(&functions, cloud, ROUNDS_OF_WHOLE) else {
+        let Some(held_out) = settle(&functions, cloud) else {
             break;
         };
-        if once.held_out > FAR * limit {
+        if held_out > FAR * limit {
             break;
         }
-        if once.held_out <= GAIN_OF_ROUNDS * limit
+        if held_out <= GAIN_OF_ROUNDS * limit
             && let Some(fitted) = Problem::new(&functions).run(cloud, context)?
             && is_enough(&fitted, limit)
         {
@@ -91,12 +104,25 @@ pub(super) fn search(
     }
 }
 
+/// Degrees of expansions of the whole sphere that the options leave.
+fn whole_degrees(options: &FitOptions) -> Vec<usize> {
+    match options.degree {
+        Some(degree) => vec![degree],
+        None => {
+            let most = options.max_degree.unwrap_or(usize::MAX);
+            let degrees = WHOLE_DEGREES.into_iter();
+            degrees.filter(|&degree| degree <= most).collect()
+        }
+    }
+}
+
 fn is_enough(fitted: &Fitted, limit: f64) -> bool {
     fitted.held_out.rms <= limit && fitted.faults == [0, 0]
 }
 
 fn on_cells(cells: Vec<CubeCell>, options: &FitOptions) -> Functions {
-    Functions::on_cells(cells, options.degree.unwrap_or(DEGREE))
+    let searched = options.max_degree.unwrap_or(DEGREE).min(DEGREE);
+    Functions::on_cells(cells, options.degree.unwrap_or(searched))
         .expect("cells that tile the sphere")
 }
 
@@ -117,19 +143,37 @@ struct Once {
     errors: Vec<f64>,
 }
 
-/// Fits once, after so many rounds of the same.
-fn try_once(functions: &Functions, cloud: &mut Cloud<'_>, rounds: usize) -> Option<Once> {
+/// Moves the samples of an expansion to their foot points until it comes no nearer. From the map that is far where a
+/// body is slender, so that degree 1, of ellipsoids, starts from that of equal moments. Gives the root of the mean squared
+/// distance of samples not used.
+fn settle(functions: &Functions, cloud: &mut Cloud<'_>) -> Option<f64> {
     restart(cloud, functions);
+    if functions.per_cell() == OF_ELLIPSOIDS {
+        cloud.start_on_ellipsoid();
+    }
     let problem = Problem::new(functions);
-    let fit = |cloud: &Cloud<'_>| {
+    let mut held_out = f64::INFINITY;
+    for round in 0..ROUNDS_OF_WHOLE {
         let rows = problem.rows(cloud);
-        problem.fit(cloud, &rows, [1.0, ACROSS], ROUGHNESS, Used::NotLeftOut)
-    };
-    for _ in 0..rounds {
-        let surface = fit(cloud)?;
+        let weights = [1.0, ACROSS];
+        let surface = problem.fit(cloud, &rows, weights, ROUGHNESS, Used::NotLeftOut)?;
+        let (found, _) = cloud.distances(&surface, |at| cloud.is_held_out(at));
+        if round >= LEAST_ROUNDS_OF_WHOLE && found.rms > (1.0 - SETTLED) * held_out {
+            break;
+        }
+        held_out = found.rms;
         cloud.project(&surface);
     }
-    let surface = fit(cloud)?;
+    Some(held_out)
+}
+
+/// Fits once.
+fn try_once(functions: &Functions, cloud: &mut Cloud<'_>) -> Option<Once> {
+    restart(cloud, functions);
+    let problem = Problem::new(functions);
+    let rows = problem.rows(cloud);
+    let weights = [1.0, ACROSS];
+    let surface = problem.fit(cloud, &rows, weights, ROUGHNESS, Used::NotLeftOut)?;
     let (held_out, squares) = cloud.distances(&surface, |at| cloud.is_held_out(at));
     let mut errors = vec![0.0; functions.cell_count()];
     for (at, squared) in squares.iter().enumerate() {
@@ -181,7 +225,7 @@ fn split(
             MOST_FUNCTIONS.min(told) / functions.per_cell()
         }
     };
-    let mut once = try_once(&functions, cloud, 0);
+    let mut once = try_once(&functions, cloud);
     for done in 1.. {
         context.enter(Stage::Searching { done, all: None })?;
         let Some(found) = once
@@ -196,7 +240,7 @@ fn split(
         };
         let finer = on_cells(finer, options);
         let growth = finer.count() as f64 / functions.count() as f64;
-        let Some(next) = try_once(&finer, cloud, 0) else {
+        let Some(next) = try_once(&finer, cloud) else {
             break;
         };
         if next.held_out > found.held_out * growth.powf(-LEAST_GAIN) {
@@ -208,7 +252,7 @@ fn split(
     let even = on_cells(CubeCell::uniform(parts), options);
     let held_out = once.map_or(f64::INFINITY, |once| once.held_out);
     if even.count() < functions.count()
-        && let Some(once) = try_once(&even, cloud, 0)
+        && let Some(once) = try_once(&even, cloud)
         && once.held_out < held_out
     {
         return Ok((even, once.held_out));
@@ -216,10 +260,12 @@ fn split(
     Ok((functions, held_out))
 }
 
-/// The cells with the largest errors in four, at most so many and a third of all. `None` if that is none.
+/// The cells with the largest errors in four, at most so many and a third of all, but none that are as fine as can be.
+/// `None` if that is none.
 fn quartered(functions: &Functions, errors: &[f64], room: usize) -> Option<Vec<CubeCell>> {
     let cells = functions.cover()?.cells();
-    let mut order: Vec<usize> = (0..errors.len()).collect();
+    let may_split = |cell: &usize| cells[*cell].parts <= MAX_FACE_PARTS / 2;
+    let mut order: Vec<usize> = (0..errors.len()).filter(may_split).collect();
     order.sort_by(|&one, &other| errors[other].total_cmp(&errors[one]).then(one.cmp(&other)));
     let goal = SPLIT_SHARE * errors.iter().sum::<f64>();
     let (mut held, mut is_split) = (0.0, vec![false; errors.len()]);
@@ -238,4 +284,43 @@ fn quartered(functions: &Functions, errors: &[f64], room: usize) -> Option<Vec<C
             false => vec![*cell],
         });
     is_split.contains(&true).then(|| finer.collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cells_as_fine_as_can_be_are_not_cut() {
+        let mut cells = CubeCell::uniform(1);
+        while cells[0].parts < MAX_FACE_PARTS {
+            let quarters = cells.remove(0).quarters();
+            cells.splice(0..0, quarters);
+        }
+        let functions = on_cells(cells, &FitOptions::default());
+        let mut errors = vec![0.0; functions.cell_count()];
+        errors[..4].fill(1.0);
+        errors[4] = 0.5;
+        let finer = quartered(&functions, &errors, 100).unwrap();
+        assert_eq!(
+            on_cells(finer.clone(), &FitOptions::default()).cell_count(),
+            finer.len()
+        );
+        assert!(finer.len() > functions.cell_count());
+    }
+
+    #[test]
+    fn degrees_of_the_whole_sphere_are_those_asked_for() {
+        let options = FitOptions::default();
+        assert_eq!(whole_degrees(&options), [1, 3, 7]);
+        assert_eq!(whole_degrees(&options.clone().with_degree(2)), [2]);
+        assert_eq!(whole_degrees(&options.clone().with_max_degree(4)), [1, 3]);
+        let cells = || CubeCell::uniform(1);
+        let bounded = options.clone().with_max_degree(2);
+        assert_eq!(on_cells(cells(), &bounded).per_cell(), 9);
+        assert_eq!(
+            on_cells(cells(), &options.with_max_degree(5)).per_cell(),
+            16
+        );
+    }
 }

@@ -1,7 +1,7 @@
 use super::cloud::Cloud;
 use super::functions::Functions;
 use super::map::MapError;
-use super::rounds::crossing_pairs;
+use super::rounds::crossing_places;
 use super::*;
 use crate::measure::grain_properties;
 use crate::model::PositionGrain;
@@ -63,6 +63,27 @@ fn an_ellipsoid_is_met_by_harmonics_of_degree_one() {
     assert_relative_eq!(volume, 8.0 * PI, max_relative = 2e-3);
     let middle = (fit.surface.point(&Vector3::x()) + fit.surface.point(&-Vector3::x())) * 0.5;
     assert_relative_eq!(fit.frame.to_scan(&middle).coords, centre, epsilon = 1e-4);
+}
+
+#[test]
+fn slender_and_flat_ellipsoids_are_met_by_degree_one_too() {
+    for semi_axes in [Vector3::new(30.0, 1.0, 1.0), Vector3::new(1.0, 1.0, 0.02)] {
+        let ellipsoid = mesh(20, |n| turn() * n.component_mul(&semi_axes));
+        let options = FitOptions::default().with_degree(1);
+        for options in [options.clone(), options.with_segments(1)] {
+            let fit = fitted(&ellipsoid, &options);
+            assert_eq!(fit.surface.coefficient_count(), 12);
+            assert!(fit.distance.max < 1e-5 * fit.radius, "{:?}", fit.distance);
+        }
+    }
+}
+
+#[test]
+fn a_degree_of_zero_is_refused_whatever_kind_was_asked_for() {
+    let scan = Scan::from_mesh(mesh(4, |n| *n)).unwrap();
+    let options = FitOptions::default().with_degree(0);
+    let found = fit_position(&scan, &options, &Context::default());
+    assert_eq!(found.unwrap_err(), FitError::PointOfDegreeZero);
 }
 
 #[test]
@@ -212,13 +233,13 @@ fn expanded(point: impl Fn(&Vector3<f64>) -> Vector3<f64>) -> Position {
 
 #[test]
 fn surfaces_that_go_through_themselves_are_told_of() {
-    assert_eq!(crossing_pairs(&expanded(|n| *n)), 0);
+    assert_eq!(crossing_places(&expanded(|n| *n)).len(), 0);
     assert_eq!(
-        crossing_pairs(&expanded(|n| n * (1.0 - 0.8 * n.z * n.z))),
+        crossing_places(&expanded(|n| n * (1.0 - 0.8 * n.z * n.z))).len(),
         0
     );
     // Both poles go through the centre, to the other side.
-    assert!(crossing_pairs(&expanded(|n| n * (1.0 - 1.5 * n.z * n.z))) > 100);
+    assert!(crossing_places(&expanded(|n| n * (1.0 - 1.5 * n.z * n.z))).len() > 100);
 }
 
 #[test]

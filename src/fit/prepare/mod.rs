@@ -183,7 +183,7 @@ fn star_centre(
 }
 
 /// Semi-axes of the ellipsoid that has a body's second moments along the axes of a frame.
-fn semi_axes(properties: &MassProperties, frame: &Frame) -> Vector3<f64> {
+pub(crate) fn semi_axes(properties: &MassProperties, frame: &Frame) -> Vector3<f64> {
     let inertia = frame.axes.transpose() * properties.inertia * frame.axes;
     // Of an ellipsoid with semi-axes a_i, the integral of x_i^2 is V a_i^2 / 5.
     Vector3::from_fn(|i, _| {

@@ -18,6 +18,8 @@ pub struct Reference {
 pub enum ReferenceKind {
     /// The scan's own faces, which are closed and of one piece.
     Faces,
+    /// The same of a segmented volume: they part its voxels, and have their steps.
+    Voxels,
     /// The spherical Delaunay triangulation of the points' directions.
     Directions,
     /// The middle of a crust of voxels around the points.
@@ -25,10 +27,11 @@ pub enum ReferenceKind {
 }
 
 impl ReferenceKind {
-    /// The name used in reports: "faces", "directions" or "crust".
+    /// The name used in reports: "faces", "voxels", "directions" or "crust".
     pub fn name(&self) -> &'static str {
         match self {
             Self::Faces => "faces",
+            Self::Voxels => "voxels",
             Self::Directions => "directions",
             Self::Crust => "crust",
         }

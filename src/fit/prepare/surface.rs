@@ -58,7 +58,9 @@ impl ScannedSurface<'_> {
     /// The faces that were seen; none of a cloud.
     pub(crate) fn seen_faces(&self) -> Option<&Mesh> {
         match self.kind {
-            ReferenceKind::Faces => self.faces.as_ref().or(Some(&self.mesh)),
+            ReferenceKind::Faces | ReferenceKind::Voxels => {
+                self.faces.as_ref().or(Some(&self.mesh))
+            }
             ReferenceKind::Directions | ReferenceKind::Crust => self.faces.as_ref(),
         }
     }
@@ -72,13 +74,17 @@ impl ScannedSurface<'_> {
 /// too many points do not lie on one surface round a centre.
 pub fn scanned_surface(scan: &Scan) -> Result<ScannedSurface<'_>, FitError> {
     usable(scan)?;
-    match &scan.topology {
+    let mut surface = match &scan.topology {
         Some(topology) if topology.closed && topology.bodies == 1 => {
             from_faces(scan, &topology.unreferenced)
         }
         Some(_) => from_parts(scan),
         None => from_directions(Cow::Borrowed(&scan.points)),
+    }?;
+    if surface.kind == ReferenceKind::Faces && scan.scatter > 0.0 {
+        surface.kind = ReferenceKind::Voxels;
     }
+    Ok(surface)
 }
 
 /// Refuses points that can be those of no body: not finite, too far apart for numbers, or in a plane.

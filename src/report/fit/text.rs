@@ -16,6 +16,8 @@ impl ReferenceRecord {
         let is_of = |kind: ReferenceKind| self.kind == kind.name();
         if is_of(ReferenceKind::Faces) {
             "the scan's own faces"
+        } else if is_of(ReferenceKind::Voxels) {
+            "the faces between voxels, with their steps"
         } else if is_of(ReferenceKind::Crust) {
             "the middle of a crust of voxels around the points"
         } else {

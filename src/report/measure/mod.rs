@@ -29,6 +29,8 @@ use std::collections::BTreeMap;
 pub enum Measured {
     /// The scan's own faces.
     Faces,
+    /// The faces that part the voxels of a segmented volume.
+    Voxels,
     /// The triangulation of the points' directions.
     Directions,
     /// A fitted model.
@@ -39,6 +41,7 @@ impl From<ReferenceKind> for Measured {
     fn from(kind: ReferenceKind) -> Self {
         match kind {
             ReferenceKind::Faces => Self::Faces,
+            ReferenceKind::Voxels => Self::Voxels,
             ReferenceKind::Directions | ReferenceKind::Crust => Self::Directions,
         }
     }
@@ -168,13 +171,14 @@ impl MeasureReport {
     pub fn of_faces(
         input: String,
         scanned: &ScannedBody,
+        of: Measured,
         only: &[Measure],
         unit: Option<Unit>,
         warnings: Vec<String>,
     ) -> Self {
         let withheld = Withheld::of_faces(scanned);
         let survey = Survey::of_scanned(scanned);
-        Self::without(&withheld, input, Measured::Faces, &survey, only, warnings)
+        Self::without(&withheld, input, of, &survey, only, warnings)
             .in_unit(unit)
             .with_faces(scanned)
     }

@@ -75,7 +75,9 @@ impl Withheld {
         let volume = contradicted.volume.filter(|_| rests_on_volume(measure));
         let found = Contradicted { area, volume };
         let is_found = area.is_some() || volume.is_some();
-        is_found.then(|| format!("{found}; measure the scan itself"))
+        is_found.then(|| {
+            format!("{found}; fit it otherwise (--surface position, or another --segments)")
+        })
     }
 
     /// What a reader of anything that is made of the grain must know: whole sentences.

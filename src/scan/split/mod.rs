@@ -44,6 +44,8 @@ pub struct Split {
     pub dust_points: usize,
     /// Places where grains that touched were cut apart.
     pub cuts: usize,
+    /// Why labels of a segmented volume are no grains.
+    pub left_out: Vec<VolumeError>,
 }
 
 /// One grain of several.
@@ -92,9 +94,17 @@ pub(crate) fn has_neck(points: &[Point3<f64>]) -> bool {
 /// # Errors
 /// [`VolumeError`] where there is no label, or the values are none.
 pub fn split_labels(volume: &Volume) -> Result<Split, VolumeError> {
-    let scans = volume.scans()?.into_iter();
-    let scans = scans.map(|(label, scan)| (Some(label), scan));
-    Ok(without_small(scans))
+    let (mut bodies, mut left_out) = (Vec::new(), Vec::new());
+    for (label, found) in volume.scans()? {
+        match found {
+            Ok(scan) => bodies.push((Some(label), scan)),
+            Err(reason) => left_out.push(reason),
+        }
+    }
+    Ok(Split {
+        left_out,
+        ..without_small(bodies.into_iter())
+    })
 }
 
 fn split_faces(scan: &Scan) -> Split {
@@ -112,6 +122,7 @@ fn without_small(bodies: impl Iterator<Item = (Option<i64>, Scan)>) -> Split {
         dust: dust.len(),
         dust_points: dust.iter().map(|(_, body)| body.points.len()).sum(),
         cuts: 0,
+        left_out: Vec::new(),
         grains: grains
             .into_iter()
             .map(|(label, scan)| SplitGrain {
@@ -200,6 +211,7 @@ fn split_points(all: &[Point3<f64>]) -> Split {
         dust: dust.len(),
         dust_points,
         cuts,
+        left_out: Vec::new(),
         grains: members
             .into_iter()
             .zip(grains)

@@ -102,6 +102,30 @@ pub enum VolumeError {
         /// They, with their numbers of voxels.
         labels: BTreeMap<i64, usize>,
     },
+    /// The border of the image cuts the label off.
+    #[error(
+        "the label {label} is cut off at the border of the volume, on which {:.0} % of its boundary lies: how large the \
+         grain is cannot be known; scan it whole, or crop the volume with a margin",
+        100.0 * share
+    )]
+    CutOff {
+        /// The label.
+        label: i64,
+        /// Share of its boundary that lies on one side of the image.
+        share: f64,
+    },
+    /// So few voxels have no shape.
+    #[error(
+        "the label {label} has {}, too few for a shape: look whether it is a speck of the segmentation, or scan more \
+         finely",
+        plural(*voxels, "voxel")
+    )]
+    TooFew {
+        /// The label.
+        label: i64,
+        /// Its voxels.
+        voxels: usize,
+    },
     /// The voxels enclose nothing.
     #[error("the voxels of the label enclose no volume")]
     NoBody,

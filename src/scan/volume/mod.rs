@@ -4,13 +4,16 @@
 //! a few lines each and are read here, for the crates that know them bring whole array libraries along; TIFF has a
 //! crate of its own.
 
+mod border;
 mod error;
 mod lattice;
 mod metaimage;
+mod miscount;
 mod nifti;
 mod npy;
 mod nrrd;
 mod samples;
+mod scatter;
 mod tiff;
 
 pub use error::VolumeError;
@@ -30,9 +33,8 @@ const MOST_LABELS: usize = 100_000;
 /// Volume of the boxes round all labels, over that of the image, at most: grains that are packed overlap a few times.
 const MOST_BOXES: f64 = 100.0;
 
-/// Standard deviation of a point in the middle between two voxels from the surface that parts them, along its normal
-/// and on average over all normals, in voxels: it may be anywhere between them, along an axis.
-const SCATTER: f64 = 0.204;
+/// Fewest voxels that have a shape: those of a ball of radius 2.
+const LEAST_VOXELS: usize = 30;
 
 /// An image of labels; zero is what is around the grains.
 #[derive(Debug, Clone, PartialEq)]
@@ -107,6 +109,9 @@ impl Beside<'_> {
         })
     }
 }
+
+/// A label and its boundary, or why it has none that a grain is told by.
+pub type LabelScan = (i64, Result<Scan, VolumeError>);
 
 impl Volume {
     /// An image with axes along x, y and z.
@@ -214,14 +219,14 @@ impl Volume {
         }
     }
 
-    /// The boundary of every label, see [`Self::scan`].
+    /// The boundary of every label, see [`Self::scan`], or why it has none that a grain is told by.
     ///
     /// # Errors
-    /// [`VolumeError`] if there is no label.
-    pub fn scans(&self) -> Result<Vec<(i64, Scan)>, VolumeError> {
+    /// [`VolumeError`] if there is no label, or the values are none.
+    pub fn scans(&self) -> Result<Vec<LabelScan>, VolumeError> {
         let extents = self.grains()?;
-        let grain = |(label, extent): (&i64, &Extent)| Ok((*label, self.grain(*label, extent)?));
-        extents.iter().map(grain).collect()
+        let grain = |(label, extent): (&i64, &Extent)| (*label, self.grain(*label, extent));
+        Ok(extents.iter().map(grain).collect())
     }
 
     /// Where all labels are.
@@ -243,11 +248,12 @@ impl Volume {
     }
 
     /// The boundary of a label within its extent.
-    pub(crate) fn grain(
-        &self,
-        label: i64,
-        Extent { low, high, .. }: &Extent,
-    ) -> Result<Scan, VolumeError> {
+    pub(crate) fn grain(&self, label: i64, extent: &Extent) -> Result<Scan, VolumeError> {
+        let Extent { voxels, low, high } = extent;
+        if *voxels < LEAST_VOXELS {
+            let voxels = *voxels;
+            return Err(VolumeError::TooFew { label, voxels });
+        }
         let mut grid = Grid::new(std::array::from_fn(|axis| high[axis] - low[axis] + 1));
         let [width, height, _] = self.size;
         for z in low[2]..=high[2] {
@@ -259,9 +265,11 @@ impl Volume {
                 }
             }
         }
+        let touching = border::look(label, &grid, extent, self.size)?;
         let first = self.origin + self.steps * Vector3::from(low.map(|i| i as f64));
         let mut scan = voxel_scan(&grid, first, &self.steps)?;
-        scan.warnings.splice(0..0, self.warnings.iter().cloned());
+        let warnings = self.warnings.iter().cloned().chain(touching);
+        scan.warnings.splice(0..0, warnings);
         Ok(scan)
     }
 }
@@ -304,6 +312,7 @@ impl Extent {
 /// The boundary of the voxels of a grid as a scan.
 fn voxel_scan(grid: &Grid, first: Point3<f64>, steps: &Matrix3<f64>) -> Result<Scan, VolumeError> {
     let mut mesh: Mesh = contour(grid, |_, _| 0.5);
+    let scatter = scatter::scatter(&mesh, steps);
     for vertex in &mut mesh.vertices {
         *vertex = first + steps * vertex.coords;
     }
@@ -315,7 +324,8 @@ fn voxel_scan(grid: &Grid, first: Point3<f64>, steps: &Matrix3<f64>) -> Result<S
     check(&mesh.vertices).map_err(|_| VolumeError::NoBody)?;
     let mut scan = Scan::of_mesh(mesh);
     inspect::inspect(&mut scan);
-    scan.scatter = SCATTER * steps.determinant().abs().cbrt();
+    scan.scatter = scatter;
+    scan.miscount = miscount::miscount(steps);
     Ok(scan)
 }
 
