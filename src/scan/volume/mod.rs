@@ -36,6 +36,9 @@ const MOST_BOXES: f64 = 100.0;
 /// Fewest voxels that have a shape: those of a ball of radius 2.
 const LEAST_VOXELS: usize = 30;
 
+/// A label, and its boundary or why it is no grain.
+type LabelScan = (i64, Result<Scan, VolumeError>);
+
 /// An image of labels; zero is what is around the grains.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Volume {
@@ -220,7 +223,7 @@ impl Volume {
     ///
     /// # Errors
     /// [`VolumeError`] if there is no label, or the values are none.
-    pub fn scans(&self) -> Result<Vec<(i64, Result<Scan, VolumeError>)>, VolumeError> {
+    pub fn scans(&self) -> Result<Vec<LabelScan>, VolumeError> {
         let extents = self.extents()?;
         if extents.is_empty() {
             return Err(VolumeError::NoLabels);
