@@ -231,7 +231,7 @@ pub enum FitError {
         place: Point3<f64>,
     },
     /// Neither a radius nor positions can be fitted to points without faces.
-    #[error("{position}. A radius cannot be fitted either: {radius}")]
+    #[error("{radius}. Positions cannot be fitted either: {position}")]
     NoKind {
         /// Why no radius can.
         radius: Box<FitError>,

@@ -241,18 +241,17 @@ fn positioned(
     kind: KindChoice,
     is_worth: &(dyn Fn(Rival) -> bool + Sync),
 ) -> Result<Fitted, FitError> {
-    let mut options = options.clone();
-    let (fit, grain, cells) = loop {
-        let fit = fit_position_if(scan, &options, context, is_worth)?;
-        let cells = fit.surface.coefficients().len();
-        match sound(&fit) {
-            Ok(grain) => break (fit, grain, cells),
-            Err(_) if options.segments.is_none() && cells > FEWEST_CELLS => {
-                options.max_segments = Some((cells / 2).max(FEWEST_CELLS));
-            }
-            Err(error) => return Err(error),
-        }
-    };
+    let mut fit = fit_position_if(scan, options, context, is_worth)?;
+    let cells_of = |fit: &PositionFit| fit.surface.coefficients().len();
+    // Fewer cells may not go through themselves.
+    if sound(&fit).is_err() && options.segments.is_none() && cells_of(&fit) > FEWEST_CELLS {
+        let fewer = FitOptions {
+            max_segments: Some((cells_of(&fit) / 2).max(FEWEST_CELLS)),
+            ..options.clone()
+        };
+        fit = fit_position_if(scan, &fewer, context, is_worth)?;
+    }
+    let (grain, cells) = (sound(&fit)?, cells_of(&fit));
     let (degree, radius) = (fit.surface.degree(), fit.radius);
     let grain = Grain::from(grain);
     let candidate = Candidate {

@@ -128,7 +128,7 @@ fn points_that_no_kind_fits_are_told_why_for_both() {
         &["synth", "cup", "--points", "300", "-o", "cup.xyz"],
     );
     let refused = errors(&grainform(&folder, &["fit", "cup.xyz"]));
-    for part in ["mesh the points", "A radius cannot be fitted either"] {
+    for part in ["mesh the points", "Positions cannot be fitted either"] {
         assert!(refused.contains(part), "{refused}");
     }
 }

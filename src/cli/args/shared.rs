@@ -119,6 +119,6 @@ pub(in crate::cli) struct MeshingArgs {
     /// Cells N along each edge of a cube of directions: 6 N^2 + 2 vertices, 12 N^2 triangles; at most 2886, or
     /// 1348 with what is known at each vertex, which takes 4 GB of memory
     #[arg(long, value_name = "N", default_value_t = DEFAULT_RESOLUTION, help_heading = OUTPUT,
-          value_parser = value_parser!(u16).range(1..=2886))]
+          value_parser = value_parser!(u16).range(1..))]
     pub(in crate::cli) resolution: u16,
 }

@@ -97,10 +97,6 @@ impl Rewriter {
                 {
                     return Err(unexpected(number, "an element not declared before", name));
                 }
-                if tokens.get(1) == Some(&&b"tristrips"[..]) && tokens.get(2) != Some(&&b"0"[..]) {
-                    let expected = "faces as the element `face`: triangle strips are not read; save the mesh as triangles";
-                    return Err(unexpected(number, expected, line));
-                }
             }
             b"property" => {
                 self.check_property(number, line, &mut tokens, fresh_name.as_bytes())?;
@@ -227,21 +223,6 @@ mod tests {
         assert!(error.to_string().starts_with("line 7:"), "{error}");
         let error = header(&format!("{CLOUD}{CLOUD}")).err().unwrap();
         assert!(error.to_string().starts_with("line 7:"), "{error}");
-    }
-
-    #[test]
-    fn triangle_strips_are_refused_and_none_of_them_passed_over() {
-        let strips = |count: usize| {
-            let declared =
-                format!("element tristrips {count}\nproperty list int int vertex_indices\n");
-            header(&format!("{CLOUD}{declared}"))
-        };
-        let error = strips(1).err().unwrap().to_string();
-        assert!(
-            error.starts_with("line 7:") && error.contains("triangle strips"),
-            "{error}"
-        );
-        assert!(strips(0).is_ok());
     }
 
     #[test]
