@@ -185,8 +185,7 @@ impl MeasureReport {
 
     /// The same of the polyhedron through the points of a scan, without what they do not tell; `roughness`: what theirs adds to its
     /// area, as a share.
-    #[cfg(feature = "cli")]
-    pub(crate) fn of_points(
+    pub fn of_points(
         input: String,
         surface: &ScannedSurface<'_>,
         survey: &Survey<'_>,
