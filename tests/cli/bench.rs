@@ -130,10 +130,10 @@ fn rivals_without_python_are_told_how_to_get_them() {
 #[test]
 #[ignore = "needs python3 with ducc0 and numpy in the path"]
 fn rivals_are_least_squares_fits_judged_by_the_same_hidden_points() {
-    let folder = scans("98");
+    let folder = scans("386");
     let scan = &json(&folder, &["bench", "small.ply", "--rivals"])["scans"][0];
     let hidden = number(scan, "hidden");
-    assert!(hidden > 3.0 && hidden + number(scan, "points") == 98.0);
+    assert!(hidden > 3.0 && hidden + number(scan, "points") == 386.0);
     let of_family = |family: &str| -> Vec<Value> {
         let rows = scan["rows"].as_array().unwrap().iter();
         let of_family = rows.filter(|row| row["family"] == family);
@@ -142,6 +142,7 @@ fn rivals_are_least_squares_fits_judged_by_the_same_hidden_points() {
     let (own, rivals) = (of_family("whole"), of_family("ducc0"));
     assert_eq!(own.len(), rivals.len());
     assert!(own.len() > 3);
+    // Of fewer points the iterations that suit ducc0 best end before the least squares.
     for (own, rival) in own.iter().zip(&rivals) {
         assert_eq!(own["degree"], rival["degree"]);
         let ratio = number(rival, "hidden_share") / number(own, "hidden_share");
