@@ -8,6 +8,7 @@ use super::values::SurfaceArg;
 use super::{outputs, superquadric};
 use crate::fit::Fitted;
 use crate::report::{FitReport, largest_loss, write_harmonics};
+use crate::scan::plural;
 use anyhow::{Result, bail};
 use std::time::Instant;
 
@@ -61,13 +62,16 @@ pub(super) fn run(args: FitArgs, console: Console) -> Result<()> {
     if let Some(path) = &args.png {
         progress.stage("Drawing");
         let choice = fitted.search.choice();
+        let segments = match choice.segments {
+            1 => "the whole sphere".into(),
+            segments => plural(segments, "segment"),
+        };
         let title = format!(
-            "{}: {} points; degree {}, {} segments, {} coefficients",
+            "{}: {}; degree {}, {segments}, {}",
             fitting.name(),
-            fitted.points,
+            plural(fitted.points, "point"),
             choice.degree,
-            choice.segments,
-            fitted.grain.coefficient_count()
+            plural(fitted.grain.coefficient_count(), "coefficient")
         );
         outputs::write_picture(path, &fitted.grain, Some(&scan), title, fitting.unit)?;
     }
