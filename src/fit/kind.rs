@@ -243,15 +243,17 @@ fn positioned(
 ) -> Result<Fitted, FitError> {
     let mut fit = fit_position_if(scan, options, context, is_worth)?;
     let cells_of = |fit: &PositionFit| fit.surface.coefficients().len();
+    let mut grain = sound(&fit);
     // Fewer cells may not go through themselves.
-    if sound(&fit).is_err() && options.segments.is_none() && cells_of(&fit) > FEWEST_CELLS {
+    if grain.is_err() && options.segments.is_none() && cells_of(&fit) > FEWEST_CELLS {
         let fewer = FitOptions {
             max_segments: Some((cells_of(&fit) / 2).max(FEWEST_CELLS)),
             ..options.clone()
         };
         fit = fit_position_if(scan, &fewer, context, is_worth)?;
+        grain = sound(&fit);
     }
-    let (grain, cells) = (sound(&fit)?, cells_of(&fit));
+    let (grain, cells) = (grain?, cells_of(&fit));
     let (degree, radius) = (fit.surface.degree(), fit.radius);
     let grain = Grain::from(grain);
     let candidate = Candidate {

@@ -52,7 +52,7 @@ use crate::sphere::{ScatteredHarmonics, coefficient_count};
 use cloud::Cloud;
 use map::rounder;
 use nalgebra::Vector3;
-use outcome::Dense;
+use outcome::{Dense, LAST_DEGREES, last_power};
 use outliers::{ROUNDS, alone};
 use patches::{Patches, WHOLE_CLOUD};
 use posterior::{Posterior, is_small};
@@ -63,9 +63,6 @@ use tilt::most_likely;
 
 /// Degrees that are tried, as long as the last degrees of one carry something.
 const DEGREES: [usize; 5] = [36, 48, 60, 72, 80];
-
-/// Degrees that count as last.
-const LAST_DEGREES: usize = 4;
 
 /// A higher degree is kept if points that are left out are missed by this share less: else what the last degrees carried was
 /// noise, of which the prior expected more. The likelihood does not tell: as far as it is known of so many points it is off by
@@ -199,9 +196,7 @@ fn next_degree(
     points: usize,
     is_factored: bool,
 ) -> Option<usize> {
-    let from = (degree + 1 - LAST_DEGREES).pow(2);
-    let tail: f64 = fit.coefficients[from..].iter().map(|x| x * x).sum();
-    if is_factored || fit.hides(tail / (4.0 * std::f64::consts::PI)) {
+    if is_factored || fit.hides(last_power(&fit.coefficients, degree)) {
         return None;
     }
     let most = MOST_PER_POINT * points as f64;

@@ -67,6 +67,16 @@ pub(super) fn spare(unlearnt: &[f64], points: f64) -> f64 {
     (1.0 - learnt(unlearnt) / points).max(LEAST_SPARE)
 }
 
+/// Degrees that count as last.
+pub(super) const LAST_DEGREES: usize = 4;
+
+/// Mean square of what the last degrees of an expansion carry.
+pub(super) fn last_power(coefficients: &[f64], degree: usize) -> f64 {
+    let from = (degree + 1 - LAST_DEGREES).pow(2);
+    let squares: f64 = coefficients[from..].iter().map(|x| x * x).sum();
+    squares / (4.0 * std::f64::consts::PI)
+}
+
 /// Mean posterior variance of the radius: sum of (2l + 1) C_l / 4 pi.
 pub(super) fn variance(spectrum: &Spectrum, unlearnt: &[f64]) -> f64 {
     moment(spectrum, unlearnt, 0)

@@ -23,7 +23,7 @@
 //! pyramid on a lattice the volume is .3 to .7 % off. Beside edges points may also seem to stand alone, and be left out:
 //! of a bicone 4 %.
 
-use super::outcome::Estimate;
+use super::outcome::{Estimate, last_power};
 use crate::fit::neighbours::Neighbours;
 use crate::spread::covariance;
 use nalgebra::Vector3;
@@ -116,15 +116,10 @@ impl Estimate {
 
     /// Whether its last degrees carry more than is small beside its own error: then those above would carry as much.
     fn goes_on(&self) -> bool {
-        let last = (self.degree + 1 - LAST_DEGREES).pow(2);
-        let square: f64 = self.coefficients[last..].iter().map(|x| x * x).sum();
         let small = (LEAST_TAIL * self.deviation() / self.cloud.mean).max(FLOOR_OF_TAIL);
-        square > 4.0 * PI * small * small
+        last_power(&self.coefficients, self.degree) > small * small
     }
 }
-
-/// Degrees that count as last.
-const LAST_DEGREES: usize = 4;
 
 /// RMS of their part of the radius that is small beside the standard deviation of the estimate, ...
 const LEAST_TAIL: f64 = 0.5;
