@@ -1,5 +1,6 @@
-//! Posterior systems by conjugate gradients, preconditioned by the matrix of an even cloud.
+//! Posterior systems by conjugate gradients, preconditioned by the matrix of an even cloud or by a rough factor.
 
+use super::dense::Factor;
 use super::posterior::{Conditioned, Posterior};
 use super::stopping::Enough;
 use crate::vectorize::{dot, vectorize};
@@ -47,13 +48,41 @@ impl Conditioned<'_> {
         start: Option<&[f64]>,
         enough: Enough,
     ) -> (Vec<f64>, usize) {
-        let count = right.len();
         let even = self.posterior.cloud.weights.iter().sum::<f64>() / (4.0 * PI * self.noise);
         let preconditioner: Vec<f64> = self
             .variances
             .iter()
             .map(|v| 1.0 / (even + 1.0 / v))
             .collect();
+        let precondition = |r: &[f64], z: &mut [f64]| {
+            vectorize(
+                #[inline(always)]
+                || {
+                    for ((z, r), p) in z.iter_mut().zip(r).zip(&preconditioner) {
+                        *z = r * p;
+                    }
+                },
+            );
+        };
+        self.steps(right, start, enough, precondition)
+    }
+
+    /// Solves C^-1 x = right to rounding, by a factor of single precision; also tells the number of steps.
+    pub(super) fn refined(&self, factor: &Factor, right: &[f64]) -> (Vec<f64>, usize) {
+        self.steps(right, None, Enough::Rounding, |r, z| {
+            z.copy_from_slice(r);
+            factor.solve(z);
+        })
+    }
+
+    fn steps(
+        &self,
+        right: &[f64],
+        start: Option<&[f64]>,
+        enough: Enough,
+        precondition: impl Fn(&[f64], &mut [f64]),
+    ) -> (Vec<f64>, usize) {
+        let count = right.len();
         let (mut x, mut q) = (vec![0.0; count], vec![0.0; count]);
         let mut r = right.to_vec();
         if let Some(start) = start {
@@ -67,7 +96,8 @@ impl Conditioned<'_> {
                 || dot(a, b),
             )
         };
-        let mut z: Vec<f64> = r.iter().zip(&preconditioner).map(|(r, p)| r * p).collect();
+        let mut z = vec![0.0; count];
+        precondition(&r, &mut z);
         let mut p = z.clone();
         let mut rz = product(&r, &z);
         let mut energies: Vec<f64> = Vec::new();
@@ -77,13 +107,11 @@ impl Conditioned<'_> {
             vectorize(
                 #[inline(always)]
                 || {
-                    let (p, q, preconditioner) =
-                        (&p[..count], &q[..count], &preconditioner[..count]);
-                    let (x, r, z) = (&mut x[..count], &mut r[..count], &mut z[..count]);
+                    let (p, q) = (&p[..count], &q[..count]);
+                    let (x, r) = (&mut x[..count], &mut r[..count]);
                     for i in 0..count {
                         x[i] += step * p[i];
                         r[i] -= step * q[i];
-                        z[i] = r[i] * preconditioner[i];
                     }
                 },
             );
@@ -91,6 +119,7 @@ impl Conditioned<'_> {
             if enough.is_reached(&energies, rz) {
                 break;
             }
+            precondition(&r, &mut z);
             let next = product(&r, &z);
             let share = next / rz;
             p.iter_mut().zip(&z).for_each(|(p, z)| *p = z + share * *p);

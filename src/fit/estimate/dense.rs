@@ -1,5 +1,9 @@
 //! The matrix of a small problem, factored.
 //!
+//! The matrix C^-1 = Y'WY / s^2 + V^-1 is scaled to a unit diagonal first, S C^-1 S. What is left is mostly so well
+//! conditioned that single precision does, in half the time: variances and traces are then good to a thousandth, and the
+//! mean is refined by its residual. Where a pivot says that it does not, the factor is one of double precision.
+//!
 //! Matrices lie in memory that comes zeroed from the system, of which the half above the diagonal is never touched.
 
 use faer::dyn_stack::{MemBuffer, MemStack};
@@ -10,36 +14,178 @@ use faer::linalg::triangular_inverse::invert_lower_triangular;
 use faer::linalg::triangular_solve::{
     solve_lower_triangular_in_place, solve_upper_triangular_in_place,
 };
+use faer::traits::RealField;
+use faer::traits::math_utils::from_f64;
 use faer::{MatMut, MatRef, Par, Spec};
 
-/// The Cholesky factor of I + V^1/2 Y'WY V^1/2 / s^2.
+/// Squares of pivots are the shares of coefficients that the others do not tell. Below this one the rounding of single
+/// precision shows.
+const LEAST_PIVOT: f64 = 0.01;
+
+/// The Cholesky factor L of S C^-1 S.
 #[derive(Debug)]
 pub(crate) struct Factor {
-    /// Rows, and columns.
-    count: usize,
-    /// Column by column.
-    entries: Vec<f64>,
+    /// S, its diagonal: the standard deviation of each coefficient if all others were known.
+    scale: Vec<f64>,
+    /// The logarithm of the product of V^1/2 / S.
+    log_scale: f64,
+    lower: Lower,
+}
+
+#[derive(Debug)]
+enum Lower {
+    Single(Triangle<f32>),
+    Double(Triangle<f64>),
 }
 
 impl Factor {
     /// From the lower triangle of Y'WY, column by column, the variances and s^2. `None` if the matrix is not positive.
     pub(super) fn new(gram: &[f64], variances: &[f64], noise: f64) -> Option<Self> {
-        let root: Vec<f64> = variances.iter().map(|v| v.sqrt()).collect();
-        let count = root.len();
-        let mut entries = vec![0.0; count * count];
+        let scale = scale(gram, variances, noise);
+        let single = Triangle::<f32>::new(gram, &scale, noise);
+        let lower = match single.filter(|single| single.least_pivot() > LEAST_PIVOT) {
+            Some(single) => Lower::Single(single),
+            None => Lower::Double(Triangle::new(gram, &scale, noise)?),
+        };
+        Some(Self::with(lower, scale, variances))
+    }
+
+    /// The same, always in double precision.
+    pub(super) fn double(gram: &[f64], variances: &[f64], noise: f64) -> Option<Self> {
+        let scale = scale(gram, variances, noise);
+        let lower = Lower::Double(Triangle::new(gram, &scale, noise)?);
+        Some(Self::with(lower, scale, variances))
+    }
+
+    fn with(lower: Lower, scale: Vec<f64>, variances: &[f64]) -> Self {
+        let pairs = variances.iter().zip(&scale);
+        Self {
+            log_scale: pairs.map(|(v, s)| (v.sqrt() / s).ln()).sum(),
+            scale,
+            lower,
+        }
+    }
+
+    /// Whether solutions are good to rounding.
+    pub(super) fn is_double(&self) -> bool {
+        matches!(self.lower, Lower::Double(_))
+    }
+
+    /// C b, in place, for each column b.
+    pub(super) fn solve(&self, columns: &mut [f64]) {
+        self.scaled(columns);
+        match &self.lower {
+            Lower::Single(lower) => in_single(columns, lower.count, |columns| {
+                lower.solve_lower(columns);
+                lower.solve_upper(columns);
+            }),
+            Lower::Double(lower) => {
+                lower.solve_lower(columns);
+                lower.solve_upper(columns);
+            }
+        }
+        self.scaled(columns);
+    }
+
+    /// b'C b for each column b, which is overwritten.
+    pub(super) fn variances(&self, columns: &mut [f64]) -> Vec<f64> {
+        self.scaled(columns);
+        match &self.lower {
+            Lower::Single(lower) => in_single(columns, lower.count, |c| lower.solve_lower(c)),
+            Lower::Double(lower) => lower.solve_lower(columns),
+        }
+        let columns = columns.chunks_exact(self.scale.len());
+        columns
+            .map(|column| column.iter().map(|x| x * x).sum())
+            .collect()
+    }
+
+    /// The diagonal of C.
+    pub(super) fn diagonal(&self) -> Vec<f64> {
+        let squares = match &self.lower {
+            Lower::Single(lower) => lower.inverse_diagonal(),
+            Lower::Double(lower) => lower.inverse_diagonal(),
+        };
+        let pairs = squares.into_iter().zip(&self.scale);
+        pairs.map(|(square, s)| square * s * s).collect()
+    }
+
+    /// The logarithm of the root of the determinant of V^1/2 C^-1 V^1/2.
+    pub(super) fn log_root_determinant(&self) -> f64 {
+        let log_pivots: f64 = match &self.lower {
+            Lower::Single(lower) => lower.pivots().map(f64::ln).sum(),
+            Lower::Double(lower) => lower.pivots().map(f64::ln).sum(),
+        };
+        log_pivots + self.log_scale
+    }
+
+    fn scaled(&self, columns: &mut [f64]) {
+        for column in columns.chunks_exact_mut(self.scale.len()) {
+            column
+                .iter_mut()
+                .zip(&self.scale)
+                .for_each(|(x, s)| *x *= s);
+        }
+    }
+}
+
+fn scale(gram: &[f64], variances: &[f64], noise: f64) -> Vec<f64> {
+    let diagonal = gram.iter().step_by(variances.len() + 1);
+    let pairs = diagonal.zip(variances);
+    pairs
+        .map(|(g, v)| 1.0 / (g / noise + 1.0 / v).sqrt())
+        .collect()
+}
+
+/// Does with columns in single precision what is to be done, each so large that no entry that counts is lost.
+fn in_single(columns: &mut [f64], count: usize, work: impl FnOnce(&mut [f32])) {
+    let sizes: Vec<f64> = columns
+        .chunks_exact(count)
+        .map(|column| {
+            column
+                .iter()
+                .fold(f64::MIN_POSITIVE, |most, x| most.max(x.abs()))
+        })
+        .collect();
+    let sized = columns.chunks_exact(count).zip(&sizes);
+    let mut single: Vec<f32> = sized
+        .flat_map(|(column, size)| column.iter().map(move |x| (x / size) as f32))
+        .collect();
+    work(&mut single);
+    let sized = columns.chunks_exact_mut(count).zip(&sizes);
+    for ((column, size), single) in sized.zip(single.chunks_exact(count)) {
+        for (x, single) in column.iter_mut().zip(single) {
+            *x = f64::from(*single) * size;
+        }
+    }
+}
+
+/// A lower triangular matrix, column by column.
+#[derive(Debug)]
+struct Triangle<T> {
+    /// Rows, and columns.
+    count: usize,
+    entries: Vec<T>,
+}
+
+impl<T: RealField + Copy + Into<f64>> Triangle<T> {
+    /// The factor of the scaled matrix. `None` if it is not positive.
+    fn new(gram: &[f64], scale: &[f64], noise: f64) -> Option<Self> {
+        let count = scale.len();
+        let mut entries = vec![from_f64::<T>(0.0); count * count];
         let columns = entries
             .chunks_exact_mut(count)
             .zip(gram.chunks_exact(count));
         for (j, (to, from)) in columns.enumerate() {
-            let scale = root[j] / noise;
-            let below = to[j..].iter_mut().zip(from[j..].iter().zip(&root[j..]));
-            for (to, (from, root)) in below {
-                *to = from * root * scale;
+            let own = scale[j] / noise;
+            let below = to[j..].iter_mut().zip(from[j..].iter().zip(&scale[j..]));
+            for (to, (from, other)) in below {
+                *to = from_f64(from * other * own);
             }
-            to[j] += 1.0;
+            to[j] = from_f64(1.0);
         }
-        let params = Spec::<LltParams, f64>::default();
-        let scratch = cholesky_in_place_scratch::<f64>(count, Par::Seq, params);
+        let params = Spec::<LltParams, T>::default();
+        let scratch = cholesky_in_place_scratch::<T>(count, Par::Seq, params);
         let mut memory = MemBuffer::new(scratch);
         let stack = MemStack::new(&mut memory);
         let nothing_added = LltRegularization::default();
@@ -48,31 +194,103 @@ impl Factor {
         Some(Self { count, entries })
     }
 
-    /// The factor L.
-    pub(super) fn lower(&self) -> MatRef<'_, f64> {
+    fn matrix(&self) -> MatRef<'_, T> {
         MatRef::from_column_major_slice(&self.entries, self.count, self.count)
     }
 
-    /// The diagonal of the inverse.
-    pub(super) fn inverse_diagonal(&self) -> Vec<f64> {
-        let mut inverse = vec![0.0; self.count * self.count];
-        let matrix = MatMut::from_column_major_slice_mut(&mut inverse, self.count, self.count);
-        invert_lower_triangular(matrix, self.lower(), Par::Seq);
-        let columns = inverse.chunks_exact(self.count).enumerate();
-        let squares = columns.map(|(j, column)| column[j..].iter().map(|x| x * x).sum());
-        squares.collect()
-    }
-
-    /// The logarithm of the root of the determinant.
-    pub(super) fn log_root_determinant(&self) -> f64 {
+    fn pivots(&self) -> impl Iterator<Item = f64> {
         let diagonal = self.entries.iter().step_by(self.count + 1);
-        diagonal.map(|entry| entry.ln()).sum()
+        diagonal.map(|&entry| entry.into())
     }
 
-    /// Solves L L' x = right, in place, of each column.
-    pub(super) fn solve(&self, mut columns: MatMut<'_, f64>) {
-        let lower = self.lower();
-        solve_lower_triangular_in_place(lower, columns.as_mut(), Par::Seq);
-        solve_upper_triangular_in_place(lower.transpose(), columns, Par::Seq);
+    /// The least square of a pivot.
+    fn least_pivot(&self) -> f64 {
+        self.pivots().fold(1.0, f64::min).powi(2)
+    }
+
+    /// Solves L x = b, in place, of each column.
+    fn solve_lower(&self, columns: &mut [T]) {
+        solve_lower_triangular_in_place(self.matrix(), self.columns(columns), Par::Seq);
+    }
+
+    /// Solves L'x = b, in place, of each column.
+    fn solve_upper(&self, columns: &mut [T]) {
+        let upper = self.matrix().transpose();
+        solve_upper_triangular_in_place(upper, self.columns(columns), Par::Seq);
+    }
+
+    fn columns<'a>(&self, columns: &'a mut [T]) -> MatMut<'a, T> {
+        let number = columns.len() / self.count;
+        MatMut::from_column_major_slice_mut(columns, self.count, number)
+    }
+
+    /// The diagonal of the inverse of L L'.
+    fn inverse_diagonal(&self) -> Vec<f64> {
+        let mut inverse = vec![from_f64::<T>(0.0); self.count * self.count];
+        invert_lower_triangular(self.columns(&mut inverse), self.matrix(), Par::Seq);
+        let columns = inverse.chunks_exact(self.count).enumerate();
+        let square = |x: &T| -> f64 {
+            let x: f64 = (*x).into();
+            x * x
+        };
+        columns
+            .map(|(j, column)| column[j..].iter().map(square).sum())
+            .collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::posterior::Posterior;
+    use super::super::spectrum::Spectrum;
+    use super::super::trial::{fibonacci, samples};
+    use super::super::{cloud::Cloud, posterior::Conditioned};
+    use super::*;
+    use nalgebra::Vector3;
+    use std::sync::Arc;
+
+    /// What the two precisions say of a cloud with noise `noise`: is the rough one taken, means, variances and the logarithm.
+    fn compared(count: usize, noise: f64, check: impl Fn(&Conditioned<'_>, &Conditioned<'_>)) {
+        let bumps = |n: &Vector3<f64>| 3.0 + 0.2 * (4.0 * n.x + 1.0).sin() * (5.0 * n.y).cos();
+        let directions = fibonacci(count);
+        let points = samples(&directions, bumps, noise);
+        let cloud = Cloud::new(&points, None, Vector3::repeat(1.0));
+        let posterior = Posterior::new(&cloud, 12, true);
+        let spectrum = Spectrum::with_amplitude([-4.0, 0.9, 1.2, noise.ln()]);
+        let given = posterior.given(&spectrum);
+        let gram = posterior.sums.gram(&cloud).lower_triangle();
+        let double = Factor::double(&gram, &given.variances, given.noise).map(Arc::new);
+        let exact = posterior.given_factored(&spectrum, double);
+        check(&given, &exact);
+    }
+
+    #[test]
+    fn single_precision_serves_where_pivots_are_large() {
+        compared(240, 0.01, |given, exact| {
+            let factor = given.factor.as_ref().unwrap();
+            assert!(!factor.is_double());
+            let (mean, steps) = given.mean(None, 0.0);
+            let want = exact.mean(None, 0.0).0;
+            assert!(steps <= 4, "{steps}");
+            for (mean, want) in mean.iter().zip(&want) {
+                assert!((mean - want).abs() < 1e-11, "{mean} {want}");
+            }
+            let (cost, sure) = (given.cost(&mean).unwrap(), exact.cost(&want).unwrap());
+            assert!((cost - sure).abs() < 1e-3, "{cost} {sure}");
+            let directions = fibonacci(40);
+            let known = given.exact_variances(&directions).unwrap();
+            let surely = exact.exact_variances(&directions).unwrap();
+            for (known, surely) in known.iter().zip(surely) {
+                assert!((known / surely - 1.0).abs() < 1e-5, "{known} {surely}");
+            }
+        });
+    }
+
+    #[test]
+    fn double_precision_takes_over_where_coefficients_hang_on_each_other() {
+        // Fewer points than coefficients, with next to no noise.
+        compared(150, 1e-6, |given, _| {
+            assert!(given.factor.as_ref().unwrap().is_double());
+        });
     }
 }

@@ -1,7 +1,6 @@
 //! How well single radii are known: variances of the surface in many directions.
 //!
-//! Where the matrix of the problem is factored, L L' = I + V^1/2 Y'WY V^1/2 / s^2, the variance in a direction of
-//! harmonics y is |L^-1 V^1/2 y|^2. Else surfaces are drawn from the posterior, by solving for points and prior
+//! Where the matrix of the problem is factored, the variance in a direction of harmonics y is y'C y. Else surfaces are drawn from the posterior, by solving for points and prior
 //! means that have been disturbed as their own distributions have it:
 //!
 //! ```text
@@ -12,8 +11,6 @@
 
 use super::posterior::Conditioned;
 use crate::sphere::{HarmonicBasis, ScatteredHarmonics};
-use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
-use faer::{MatMut, Par};
 use nalgebra::Vector3;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
@@ -75,21 +72,14 @@ impl Conditioned<'_> {
         let factor = self.factor.as_ref()?;
         let count = self.variances.len();
         let basis = HarmonicBasis::new(self.posterior.degree());
-        let roots: Vec<f64> = self.variances.iter().map(|v| v.sqrt()).collect();
         let mut columns = vec![0.0; BLOCK.min(directions.len()) * count];
         let mut found = Vec::with_capacity(directions.len());
         for block in directions.chunks(BLOCK) {
             let columns = &mut columns[..block.len() * count];
             for (n, column) in block.iter().zip(columns.chunks_exact_mut(count)) {
                 basis.evaluate(n, column);
-                for (entry, root) in column.iter_mut().zip(&roots) {
-                    *entry *= root;
-                }
             }
-            let matrix = MatMut::from_column_major_slice_mut(columns, count, block.len());
-            solve_lower_triangular_in_place(factor.lower(), matrix, Par::Seq);
-            let squares = |column: &[f64]| column.iter().map(|x| x * x).sum::<f64>();
-            found.extend(columns.chunks_exact(count).map(squares));
+            found.extend(factor.variances(columns));
         }
         Some(found)
     }

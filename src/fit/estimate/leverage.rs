@@ -42,16 +42,20 @@ impl Estimate {
 
 #[cfg(test)]
 mod tests {
+    use super::super::dense::Factor;
     use super::super::posterior::Posterior;
     use super::super::trial::{estimated, fibonacci, samples};
     use super::*;
     use crate::sphere::{HarmonicBasis, coefficient_count};
     use nalgebra::Vector3;
+    use std::sync::Arc;
 
     /// By its definition: w y'C y / s^2 of the harmonics y at each point.
     fn by_definition(estimate: &Estimate) -> Vec<f64> {
         let posterior = estimate.posterior();
-        let given = estimate.given(&posterior);
+        let mut given = estimate.given(&posterior);
+        let gram = posterior.sums.gram(&estimate.cloud).lower_triangle();
+        given.factor = Factor::double(&gram, &given.variances, given.noise).map(Arc::new);
         let basis = HarmonicBasis::new(estimate.degree);
         let rows = estimate.cloud.directions.iter().map(|n| {
             let mut row = vec![0.0; coefficient_count(estimate.degree)];

@@ -2,9 +2,8 @@
 //!
 //! With Y the harmonics in the points' directions, W the weights and V the variances of the spectrum, the
 //! coefficients given the radii y are normal with the covariance C = (Y'WY / s^2 + V^-1)^-1 and the mean
-//! C Y'W y / s^2. Either the matrix is formed and factored, scaled by V so that it is safe
-//! (I + V^1/2 Y'WY V^1/2 / s^2, condition bounded by the data), or systems are solved by conjugate
-//! gradients, preconditioned by the matrix of an even cloud.
+//! C Y'W y / s^2. Either C^-1 is formed and factored, or systems are solved by conjugate gradients,
+//! preconditioned by the matrix of an even cloud.
 
 use super::cloud::Cloud;
 use super::dense::Factor;
@@ -12,7 +11,6 @@ use super::spectrum::Spectrum;
 use super::stopping::{Enough, SHARE};
 use super::sums::Sums;
 use crate::sphere::coefficient_count;
-use faer::MatMut;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use std::f64::consts::PI;
@@ -158,7 +156,7 @@ pub(crate) struct Conditioned<'a> {
     pub(super) variances: Vec<f64>,
     /// s^2.
     pub(super) noise: f64,
-    /// The Cholesky factor of I + V^1/2 Y'WY V^1/2 / s^2.
+    /// C^-1, factored.
     pub(super) factor: Option<Arc<Factor>>,
 }
 
@@ -215,11 +213,15 @@ impl Conditioned<'_> {
     }
 
     fn solve(&self, right: &[f64], start: Option<&[f64]>, settled: f64) -> (Vec<f64>, usize) {
-        let Some(factor) = &self.factor else {
-            return self.conjugate_gradients(right, start, Enough::Energy(settled));
-        };
-        let found = self.solve_factored(factor, &[right]);
-        (found.into_iter().next().unwrap_or_default(), 0)
+        match &self.factor {
+            None => self.conjugate_gradients(right, start, Enough::Energy(settled)),
+            Some(factor) if factor.is_double() => {
+                let mut solved = right.to_vec();
+                factor.solve(&mut solved);
+                (solved, 0)
+            }
+            Some(factor) => self.refined(factor, right),
+        }
     }
 
     pub(super) fn solve_factored(
@@ -227,20 +229,11 @@ impl Conditioned<'_> {
         factor: &Factor,
         rights: &[impl AsRef<[f64]>],
     ) -> Vec<Vec<f64>> {
-        let count = self.variances.len();
-        let roots: Vec<f64> = self.variances.iter().map(|v| v.sqrt()).collect();
-        let mut all: Vec<f64> = rights
-            .iter()
-            .flat_map(|right| right.as_ref().iter().zip(&roots).map(|(b, root)| b * root))
-            .collect();
-        factor.solve(MatMut::from_column_major_slice_mut(
-            &mut all,
-            count,
-            rights.len(),
-        ));
-        all.chunks_exact(count)
-            .map(|x| x.iter().zip(&roots).map(|(x, root)| x * root).collect())
-            .collect()
+        let rights: Vec<&[f64]> = rights.iter().map(AsRef::as_ref).collect();
+        let mut all = rights.concat();
+        factor.solve(&mut all);
+        let columns = all.chunks_exact(self.variances.len());
+        columns.map(<[f64]>::to_vec).collect()
     }
 
     /// Per degree, the share of the prior variance that the points leave: the mean of C_mm over the variance of the order,

@@ -14,6 +14,9 @@ const LOOK_BACK: usize = 8;
 /// Systems for a variance are solved to this share of it, by the sum of the last [`LOOK_BACK`] steps but the first.
 pub(super) const SHARE: f64 = 0.01;
 
+/// Steps of less than this share of the squared size of the first move nothing but the last digits.
+const LEAST_MOVE: f64 = 1e-24;
+
 /// When conjugate gradients end.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Enough {
@@ -21,6 +24,8 @@ pub(super) enum Enough {
     Energy(f64),
     /// When it is below this share of what all steps removed.
     Share(f64),
+    /// When the last step moved nothing beyond rounding.
+    Rounding,
 }
 
 impl Enough {
@@ -38,6 +43,7 @@ impl Enough {
                 let all: f64 = energies.iter().sum();
                 steps > 1 && recent.iter().sum::<f64>() < share * all
             }
+            Self::Rounding => promise < LEAST_MOVE * energies[0],
         }
     }
 }

@@ -41,6 +41,7 @@ pub(super) fn exact(estimate: &Estimate) -> Option<Vec<f64>> {
         1.0,
         Par::Seq,
     );
-    let factor = Factor::new(&products, &cloud.weights, given.noise)?;
-    Some(factor.inverse_diagonal())
+    let factor = Factor::double(&products, &cloud.weights, given.noise)?;
+    let spares = factor.diagonal().into_iter().zip(&cloud.weights);
+    Some(spares.map(|(spare, w)| spare / w).collect())
 }
