@@ -44,5 +44,7 @@ pub(crate) use quadrature::GaussLegendre;
 pub(crate) use ring_grid::RingGrid;
 pub use symmetry::{Symmetry, SymmetryError};
 pub(crate) use tangents::tangents;
-pub(crate) use transform::{AccurateHarmonics, HarmonicGram, Interpolant, ScatteredHarmonics};
+pub(crate) use transform::{
+    AccurateHarmonics, HarmonicGram, Interpolant, LowerTriangle, ScatteredHarmonics,
+};
 pub use triangulation::{TriangulationError, triangulate_directions};

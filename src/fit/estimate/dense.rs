@@ -6,6 +6,7 @@
 //!
 //! Matrices lie in memory that comes zeroed from the system, of which the half above the diagonal is never touched.
 
+use crate::sphere::LowerTriangle;
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::{
     LltParams, LltRegularization, cholesky_in_place, cholesky_in_place_scratch,
@@ -25,7 +26,9 @@ const LEAST_PIVOT: f64 = 0.01;
 /// The Cholesky factor L of S C^-1 S.
 #[derive(Debug)]
 pub(crate) struct Factor {
-    /// S, its diagonal: the standard deviation of each coefficient if all others were known.
+    /// The coefficient of each row and column.
+    order: Vec<usize>,
+    /// S, its diagonal, in this order: the standard deviation of each coefficient if all others were known.
     scale: Vec<f64>,
     /// The logarithm of the product of V^1/2 / S.
     log_scale: f64,
@@ -39,31 +42,35 @@ enum Lower {
 }
 
 impl Factor {
-    /// From the lower triangle of Y'WY, column by column, the variances and s^2. `None` if the matrix is not positive.
-    pub(super) fn new(gram: &[f64], variances: &[f64], noise: f64) -> Option<Self> {
-        let scale = scale(gram, variances, noise);
-        let single = Triangle::<f32>::new(gram, &scale, noise);
-        let lower = match single.filter(|single| single.least_pivot() > LEAST_PIVOT) {
-            Some(single) => Lower::Single(single),
-            None => Lower::Double(Triangle::new(gram, &scale, noise)?),
-        };
-        Some(Self::with(lower, scale, variances))
+    /// From Y'WY, the variances and s^2. `None` where single precision is not enough.
+    pub(super) fn single(gram: &LowerTriangle<f32>, variances: &[f64], noise: f64) -> Option<Self> {
+        Self::new(gram, variances, noise, Lower::Single)
+            .filter(|factor| factor.least_pivot() > LEAST_PIVOT)
     }
 
-    /// The same, always in double precision.
-    pub(super) fn double(gram: &[f64], variances: &[f64], noise: f64) -> Option<Self> {
-        let scale = scale(gram, variances, noise);
-        let lower = Lower::Double(Triangle::new(gram, &scale, noise)?);
-        Some(Self::with(lower, scale, variances))
+    /// The same. `None` if the matrix is not positive.
+    pub(super) fn double(gram: &LowerTriangle<f64>, variances: &[f64], noise: f64) -> Option<Self> {
+        Self::new(gram, variances, noise, Lower::Double)
     }
 
-    fn with(lower: Lower, scale: Vec<f64>, variances: &[f64]) -> Self {
-        let pairs = variances.iter().zip(&scale);
-        Self {
-            log_scale: pairs.map(|(v, s)| (v.sqrt() / s).ln()).sum(),
+    fn new<T: Number>(
+        gram: &LowerTriangle<T>,
+        variances: &[f64],
+        noise: f64,
+        lower: impl FnOnce(Triangle<T>) -> Lower,
+    ) -> Option<Self> {
+        let diagonal = gram.entries.iter().step_by(gram.order.len() + 1);
+        let told = diagonal.map(|&g| g.into() / noise);
+        let pairs = told.zip(gram.order.iter().map(|&at| variances[at]));
+        let (scale, logarithms): (Vec<f64>, Vec<f64>) = pairs
+            .map(|(told, v)| (1.0 / (told + 1.0 / v).sqrt(), 0.5 * (told * v).ln_1p()))
+            .unzip();
+        Some(Self {
+            lower: lower(Triangle::new(&gram.entries, &scale, noise)?),
+            order: gram.order.clone(),
+            log_scale: logarithms.iter().sum(),
             scale,
-            lower,
-        }
+        })
     }
 
     /// Whether solutions are good to rounding.
@@ -73,31 +80,56 @@ impl Factor {
 
     /// C b, in place, for each column b.
     pub(super) fn solve(&self, columns: &mut [f64]) {
-        self.scaled(columns);
         match &self.lower {
-            Lower::Single(lower) => in_single(columns, lower.count, |columns| {
-                lower.solve_lower(columns);
-                lower.solve_upper(columns);
-            }),
-            Lower::Double(lower) => {
-                lower.solve_lower(columns);
-                lower.solve_upper(columns);
-            }
+            Lower::Single(lower) => self.solve_by(lower, columns),
+            Lower::Double(lower) => self.solve_by(lower, columns),
         }
-        self.scaled(columns);
     }
 
-    /// b'C b for each column b, which is overwritten.
-    pub(super) fn variances(&self, columns: &mut [f64]) -> Vec<f64> {
-        self.scaled(columns);
-        match &self.lower {
-            Lower::Single(lower) => in_single(columns, lower.count, |c| lower.solve_lower(c)),
-            Lower::Double(lower) => lower.solve_lower(columns),
+    fn solve_by<T: Number>(&self, lower: &Triangle<T>, columns: &mut [f64]) {
+        let (mut scaled, sizes) = self.scaled::<T>(columns);
+        lower.solve_lower(&mut scaled);
+        lower.solve_upper(&mut scaled);
+        let count = self.order.len();
+        let scaled = scaled.chunks_exact(count).zip(sizes);
+        for (column, (scaled, size)) in columns.chunks_exact_mut(count).zip(scaled) {
+            let rows = self.order.iter().zip(&self.scale);
+            for ((&at, scale), &x) in rows.zip(scaled) {
+                column[at] = x.into() * scale * size;
+            }
         }
-        let columns = columns.chunks_exact(self.scale.len());
+    }
+
+    /// b'C b for each column b.
+    pub(super) fn variances(&self, columns: &[f64]) -> Vec<f64> {
+        match &self.lower {
+            Lower::Single(lower) => self.variances_by(lower, columns),
+            Lower::Double(lower) => self.variances_by(lower, columns),
+        }
+    }
+
+    fn variances_by<T: Number>(&self, lower: &Triangle<T>, columns: &[f64]) -> Vec<f64> {
+        let (mut scaled, sizes) = self.scaled::<T>(columns);
+        lower.solve_lower(&mut scaled);
+        let columns = scaled.chunks_exact(self.order.len()).zip(sizes);
         columns
-            .map(|column| column.iter().map(|x| x * x).sum())
+            .map(|(column, size)| squares(column) * size * size)
             .collect()
+    }
+
+    /// S b of each column b in this order, each so large that no entry that counts is lost, and over its size.
+    fn scaled<T: Number>(&self, columns: &[f64]) -> (Vec<T>, Vec<f64>) {
+        let count = self.order.len();
+        let mut scaled = Vec::with_capacity(columns.len());
+        let rows = || self.order.iter().zip(&self.scale);
+        let sized = columns.chunks_exact(count).map(|column| {
+            let entries = || rows().map(|(&at, scale)| column[at] * scale);
+            let size = entries().fold(f64::MIN_POSITIVE, |most, x| most.max(x.abs()));
+            scaled.extend(entries().map(|x| from_f64::<T>(x / size)));
+            size
+        });
+        let sizes = sized.collect();
+        (scaled, sizes)
     }
 
     /// The diagonal of C.
@@ -106,58 +138,44 @@ impl Factor {
             Lower::Single(lower) => lower.inverse_diagonal(),
             Lower::Double(lower) => lower.inverse_diagonal(),
         };
-        let pairs = squares.into_iter().zip(&self.scale);
-        pairs.map(|(square, s)| square * s * s).collect()
+        let mut diagonal = vec![0.0; squares.len()];
+        let rows = self.order.iter().zip(&self.scale);
+        for ((&at, scale), square) in rows.zip(squares) {
+            diagonal[at] = square * scale * scale;
+        }
+        diagonal
     }
 
     /// The logarithm of the root of the determinant of V^1/2 C^-1 V^1/2.
     pub(super) fn log_root_determinant(&self) -> f64 {
-        let log_pivots: f64 = match &self.lower {
-            Lower::Single(lower) => lower.pivots().map(f64::ln).sum(),
-            Lower::Double(lower) => lower.pivots().map(f64::ln).sum(),
-        };
-        log_pivots + self.log_scale
+        self.pivots().iter().map(|pivot| pivot.ln()).sum::<f64>() + self.log_scale
     }
 
-    fn scaled(&self, columns: &mut [f64]) {
-        for column in columns.chunks_exact_mut(self.scale.len()) {
-            column
-                .iter_mut()
-                .zip(&self.scale)
-                .for_each(|(x, s)| *x *= s);
+    /// The least square of a pivot.
+    fn least_pivot(&self) -> f64 {
+        self.pivots().into_iter().fold(1.0, f64::min).powi(2)
+    }
+
+    fn pivots(&self) -> Vec<f64> {
+        match &self.lower {
+            Lower::Single(lower) => lower.pivots(),
+            Lower::Double(lower) => lower.pivots(),
         }
     }
 }
 
-fn scale(gram: &[f64], variances: &[f64], noise: f64) -> Vec<f64> {
-    let diagonal = gram.iter().step_by(variances.len() + 1);
-    let pairs = diagonal.zip(variances);
-    pairs
-        .map(|(g, v)| 1.0 / (g / noise + 1.0 / v).sqrt())
-        .collect()
-}
+/// A number of single or double precision.
+trait Number: RealField + Copy + Into<f64> {}
 
-/// Does with columns in single precision what is to be done, each so large that no entry that counts is lost.
-fn in_single(columns: &mut [f64], count: usize, work: impl FnOnce(&mut [f32])) {
-    let sizes: Vec<f64> = columns
-        .chunks_exact(count)
-        .map(|column| {
-            column
-                .iter()
-                .fold(f64::MIN_POSITIVE, |most, x| most.max(x.abs()))
-        })
-        .collect();
-    let sized = columns.chunks_exact(count).zip(&sizes);
-    let mut single: Vec<f32> = sized
-        .flat_map(|(column, size)| column.iter().map(move |x| (x / size) as f32))
-        .collect();
-    work(&mut single);
-    let sized = columns.chunks_exact_mut(count).zip(&sizes);
-    for ((column, size), single) in sized.zip(single.chunks_exact(count)) {
-        for (x, single) in column.iter_mut().zip(single) {
-            *x = f64::from(*single) * size;
-        }
-    }
+impl Number for f32 {}
+impl Number for f64 {}
+
+fn squares<T: Number>(column: &[T]) -> f64 {
+    let squares = column.iter().map(|&x| -> f64 {
+        let x: f64 = x.into();
+        x * x
+    });
+    squares.sum()
 }
 
 /// A lower triangular matrix, column by column.
@@ -168,9 +186,9 @@ struct Triangle<T> {
     entries: Vec<T>,
 }
 
-impl<T: RealField + Copy + Into<f64>> Triangle<T> {
+impl<T: Number> Triangle<T> {
     /// The factor of the scaled matrix. `None` if it is not positive.
-    fn new(gram: &[f64], scale: &[f64], noise: f64) -> Option<Self> {
+    fn new(gram: &[T], scale: &[f64], noise: f64) -> Option<Self> {
         let count = scale.len();
         let mut entries = vec![from_f64::<T>(0.0); count * count];
         let columns = entries
@@ -179,8 +197,8 @@ impl<T: RealField + Copy + Into<f64>> Triangle<T> {
         for (j, (to, from)) in columns.enumerate() {
             let own = scale[j] / noise;
             let below = to[j..].iter_mut().zip(from[j..].iter().zip(&scale[j..]));
-            for (to, (from, other)) in below {
-                *to = from_f64(from * other * own);
+            for (to, (&from, other)) in below {
+                *to = from_f64(from.into() * other * own);
             }
             to[j] = from_f64(1.0);
         }
@@ -198,14 +216,9 @@ impl<T: RealField + Copy + Into<f64>> Triangle<T> {
         MatRef::from_column_major_slice(&self.entries, self.count, self.count)
     }
 
-    fn pivots(&self) -> impl Iterator<Item = f64> {
+    fn pivots(&self) -> Vec<f64> {
         let diagonal = self.entries.iter().step_by(self.count + 1);
-        diagonal.map(|&entry| entry.into())
-    }
-
-    /// The least square of a pivot.
-    fn least_pivot(&self) -> f64 {
-        self.pivots().fold(1.0, f64::min).powi(2)
+        diagonal.map(|&entry| entry.into()).collect()
     }
 
     /// Solves L x = b, in place, of each column.
@@ -229,13 +242,7 @@ impl<T: RealField + Copy + Into<f64>> Triangle<T> {
         let mut inverse = vec![from_f64::<T>(0.0); self.count * self.count];
         invert_lower_triangular(self.columns(&mut inverse), self.matrix(), Par::Seq);
         let columns = inverse.chunks_exact(self.count).enumerate();
-        let square = |x: &T| -> f64 {
-            let x: f64 = (*x).into();
-            x * x
-        };
-        columns
-            .map(|(j, column)| column[j..].iter().map(square).sum())
-            .collect()
+        columns.map(|(j, column)| squares(&column[j..])).collect()
     }
 }
 
@@ -259,8 +266,8 @@ mod tests {
         let spectrum = Spectrum::with_amplitude([-4.0, 0.9, 1.2, noise.ln()]);
         let given = posterior.given(&spectrum);
         let gram = posterior.sums.gram(&cloud).lower_triangle();
-        let double = Factor::double(&gram, &given.variances, given.noise).map(Arc::new);
-        let exact = posterior.given_factored(&spectrum, double);
+        let double = Factor::double(&gram, &given.variances, given.noise);
+        let exact = posterior.given_factored(&spectrum, double.map(Arc::new));
         check(&given, &exact);
     }
 

@@ -10,7 +10,7 @@ use super::dense::Factor;
 use super::spectrum::Spectrum;
 use super::stopping::{Enough, SHARE};
 use super::sums::Sums;
-use crate::sphere::coefficient_count;
+use crate::sphere::{LowerTriangle, coefficient_count};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use std::f64::consts::PI;
@@ -20,10 +20,16 @@ use std::sync::{Arc, OnceLock};
 pub(crate) struct Posterior<'a> {
     pub(crate) cloud: &'a Cloud,
     pub(super) sums: Arc<Sums>,
-    /// Y'WY, its lower triangle, where systems are solved by factoring.
-    gram: Option<Vec<f64>>,
+    /// Y'WY, where systems are solved by factoring.
+    gram: Option<Gram>,
     /// Y'W y, once it is asked for.
     right: OnceLock<Vec<f64>>,
+}
+
+/// Y'WY in memory: in single precision, and in double from when that is not enough.
+struct Gram {
+    single: LowerTriangle<f32>,
+    double: OnceLock<LowerTriangle<f64>>,
 }
 
 /// The matrix is factored where there are more coefficients per point than this: beyond .6 the cheap way fails on
@@ -55,7 +61,10 @@ impl<'a> Posterior<'a> {
     /// Prepares a cloud for harmonics up to `degree`; `factored` says whether to form and factor the matrix.
     pub(crate) fn new(cloud: &'a Cloud, degree: usize, factored: bool) -> Self {
         let posterior = Self::with(cloud, Arc::new(Sums::new(degree)));
-        let gram = factored.then(|| posterior.sums.gram(cloud).lower_triangle());
+        let gram = factored.then(|| Gram {
+            single: posterior.sums.gram(cloud).lower_triangle(),
+            double: OnceLock::new(),
+        });
         Self { gram, ..posterior }
     }
 
@@ -75,9 +84,19 @@ impl<'a> Posterior<'a> {
         given.factor = self
             .gram
             .as_ref()
-            .and_then(|gram| Factor::new(gram, &given.variances, given.noise))
+            .and_then(|gram| self.factor(gram, &given))
             .map(Arc::new);
         given
+    }
+
+    fn factor(&self, gram: &Gram, given: &Conditioned<'_>) -> Option<Factor> {
+        let (variances, noise) = (&given.variances, given.noise);
+        let is_enough = gram.double.get().is_none();
+        let single = is_enough.then(|| Factor::single(&gram.single, variances, noise));
+        single.flatten().or_else(|| {
+            let double = || self.sums.gram(self.cloud).lower_triangle();
+            Factor::double(gram.double.get_or_init(double), variances, noise)
+        })
     }
 
     /// The posterior for a spectrum whose matrix has been factored before, or is not.

@@ -16,8 +16,11 @@
 //! of 1500 points and degree 36 is formed six times as fast.
 
 use super::gauss_grid::GaussGrid;
+use super::polar::PolarTable;
 use crate::sphere::{coefficient_count, harmonic_index};
 use faer::linalg::matmul::matmul;
+use faer::traits::ComplexField;
+use faer::traits::math_utils::from_f64;
 use faer::{Accum, MatMut, MatRef, Par};
 use std::sync::Arc;
 
@@ -60,71 +63,98 @@ impl HarmonicGram {
         self.grid.adjoint(&mut values, out);
     }
 
-    /// Y'WY itself, column by column; above the diagonal it is left zero.
-    pub(crate) fn lower_triangle(&self) -> Vec<f64> {
+    /// Y'WY itself, in single or double precision.
+    pub(crate) fn lower_triangle<T: ComplexField + Copy>(&self) -> LowerTriangle<T> {
+        let groups = groups(self.degree);
         let count = coefficient_count(self.degree);
-        let mut matrix = vec![0.0; count * count];
-        let wide = GaussGrid::wide(self.degree);
-        let folded = wide.folded_terms(&self.diagonal);
+        let mut entries = vec![from_f64::<T>(0.0); count * count];
+        let mut matrix = MatMut::from_column_major_slice_mut(&mut entries, count, count);
+        let folded = GaussGrid::wide(self.degree).folded_terms(&self.diagonal);
         let polar = self.grid.polar();
         let rows = polar.column_length();
-        let (mut right, mut places) = (Vec::new(), Vec::new());
-        let mut product: Vec<f64> = Vec::new();
-        for m in 0..=self.degree {
-            for &trig in Trig::of_order(m) {
-                for parity in 0..2.min(self.degree + 1 - m) {
-                    right.clear();
-                    places.clear();
-                    for other in m..=self.degree {
-                        for &other_trig in Trig::of_order(other) {
-                            let weights = [0, 1].map(|fold| {
-                                azimuthal(&folded[fold], (m, trig), (other, other_trig))
-                            });
-                            let columns = polar.columns(other).chunks_exact(rows);
-                            for (l, column) in (other..).zip(columns) {
-                                let fold = &weights[(l - other + parity) % 2];
-                                right.extend(column.iter().zip(fold).map(|(p, w)| p * w));
-                                places.push(other_trig.index(l, other));
-                            }
-                        }
-                    }
-                    let left = &polar.columns(m)[parity * rows..];
-                    let degrees: Vec<usize> = (m + parity..=self.degree).step_by(2).collect();
-                    let stride = 2 * rows;
-                    let left = MatRef::from_column_major_slice_with_stride(
-                        left,
-                        rows,
-                        degrees.len(),
-                        stride,
-                    );
-                    product.resize(degrees.len() * places.len(), 0.0);
-                    matmul(
-                        MatMut::from_column_major_slice_mut(
-                            &mut product,
-                            degrees.len(),
-                            places.len(),
-                        ),
-                        Accum::Replace,
-                        left.transpose(),
-                        MatRef::from_column_major_slice(&right, rows, places.len()),
-                        1.0,
-                        Par::Seq,
-                    );
-                    for (entries, &other) in product.chunks_exact(degrees.len()).zip(&places) {
-                        for (&entry, &l) in entries.iter().zip(&degrees) {
-                            let own = trig.index(l, m);
-                            matrix[own.min(other) * count + own.max(other)] = entry;
-                        }
-                    }
+        let (mut left, mut right) = (Vec::new(), Vec::new());
+        let mut before = 0;
+        for (at, group) in groups.iter().enumerate() {
+            right.clear();
+            for other in &groups[at..] {
+                let terms = &folded[(group.parity + other.parity) % 2];
+                let weights = azimuthal(terms, group, other);
+                for column in other.columns(polar) {
+                    let products = column.iter().zip(&weights);
+                    right.extend(products.map(|(p, w)| from_f64::<T>(p * w)));
                 }
             }
+            left.clear();
+            for column in group.columns(polar) {
+                left.extend(column.iter().map(|&p| from_f64::<T>(p)));
+            }
+            let own = left.len() / rows;
+            let below = count - before;
+            matmul(
+                matrix.as_mut().submatrix_mut(before, before, below, own),
+                Accum::Replace,
+                MatRef::from_column_major_slice(&right, rows, below).transpose(),
+                MatRef::from_column_major_slice(&left, rows, own),
+                from_f64(1.0),
+                Par::Seq,
+            );
+            before += own;
         }
-        matrix
+        LowerTriangle {
+            order: groups.iter().flat_map(Group::indices).collect(),
+            entries,
+        }
+    }
+}
+
+/// A symmetric matrix, its lower triangle.
+#[derive(Debug)]
+pub(crate) struct LowerTriangle<T> {
+    /// The coefficient of each row and column.
+    pub(crate) order: Vec<usize>,
+    /// Column by column; what is above the diagonal is to be ignored.
+    pub(crate) entries: Vec<T>,
+}
+
+/// Harmonics of one order, azimuthal part and parity of l - m, by degree.
+struct Group {
+    m: usize,
+    trig: Trig,
+    parity: usize,
+    degree: usize,
+}
+
+/// All of them; a group of order m stands before those of higher orders.
+fn groups(degree: usize) -> Vec<Group> {
+    let mut groups = Vec::new();
+    for m in 0..=degree {
+        for &trig in Trig::of_order(m) {
+            groups.extend((0..2.min(degree + 1 - m)).map(|parity| Group {
+                m,
+                trig,
+                parity,
+                degree,
+            }));
+        }
+    }
+    groups
+}
+
+impl Group {
+    /// Their polar parts on the rings of one hemisphere.
+    fn columns<'a>(&self, polar: &'a PolarTable) -> impl Iterator<Item = &'a [f64]> {
+        let columns = polar.columns(self.m).chunks_exact(polar.column_length());
+        columns.skip(self.parity).step_by(2)
+    }
+
+    fn indices(&self) -> impl Iterator<Item = usize> {
+        let degrees = (self.m + self.parity..=self.degree).step_by(2);
+        degrees.map(|l| self.trig.index(l, self.m))
     }
 }
 
 /// The azimuthal part of a harmonic.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy)]
 enum Trig {
     Cosine,
     Sine,
@@ -154,18 +184,15 @@ impl Trig {
 /// ```text
 /// 2 cos a cos b = cos(a - b) + cos(a + b)    2 sin a sin b = cos(a - b) - cos(a + b)    2 sin a cos b = sin(a + b) + sin(a - b)
 /// ```
-fn azimuthal(
-    terms: &[[Vec<f64>; 2]],
-    (m, trig): (usize, Trig),
-    (other, other_trig): (usize, Trig),
-) -> Vec<f64> {
-    let (part, [by_difference, by_sum]) = match (trig, other_trig) {
+fn azimuthal(terms: &[[Vec<f64>; 2]], group: &Group, other: &Group) -> Vec<f64> {
+    let (part, [by_difference, by_sum]) = match (group.trig, other.trig) {
         (Trig::Cosine, Trig::Cosine) => (0, [0.5, 0.5]),
         (Trig::Sine, Trig::Sine) => (0, [0.5, -0.5]),
         (Trig::Cosine, Trig::Sine) => (1, [0.5, 0.5]),
         (Trig::Sine, Trig::Cosine) => (1, [-0.5, 0.5]),
     };
-    let [differences, sums] = [other - m, other + m].map(|order| &terms[order][part]);
+    let [differences, sums] =
+        [other.m - group.m, other.m + group.m].map(|order| &terms[order][part]);
     let pairs = differences.iter().zip(sums);
     pairs
         .map(|(difference, sum)| by_difference * difference + by_sum * sum)

@@ -26,7 +26,7 @@ mod oversampled;
 mod places;
 mod polar;
 
-pub(crate) use gram::HarmonicGram;
+pub(crate) use gram::{HarmonicGram, LowerTriangle};
 use grid::Grid;
 pub(crate) use interpolant::Interpolant;
 use nalgebra::Vector3;

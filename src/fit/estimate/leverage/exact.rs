@@ -5,7 +5,7 @@
 
 use super::super::dense::Factor;
 use super::super::outcome::Estimate;
-use crate::sphere::HarmonicBasis;
+use crate::sphere::{HarmonicBasis, LowerTriangle};
 use faer::linalg::matmul::triangular::{self, BlockStructure};
 use faer::{Accum, MatMut, MatRef, Par};
 
@@ -41,6 +41,10 @@ pub(super) fn exact(estimate: &Estimate) -> Option<Vec<f64>> {
         1.0,
         Par::Seq,
     );
+    let products = LowerTriangle {
+        order: (0..count).collect(),
+        entries: products,
+    };
     let factor = Factor::double(&products, &cloud.weights, given.noise)?;
     let spares = factor.diagonal().into_iter().zip(&cloud.weights);
     Some(spares.map(|(spare, w)| spare / w).collect())
