@@ -14,7 +14,7 @@ use crate::fit::linear::BlockFactor;
 use crate::fit::standard_errors::{NoInterval, StandardErrors};
 use crate::measure::crossings;
 use crate::mesh::Mesh;
-use crate::model::Position;
+use crate::model::{Frame, Position, PositionGrain};
 use crate::sphere::cube_grid;
 use nalgebra::{Matrix3, Point3, Vector3};
 
@@ -24,12 +24,15 @@ const ACROSS: [f64; 5] = [0.3, 0.1, 0.03, 0.03, 0.03];
 /// The same in the last fit.
 const LAST_ACROSS: f64 = 0.03;
 
-/// Weights of the roughness, for points about a body of equal radius 1: of clean meshes, of noise of .5 and 1.5 % of
-/// the radius.
-const ROUGHNESS: [f64; 3] = [1e-7, 1e-6, 1e-5];
+/// Weights of the roughness, for points about a body of equal radius 1: of clean and of textured meshes, of noise of .5
+/// and 1.5 % of the radius.
+const ROUGHNESS: [f64; 5] = [1e-9, 1e-8, 1e-7, 1e-6, 1e-5];
+
+/// The same of the first fit, to the map.
+const FIRST_ROUGHNESS: f64 = 1e-7;
 
 /// Where the surface turns over or crosses itself its roughness weighs so many times more, ...
-const MORE: f64 = 10.0;
+const MORE: f64 = 100.0;
 
 /// ... up to so many times.
 const MOST_TRIES: usize = 3;
@@ -62,8 +65,21 @@ pub(super) struct Fitted {
     pub(super) faults: [usize; 2],
     /// Where the first of these are.
     pub(super) crossing: Option<Vector3<f64>>,
+    /// Whether the mesh is turned over anywhere.
+    pub(super) is_folded: bool,
     /// Of its figures.
     pub(super) errors: Result<StandardErrors, NoInterval>,
+}
+
+impl Fitted {
+    /// Whether the surface neither turns over nor crosses itself.
+    pub(super) fn is_sound(&self) -> bool {
+        self.fault_count() == 0
+    }
+
+    fn fault_count(&self) -> usize {
+        self.faults.iter().sum::<usize>() + usize::from(self.is_folded)
+    }
 }
 
 impl<'a> Problem<'a> {
@@ -129,7 +145,7 @@ impl<'a> Problem<'a> {
         context: &Context<'_>,
     ) -> Result<Option<Fitted>, Cancelled> {
         let rows = self.rows(cloud);
-        let Some(first) = self.fit(cloud, &rows, [0.0, 1.0], ROUGHNESS[0], Used::All) else {
+        let Some(first) = self.fit(cloud, &rows, [0.0, 1.0], FIRST_ROUGHNESS, Used::All) else {
             return Ok(None);
         };
         cloud.project(&first);
@@ -140,11 +156,10 @@ impl<'a> Problem<'a> {
             let Some(found) = self.all_rounds(cloud, roughness, context)? else {
                 break;
             };
-            let is_sound = found.faults == [0, 0];
-            let faults = |fitted: &Fitted| fitted.faults.iter().sum::<usize>();
+            let is_sound = found.is_sound();
             if best
                 .as_ref()
-                .is_none_or(|best| faults(&found) < faults(best))
+                .is_none_or(|best| found.fault_count() < best.fault_count())
             {
                 best = Some(found);
             }
@@ -201,8 +216,9 @@ impl<'a> Problem<'a> {
         let (held_out, _) = cloud.distances(&other, |at| cloud.is_held_out(at));
         let crossings = crossing_places(&surface);
         let faults = [cloud.turned_over(&surface), crossings.len()];
-        let errors = match faults {
-            [0, 0] => Solved {
+        let is_folded = is_folded(&surface);
+        let errors = match (faults, is_folded) {
+            ([0, 0], false) => Solved {
                 functions: self.functions,
                 surface: &surface,
                 other: &other,
@@ -217,6 +233,7 @@ impl<'a> Problem<'a> {
         };
         Ok(Some(Fitted {
             faults,
+            is_folded,
             crossing: crossings.first().copied(),
             errors,
             surface,
@@ -225,6 +242,12 @@ impl<'a> Problem<'a> {
             roughness,
         }))
     }
+}
+
+/// Whether a surface turns over within a degree or two, or cannot be looked at.
+fn is_folded(surface: &Position) -> bool {
+    let grain = PositionGrain::new(Frame::SCAN, surface.clone());
+    grain.and_then(|grain| grain.check()).is_err()
 }
 
 /// Where triangles of the surface's mesh cross others without sharing a vertex, a place for each pair.

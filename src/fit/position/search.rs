@@ -117,7 +117,7 @@ fn whole_degrees(options: &FitOptions) -> Vec<usize> {
 }
 
 fn is_enough(fitted: &Fitted, limit: f64) -> bool {
-    fitted.held_out.rms <= limit && fitted.faults == [0, 0]
+    fitted.held_out.rms <= limit && fitted.is_sound()
 }
 
 fn on_cells(cells: Vec<CubeCell>, options: &FitOptions) -> Functions {
