@@ -65,6 +65,7 @@ impl PreparedScan<'_> {
             warnings: self.warnings.clone(),
             properties: None,
             posterior: None,
+            samples: None,
             errors: None,
         }
     }

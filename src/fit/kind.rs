@@ -290,6 +290,7 @@ fn positioned(
         warnings,
         properties: None,
         posterior: None,
+        samples: Some(fit.fitted_to),
         errors: Some(fit.errors),
     };
     Ok(fitted.beside_polyhedron())

@@ -14,6 +14,7 @@ mod candidate;
 mod context;
 mod contradicted;
 mod crust;
+mod curvature_cells;
 mod dispatch;
 mod error;
 mod estimate;

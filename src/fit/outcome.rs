@@ -3,6 +3,7 @@
 use super::candidate::Search;
 use super::estimate::{Estimate, RadiusError};
 use super::figures::Figures;
+use super::position::Samples;
 use super::prepare::Reference;
 use super::standard_errors::{NoInterval, StandardErrors};
 use super::warning::FitWarning;
@@ -42,6 +43,8 @@ pub struct Fitted {
     /// Area, volume and moments of the grain at unit size, where they were compared with the polyhedron through the points.
     pub(crate) properties: Option<MassProperties>,
     pub(crate) posterior: Option<Box<Estimate>>,
+    /// What a surface without a radius was fitted to.
+    pub(crate) samples: Option<Samples>,
     /// Standard errors of a surface that has no estimate of its radius.
     pub(crate) errors: Option<Result<StandardErrors, NoInterval>>,
 }
@@ -191,15 +194,16 @@ impl Fitted {
     /// The grain with the [errors of its curvature](crate::model::CurvatureErrors), which a file of it keeps for its contacts. Without,
     /// if it was fitted to the points themselves.
     pub fn grain_with_errors(&self) -> Grain {
-        let errors = || {
-            let star = self.grain.star()?;
-            self.posterior.as_ref()?.curvature_errors(star)
+        let of_estimate = || {
+            let posterior = self.posterior.as_ref()?;
+            posterior.curvature_errors(self.grain.star()?)
         };
-        let grain = self.grain.clone();
-        match errors() {
-            Some(errors) => grain.with_curvature_errors(errors),
-            None => grain,
-        }
+        let of_samples = || {
+            let samples = self.samples.as_ref()?;
+            samples.curvature_errors(self.grain.position()?)
+        };
+        let errors = of_estimate().or_else(of_samples);
+        self.grain.clone().with_curvature_errors(errors)
     }
 
     /// Standard deviations of the radius in directions of the scan's frame (unit vectors), in the scan's unit: of the

@@ -3,7 +3,7 @@
 //! Version 5 holds either `superquadrics`, or `position`, the `cells` or the `harmonics` of the position of points over the sphere, or of
 //! a radius one of `cells` (blended), `segments` (independent), `symmetry` (mirrored) and
 //! `harmonics` (the whole sphere), of the grain stretched along its axes by `stretch`, if that is there.
-//! `margin` goes with `cells`; `curvature_errors` with any radius, if they are known; with all, `unseen`, if the scan did not see
+//! `margin` goes with `cells`; `curvature_errors` with a radius or a position, if they are known; with all, `unseen`, if the scan did not see
 //! much of the grain, and `contradicted`, if the polyhedron through its points has another area or volume. Version 4 knew neither. Version 3, which knew neither
 //! `superquadrics` nor `position`, version 2, which knew none of `harmonics`, `stretch`, `margin` and `curvature_errors` either, and version 1,
 //! which knew segments only, are still read.
@@ -166,6 +166,7 @@ pub fn grain_to_json(grain: &Grain) -> String {
         axes: [0, 1, 2].map(|i| axes.column(i).into_owned().into()),
         unseen: grain.unseen(),
         contradicted: grain.contradicted(),
+        curvature_errors: grain.curvature_errors().map(|e| e.of_cells().to_vec()),
         ..GrainFile::default()
     };
     match grain.kind() {
@@ -180,7 +181,6 @@ impl GrainFile {
     fn put_star(&mut self, grain: &StarGrain) {
         let stretch = grain.stretch();
         self.stretch = (!stretch.is_none()).then(|| (*stretch.factors()).into());
-        self.curvature_errors = grain.curvature_errors().map(|e| e.of_cells().to_vec());
         match grain.family() {
             Family::Blended(surface) => {
                 (self.cells, self.margin) = of_cover(surface.cover(), surface.coefficients());
@@ -281,8 +281,14 @@ pub fn grain_from_json(text: &str) -> Result<Grain, ModelError> {
     if contradicted.is_some_and(|contradicted| !contradicted.is_sound()) {
         return Err(ModelError::Contradicted);
     }
+    let errors = file.curvature_errors.clone();
+    let errors =
+        errors.map(|errors| CurvatureErrors::new(errors).ok_or(ModelError::CurvatureErrors));
     let grain = file.grain()?;
-    Ok(grain.with_unseen(unseen).with_contradicted(contradicted))
+    Ok(grain
+        .with_unseen(unseen)
+        .with_contradicted(contradicted)
+        .with_curvature_errors(errors.transpose()?))
 }
 
 impl GrainFile {
@@ -292,7 +298,6 @@ impl GrainFile {
             centre: Point3::from(self.centre),
             axes: Matrix3::from_columns(&self.axes.map(Vector3::from)),
         };
-        let errors = self.curvature_errors;
         let stretch = self.stretch;
         let radius = (self.cells, self.margin);
         let independent = (self.parts_per_angle, self.segments);
@@ -300,14 +305,14 @@ impl GrainFile {
         let placed = (self.position, self.superquadrics);
         let family = match (radius, independent, mirrored, self.harmonics, placed) {
             ((None, None), (None, None), (None, None), None, (Some(position), None))
-                if stretch.is_none() && errors.is_none() =>
+                if stretch.is_none() =>
             {
                 let grain = PositionGrain::new(frame, position.read()?)?;
                 grain.check()?;
                 return Ok(grain.into());
             }
             ((None, None), (None, None), (None, None), None, (None, Some(records)))
-                if stretch.is_none() && errors.is_none() =>
+                if stretch.is_none() && self.curvature_errors.is_none() =>
             {
                 let body = PartRecord::read(&records).map_err(InvalidGrain::from)?;
                 return Ok(SuperquadricGrain::multi(frame, body)?.into());
@@ -340,12 +345,6 @@ impl GrainFile {
         };
         let grain = StarGrain::stretched(frame, stretch, family)?;
         grain.least_radius()?;
-        match errors {
-            Some(errors) => {
-                let errors = CurvatureErrors::new(errors).ok_or(ModelError::CurvatureErrors)?;
-                Ok(grain.with_curvature_errors(errors).into())
-            }
-            None => Ok(grain.into()),
-        }
+        Ok(grain.into())
     }
 }

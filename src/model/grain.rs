@@ -16,6 +16,7 @@ pub struct Grain {
     kind: Kind,
     unseen: Option<Unseen>,
     contradicted: Option<Contradicted>,
+    curvature_errors: Option<CurvatureErrors>,
 }
 
 /// The kinds of surfaces that are fitted.
@@ -77,7 +78,12 @@ impl Grain {
             Kind::Position(grain) => Kind::Position(grain.about_origin(factor)),
             Kind::Superquadric(grain) => Kind::Superquadric(grain.about_origin(factor)),
         };
-        Self { kind, ..*self }
+        let curvature_errors = self.curvature_errors.as_ref();
+        Self {
+            kind,
+            curvature_errors: curvature_errors.map(|errors| errors.over(factor)),
+            ..*self
+        }
     }
 
     /// The same with what its scan did not see.
@@ -103,13 +109,17 @@ impl Grain {
         self.contradicted
     }
 
-    /// The same with standard errors of its curvature, if it has a radius.
-    pub(crate) fn with_curvature_errors(self, errors: CurvatureErrors) -> Self {
-        let kind = match self.kind {
-            Kind::Star(grain) => Kind::Star(grain.with_curvature_errors(errors)),
-            other => other,
-        };
-        Self { kind, ..self }
+    /// The same with standard errors of its curvature, where they are known.
+    pub fn with_curvature_errors(self, curvature_errors: Option<CurvatureErrors>) -> Self {
+        Self {
+            curvature_errors,
+            ..self
+        }
+    }
+
+    /// Standard errors of its curvature, where they are known.
+    pub fn curvature_errors(&self) -> Option<&CurvatureErrors> {
+        self.curvature_errors.as_ref()
     }
 
     /// The largest degree of its expansions; zero if it has none.
@@ -146,7 +156,8 @@ impl Grain {
 
     /// Standard error of the curvature in a direction of the scan's frame, in one over the scan's unit, where it is known.
     pub fn curvature_error(&self, n: &Vector3<f64>) -> Option<f64> {
-        self.star()?.curvature_error(n)
+        let errors = self.curvature_errors.as_ref()?;
+        Some(errors.at(&self.frame().axes.tr_mul(n)))
     }
 }
 
@@ -156,6 +167,7 @@ impl From<Kind> for Grain {
             kind,
             unseen: None,
             contradicted: None,
+            curvature_errors: None,
         }
     }
 }

@@ -2,8 +2,8 @@
 
 use super::star_surface::radial_slopes;
 use super::{
-    CurvatureErrors, Derivatives, Family, Frame, InvalidGrain, Node, StarSurface, Stretch, Surface,
-    SurfaceElement, SurfaceJet, Tiling, Whole,
+    Derivatives, Family, Frame, InvalidGrain, Node, StarSurface, Stretch, Surface, SurfaceElement,
+    SurfaceJet, Tiling, Whole,
 };
 use crate::mesh::Mesh;
 use crate::sphere::cube_grid;
@@ -23,7 +23,6 @@ pub struct StarGrain {
     frame: Frame,
     stretch: Stretch,
     family: Family,
-    curvature_errors: Option<CurvatureErrors>,
 }
 
 impl StarGrain {
@@ -56,7 +55,6 @@ impl StarGrain {
             frame,
             stretch,
             family,
-            curvature_errors: None,
         })
     }
 
@@ -69,28 +67,7 @@ impl StarGrain {
             },
             stretch: self.stretch,
             family: self.family.times(factor),
-            curvature_errors: self.curvature_errors.as_ref().map(|e| e.over(factor)),
         }
-    }
-
-    /// The grain, with what is known of the errors of its curvature.
-    #[must_use]
-    pub fn with_curvature_errors(self, errors: CurvatureErrors) -> Self {
-        Self {
-            curvature_errors: Some(errors),
-            ..self
-        }
-    }
-
-    /// Errors of its curvature, where they are known.
-    pub fn curvature_errors(&self) -> Option<&CurvatureErrors> {
-        self.curvature_errors.as_ref()
-    }
-
-    /// Standard error of the curvature in a direction of the scan's frame, in one over the scan's unit, where it is known.
-    pub fn curvature_error(&self, n: &Vector3<f64>) -> Option<f64> {
-        let errors = self.curvature_errors.as_ref()?;
-        Some(errors.at(&self.frame.axes.tr_mul(n)))
     }
 
     /// The stretch along the axes of the frame after which the grain is that of the [family](Self::family).

@@ -20,14 +20,12 @@
 //! nearest points are met.
 
 use super::outcome::{Estimate, bending_variance, spare};
+use crate::fit::curvature_cells::{PER_CELL, directions, errors, tensor};
 use crate::fit::neighbours::Neighbours;
 use crate::measure::Curvature;
 use crate::model::{CurvatureErrors, Family, StarGrain, Surface, SurfaceJet};
 use crate::sphere::CubeCell;
-use nalgebra::{Matrix2, Matrix3, Vector3};
-
-/// Places along each side of a cell at which errors are taken.
-const PLACES: usize = 2;
+use nalgebra::{Matrix2, Vector3};
 
 /// Least error as a share of the curvature: of clean ellipsoids it is off by 5e-6.
 const FLOOR: f64 = 1e-5;
@@ -64,17 +62,14 @@ impl Estimate {
             difference + rounding + misfit * bending * bend
         };
         let cells = CubeCell::uniform(CurvatureErrors::PARTS);
-        let directions: Vec<Vector3<f64>> = cells.iter().flat_map(places).collect();
+        let directions = directions();
         let towards: Vec<Vector3<f64>> = directions.iter().map(|n| frame.axes * n).collect();
         let jets = best.jets(&towards).into_iter().zip(grain.jets(&towards));
-        let mut known = directions.iter().zip(jets);
-        let errors = cells.iter().map(|cell| {
-            let misfit = misfit(&cell.at(0.5, 0.5));
-            let own = known.by_ref().take(PLACES * PLACES);
-            let squares = own.map(|(n, (best, told))| square(n, &best, &told, misfit));
-            round((squares.sum::<f64>() / (PLACES * PLACES) as f64).sqrt())
-        });
-        CurvatureErrors::new(errors.collect())
+        let misfits = cells.iter().map(|cell| misfit(&cell.at(0.5, 0.5)));
+        let misfits = misfits.flat_map(|misfit| std::iter::repeat_n(misfit, PER_CELL));
+        let known = directions.iter().zip(jets).zip(misfits);
+        let squares = known.map(|((n, (best, told)), misfit)| square(n, &best, &told, misfit));
+        errors(&squares.collect::<Vec<f64>>())
     }
 
     /// T n.
@@ -111,27 +106,6 @@ impl Estimate {
         let weighted = residuals.iter().zip(&self.cloud.weights);
         weighted.map(|(e, w)| w * e * e / expected).collect()
     }
-}
-
-/// Directions spread over a cell.
-fn places(cell: &CubeCell) -> Vec<Vector3<f64>> {
-    let along = || (0..PLACES).map(|i| (i as f64 + 0.5) / PLACES as f64);
-    let both = along().flat_map(|s| along().map(move |t| (s, t)));
-    both.map(|(s, t)| cell.at(s, t)).collect()
-}
-
-/// To three digits: an error needs no more.
-fn round(error: f64) -> f64 {
-    format!("{error:.2e}").parse().unwrap_or(error)
-}
-
-/// The curvature tensor: principal curvatures along their directions.
-fn tensor(curvature: &Curvature) -> Matrix3<f64> {
-    let along = |i: usize| {
-        let direction = curvature.directions[i];
-        direction * direction.transpose() * curvature.principal[i]
-    };
-    along(0) + along(1)
 }
 
 #[cfg(test)]

@@ -5,6 +5,7 @@
 //! [rounds](rounds) that also move the directions; cells are [split](search) where the distance asks for it.
 
 mod cloud;
+mod curvature;
 mod errors;
 mod foot;
 mod functionals;
@@ -31,6 +32,7 @@ use crate::mesh::Mesh;
 use crate::model::{Frame, Position};
 use crate::scan::Scan;
 use cloud::Cloud;
+pub(crate) use curvature::Samples;
 use map::spherical_map;
 use nalgebra::Point3;
 use search::search;
@@ -64,6 +66,8 @@ pub struct PositionFit {
     pub crossing: Option<Point3<f64>>,
     /// Standard errors of its figures.
     pub errors: Result<StandardErrors, NoInterval>,
+    /// What it was fitted to.
+    pub(crate) fitted_to: Samples,
     /// What a user should know of the scan.
     pub warnings: Vec<FitWarning>,
 }
@@ -168,6 +172,11 @@ pub(super) fn fit_position_if(
         centre: unit.point(&at_unit_frame.centre),
         ..at_unit_frame
     };
+    let points = cloud
+        .points
+        .iter()
+        .map(|point| frame.to_scan(&(point * radius)));
+    let normals = cloud.normals.iter().map(|normal| frame.axes * normal);
     Ok(PositionFit {
         crossing: fitted
             .crossing
@@ -188,6 +197,10 @@ pub(super) fn fit_position_if(
         turned_over,
         crossings,
         errors: fitted.errors.map(|errors| errors.times(radius)),
+        fitted_to: Samples {
+            points: points.collect(),
+            normals: normals.collect(),
+        },
         warnings,
     })
 }
