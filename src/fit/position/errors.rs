@@ -55,6 +55,9 @@ pub(super) struct Solved<'a> {
 /// Least standard errors, relative.
 const FLOOR: f64 = 2e-5;
 
+/// The same of lengths, where there are cells: their ends, which few samples tell, are off by so much on clean bodies.
+const FLOOR_OF_LENGTHS: f64 = 1e-4;
+
 /// Share of what is not resolved that has one sign all over the surface: of bodies whose truth is known at most a fifth.
 const ONE_SIDED: f64 = 0.15;
 
@@ -97,7 +100,8 @@ impl Solved<'_> {
                 sd * (2.0 * rivals.max(1.0).ln()).sqrt() + unresolved
             });
             let higher: f64 = higher.sum();
-            let floor = FLOOR * lengths[i];
+            let least = self.functions.cover().map_or(FLOOR, |_| FLOOR_OF_LENGTHS);
+            let floor = least * lengths[i];
             let at_ends = 2.0 * self.miscounted().powi(2) * self.told();
             let squares = higher * higher + range * range + floor * floor + at_ends;
             extent.dot(&(covariance * extent)) + squares
