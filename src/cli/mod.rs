@@ -17,6 +17,7 @@ mod inputs;
 mod lengths;
 mod measure;
 mod mesh;
+mod negative;
 mod outputs;
 mod placed;
 mod progress;

@@ -2,6 +2,7 @@
 
 use super::UNUSABLE;
 use super::args::Cli;
+use super::negative::joined;
 use super::streams::say_error;
 use clap::error::ErrorKind;
 use clap::{CommandFactory, Parser};
@@ -9,7 +10,8 @@ use std::process::ExitCode;
 
 /// The arguments, or the code to end with once help was printed or an error told.
 pub(super) fn parse() -> Result<Cli, ExitCode> {
-    Cli::try_parse().map_err(|error| match error.kind() {
+    let words = joined(std::env::args_os());
+    Cli::try_parse_from(&words).map_err(|error| match error.kind() {
         ErrorKind::DisplayHelp | ErrorKind::DisplayVersion => {
             // A reader that has gone needs no help.
             let _ = error.print();
@@ -20,12 +22,13 @@ pub(super) fn parse() -> Result<Cli, ExitCode> {
             ExitCode::from(UNUSABLE)
         }
         _ => {
-            let command = std::env::args().nth(1).filter(|name| {
+            let command = words.get(1).and_then(|name| name.to_str());
+            let command = command.filter(|name| {
                 let known = Cli::command();
                 known.find_subcommand(name).is_some()
             });
             let text = error.render().to_string();
-            say_error(&sentence(&text, command.as_deref()));
+            say_error(&sentence(&text, command));
             ExitCode::from(UNUSABLE)
         }
     })
@@ -59,7 +62,8 @@ mod tests {
     use super::*;
 
     fn told(words: &[&str]) -> String {
-        let error = Cli::try_parse_from([&["grainform"], words].concat());
+        let all = [&["grainform"], words].concat();
+        let error = Cli::try_parse_from(joined(all.into_iter().map(Into::into)));
         let text = error.err().expect("a mistake").render().to_string();
         sentence(&text, words.first().copied())
     }
@@ -81,7 +85,7 @@ mod tests {
             ),
             (
                 &["fit", "a.ply", "--threads", "x"],
-                "invalid value 'x' for '--threads <N>': invalid digit found in string; \
+                "invalid value 'x' for '--threads <N>': expected a whole number of zero or more; \
                  see grainform fit --help",
             ),
             (

@@ -5,6 +5,7 @@ use crate::fit::{Form, Kind, MAX_UNION_PARTS, Seams, Tolerance};
 use crate::measure::Scheme;
 use crate::shapes::{Body, Curled, UnknownBody};
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
+use std::num::{IntErrorKind, ParseIntError};
 use std::path::PathBuf;
 use std::str::FromStr;
 
@@ -225,7 +226,7 @@ impl FromStr for Auto {
             "auto" | "adaptive" => Ok(Self(None)),
             number => match number.parse() {
                 Ok(number) => Ok(Self(Some(number))),
-                Err(_) => Err("expected a whole number or auto"),
+                Err(_) => Err("expected a whole number of zero or more, or auto"),
             },
         }
     }
@@ -323,6 +324,15 @@ fn numbers(text: &str) -> Option<Vec<f64>> {
     numbers.collect()
 }
 
+/// A whole number that counts something, or a seed.
+pub(super) fn count<T: FromStr<Err = ParseIntError>>(text: &str) -> Result<T, &'static str> {
+    text.parse()
+        .map_err(|error: ParseIntError| match error.kind() {
+            IntErrorKind::PosOverflow => "it is too large",
+            _ => "expected a whole number of zero or more",
+        })
+}
+
 /// A share, as a percentage or not.
 pub(super) fn share(text: &str) -> Result<f64, &'static str> {
     let (number, scale) = match text.strip_suffix('%') {
@@ -346,7 +356,7 @@ pub(super) fn bytes(text: &str) -> Result<u64, &'static str> {
     count
         .and_then(|count| count.checked_mul(scale))
         .filter(|count| *count > 0)
-        .ok_or("expected a number of bytes such as 500M or 4G")
+        .ok_or("expected a number of bytes above zero such as 500M or 4G")
 }
 
 #[cfg(test)]
@@ -370,6 +380,16 @@ mod tests {
         for text in [":1", "a:0", "a:-1", "a:inf", ""] {
             assert!(read(text).is_err(), "{text}");
         }
+    }
+
+    #[test]
+    fn counts_are_whole_and_not_negative() {
+        assert_eq!(count("0"), Ok(0_usize));
+        for text in ["", "-1", "1.5", "x"] {
+            assert!(count::<usize>(text).unwrap_err().contains("zero or more"));
+        }
+        let most = count::<u64>("18446744073709551616");
+        assert_eq!(most, Err("it is too large"));
     }
 
     #[test]

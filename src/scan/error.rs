@@ -66,7 +66,7 @@ pub enum Place {
     Triangle(usize),
     /// A record of binary data.
     Record {
-        /// What the record is: `vertex`, `face`, `facet` or `row`.
+        /// What the record is: `vertex`, `face`, `strips`, `facet` or `row`.
         what: &'static str,
         /// Its number, counted from zero as indices in the file are.
         number: usize,

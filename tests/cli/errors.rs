@@ -133,7 +133,11 @@ fn settings_out_of_range_are_refused_before_work() {
     }
     fit("--seams", "some", "blended");
     fit("--segments", "0", "from 1 to");
-    fit("--segments", "many", "a whole number or auto");
+    fit(
+        "--segments",
+        "many",
+        "a whole number of zero or more, or auto",
+    );
     fit("--degree", "99", "the degree is 99");
     fit(
         "--tolerance",
@@ -163,6 +167,43 @@ fn settings_out_of_range_are_refused_before_work() {
     refuse(
         &["synth", "bean", "--points", "3"],
         &["cannot sample 3 directions"],
+    );
+}
+
+#[test]
+fn negative_values_are_refused_as_what_they_are() {
+    for (command, name, value, expected) in [
+        ("fit no.ply", "--tolerance", "-1", "a positive length"),
+        ("fit no.ply", "--tolerance", "-0.3%", "a positive length"),
+        ("fit no.ply", "--degree", "-1", "of zero or more, or auto"),
+        ("fit no.ply", "--max-degree", "-1", "of zero or more"),
+        ("fit no.ply", "--threads", "-1", "of zero or more"),
+        ("fit no.ply", "--resolution", "-1", "-1 is not in 1..=65535"),
+        ("fit no.ply", "--max-bytes", "-1G", "of bytes above zero"),
+        ("batch no.ply -o out", "--jobs", "-2", "of zero or more"),
+        ("synth bean", "--points", "-5", "of zero or more"),
+        ("synth bean", "--seed", "-5", "of zero or more"),
+        ("synth bean", "--noise", "-0.5%", "the noise must lie"),
+        ("synth bean", "--missing-cap", "-5", "by 0 to 180 degrees"),
+        ("synth superquadric", "--exponents", "-4,2", "exponent"),
+        ("clump no.ply", "--spheres", "-1", "of zero or more"),
+    ] {
+        let words: Vec<&str> = command.split(' ').chain([name, value]).collect();
+        refuse(&words, &[expected]);
+    }
+}
+
+#[test]
+fn an_option_is_not_the_value_of_the_one_before() {
+    for name in ["--noise", "--offset", "--axes", "--points"] {
+        refuse(
+            &["synth", "bean", name, "--json"],
+            &["a value is required for", name],
+        );
+    }
+    refuse(
+        &["fit", "no.ply", "--tolerance", "--json"],
+        &["a value is required for '--tolerance"],
     );
 }
 

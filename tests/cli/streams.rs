@@ -165,7 +165,7 @@ fn endless_inputs_and_bombs_are_refused_at_the_limit() {
     let output = piped(&folder, &words, &vec![b'1'; 1 << 20]);
     assert!(errors(&output).contains("standard input has more than the 10000 bytes"));
     let wrong = grainform(&folder, &["fit", "large.ply", "--max-bytes", "lots"]);
-    assert!(errors(&wrong).contains("expected a number of bytes such as 500M or 4G"));
+    assert!(errors(&wrong).contains("expected a number of bytes above zero such as 500M or 4G"));
 }
 
 #[test]

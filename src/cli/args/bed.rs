@@ -2,8 +2,9 @@
 
 use super::{InputArgs, OUTPUT, RUN};
 use crate::cli::lengths::{length, lengths};
-use crate::cli::values::{ShareArg, pair};
+use crate::cli::values::{ShareArg, count, pair};
 use crate::report::Unit;
+use clap::builder::RangedI64ValueParser;
 use clap::{Args, value_parser};
 use std::path::PathBuf;
 
@@ -16,14 +17,13 @@ const MATERIAL: &str = "Material, of grains and walls";
 /// state.json, from which a bed that was stopped goes on when it is started again; frames, LAMMPS dumps that OVITO
 /// opens; bed.vtk, the grains as polygons for ParaView; and a picture, bed.png.
 #[derive(Args)]
-#[command(allow_negative_numbers = true)]
 pub(in crate::cli) struct BedArgs {
     /// Models, each with its share of the grains, 1 where it is not told: lens.json:0.7 rod.json:0.3
     #[arg(value_name = "GRAIN[:SHARE]", required = true)]
     pub(in crate::cli) grains: Vec<ShareArg>,
 
     /// Number of grains
-    #[arg(long = "grains", value_name = "N", default_value_t = 1500)]
+    #[arg(long = "grains", value_name = "N", value_parser = count::<usize>, default_value_t = 1500)]
     pub(in crate::cli) count: usize,
 
     /// Width and depth of the box, from the origin on, whose walls have no end
@@ -54,7 +54,7 @@ pub(in crate::cli) struct BedArgs {
 
     /// Make each grain a clump of at most so many spheres, whatever model or scan it is; mass, centre and inertia stay
     /// the grain's [default: 10 with --engine]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = count::<usize>)]
     pub(in crate::cli) spheres: Option<usize>,
 
     /// Let another engine run the same bed, of clumps: lammps, which must be installed
@@ -75,11 +75,13 @@ pub(in crate::cli) struct BedArgs {
     pub(in crate::cli) output: PathBuf,
 
     /// Seed of places, headings and order
-    #[arg(long, value_name = "K", default_value_t = 0)]
+    #[arg(long, value_name = "K", value_parser = count::<u64>, default_value_t = 0)]
     pub(in crate::cli) seed: u64,
 
     /// Make so many beds, of this seed and those after it, in folders seed_K, and tell standard errors over them
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = value_parser!(u64).range(1..=1000))]
+    // Read with a sign, so that a negative one is told this range.
+    #[arg(long, value_name = "N", default_value_t = 1,
+          value_parser = RangedI64ValueParser::<u64>::new().range(1..=1000))]
     pub(in crate::cli) seeds: u64,
 
     /// End after so many simulated seconds, at rest or not; more of them let a bed that was ended go on
@@ -115,7 +117,7 @@ pub(in crate::cli) struct BedArgs {
     pub(in crate::cli) damping: [f64; 2],
 
     /// Threads, 0 for all cores; the bed does not depend on it
-    #[arg(long, value_name = "N", default_value_t = 0, help_heading = RUN)]
+    #[arg(long, value_name = "N", value_parser = count::<usize>, default_value_t = 0, help_heading = RUN)]
     pub(in crate::cli) threads: usize,
 
     /// Print one JSON object

@@ -1,7 +1,7 @@
 //! The arguments of what other engines take: clumps and their inputs.
 
 use super::{InputArgs, OUTPUT};
-use crate::cli::values::{EngineArg, share};
+use crate::cli::values::{EngineArg, count, share};
 use crate::report::Unit;
 use clap::Args;
 use std::path::PathBuf;
@@ -10,7 +10,7 @@ use std::path::PathBuf;
 #[derive(Args)]
 pub(in crate::cli) struct SpheresArgs {
     /// Number of spheres, 1 to 500; fewer where more bring nothing
-    #[arg(long, value_name = "N", default_value_t = 10)]
+    #[arg(long, value_name = "N", value_parser = count::<usize>, default_value_t = 10)]
     pub(in crate::cli) spheres: usize,
 
     /// Take the fewest spheres found that come within this share of the equivalent radius (RMS), such as 2%
@@ -54,7 +54,6 @@ pub(in crate::cli) struct ClumpArgs {
 /// Where each grain is fitted as one superquadric, a second script takes them as such: in LIGGGHTS built with them, and in
 /// LAMMPS of 30 March 2026 or later (not run by us), for which exponents below 2 are raised to 2.
 #[derive(Args)]
-#[command(allow_negative_numbers = true)]
 pub(in crate::cli) struct ExportDemArgs {
     /// Models written by `fit`, or scans; several are mixed in equal numbers
     #[arg(value_name = "MODEL.json|SCAN", required = true)]
@@ -76,11 +75,11 @@ pub(in crate::cli) struct ExportDemArgs {
     pub(in crate::cli) spheres: SpheresArgs,
 
     /// Number of grains
-    #[arg(long, value_name = "K", default_value_t = 200)]
+    #[arg(long, value_name = "K", value_parser = count::<usize>, default_value_t = 200)]
     pub(in crate::cli) grains: usize,
 
     /// Seed of the orientations at the start
-    #[arg(long, value_name = "S", default_value_t = 1)]
+    #[arg(long, value_name = "S", value_parser = count::<u64>, default_value_t = 1)]
     pub(in crate::cli) seed: u64,
 
     /// Density of the grains, in kg/m³

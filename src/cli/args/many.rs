@@ -1,7 +1,7 @@
 //! The arguments of commands for many grains.
 
 use super::{InputArgs, LimitArgs, OUTPUT, RUN, SEARCH};
-use crate::cli::values::{Auto, tolerance};
+use crate::cli::values::{Auto, count, tolerance};
 use crate::fit::Tolerance;
 use crate::report::{Measure, Unit};
 use clap::Args;
@@ -28,7 +28,7 @@ pub(in crate::cli) struct SplitArgs {
     pub(in crate::cli) unit: Option<Unit>,
 
     /// Threads, 0 for all cores; the result does not depend on it
-    #[arg(long, value_name = "N", default_value_t = 0, help_heading = RUN)]
+    #[arg(long, value_name = "N", value_parser = count::<usize>, default_value_t = 0, help_heading = RUN)]
     pub(in crate::cli) threads: usize,
 
     /// Print one JSON object
@@ -85,7 +85,7 @@ pub(in crate::cli) struct BatchArgs {
     pub(in crate::cli) unit: Option<Unit>,
 
     /// Grains that are worked on at the same time, 0 for one per core; the results do not depend on it
-    #[arg(long, value_name = "N", default_value_t = 0, help_heading = RUN)]
+    #[arg(long, value_name = "N", value_parser = count::<usize>, default_value_t = 0, help_heading = RUN)]
     pub(in crate::cli) jobs: usize,
 
     #[command(flatten)]

@@ -11,8 +11,8 @@ pub(super) use many::{BatchArgs, CompareArgs, ReportArgs, SplitArgs};
 pub(super) use shared::{FittingArgs, InputArgs, LimitArgs, MeshingArgs};
 
 use super::values::{
-    CloudFormat, LawArg, PoseArg, SchemeArg, SemiAxes, Subject, SurfaceArg, exponents, share,
-    vector,
+    CloudFormat, LawArg, PoseArg, SchemeArg, SemiAxes, Subject, SurfaceArg, count, exponents,
+    share, vector,
 };
 use crate::export::MeshFormat;
 use crate::report::{Measure, Unit};
@@ -214,13 +214,11 @@ pub(super) struct ContactArgs {
     pub(super) other: Option<PathBuf>,
 
     /// Direction in which the grain is touched, in its scan's frame: it touches by its farthest point
-    #[arg(long, value_name = "X,Y,Z", default_value = "0,0,-1", value_parser = vector,
-          allow_hyphen_values = true)]
+    #[arg(long, value_name = "X,Y,Z", default_value = "0,0,-1", value_parser = vector)]
     pub(super) towards: Vector3<f64>,
 
     /// Likewise of the other grain
-    #[arg(long, value_name = "X,Y,Z", default_value = "0,0,1", value_parser = vector,
-          allow_hyphen_values = true, requires = "other")]
+    #[arg(long, value_name = "X,Y,Z", default_value = "0,0,1", value_parser = vector, requires = "other")]
     pub(super) other_towards: Vector3<f64>,
 
     /// Angle between the directions of largest curvature of the two grains
@@ -229,7 +227,7 @@ pub(super) struct ContactArgs {
 
     /// Place the second body: what its scan is moved by and, as a quaternion, turned by about the origin before; tells
     /// all places where they overlap, and with --unit and --youngs-modulus-mpa the forces there
-    #[arg(long, value_name = "X,Y,Z,QW,QX,QY,QZ", requires = "other", allow_hyphen_values = true,
+    #[arg(long, value_name = "X,Y,Z,QW,QX,QY,QZ", requires = "other",
           conflicts_with_all = ["indentation_um", "edge_radius"])]
     pub(super) pose_b: Option<PoseArg>,
 
@@ -247,12 +245,7 @@ pub(super) struct ContactArgs {
     pub(super) unit: Option<Unit>,
 
     /// How far the bodies approach after they touch
-    #[arg(
-        long,
-        value_name = "U",
-        allow_hyphen_values = true,
-        required_unless_present = "pose_b"
-    )]
+    #[arg(long, value_name = "U", required_unless_present = "pose_b")]
     pub(super) indentation_um: Option<f64>,
 
     /// Young's modulus of the grain (inf: rigid)
@@ -272,7 +265,7 @@ pub(super) struct ContactArgs {
     pub(super) other_poissons_ratio: Option<f64>,
 
     /// Radius, in the scan's unit, of the cap that rounds an edge by which a grain is touched
-    #[arg(long, value_name = "R", allow_hyphen_values = true)]
+    #[arg(long, value_name = "R")]
     pub(super) edge_radius: Option<f64>,
 
     /// Print one JSON object
@@ -293,7 +286,7 @@ pub(super) struct SynthArgs {
     pub(super) body: Subject,
 
     /// Number of grains on a tray
-    #[arg(long, value_name = "N", default_value_t = 100)]
+    #[arg(long, value_name = "N", value_parser = count::<usize>, default_value_t = 100)]
     pub(super) grains: usize,
 
     /// Of a tray, write here what each point was taken from, a line each: plane, dust or the number of a grain
@@ -302,7 +295,7 @@ pub(super) struct SynthArgs {
 
     /// Semi-axes of a shape, or half its extents, in x, y and z; six of a poly, on the positive and on the negative
     /// side of each [default: the shape's own]
-    #[arg(long, value_name = "A,B,C", allow_hyphen_values = true)]
+    #[arg(long, value_name = "A,B,C")]
     pub(super) axes: Option<SemiAxes>,
 
     /// Exponents of a superquadric or a poly: n1 of z, n2 of x and y [default: 4,2]
@@ -310,7 +303,7 @@ pub(super) struct SynthArgs {
     pub(super) exponents: Option<[f64; 2]>,
 
     /// Number of points; met as nearly as the sampling can [default: the body's own]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = count::<usize>)]
     pub(super) points: Option<usize>,
 
     /// Layout of the directions: cube, fibonacci, rings or random
@@ -318,11 +311,11 @@ pub(super) struct SynthArgs {
     pub(super) sampling: Sampling,
 
     /// Standard deviation of the radial noise, as a share of the mean radius: 0.5% or 0.005
-    #[arg(long, value_name = "S", default_value = "0", value_parser = share, allow_hyphen_values = true)]
+    #[arg(long, value_name = "S", default_value = "0", value_parser = share)]
     pub(super) noise: f64,
 
     /// Share of the points that lie 20 % too far in or out: 1% or 0.01
-    #[arg(long, value_name = "S", default_value = "0", value_parser = share, allow_hyphen_values = true)]
+    #[arg(long, value_name = "S", default_value = "0", value_parser = share)]
     pub(super) outliers: f64,
 
     /// Half-opening angle, in degrees, of a cap around -z that was not seen
@@ -330,12 +323,11 @@ pub(super) struct SynthArgs {
     pub(super) missing_cap: f64,
 
     /// Where the body's origin lies
-    #[arg(long, value_name = "X,Y,Z", default_value = "0,0,0", value_parser = vector,
-          allow_hyphen_values = true)]
+    #[arg(long, value_name = "X,Y,Z", default_value = "0,0,0", value_parser = vector)]
     pub(super) offset: Vector3<f64>,
 
     /// Seed of everything random
-    #[arg(long, value_name = "K", default_value_t = 0)]
+    #[arg(long, value_name = "K", value_parser = count::<u64>, default_value_t = 0)]
     pub(super) seed: u64,
 
     /// Write the points here: .ply or .xyz, a mesh .stl or .obj too (- for standard output)

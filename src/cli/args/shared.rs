@@ -1,7 +1,7 @@
 //! The arguments that several commands share.
 
 use super::{OUTPUT, RUN, SEARCH};
-use crate::cli::values::{Auto, ScanFormat, SeamsArg, bytes, tolerance};
+use crate::cli::values::{Auto, ScanFormat, SeamsArg, bytes, count, tolerance};
 use crate::fit::Tolerance;
 use crate::report::Unit;
 use crate::sphere::Symmetry;
@@ -24,7 +24,7 @@ pub(in crate::cli) struct LimitArgs {
 #[derive(Args)]
 pub(in crate::cli) struct InputArgs {
     /// The label of the grain in a segmented volume that has several
-    #[arg(long, value_name = "K", help_heading = RUN, allow_negative_numbers = true)]
+    #[arg(long, value_name = "K", help_heading = RUN)]
     pub(in crate::cli) label: Option<i64>,
 
     /// Format of the scan, where neither its content nor its extension tells: ply, stl, obj or xyz
@@ -75,11 +75,11 @@ pub(in crate::cli) struct FittingArgs {
 
     /// Largest degree searched: bounds the cost of an evaluation [default: 4 in blended cells, else 3; of positions 7 on
     /// the whole sphere, which is tried before cells, and 3 in these]
-    #[arg(long, value_name = "L", help_heading = SEARCH)]
+    #[arg(long, value_name = "L", value_parser = count::<usize>, help_heading = SEARCH)]
     pub(in crate::cli) max_degree: Option<usize>,
 
     /// Largest number of segments searched [default: 600 blended, 100 independent]
-    #[arg(long, value_name = "N", help_heading = SEARCH)]
+    #[arg(long, value_name = "N", value_parser = count::<usize>, help_heading = SEARCH)]
     pub(in crate::cli) max_segments: Option<usize>,
 
     /// RMS difference from the estimate that is good enough: a length in the scan's unit, a share of the mean
@@ -94,7 +94,7 @@ pub(in crate::cli) struct FittingArgs {
     pub(in crate::cli) exhaustive: bool,
 
     /// Threads, 0 for all cores; at most 4 per core are used, and the result does not depend on it
-    #[arg(long, value_name = "N", default_value_t = 0, help_heading = RUN)]
+    #[arg(long, value_name = "N", value_parser = count::<usize>, default_value_t = 0, help_heading = RUN)]
     pub(in crate::cli) threads: usize,
 
     /// Print one JSON object, warnings included

@@ -8,6 +8,7 @@ use nalgebra::Point3;
 use ply_rs::ply::{ElementDef, PropertyType};
 
 use super::header::Header;
+use super::strips;
 use crate::scan::error::{ParseError, Place};
 use crate::scan::polygon::{Faces, checked};
 use crate::scan::text::{Lines, coordinate, integer, unexpected, words};
@@ -23,6 +24,7 @@ enum Column {
 
 pub(super) fn read(bytes: &[u8], header: &Header) -> Result<Scan, ParseError> {
     let (mut scan, mut faces) = (Scan::default(), Faces::default());
+    let mut corners = Vec::new();
     let mut lines = Lines::after(header.lines, &bytes[header.body..]);
     for element in &header.elements {
         let columns = columns(element);
@@ -35,10 +37,18 @@ pub(super) fn read(bytes: &[u8], header: &Header) -> Result<Scan, ParseError> {
                     found: row_number,
                 });
             };
-            let (point, corners) = read_row(line, row, &columns, header.points)?;
+            let place = Place::Line(line);
+            let (point, indices) = read_row(line, row, &columns)?;
             match element.name.as_str() {
                 "vertex" => scan.points.push(point),
-                "face" => faces.add(&corners),
+                "face" => {
+                    corners.clear();
+                    for index in indices {
+                        corners.push(checked(index, header.points, place)?);
+                    }
+                    faces.add(&corners);
+                }
+                "tristrips" => strips::add(&indices, header.points, place, &mut faces)?,
                 _ => {}
             }
         }
@@ -61,7 +71,7 @@ fn columns(element: &ElementDef) -> Vec<Column> {
             ("vertex", "x", false) => Column::Axis(0),
             ("vertex", "y", false) => Column::Axis(1),
             ("vertex", "z", false) => Column::Axis(2),
-            ("face", "vertex_indices", true) => Column::Corners,
+            ("face" | "tristrips", "vertex_indices", true) => Column::Corners,
             (_, _, false) => Column::Skip,
             (_, _, true) => Column::SkipList,
         }
@@ -69,15 +79,14 @@ fn columns(element: &ElementDef) -> Vec<Column> {
     element.properties.iter().map(column).collect()
 }
 
-/// The point and the corners that a row gives; either is empty where the element has none.
+/// The point and the indices of corners that a row gives; either is empty where the element has none.
 fn read_row(
     line: usize,
     row: &[u8],
     columns: &[Column],
-    points: usize,
-) -> Result<(Point3<f64>, Vec<u32>), ParseError> {
+) -> Result<(Point3<f64>, Vec<i64>), ParseError> {
     let mut point = Point3::origin();
-    let mut corners = Vec::new();
+    let mut indices = Vec::new();
     let mut values = words(row);
     let mut next = || {
         values
@@ -91,8 +100,7 @@ fn read_row(
             Column::Skip => {}
             Column::Corners => {
                 for _ in 0..length(line, first)? {
-                    let index = integer(line, next()?)?;
-                    corners.push(checked(index, points, Place::Line(line))?);
+                    indices.push(integer(line, next()?)?);
                 }
             }
             Column::SkipList => {
@@ -103,7 +111,7 @@ fn read_row(
         }
     }
     match values.next() {
-        None => Ok((point, corners)),
+        None => Ok((point, indices)),
         Some(_) => Err(unexpected(line, "as many values as properties", row)),
     }
 }

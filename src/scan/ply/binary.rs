@@ -8,6 +8,7 @@ use ply_rs::ply::{
 };
 
 use super::header::{Header, Skipped};
+use super::strips;
 use crate::scan::error::{ParseError, Place};
 use crate::scan::polygon::{Faces, checked};
 use crate::scan::{Scan, plural};
@@ -31,7 +32,7 @@ pub(super) fn read(bytes: &[u8], header: &Header) -> Result<Scan, ParseError> {
             }
             "face" => {
                 let mut corners = Vec::new();
-                rows.read(element, "face", |Face(indices), place| {
+                rows.read(element, "face", |Indices(indices), place| {
                     corners.clear();
                     for index in indices {
                         corners.push(checked(index, header.points, place)?);
@@ -40,6 +41,9 @@ pub(super) fn read(bytes: &[u8], header: &Header) -> Result<Scan, ParseError> {
                     Ok(())
                 })?;
             }
+            "tristrips" => rows.read(element, "strips", |Indices(list), place| {
+                strips::add(&list, header.points, place, &mut faces)
+            })?,
             _ => rows.read(element, "row", |Skipped, _| Ok(()))?,
         }
     }
@@ -161,9 +165,10 @@ impl PropertyAccess for Vertex {
     }
 }
 
-struct Face(Vec<i64>);
+/// The corners of a face or of strips.
+struct Indices(Vec<i64>);
 
-impl PropertyAccess for Face {
+impl PropertyAccess for Indices {
     fn new() -> Self {
         Self(Vec::new())
     }

@@ -5,13 +5,11 @@
 mod ascii;
 mod binary;
 mod header;
+mod strips;
 
-use ply_rs::ply::{ElementDef, Encoding};
+use ply_rs::ply::Encoding;
 
 use super::{ParseError, Scan};
-
-/// The element that holds faces as strips, in files of old scanners.
-const STRIPS: &str = "tristrips";
 
 pub(super) fn parse(bytes: &[u8]) -> Result<Scan, ParseError> {
     let header = header::read(bytes)?;
@@ -21,11 +19,6 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Scan, ParseError> {
     };
     if !header.known_version {
         let warning = "The PLY version is not 1.0; the file was read as if it were.";
-        scan.warnings.push(warning.into());
-    }
-    let is_strips = |element: &ElementDef| element.name == STRIPS && element.count > 0;
-    if header.elements.iter().any(is_strips) {
-        let warning = "The triangle strips were not read, so the scan is taken as points alone: save the mesh as triangles.";
         scan.warnings.push(warning.into());
     }
     Ok(scan)
@@ -56,17 +49,6 @@ mod tests {
             put(&corner.to_be_bytes());
         }
         bytes
-    }
-
-    #[test]
-    fn triangle_strips_are_passed_over_with_a_warning() {
-        let points = "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n";
-        let strips = "element tristrips 1\nproperty list int int vertex_indices\n";
-        let rows = "0 0 0\n1 0 0\n0 1 0\n4 0 1 2 -1\n";
-        let text = format!("ply\nformat ascii 1.0\n{points}{strips}end_header\n{rows}");
-        let scan = parse(text.as_bytes()).unwrap();
-        assert_eq!((scan.points.len(), scan.triangles.len()), (3, 0));
-        assert!(scan.warnings[0].contains("strips"), "{:?}", scan.warnings);
     }
 
     #[test]
