@@ -60,6 +60,9 @@ const SETTLED: f64 = 1e-4;
 /// Size of the simplex at which the refinement ends before that, relative to the first.
 const COARSE: f64 = 1e-3;
 
+/// Searches along each axis of the best box of all.
+const LAST_RESTARTS: i32 = 2;
+
 /// Size of the first simplex in a round after the first, in radians.
 const NEARBY: f64 = 0.02;
 
@@ -130,6 +133,17 @@ pub fn minimum_box(hull: &Mesh) -> Result<OrientedBox, MeshIntegralError> {
                 true => few.refine(grown, NEARBY, 2, last),
                 false => few.refine(grown, NEARBY, 1, NEARBY * COARSE),
             };
+        }
+    }
+    // A search ends early where it collapses in a crease, which is another one along each axis.
+    for axis in 0..3 {
+        let Some(start) = few.least_box(&least.1.column(axis).into_owned()) else {
+            break;
+        };
+        let best = few.refine(start, NEARBY, LAST_RESTARTS, last);
+        let volume = box_along(&unit.vertices, &best.axes).volume();
+        if volume < least.0 {
+            least = (volume, best.axes);
         }
     }
     Ok(box_along(&hull.vertices, &(frame * least.1)))

@@ -69,7 +69,7 @@ proptest! {
         let (one, other) = (figures(&still).unwrap(), figures(&other).unwrap());
         for (i, ((power, one), (_, other))) in one.into_iter().zip(other).enumerate() {
             let expected = one * size.powi(power);
-            prop_assert!((other - expected).abs() <= 1e-6 * expected.abs() + 1e-9, "figure {i}");
+            prop_assert!((other - expected).abs() <= 1e-6 * expected.abs() + 1e-9, "figure {i}: {other} {expected}");
         }
     }
 }
