@@ -29,6 +29,7 @@ mod options;
 mod outcome;
 mod position;
 mod prepare;
+mod samples;
 mod segments;
 mod sound;
 mod sparse;

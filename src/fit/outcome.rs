@@ -3,8 +3,8 @@
 use super::candidate::Search;
 use super::estimate::{Estimate, RadiusError};
 use super::figures::Figures;
-use super::position::Samples;
 use super::prepare::Reference;
+use super::samples::Samples;
 use super::standard_errors::{NoInterval, StandardErrors};
 use super::warning::FitWarning;
 use crate::measure::{MassProperties, Scheme, Survey};

@@ -5,7 +5,6 @@
 //! [rounds](rounds) that also move the directions; cells are [split](search) where the distance asks for it.
 
 mod cloud;
-mod curvature;
 mod errors;
 mod foot;
 mod functionals;
@@ -25,6 +24,7 @@ use super::outcome::Rival;
 use super::prepare::{
     Reference, ReferenceKind, principal_axes, scanned_surface, semi_axes, usable,
 };
+use super::samples::Samples;
 use super::standard_errors::{NoInterval, StandardErrors};
 use super::warning::FitWarning;
 use crate::measure::{Unit, equivalent_radius, mesh_properties};
@@ -32,7 +32,6 @@ use crate::mesh::Mesh;
 use crate::model::{Frame, Position};
 use crate::scan::Scan;
 use cloud::Cloud;
-pub(crate) use curvature::Samples;
 use map::spherical_map;
 use nalgebra::Point3;
 use search::search;
