@@ -18,6 +18,7 @@ mod lengths;
 mod measure;
 mod mesh;
 mod negative;
+mod numbers;
 mod outputs;
 mod placed;
 mod progress;

@@ -1,11 +1,11 @@
 //! Values of arguments that have a notation of their own.
 
+use super::numbers::{numbers, share};
 use crate::engines::Engine;
 use crate::fit::{Form, Kind, MAX_UNION_PARTS, Seams, Tolerance};
 use crate::measure::Scheme;
 use crate::shapes::{Body, Curled, UnknownBody};
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
-use std::num::{IntErrorKind, ParseIntError};
 use std::path::PathBuf;
 use std::str::FromStr;
 
@@ -250,15 +250,6 @@ pub(super) fn tolerance(text: &str) -> Result<Tolerance, String> {
     }
 }
 
-/// Three components of a vector, separated by commas.
-pub(super) fn vector(text: &str) -> Result<Vector3<f64>, String> {
-    let numbers: Result<Vec<f64>, _> = text.split(',').map(|part| part.trim().parse()).collect();
-    match numbers.as_deref() {
-        Ok(&[x, y, z]) if [x, y, z].iter().all(|x| x.is_finite()) => Ok(Vector3::new(x, y, z)),
-        _ => Err("expected three finite numbers such as 10,0,-2.5".into()),
-    }
-}
-
 /// Semi-axes, separated by commas: three, or those on the positive and on the negative side of x, y and z.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum SemiAxes {
@@ -275,15 +266,6 @@ impl FromStr for SemiAxes {
             Some(&[a, b, c, d, e, f]) => Ok(Self::Six([[a, b], [c, d], [e, f]])),
             _ => Err("expected three numbers such as 2,2,1, or six of a poly"),
         }
-    }
-}
-
-/// Two numbers, separated by a comma.
-pub(super) fn pair(text: &str) -> Result<[f64; 2], String> {
-    let numbers: Result<Vec<f64>, _> = text.split(',').map(|part| part.trim().parse()).collect();
-    match numbers.as_deref() {
-        Ok(&[x, y]) => Ok([x, y]),
-        _ => Err("expected two numbers such as 60,40".into()),
     }
 }
 
@@ -313,63 +295,9 @@ impl FromStr for ShareArg {
     }
 }
 
-/// The exponents n1 and n2, separated by a comma.
-pub(super) fn exponents(text: &str) -> Result<[f64; 2], &'static str> {
-    let found = numbers(text).and_then(|numbers| numbers.try_into().ok());
-    found.ok_or("expected two numbers N1,N2 such as 4,2")
-}
-
-fn numbers(text: &str) -> Option<Vec<f64>> {
-    let numbers = text.split(',').map(|number| number.trim().parse().ok());
-    numbers.collect()
-}
-
-/// A whole number that counts something, or a seed.
-pub(super) fn count<T: FromStr<Err = ParseIntError>>(text: &str) -> Result<T, &'static str> {
-    text.parse()
-        .map_err(|error: ParseIntError| match error.kind() {
-            IntErrorKind::PosOverflow => "it is too large",
-            _ => "expected a whole number of zero or more",
-        })
-}
-
-/// A share, as a percentage or not.
-pub(super) fn share(text: &str) -> Result<f64, &'static str> {
-    let (number, scale) = match text.strip_suffix('%') {
-        Some(percentage) => (percentage.trim_end(), 100.0),
-        None => (text, 1.0),
-    };
-    let number: f64 = number
-        .parse()
-        .map_err(|_| "expected a share such as 0.5% or 0.005")?;
-    Ok(number / scale)
-}
-
-/// A number of bytes: digits, and k, M or G for thousands, millions and billions.
-pub(super) fn bytes(text: &str) -> Result<u64, &'static str> {
-    let suffixes = [('k', 1_000), ('M', 1_000_000), ('G', 1_000_000_000)];
-    let suffixed = suffixes
-        .iter()
-        .find_map(|(suffix, scale)| Some((text.strip_suffix(*suffix)?, *scale)));
-    let (digits, scale) = suffixed.unwrap_or((text, 1));
-    let count: Option<u64> = digits.parse().ok();
-    count
-        .and_then(|count| count.checked_mul(scale))
-        .filter(|count| *count > 0)
-        .ok_or("expected a number of bytes above zero such as 500M or 4G")
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn shares_are_percentages_or_not() {
-        assert_eq!(share("0.5%"), Ok(0.005));
-        assert_eq!(share("0.5 %"), Ok(0.005));
-        assert_eq!(share("0.005"), Ok(0.005));
-        assert!(share("%").is_err());
-    }
 
     #[test]
     fn a_file_may_have_a_share() {
@@ -379,26 +307,6 @@ mod tests {
         assert_eq!(read("C:a.json"), Ok(("C:a.json".into(), 1.0)));
         for text in [":1", "a:0", "a:-1", "a:inf", ""] {
             assert!(read(text).is_err(), "{text}");
-        }
-    }
-
-    #[test]
-    fn counts_are_whole_and_not_negative() {
-        assert_eq!(count("0"), Ok(0_usize));
-        for text in ["", "-1", "1.5", "x"] {
-            assert!(count::<usize>(text).unwrap_err().contains("zero or more"));
-        }
-        let most = count::<u64>("18446744073709551616");
-        assert_eq!(most, Err("it is too large"));
-    }
-
-    #[test]
-    fn bytes_have_decimal_suffixes() {
-        assert_eq!(bytes("1G"), Ok(crate::scan::MAX_BYTES));
-        assert_eq!(bytes("12k"), Ok(12_000));
-        assert_eq!(bytes("7"), Ok(7));
-        for text in ["", "0", "-1", "1T", "99999999999G", "1.5G"] {
-            assert!(bytes(text).is_err(), "{text}");
         }
     }
 }

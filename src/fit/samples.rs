@@ -1,4 +1,5 @@
-//! What a surface without a radius was fitted to, and how well its curvature is known by it: how far it is from that of the samples near by.
+//! What a surface without a radius was fitted to, and how well its curvature is known by it: how far it is from that of
+//! the samples near by.
 //!
 //! Where cells are pulled two ways the surface may bend far more than the body, though it is nowhere far from it: its
 //! curvature is compared with that of a quadric

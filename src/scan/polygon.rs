@@ -27,9 +27,28 @@ pub(super) struct Faces {
     triangles: Vec<[u32; 3]>,
     /// Of polygons of more than three corners: the first of their triangles, and how many they have.
     polygons: Vec<(usize, usize)>,
+    /// Those of the last polygon, whose memory serves the next.
+    corners: Vec<u32>,
 }
 
 impl Faces {
+    /// Appends a polygon whose indices are to be [checked].
+    pub(super) fn add_checked(
+        &mut self,
+        indices: &[i64],
+        points: usize,
+        place: Place,
+    ) -> Result<(), ParseError> {
+        let mut corners = std::mem::take(&mut self.corners);
+        corners.clear();
+        for &index in indices {
+            corners.push(checked(index, points, place)?);
+        }
+        self.add(&corners);
+        self.corners = corners;
+        Ok(())
+    }
+
     /// Appends a polygon as a fan about its first corner. Fewer than three corners have no area and add nothing.
     pub(super) fn add(&mut self, corners: &[u32]) {
         if let [first, rest @ ..] = corners {

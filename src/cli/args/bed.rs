@@ -2,7 +2,8 @@
 
 use super::{InputArgs, OUTPUT, RUN};
 use crate::cli::lengths::{length, lengths};
-use crate::cli::values::{ShareArg, count, pair};
+use crate::cli::numbers::{count, pair};
+use crate::cli::values::ShareArg;
 use crate::report::Unit;
 use clap::builder::RangedI64ValueParser;
 use clap::{Args, value_parser};

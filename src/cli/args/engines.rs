@@ -1,7 +1,8 @@
 //! The arguments of what other engines take: clumps and their inputs.
 
 use super::{InputArgs, OUTPUT};
-use crate::cli::values::{EngineArg, count, share};
+use crate::cli::numbers::{count, share};
+use crate::cli::values::EngineArg;
 use crate::report::Unit;
 use clap::Args;
 use std::path::PathBuf;

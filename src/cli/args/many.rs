@@ -1,7 +1,8 @@
 //! The arguments of commands for many grains.
 
 use super::{InputArgs, LimitArgs, OUTPUT, RUN, SEARCH};
-use crate::cli::values::{Auto, count, tolerance};
+use crate::cli::numbers::count;
+use crate::cli::values::{Auto, tolerance};
 use crate::fit::Tolerance;
 use crate::report::{Measure, Unit};
 use clap::Args;

@@ -10,10 +10,8 @@ pub(super) use engines::{ClumpArgs, ExportDemArgs, SpheresArgs};
 pub(super) use many::{BatchArgs, CompareArgs, ReportArgs, SplitArgs};
 pub(super) use shared::{FittingArgs, InputArgs, LimitArgs, MeshingArgs};
 
-use super::values::{
-    CloudFormat, LawArg, PoseArg, SchemeArg, SemiAxes, Subject, SurfaceArg, count, exponents,
-    share, vector,
-};
+use super::numbers::{count, exponents, share, vector};
+use super::values::{CloudFormat, LawArg, PoseArg, SchemeArg, SemiAxes, Subject, SurfaceArg};
 use crate::export::MeshFormat;
 use crate::report::{Measure, Unit};
 use crate::shapes::Sampling;

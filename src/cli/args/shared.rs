@@ -1,7 +1,8 @@
 //! The arguments that several commands share.
 
 use super::{OUTPUT, RUN, SEARCH};
-use crate::cli::values::{Auto, ScanFormat, SeamsArg, bytes, count, tolerance};
+use crate::cli::numbers::{bytes, count};
+use crate::cli::values::{Auto, ScanFormat, SeamsArg, tolerance};
 use crate::fit::Tolerance;
 use crate::report::Unit;
 use crate::sphere::Symmetry;

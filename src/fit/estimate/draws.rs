@@ -1,7 +1,8 @@
 //! How well single radii are known: variances of the surface in many directions.
 //!
-//! Where the matrix of the problem is factored, the variance in a direction of harmonics y is y'C y. Else surfaces are drawn from the posterior, by solving for points and prior
-//! means that have been disturbed as their own distributions have it:
+//! Where the matrix of the problem is factored, the variance in a direction of harmonics y is y'C y. Else surfaces are
+//! drawn from the posterior, by solving for points and prior means that have been disturbed as their own distributions
+//! have it:
 //!
 //! ```text
 //! dx = C (Y'W^1/2 e / s + V^-1/2 e'),   e, e' standard normal

@@ -10,7 +10,7 @@ use ply_rs::ply::{ElementDef, PropertyType};
 use super::header::Header;
 use super::strips;
 use crate::scan::error::{ParseError, Place};
-use crate::scan::polygon::{Faces, checked};
+use crate::scan::polygon::Faces;
 use crate::scan::text::{Lines, coordinate, integer, unexpected, words};
 use crate::scan::{Scan, plural};
 
@@ -24,7 +24,6 @@ enum Column {
 
 pub(super) fn read(bytes: &[u8], header: &Header) -> Result<Scan, ParseError> {
     let (mut scan, mut faces) = (Scan::default(), Faces::default());
-    let mut corners = Vec::new();
     let mut lines = Lines::after(header.lines, &bytes[header.body..]);
     for element in &header.elements {
         let columns = columns(element);
@@ -41,13 +40,7 @@ pub(super) fn read(bytes: &[u8], header: &Header) -> Result<Scan, ParseError> {
             let (point, indices) = read_row(line, row, &columns)?;
             match element.name.as_str() {
                 "vertex" => scan.points.push(point),
-                "face" => {
-                    corners.clear();
-                    for index in indices {
-                        corners.push(checked(index, header.points, place)?);
-                    }
-                    faces.add(&corners);
-                }
+                "face" => faces.add_checked(&indices, header.points, place)?,
                 "tristrips" => strips::add(&indices, header.points, place, &mut faces)?,
                 _ => {}
             }

@@ -10,7 +10,7 @@ use ply_rs::ply::{
 use super::header::{Header, Skipped};
 use super::strips;
 use crate::scan::error::{ParseError, Place};
-use crate::scan::polygon::{Faces, checked};
+use crate::scan::polygon::Faces;
 use crate::scan::{Scan, plural};
 
 pub(super) fn read(bytes: &[u8], header: &Header) -> Result<Scan, ParseError> {
@@ -30,17 +30,9 @@ pub(super) fn read(bytes: &[u8], header: &Header) -> Result<Scan, ParseError> {
                     Ok(())
                 })?;
             }
-            "face" => {
-                let mut corners = Vec::new();
-                rows.read(element, "face", |Indices(indices), place| {
-                    corners.clear();
-                    for index in indices {
-                        corners.push(checked(index, header.points, place)?);
-                    }
-                    faces.add(&corners);
-                    Ok(())
-                })?;
-            }
+            "face" => rows.read(element, "face", |Indices(indices), place| {
+                faces.add_checked(&indices, header.points, place)
+            })?,
             "tristrips" => rows.read(element, "strips", |Indices(list), place| {
                 strips::add(&list, header.points, place, &mut faces)
             })?,
