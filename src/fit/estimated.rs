@@ -99,7 +99,12 @@ pub(super) fn estimated(
 ) -> Result<Fitted, FitError> {
     context.enter(Stage::Estimating)?;
     let samples = prepared.sorted_samples();
-    let estimate = estimate(samples.rows(), prepared.semi_axes, context)?;
+    let estimate = estimate(
+        samples.rows(),
+        prepared.semi_axes,
+        !prepared.has_large_faces,
+        context,
+    )?;
     let aim = Aim::new(prepared, options, &estimate)?;
     let cut = match aim.is_whole {
         true => None,

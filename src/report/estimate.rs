@@ -17,7 +17,8 @@ pub struct EstimateRecord {
     pub degree: usize,
     /// Standard deviation of the radius, as root mean square over all directions.
     pub deviation: f64,
-    /// Standard deviation of the noise of one point (of the mean of a patch, of clouds of more than 30 000 points).
+    /// Standard deviation of what it does not follow of one point: noise, and edges that it does not resolve (of the mean of a
+    /// patch, of clouds of more than 30 000 points).
     pub noise: f64,
     /// Exponent of the power law by which the variance of its harmonics falls with their degree.
     pub slope: f64,

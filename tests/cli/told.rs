@@ -1,6 +1,6 @@
 //! What is told, and how: names, quiet and verbose runs, threads, completions, man pages.
 
-use super::{errors, folder, grain, grainform, json, succeed};
+use super::{errors, folder, grain, grainform, json, number, succeed};
 use std::process::Command;
 
 const QUICK: [&str; 2] = ["--tolerance", "5%"];
@@ -182,4 +182,19 @@ fn one_is_told_as_one() {
         "{text}"
     );
     assert!(!text.contains(" 1 segments"), "{text}");
+}
+
+/// Corners and edges of a mesh are no points that stand alone, and no noise.
+#[test]
+fn corners_of_a_tetrahedron_are_kept_and_are_no_noise() {
+    let folder = folder();
+    let tetrahedron =
+        "v 1 1 1\nv -1 -1 1\nv -1 1 -1\nv 1 -1 -1\nf 1 2 4\nf 1 3 2\nf 1 4 3\nf 2 3 4\n";
+    std::fs::write(folder.path().join("t.obj"), tetrahedron).unwrap();
+    let report = json(&folder, &["fit", "t.obj"]);
+    assert_eq!(report["warnings"], serde_json::json!([]));
+    assert_eq!(report["estimate"]["outliers"], 0);
+    assert!(report["noise"].is_null() && report["no_standard_errors"].is_string());
+    // Without its corners 3.7 %.
+    assert!(number(&report, "area_error").abs() < 0.03);
 }

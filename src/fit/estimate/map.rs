@@ -66,6 +66,7 @@ pub(super) fn rounder(
     counts: Option<&[f64]>,
     axes: Vector3<f64>,
     first: usize,
+    may_stand_alone: bool,
     context: &Context<'_>,
 ) -> Result<Rounder, Cancelled> {
     let mean = (axes.x * axes.y * axes.z).cbrt();
@@ -93,7 +94,7 @@ pub(super) fn rounder(
         });
         let maps: Vec<Mapped> = maps.collect();
         let is_whole = counts.is_none() && samples.len() <= COMPARED_POINTS;
-        if rounds == ROUNDS || !is_whole {
+        if !may_stand_alone || rounds == ROUNDS || !is_whole {
             break maps;
         }
         let best = best(&maps);

@@ -73,10 +73,11 @@ const WORTH_A_DEGREE: f64 = 0.01;
 const MOST_PER_POINT: f64 = 0.9;
 
 /// Estimates the radius from samples in the grain's own frame; `axes`: semi-axes of the ellipsoid of equal second moments,
-/// along the grain's own axes.
+/// along the grain's own axes; `may_stand_alone`: whether points may be no part of the surface, as those of its faces are.
 pub(crate) fn estimate(
     samples: &[Sample],
     axes: Vector3<f64>,
+    may_stand_alone: bool,
     context: &Context<'_>,
 ) -> Result<Estimate, Cancelled> {
     let mut patches = (samples.len() > WHOLE_CLOUD).then(|| Patches::new(samples, &axes));
@@ -85,7 +86,7 @@ pub(crate) fn estimate(
         None => (samples, None),
     };
     let first = first_degree(reduced.len());
-    let rounder = rounder(reduced, counts, axes, first, context)?;
+    let rounder = rounder(reduced, counts, axes, first, may_stand_alone, context)?;
     let (mut cloud, mut fit) = (rounder.cloud, rounder.fit);
     let compared = fit.sums.degree();
     let mut degree = first;
@@ -121,7 +122,7 @@ pub(crate) fn estimate(
             fit = fit_spectrum(&posterior, fit.spectrum, Some(coefficients), Count::Probed);
         }
         let are_told = patches.as_ref().is_none_or(Patches::are_some_thin);
-        let alone = match rounds < ROUNDS && are_told {
+        let alone = match may_stand_alone && rounds < ROUNDS && are_told {
             true => alone(&posterior, &fit),
             false => Vec::new(),
         };

@@ -24,7 +24,7 @@ pub(super) fn samples(
 }
 
 pub(super) fn estimated(samples: &[Sample], axes: Vector3<f64>) -> Estimate {
-    estimate(samples, axes, &Context::default()).unwrap()
+    estimate(samples, axes, true, &Context::default()).unwrap()
 }
 
 pub(super) fn fibonacci(points: usize) -> Vec<Vector3<f64>> {

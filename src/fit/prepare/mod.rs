@@ -67,6 +67,8 @@ pub struct PreparedScan<'a> {
     pub(crate) unseen: Option<Unseen>,
     /// Whether that is only because the points are few for a body as thin.
     pub(crate) is_sparse: bool,
+    /// Whether points were taken from large faces.
+    pub(crate) has_large_faces: bool,
     points: Cow<'a, [Point3<f64>]>,
     representatives: Option<Vec<Point3<f64>>>,
 }
@@ -111,7 +113,8 @@ impl<'a> PreparedScan<'a> {
             .seen_faces()
             .map(|faces| on_large_faces(faces, &frame, &semi_axes));
         let on_faces = on_faces.unwrap_or_default();
-        if !on_faces.is_empty() {
+        let has_large_faces = !on_faces.is_empty();
+        if has_large_faces {
             surface.points.to_mut().extend(&on_faces);
             if let Some(representatives) = &mut surface.representatives {
                 representatives.extend(&on_faces);
@@ -126,6 +129,7 @@ impl<'a> PreparedScan<'a> {
             warnings: surface.warnings,
             unseen: surface.unseen,
             is_sparse: surface.is_sparse,
+            has_large_faces,
             points: surface.points,
             representatives: surface.representatives,
         })

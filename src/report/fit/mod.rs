@@ -94,7 +94,7 @@ pub struct FitReport {
     /// What an evaluation costs of the expansion of the whole sphere that is as near to the estimate; `null` where the
     /// model has no cells.
     pub whole: Option<EvaluationRecord>,
-    /// Standard deviation of the points' noise; `null` where it was not estimated.
+    /// Standard deviation of the points' noise; `null` where it was not estimated, or not told apart from edges.
     pub noise: Option<f64>,
     /// The error that was good enough: the difference from the estimate, or the held-out RMS of independent segments and
     /// mirrored fits.
@@ -210,9 +210,14 @@ impl FitReport {
         let told = MeasureReport::of_model(String::new(), survey, &FIGURES, &withheld);
         let figures = told.measures;
         let standard_errors = match figures == Measures::default() {
-            true => Err("there are no figures for them".into()),
-            false => standard_errors(fitted, survey).map_err(|error| error.to_string()),
+            true => Err(None),
+            false => standard_errors(fitted, survey).map_err(Some),
         };
+        let is_noise = !matches!(&standard_errors, Err(Some(NoInterval::Unresolved { .. })));
+        let standard_errors = standard_errors.map_err(|reason| match reason {
+            Some(reason) => reason.to_string(),
+            None => "there are no figures for them".into(),
+        });
         let evaluation = EvaluationRecord::new(&fitted.grain);
         let reference = fitted.grain.unseen().is_none().then_some(fitted.reference);
         let beside = |found: Option<f64>, of: fn(&Reference) -> f64| {
@@ -251,7 +256,7 @@ impl FitReport {
                 .whole
                 .clone()
                 .map(|whole| EvaluationRecord::new(&whole.into())),
-            noise: search.noise,
+            noise: search.noise.filter(|_| is_noise),
             limit: search.limit,
             tolerance: (options.tolerance != Tolerance::Auto)
                 .then(|| options.tolerance.length(fitted.mean_radius)),

@@ -15,7 +15,7 @@ fn moves_are_those_of_estimates_without_a_point() {
             [n.x, n.y, n.z, 1.0 + 0.2 * n.z + ridge * (1.0 + n.y)]
         })
         .collect();
-    let estimate = estimate(&samples, Vector3::repeat(1.0), &Context::default()).unwrap();
+    let estimate = estimate(&samples, Vector3::repeat(1.0), true, &Context::default()).unwrap();
     let posterior = estimate.posterior();
     let residuals = posterior.residuals(&estimate.coefficients);
     let mut functional = vec![0.0; estimate.coefficients.len()];
