@@ -28,7 +28,8 @@ pub struct SearchReport {
     /// The error that was good enough: the difference from the estimate, or the held-out RMS of independent
     /// segments and mirrored fits.
     pub limit: f64,
-    /// Standard deviation of the points' noise; `null` where it was not estimated.
+    /// Standard deviation of what the estimate does not follow of one point: noise, and edges that it does not resolve; `null`
+    /// without an estimate.
     pub noise: Option<f64>,
     /// Mean radius over all directions.
     pub mean_radius: f64,

@@ -73,7 +73,8 @@ const WORTH_A_DEGREE: f64 = 0.01;
 const MOST_PER_POINT: f64 = 0.9;
 
 /// Estimates the radius from samples in the grain's own frame; `axes`: semi-axes of the ellipsoid of equal second moments,
-/// along the grain's own axes; `may_stand_alone`: whether points may be no part of the surface, as those of its faces are.
+/// along the grain's own axes; `may_stand_alone`: whether a point may lie off the surface, as none does that was
+/// taken from a face.
 pub(crate) fn estimate(
     samples: &[Sample],
     axes: Vector3<f64>,

@@ -209,15 +209,13 @@ impl FitReport {
         let withheld = Withheld::of(&fitted.grain, options.extrapolate);
         let told = MeasureReport::of_model(String::new(), survey, &FIGURES, &withheld);
         let figures = told.measures;
-        let standard_errors = match figures == Measures::default() {
-            true => Err(None),
-            false => standard_errors(fitted, survey).map_err(Some),
+        let standard_errors =
+            (figures != Measures::default()).then(|| standard_errors(fitted, survey));
+        let no_standard_errors = match &standard_errors {
+            Some(errors) => errors.as_ref().err().map(NoInterval::to_string),
+            None => Some("there are no figures for them".into()),
         };
-        let is_noise = !matches!(&standard_errors, Err(Some(NoInterval::Unresolved { .. })));
-        let standard_errors = standard_errors.map_err(|reason| match reason {
-            Some(reason) => reason.to_string(),
-            None => "there are no figures for them".into(),
-        });
+        let is_noise = !matches!(standard_errors, Some(Err(NoInterval::Unresolved { .. })));
         let evaluation = EvaluationRecord::new(&fitted.grain);
         let reference = fitted.grain.unseen().is_none().then_some(fitted.reference);
         let beside = |found: Option<f64>, of: fn(&Reference) -> f64| {
@@ -239,8 +237,8 @@ impl FitReport {
             principal: figures.principal,
             dimensions: figures.dimensions,
             not_measured: told.not_measured,
-            no_standard_errors: standard_errors.as_ref().err().cloned(),
-            standard_errors: standard_errors.ok().map(Into::into),
+            no_standard_errors,
+            standard_errors: standard_errors.and_then(Result::ok).map(Into::into),
             coefficients_touched: evaluation.touched,
             area_error: beside(survey.area().ok(), |reference| reference.area),
             volume_error: beside(survey.volume().ok(), |reference| reference.volume),

@@ -1,6 +1,5 @@
 use super::*;
-use crate::fit::context::Context;
-use crate::fit::estimate::estimate;
+use crate::fit::estimate::trial::estimated;
 use crate::shapes::Sampling;
 
 /// The moves of a functional against those of estimates without a point, under the same spectrum.
@@ -15,7 +14,7 @@ fn moves_are_those_of_estimates_without_a_point() {
             [n.x, n.y, n.z, 1.0 + 0.2 * n.z + ridge * (1.0 + n.y)]
         })
         .collect();
-    let estimate = estimate(&samples, Vector3::repeat(1.0), true, &Context::default()).unwrap();
+    let estimate = estimated(&samples, Vector3::repeat(1.0));
     let posterior = estimate.posterior();
     let residuals = posterior.residuals(&estimate.coefficients);
     let mut functional = vec![0.0; estimate.coefficients.len()];

@@ -1,6 +1,5 @@
 use super::*;
-use crate::fit::context::Context;
-use crate::fit::estimate::estimate;
+use crate::fit::estimate::trial::estimated;
 use crate::shapes::{Body, Sampling, SynthOptions, synthesize};
 
 /// A bump of which the estimate makes nothing is missing as it is; of one that it follows in part, so much of it.
@@ -30,7 +29,7 @@ fn what_is_missing_of_a_beak_is_told() {
                 [n.x, n.y, n.z, p.coords.norm()]
             })
             .collect();
-        let found = estimate(&samples, Vector3::repeat(4.0), true, &Context::default()).unwrap();
+        let found = estimated(&samples, Vector3::repeat(4.0));
         let beak = Vector3::new(1.0, 0.0, 0.1).normalize();
         let short = Body::Chickpea.surface().radius(&beak) - found.stretched_radii(&[beak])[0];
         let posterior = found.posterior();
@@ -50,7 +49,7 @@ fn little_is_missing_of_a_ball() {
     let ripple = |i: usize| if i.is_multiple_of(2) { 1.01 } else { 0.99 };
     let samples = directions.iter().enumerate();
     let samples: Vec<_> = samples.map(|(i, n)| [n.x, n.y, n.z, ripple(i)]).collect();
-    let found = estimate(&samples, Vector3::repeat(1.0), true, &Context::default()).unwrap();
+    let found = estimated(&samples, Vector3::repeat(1.0));
     let posterior = found.posterior();
     let tips = Tips::new(&found, &posterior);
     for n in [Vector3::x(), Vector3::y(), Vector3::z()] {
