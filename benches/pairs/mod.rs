@@ -3,8 +3,8 @@
 use grainform::contact::{ConvexPair, Method};
 use grainform::model::{Frame, Superquadric};
 use nalgebra::{Point3, Quaternion, UnitQuaternion, Vector3};
+use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::SeedableRng;
 use rand_distr::{Distribution, StandardNormal, Uniform};
 use std::ops::Range;
 

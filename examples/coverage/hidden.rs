@@ -4,8 +4,8 @@ use crate::scans::SCANS;
 use grainform::scan::{Scan, read_scan};
 use grainform::{FitOptions, StarSurface, Surface, fit};
 use nalgebra::{Point3, Vector3};
+use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{Rng, SeedableRng};
 use std::error::Error;
 use std::path::Path;
 

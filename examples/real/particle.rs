@@ -3,8 +3,8 @@
 use grainform::scan::Scan;
 use grainform::sphere::{HarmonicBasis, harmonic_index};
 use nalgebra::{Point3, Vector3};
+use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
 use std::error::Error;
 use std::fs;

@@ -4,8 +4,8 @@ use super::body::Body;
 use super::grain::GrainKind;
 use super::settings::{BedError, BedSettings, Container};
 use nalgebra::{Point3, Quaternion, UnitQuaternion, Vector3};
+use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::SeedableRng;
 use rand_distr::{Distribution, StandardNormal, StandardUniform};
 
 /// How much wider than the widest grain a place of the grid is.

@@ -3,8 +3,8 @@
 use crate::scan::Scan;
 use crate::shapes::{Body, Sampling, SynthError, SynthOptions, synthesize};
 use nalgebra::Point3;
+use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{Rng, SeedableRng};
 
 /// Noise of the noisy synthetic scans: its standard deviation as a share of the mean radius.
 pub const NOISE: f64 = 0.005;

@@ -6,8 +6,8 @@ use super::material::GrainMaterial;
 use crate::bed::{Bed, Container, check_pace};
 use crate::measure::equivalent_radius;
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
+use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
 use std::f64::consts::PI;
 

@@ -251,8 +251,8 @@ fn fan(round: &[Face]) -> Vec<[Face; 3]> {
 mod tests {
     use super::*;
     use crate::scan::Scan;
+    use rand::SeedableRng;
     use rand_chacha::ChaCha8Rng;
-    use rand_chacha::rand_core::SeedableRng;
     use rand_distr::{Bernoulli, Distribution};
 
     #[test]

@@ -1,7 +1,7 @@
 //! Where randomness comes from: one seed, one stream per purpose.
 
+use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::SeedableRng;
 
 /// What random numbers are drawn for. Each purpose has a stream of its own, so that drawing more
 /// for one leaves the others as they were.

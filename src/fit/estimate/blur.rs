@@ -127,8 +127,8 @@ mod tests {
     use crate::fit::prepare::Sample;
     use approx::assert_relative_eq;
     use nalgebra::Vector3;
+    use rand::SeedableRng;
     use rand_chacha::ChaCha8Rng;
-    use rand_chacha::rand_core::SeedableRng;
     use rand_distr::{Distribution, StandardNormal};
 
     const S: f64 = 0.01;

@@ -13,8 +13,8 @@
 use super::posterior::Conditioned;
 use crate::sphere::{HarmonicBasis, ScatteredHarmonics};
 use nalgebra::Vector3;
+use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
 
 /// Number of draws.

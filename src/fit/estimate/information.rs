@@ -65,8 +65,8 @@ mod tests {
     use super::*;
     use crate::shapes::Sampling;
     use nalgebra::Vector3;
+    use rand::SeedableRng;
     use rand_chacha::ChaCha8Rng;
-    use rand_chacha::rand_core::SeedableRng;
     use rand_distr::{Distribution, StandardNormal};
 
     /// Of points that a spectrum has made, second derivatives are near their expected values, and so near the mean of

@@ -11,8 +11,8 @@ use super::spectrum::Spectrum;
 use super::stopping::{Enough, SHARE};
 use super::sums::Sums;
 use crate::sphere::{LowerTriangle, coefficient_count};
+use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{Rng, SeedableRng};
 use std::f64::consts::PI;
 use std::sync::{Arc, OnceLock};
 

@@ -43,8 +43,8 @@ fn cost(coefficients: &[f64], unlearnt: &[f64], spectrum: &Spectrum) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use rand::SeedableRng;
     use rand_chacha::ChaCha8Rng;
-    use rand_chacha::rand_core::SeedableRng;
     use rand_distr::{Distribution, StandardNormal};
 
     /// Coefficients that a spectrum makes, seen through noise and shrunk without its tilt.

@@ -5,8 +5,8 @@ use crate::fit::context::Context;
 use crate::fit::prepare::Sample;
 use crate::shapes::Sampling;
 use nalgebra::Vector3;
+use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
 
 /// Samples of a radius, with normal noise.

@@ -137,8 +137,8 @@ mod tests {
     use super::super::cloud::Cloud;
     use super::*;
     use crate::shapes::Sampling;
+    use rand::SeedableRng;
     use rand_chacha::ChaCha8Rng;
-    use rand_chacha::rand_core::SeedableRng;
     use rand_distr::{Distribution, StandardNormal};
 
     #[test]

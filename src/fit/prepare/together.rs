@@ -62,8 +62,8 @@ impl Places {
 mod tests {
     use super::*;
     use crate::shapes::Sampling;
+    use rand::SeedableRng;
     use rand_chacha::ChaCha8Rng;
-    use rand_chacha::rand_core::SeedableRng;
     use rand_distr::{Distribution, Uniform};
 
     fn ellipsoid(points: usize) -> Vec<Point3<f64>> {

@@ -7,8 +7,8 @@ use crate::model::{StarSurface, Superquadric};
 use crate::shapes::{Body, SynthOptions, synthesize};
 use approx::assert_relative_eq;
 use nalgebra::{Point3, Rotation3, Vector3};
+use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::SeedableRng;
 use rand_distr::{Distribution, StandardNormal, Uniform, UnitSphere};
 
 fn between(random: &mut ChaCha8Rng, least: f64, most: f64) -> f64 {
@@ -67,14 +67,14 @@ fn random_superquadrics_are_found_in_noise_and_among_strays() {
             let aside = Vector3::from_fn(|_, _| between(random, -1.5, 1.5));
             Point3::from(middle + aside)
         }));
-        for (errors, points) in errors.iter_mut().zip([&clean, &noisy, &astray]) {
-            let found = fitted(points, Form::Single);
+        let found = [clean, noisy, astray].map(|points| fitted(&points, Form::Single));
+        for (errors, found) in errors.iter_mut().zip(&found) {
             errors.push((volume(&found.shape) / volume(&shape) - 1.0).abs());
         }
-        let found = fitted(&noisy, Form::Single);
-        if let Some(error) = found.errors.n1[0] {
+        let [_, in_noise, _] = &found;
+        if let Some(error) = in_noise.errors.n1[0] {
             // Where z is another axis the exponents are other ones.
-            let off = (found.shape.n1()[0] - shape.n1()[0]).abs();
+            let off = (in_noise.shape.n1()[0] - shape.n1()[0]).abs();
             within.push(off < 1.96 * error || off > 10.0 * error);
         }
     }

@@ -10,8 +10,8 @@ use crate::polygon_hull::polygon_hull;
 use crate::spread::{covariance, robust_deviation};
 use kiddo::ImmutableKdTree;
 use nalgebra::{Point3, Unit, Vector2, Vector3};
+use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{Rng, SeedableRng};
 use rayon::prelude::*;
 
 /// Points by which planes are compared.

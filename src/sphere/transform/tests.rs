@@ -1,7 +1,7 @@
 use super::*;
 use crate::sphere::HarmonicBasis;
+use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
 
 fn normals(count: usize, seed: u64) -> Vec<f64> {

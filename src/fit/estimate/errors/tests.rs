@@ -5,8 +5,8 @@ use crate::fit::estimate::trial::{estimated, fibonacci, samples};
 use crate::measure::Survey;
 use crate::model::{Family, Frame, StarGrain};
 use crate::shapes::{Body, Sampling, SynthOptions, synthesize};
+use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
 
 /// An ellipsoid with these semi-axes.

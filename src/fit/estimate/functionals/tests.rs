@@ -6,8 +6,8 @@ use crate::measure::grain_properties;
 use crate::model::{Family, Frame, StarGrain, Stretch, Whole};
 use crate::sphere::coefficient_count;
 use nalgebra::{Matrix3, Point3};
+use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
 
 fn normals(count: usize, seed: u64) -> Vec<f64> {

@@ -8,8 +8,8 @@ use super::super::outcome::Estimate;
 use super::super::posterior::sign;
 use crate::fit::neighbours::Neighbours;
 use nalgebra::Vector3;
+use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::SeedableRng;
 use std::cmp::Reverse;
 
 /// Classes of points.

@@ -1,7 +1,7 @@
 use super::*;
 use crate::shapes::Sampling;
+use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
 
 /// Directions, and residuals of noise with this deviation.
