@@ -6,8 +6,9 @@
 //! - the difference between the figure that is told (of the surface that stands for the estimate) and the best
 //!   value of the estimate;
 //! - allowances for what second order brings: half of the area's excess, for it rests on degrees that the points
-//!   do not tell; [texture](super::texture) between the points, and what noise along the surface [blurs](super::blur) of it;
-//!   those of the [extents](super::dimension_errors); the repulsion of nearly equal moments;
+//!   do not tell; [texture](super::texture) between the points, what noise along the surface [blurs](super::blur) of
+//!   it, what is missing of a [rim](super::rims); those of the [extents](super::dimension_errors); the repulsion of nearly
+//!   equal moments;
 //! - a floor, for rounding and quadrature.
 //!
 //! Where what is left of the points, or of one of them, is no noise, the variances grow by what
@@ -23,6 +24,7 @@ use super::functionals::{RingSurface, combined, dot};
 use super::left_out::LeftOut;
 use super::outcome::Estimate;
 use super::posterior::Posterior;
+use super::rims::Rim;
 use super::texture::hidden_slopes;
 use super::unresolved::{is_rough, kurtosis};
 use crate::fit::figures::{
@@ -70,7 +72,7 @@ impl Estimate {
         let blur = Blur::new(self, &residuals);
         let hidden = if is_rough { 0.0 } else { hidden_slopes(self) };
         let slopes = hidden + blur.slopes;
-        let best = Best::new(self, &posterior, left_out.as_ref(), slopes);
+        let best = Best::new(self, &posterior, &residuals, left_out.as_ref(), slopes);
         let best = best.ok_or(NoInterval::NotFinite)?;
         Ok(blur.with_swelling(best.errors(told), told))
     }
@@ -86,6 +88,9 @@ const EXTENT_FLOOR: f64 = 1e-5;
 /// expects too much of it, of those that go on, as where residuals are no noise, about the right amount; this share is
 /// the allowance for both.
 const EXCESS_SHARE: f64 = 0.5;
+
+/// Share of the area missing along a rim that the part has of which the points tell: the least on lenses, nearly.
+const AREA_OF_RIM: f64 = 0.25;
 
 /// The best values of an estimate, and what their errors come from.
 pub(super) struct Best {
@@ -108,6 +113,7 @@ impl Best {
     pub(super) fn new(
         estimate: &Estimate,
         posterior: &Posterior<'_>,
+        residuals: &[f64],
         left_out: Option<&LeftOut<'_>>,
         hidden_slopes: f64,
     ) -> Option<Self> {
@@ -131,6 +137,13 @@ impl Best {
 
         let nodes = surface.nodes.iter().zip(&surface.radii);
         let starts: Vec<_> = nodes.map(|((n, _), (r, _))| (*n, *r)).collect();
+        if let Some(rim) = Rim::of(estimate, residuals) {
+            let with_it = rim.moments(&surface);
+            let mut added = jacobian * (list(&with_it) - list(&moments));
+            added[0] /= AREA_OF_RIM;
+            covariance += added * added.transpose();
+        }
+
         let reach = Reach::new(estimate, starts)?;
         let sd = |i: usize, j: usize| turn_variance(&covariance, &principal.axes, i, j).sqrt();
         let mass_and = (&gradients[..], &covariances[..]);

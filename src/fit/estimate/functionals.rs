@@ -118,15 +118,28 @@ impl RingSurface {
 
     /// Area, volume and moments about the origin, in the scan's unit, along the grain's own axes.
     pub(super) fn moments(&self) -> Moments {
+        self.sum(|n, r, g| self.integrands(n, r, g))
+    }
+
+    /// The same with something added to the radius and to its gradient.
+    pub(super) fn moments_with(
+        &self,
+        added: impl Fn(&Vector3<f64>) -> (f64, Vector3<f64>),
+    ) -> Moments {
         self.sum(|n, r, g| {
-            let cube = r * r * r;
-            Moments {
-                area: r * self.normal(n, r, g).length,
-                volume: cube / 3.0,
-                first: n * (cube * r / 4.0),
-                second: n * n.transpose() * (cube * r * r / 5.0),
-            }
+            let (height, slope) = added(n);
+            self.integrands(n, r + height, &(g + slope))
         })
+    }
+
+    fn integrands(&self, n: &Vector3<f64>, r: f64, g: &Vector3<f64>) -> Moments {
+        let cube = r * r * r;
+        Moments {
+            area: r * self.normal(n, r, g).length,
+            volume: cube / 3.0,
+            first: n * (cube * r / 4.0),
+            second: n * n.transpose() * (cube * r * r / 5.0),
+        }
     }
 
     /// By how much the means of these over the posterior exceed them.

@@ -31,6 +31,7 @@ mod outcome;
 mod outliers;
 mod patches;
 mod posterior;
+mod rims;
 mod spectrum;
 mod spectrum_fit;
 mod stopping;

@@ -30,3 +30,18 @@ pub(super) fn estimated(samples: &[Sample], axes: Vector3<f64>) -> Estimate {
 pub(super) fn fibonacci(points: usize) -> Vec<Vector3<f64>> {
     Sampling::Fibonacci.directions(points, 0).unwrap()
 }
+
+/// Samples of a lens about the z axis, of a rim with radius 5 and half as thick as told, with normal noise in all directions.
+pub(super) fn lens(half: f64) -> Vec<Sample> {
+    let radius = (25.0 + half * half) / (2.0 * half);
+    let mut random = ChaCha8Rng::seed_from_u64(1);
+    let at = |n: Vector3<f64>| {
+        let aside = (radius - half) * n.z.abs();
+        let r = (aside * aside + half * (2.0 * radius - half)).sqrt() - aside;
+        let noise = Vector3::from_fn(|_, _| StandardNormal.sample(&mut random));
+        let p: Vector3<f64> = n * r + noise * 0.03;
+        let n = p.normalize();
+        [n.x, n.y, n.z, p.norm()]
+    };
+    fibonacci(3000).into_iter().map(at).collect()
+}
