@@ -45,42 +45,64 @@ pub(super) struct Rim {
     gain: f64,
 }
 
+/// A bump of the radius around a circle.
+struct Bump {
+    /// Its Legendre polynomials in the cosine of the polar angle.
+    series: Vec<f64>,
+    /// The part of them that the points leave unlearnt.
+    left: Vec<f64>,
+    /// The share of the mean square that this part has.
+    left_of_squares: f64,
+}
+
+impl Bump {
+    /// `at_circle`: the Legendre polynomials there; `unlearnt`: the shares by degree.
+    fn new(sharpness: f64, at_circle: &[f64; HIGHEST], unlearnt: &[f64]) -> Self {
+        let degrees = ((REACH * sharpness.sqrt()) as usize).min(HIGHEST);
+        let fall = |l: usize| (-((l * (l + 1)) as f64) / (2.0 * sharpness)).exp();
+        let part = |l: usize| (2 * l + 1) as f64 * fall(l) * at_circle[l];
+        let series: Vec<f64> = (0..degrees).map(part).collect();
+        let shares = unlearnt.iter().copied().chain(std::iter::repeat(1.0));
+        let left: Vec<f64> = series.iter().zip(shares).map(|(b, q)| q * b).collect();
+        let with_itself = |part: &[f64]| -> f64 {
+            let parts = part.iter().enumerate();
+            parts.map(|(l, b)| b * fall(l) * at_circle[l]).sum()
+        };
+        Self {
+            left_of_squares: with_itself(&left) / with_itself(&series),
+            series,
+            left,
+        }
+    }
+}
+
 impl Rim {
     /// The rim that the residuals of the points tell of most clearly, if they do.
     pub(super) fn of(estimate: &Estimate, residuals: &[f64]) -> Option<Self> {
         let noise = estimate.spectrum.noise().powi(2);
         let sums = [0, 1, 2].map(|axis| band_sums(&estimate.cloud, residuals, axis));
-        let polynomials: Vec<[f64; HIGHEST]> = (0..BANDS)
-            .map(|band| polynomials(middle(band).cos()))
-            .collect();
-        let left = |l: usize| estimate.unlearnt.get(l).copied().unwrap_or(1.0);
+        let at_band = |band: usize| polynomials(middle(band).cos());
+        let at_bands: Vec<[f64; HIGHEST]> = (0..BANDS).map(at_band).collect();
         let mut best: Option<Self> = None;
         for sharpness in SHARPNESSES {
-            let degrees = ((REACH * sharpness.sqrt()) as usize).min(HIGHEST);
-            let fall = |l: usize| (-((l * (l + 1)) as f64) / (2.0 * sharpness)).exp();
-            let fall: Vec<f64> = (0..degrees).map(fall).collect();
-            for circle in polynomials.iter().step_by(STEP) {
-                let part = |l: usize| (2 * l + 1) as f64 * fall[l] * circle[l];
-                let bump: Vec<f64> = (0..degrees).map(part).collect();
-                let square = |l: usize| bump[l] * fall[l] * circle[l];
-                let all: f64 = (0..degrees).map(square).sum();
-                let unlearnt: f64 = (0..degrees).map(|l| left(l) * square(l)).sum();
-                let heights = polynomials.iter().map(|p| dot(&p[..degrees], &bump));
+            for circle in at_bands.iter().step_by(STEP) {
+                let bump = Bump::new(sharpness, circle, &estimate.unlearnt);
+                let degrees = bump.series.len();
+                let heights = at_bands.iter().map(|p| dot(&p[..degrees], &bump.series));
                 let heights: Vec<f64> = heights.collect();
                 for (axis, sums) in sums.iter().enumerate() {
-                    let [mut score, mut information] = [0.0; 2];
+                    let [mut score, mut squares] = [0.0; 2];
                     for (height, [of_residuals, of_weights]) in heights.iter().zip(sums) {
                         score += height * of_residuals / noise;
-                        information += height * height * of_weights / noise;
+                        squares += height * height * of_weights / noise;
                     }
-                    information *= unlearnt / all;
+                    let information = squares * bump.left_of_squares;
                     let gain = score * score / information;
                     if gain > best.as_ref().map_or(CLEAR, |best| best.gain) {
                         let height = score / information;
-                        let missing = (0..degrees).map(|l| height * left(l) * bump[l]);
                         best = Some(Self {
                             axis,
-                            missing: missing.collect(),
+                            missing: bump.left.iter().map(|b| height * b).collect(),
                             gain,
                         });
                     }
