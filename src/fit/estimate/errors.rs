@@ -135,8 +135,6 @@ impl Best {
             covariance += left_out.covariance(&covariances);
         }
 
-        let nodes = surface.nodes.iter().zip(&surface.radii);
-        let starts: Vec<_> = nodes.map(|((n, _), (r, _))| (*n, *r)).collect();
         if let Some(rim) = Rim::of(estimate, residuals) {
             let with_it = rim.moments(&surface);
             let mut added = jacobian * (list(&with_it) - list(&moments));
@@ -144,6 +142,8 @@ impl Best {
             covariance += added * added.transpose();
         }
 
+        let nodes = surface.nodes.iter().zip(&surface.radii);
+        let starts: Vec<_> = nodes.map(|((n, _), (r, _))| (*n, *r)).collect();
         let reach = Reach::new(estimate, starts)?;
         let sd = |i: usize, j: usize| turn_variance(&covariance, &principal.axes, i, j).sqrt();
         let mass_and = (&gradients[..], &covariances[..]);

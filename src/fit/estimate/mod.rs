@@ -11,6 +11,7 @@
 //! The posterior covariance says how well every functional of the radius is known.
 
 mod blur;
+mod bump;
 mod cloud;
 mod conjugate_gradients;
 mod curvature;

@@ -2,13 +2,13 @@
 //!
 //! As with [tips](super::tips): what the prior takes of a rim for noise is left in the residuals there, and over a whole
 //! rim the area lacks more than its standard error. A rim is a bump around a circle at the polar angle t of one of the axes of
-//! the stretched space: the mean of bumps exp(k (n.t - 1)) about its points, with b_l P_l(cos t) for their b_l. Height and
-//! variance are those of a tip, of the width, circle and axis under which the points are most likely.
+//! the stretched space: the mean of [bumps](super::bump) about its points. Height and variance are those of a tip, of the width, circle and axis under which the points are most likely.
 //!
 //! What is found so is a rounded rim still, and has .2 to .6 of the area that is missing. Measured on lenses 2.5 to
 //! 10 times as wide as thick, and on ones of unequal halves, of 1500 and 6000 points with noise of .1 to 2 % of the mean
-//! radius: their areas were 2 to 14 standard errors too small, and with four times this as an allowance .5 to 2.2.
+//! radius: their areas were 2 to 14 standard errors too small, and with four times this as an allowance .5 to 2.8.
 
+use super::bump::{HIGHEST, LegendreBump, falls};
 use super::cloud::Cloud;
 use super::functionals::RingSurface;
 use super::outcome::Estimate;
@@ -20,20 +20,13 @@ use std::f64::consts::PI;
 /// k of the bumps: Gaussians of 14, 10, 7, 5 and 3.5 degrees.
 const SHARPNESSES: [f64; 5] = [16.0, 32.0, 64.0, 128.0, 256.0];
 
-/// Degrees of a bump are below this times the root of its k, ...
-const REACH: f64 = 6.0;
-
-/// ... and so of all of them.
-const HIGHEST: usize = 96;
-
 /// Residuals are summed over as many bands of the polar angle.
 const BANDS: usize = 180;
 
 /// Bands from one circle to the next.
 const STEP: usize = 5;
 
-/// How much likelier the points are with a rim, as twice the logarithm: by chance, of so many rims that are tried, it is 9 at
-/// most in nineteen of twenty clouds.
+/// How much likelier the points are with a rim, as twice the logarithm: four standard deviations of its height.
 const CLEAR: f64 = 16.0;
 
 /// A rim that the estimate lacks.
@@ -45,37 +38,6 @@ pub(super) struct Rim {
     gain: f64,
 }
 
-/// A bump of the radius around a circle.
-struct Bump {
-    /// Its Legendre polynomials in the cosine of the polar angle.
-    series: Vec<f64>,
-    /// The part of them that the points leave unlearnt.
-    left: Vec<f64>,
-    /// The share of the mean square that this part has.
-    left_of_squares: f64,
-}
-
-impl Bump {
-    /// `at_circle`: the Legendre polynomials there; `unlearnt`: the shares by degree.
-    fn new(sharpness: f64, at_circle: &[f64; HIGHEST], unlearnt: &[f64]) -> Self {
-        let degrees = ((REACH * sharpness.sqrt()) as usize).min(HIGHEST);
-        let fall = |l: usize| (-((l * (l + 1)) as f64) / (2.0 * sharpness)).exp();
-        let part = |l: usize| (2 * l + 1) as f64 * fall(l) * at_circle[l];
-        let series: Vec<f64> = (0..degrees).map(part).collect();
-        let shares = unlearnt.iter().copied().chain(std::iter::repeat(1.0));
-        let left: Vec<f64> = series.iter().zip(shares).map(|(b, q)| q * b).collect();
-        let with_itself = |part: &[f64]| -> f64 {
-            let parts = part.iter().enumerate();
-            parts.map(|(l, b)| b * fall(l) * at_circle[l]).sum()
-        };
-        Self {
-            left_of_squares: with_itself(&left) / with_itself(&series),
-            series,
-            left,
-        }
-    }
-}
-
 impl Rim {
     /// The rim that the residuals of the points tell of most clearly, if they do.
     pub(super) fn of(estimate: &Estimate, residuals: &[f64]) -> Option<Self> {
@@ -84,9 +46,9 @@ impl Rim {
         let at_band = |band: usize| polynomials(middle(band).cos());
         let at_bands: Vec<[f64; HIGHEST]> = (0..BANDS).map(at_band).collect();
         let mut best: Option<Self> = None;
-        for sharpness in SHARPNESSES {
+        for falls in SHARPNESSES.map(falls) {
             for circle in at_bands.iter().step_by(STEP) {
-                let bump = Bump::new(sharpness, circle, &estimate.unlearnt);
+                let bump = LegendreBump::new(&falls, circle, &estimate.unlearnt);
                 let degrees = bump.series.len();
                 let heights = at_bands.iter().map(|p| dot(&p[..degrees], &bump.series));
                 let heights: Vec<f64> = heights.collect();
@@ -119,7 +81,7 @@ impl Rim {
             .map(|band| series(&self.missing, middle(band).cos()))
             .collect();
         surface.moments_with(|n| {
-            let z = n[self.axis].clamp(-1.0, 1.0);
+            let z = n[self.axis];
             let place = (bands(z) - 0.5).clamp(0.0, (BANDS - 1) as f64);
             let before = (place as usize).min(BANDS - 2);
             let share = place - before as f64;
@@ -132,7 +94,7 @@ impl Rim {
 
 /// The polar angle of this cosine, in bands.
 fn bands(z: f64) -> f64 {
-    z.acos() / PI * BANDS as f64
+    z.clamp(-1.0, 1.0).acos() / PI * BANDS as f64
 }
 
 /// The polar angle in the middle of a band.
@@ -145,7 +107,7 @@ fn band_sums(cloud: &Cloud, residuals: &[f64], axis: usize) -> [[f64; 2]; BANDS]
     let mut sums = [[0.0; 2]; BANDS];
     let weighted = residuals.iter().zip(&cloud.weights);
     for (n, (e, w)) in cloud.directions.iter().zip(weighted) {
-        let band = bands(n[axis].clamp(-1.0, 1.0)) as usize;
+        let band = bands(n[axis]) as usize;
         let [of_residuals, of_weights] = &mut sums[band.min(BANDS - 1)];
         *of_residuals += w * e;
         *of_weights += w;

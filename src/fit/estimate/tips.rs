@@ -14,6 +14,7 @@
 //! b - b° = sum q_l b_l P_l, at the end and in the mean square over a cloud that is alike everywhere. The width is the one
 //! of several under which the points are most likely.
 
+use super::bump::{AT_POLE, LegendreBump, falls};
 use super::cloud::Cloud;
 use super::outcome::Estimate;
 use super::posterior::Posterior;
@@ -53,22 +54,11 @@ struct Bump {
 
 impl Bump {
     fn new(sharpness: f64, unlearnt: &[f64]) -> Self {
-        // b_l / (2 l + 1) is exp(-l (l + 1) / 2 k) times a constant, but for terms of the order 1 / k.
-        let reach = 0..(6.0 * sharpness.sqrt()) as usize;
-        let [mut height, mut left, mut squares, mut left_of_squares] = [0.0; 4];
-        for l in reach {
-            let fall = (-((l * (l + 1)) as f64) / (2.0 * sharpness)).exp();
-            let orders = (2 * l + 1) as f64;
-            let share = unlearnt.get(l).copied().unwrap_or(1.0);
-            height += orders * fall;
-            left += orders * fall * share;
-            squares += orders * fall * fall;
-            left_of_squares += orders * fall * fall * share;
-        }
+        let bump = LegendreBump::new(&falls(sharpness), &AT_POLE, unlearnt);
         Self {
             sharpness,
-            left: left / height,
-            left_of_squares: left_of_squares / squares,
+            left: bump.left.iter().sum::<f64>() / bump.series.iter().sum::<f64>(),
+            left_of_squares: bump.left_of_squares,
         }
     }
 }

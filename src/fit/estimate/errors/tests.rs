@@ -170,7 +170,7 @@ fn errors_beside_an_edge_are_those_of_the_points_left_out() {
     assert!((told.area - area).abs() > 4.0 * surely.area, "{surely:?}");
 }
 
-/// Noise hides that the rim is sharp: the area is 6 to 10 % too small.
+/// Noise hides that the rim is sharp.
 #[test]
 fn the_error_of_the_area_of_a_lens_holds_what_its_rim_lacks() {
     for half in [1.0, 2.0] {
