@@ -5,9 +5,13 @@ use crate::model::Surface;
 use crate::sphere::{compass, cube_grid};
 use nalgebra::{Matrix3, Vector3};
 
-/// Cells along a cube's edge of the directions that the search starts from: 1538 directions, 6 degrees
-/// apart. A second maximum narrower than that can be missed.
-const START: usize = 16;
+/// Cells along a cube's edge of the directions that the search starts from: 6146 directions, 3 degrees
+/// apart. A maximum narrower than that can be missed.
+const START: usize = 32;
+
+/// The search climbs from so many of the highest directions that are not below a neighbour: a narrow horn rises
+/// between them, and one of them may be higher than another that starts higher.
+const MOST_PEAKS: usize = 8;
 
 /// Most steps of Newton's iteration, which takes some five.
 const MAX_STEPS: usize = 200;
@@ -37,20 +41,38 @@ pub struct Support {
 
 /// The point of a surface farthest in the direction `towards`, of any length but zero.
 ///
-/// The best of a grid of directions is refined by Newton's iteration on the normal, and where that
+/// The peaks of a grid of directions are refined by Newton's iteration on the normal, and where that
 /// does not climb (on an edge or an apex) by a compass search. Error: rounding at a smooth point, 1e-12
 /// of the radius on an edge.
 pub fn support(surface: &(impl Surface + ?Sized), towards: &Vector3<f64>) -> Support {
     let towards = &towards.normalize();
-    let (directions, _) = cube_grid(START);
-    let heights = surface.places(&directions).into_iter();
-    let start = directions
-        .iter()
-        .zip(heights.map(|place| place.dot(towards)))
-        .fold((Vector3::z(), f64::NEG_INFINITY), |best, (n, height)| {
-            if height > best.1 { (*n, height) } else { best }
-        });
-    support_near(surface, towards, &start.0)
+    let (directions, triangles) = cube_grid(START);
+    let places = surface.places(&directions).into_iter();
+    let heights: Vec<f64> = places.map(|place| place.dot(towards)).collect();
+    let found = peaks(&heights, &triangles)
+        .into_iter()
+        .map(|at| support_near(surface, towards, &directions[at]));
+    let higher = |one: &Support, other: &Support| {
+        let [one, other] = [one, other].map(|found| found.point.dot(towards));
+        one.total_cmp(&other)
+    };
+    let highest = found.max_by(higher);
+    highest.unwrap_or_else(|| support_near(surface, towards, towards))
+}
+
+/// The highest of the vertices that are below no neighbour, by their heights.
+fn peaks(heights: &[f64], triangles: &[[u32; 3]]) -> Vec<usize> {
+    let mut is_peak = vec![true; heights.len()];
+    for &[a, b, c] in triangles {
+        for (one, other) in [(a, b), (b, c), (c, a)].map(|(a, b)| (a as usize, b as usize)) {
+            is_peak[one] &= heights[one] >= heights[other];
+            is_peak[other] &= heights[other] >= heights[one];
+        }
+    }
+    let mut peaks: Vec<usize> = (0..heights.len()).filter(|&at| is_peak[at]).collect();
+    peaks.sort_by(|&one, &other| heights[other].total_cmp(&heights[one]));
+    peaks.truncate(MOST_PEAKS);
+    peaks
 }
 
 /// The same, from a start that is known to lie on the way to it.
@@ -126,8 +148,9 @@ fn newton(
 mod tests {
     use super::*;
     use crate::model::Radial;
-    use crate::shapes::{Body, Cuboid, Ellipsoid, Sampling};
+    use crate::shapes::{Body, Bump, Bumpy, Cuboid, Ellipsoid, Sampling, Sphere};
     use approx::assert_relative_eq;
+    use std::f64::consts::FRAC_PI_2;
 
     /// The farthest point of an ellipsoid along d is (a² d_x, b² d_y, c² d_z) / |(a d_x, b d_y, c d_z)|.
     #[test]
@@ -160,6 +183,19 @@ mod tests {
                 }
             }
         }
+    }
+
+    /// The lower horn is on a direction of the grid, the higher in the middle of a cell.
+    #[test]
+    fn the_higher_of_two_narrow_horns_is_found() {
+        let at = |x: f64, y: f64| [x, y].map(|steps| (steps * FRAC_PI_2 / START as f64).tan());
+        let horn = |height: f64, [x, y]: [f64; 2]| Bump::round(height, 1000.0, [x, y, 1.0]);
+        let horns = Bumpy {
+            base: Sphere { radius: 1.0 },
+            bumps: vec![horn(0.30, at(-4.0, 0.0)), horn(0.32, at(4.5, 0.5))],
+        };
+        let found = support(&Radial(&horns), &Vector3::z());
+        assert!(found.direction.x > 0.0, "{}", found.direction);
     }
 
     #[test]

@@ -19,21 +19,23 @@
 //!   of lengths what a function reaches of it;
 //! - what is [not resolved](Solved::unresolved): a part of it is taken to have the same sign everywhere;
 //! - of the area what second order brings: ripples of noise that the surface has, and of the grain that it has not;
-//! - of extents that the highest of many ripples is higher than the surface.
+//!
+//! Those of lengths are [elsewhere](super::dimension_errors).
 //!
 //! There are none of a surface that crosses itself.
 
 use super::cloud::Cloud;
+use super::dimension_errors::Lengths;
+use super::ends::Ends;
 use super::functionals::{FIGURES, Figures, Functionals, by_move};
 use super::functions::{Functions, Rows};
 use super::least_squares::values;
-use crate::fit::figures::{INERTIA, INTEGRALS, by_size, derivatives, form, mass, unlist};
+use crate::fit::figures::{INERTIA, INTEGRALS, derivatives, form, mass, unlist};
 use crate::fit::linear::BlockFactor;
 use crate::fit::neighbours::Neighbours;
 use crate::fit::standard_errors::{NoInterval, StandardErrors};
-use crate::measure::PrincipalInertia;
 use crate::model::Position;
-use nalgebra::{Matrix3, Matrix6, SMatrix, SVector, Vector3};
+use nalgebra::{SMatrix, SVector, Vector3};
 use std::f64::consts::PI;
 
 /// A fit whose errors are asked for, of a body of about radius 1.
@@ -53,10 +55,7 @@ pub(super) struct Solved<'a> {
 }
 
 /// Least standard errors, relative.
-const FLOOR: f64 = 2e-5;
-
-/// The same of lengths, where there are cells: their ends, which few samples tell, are off by so much on clean bodies.
-const FLOOR_OF_LENGTHS: f64 = 1e-4;
+pub(super) const FLOOR: f64 = 2e-5;
 
 /// Share of what is not resolved that has one sign all over the surface: of bodies whose truth is known at most a fifth.
 const ONE_SIDED: f64 = 0.15;
@@ -71,7 +70,8 @@ impl Solved<'_> {
     pub(super) fn errors(&self) -> Result<StandardErrors, NoInterval> {
         let functionals =
             Functionals::new(self.functions, self.surface).ok_or(NoInterval::NotFinite)?;
-        let distances = self.distances(self.surface);
+        let feet = self.feet(self.surface);
+        let distances = self.distances(&feet);
         let covariance = self.covariance(&functionals, &distances);
         let unresolved = self.unresolved(&distances);
 
@@ -89,24 +89,15 @@ impl Solved<'_> {
             let form = form(&axis, &axis);
             form.dot(&(inertia * form))
         });
-        let lengths = Vector3::from_fn(|i, _| functionals.length(i));
-        let dimensions = Vector3::from_fn(|i, _| {
-            let (extent, range) = extent(&functionals, &jacobian, &inertia.into_owned(), i);
-            let higher = functionals.ends[i].iter().map(|end| {
-                let variance = covariance[(end.figure, end.figure)].max(0.0);
-                let sd = (variance + unresolved * unresolved).sqrt();
-                let rivals =
-                    functionals.share_within(2.0 * sd, end) * self.functions.count() as f64;
-                sd * (2.0 * rivals.max(1.0).ln()).sqrt() + unresolved
-            });
-            let higher: f64 = higher.sum();
-            let least = self.functions.cover().map_or(FLOOR, |_| FLOOR_OF_LENGTHS);
-            let floor = least * lengths[i];
-            let at_ends = 2.0 * self.miscounted().powi(2) * self.told();
-            let squares = higher * higher + range * range + floor * floor + at_ends;
-            extent.dot(&(covariance * extent)) + squares
-        });
-        let dimensions = Vector3::from(by_size(&lengths).map(|i| dimensions[i]));
+        let lengths = Lengths {
+            solved: self,
+            functionals: &functionals,
+            covariance: &covariance,
+            jacobian: &jacobian,
+            inertia: inertia.into_owned(),
+            unresolved,
+        };
+        let dimensions = lengths.squares(&Ends::new(self.cloud, &feet, &distances, self.rms[0]));
         let root = |x: f64| x.max(0.0).sqrt();
         Ok(StandardErrors {
             area: root(errors.area).hypot(FLOOR * best.area),
@@ -119,14 +110,20 @@ impl Solved<'_> {
         })
     }
 
-    /// Distances of the samples from a surface, along the normals of the scan.
-    fn distances(&self, surface: &Position) -> Vec<f64> {
-        let cloud = self.cloud;
-        let found = surface.points_and_tangents(&cloud.directions);
-        let distance = |(at, (point, _)): (usize, &(Vector3<f64>, Matrix3<f64>))| {
-            cloud.normals[at].dot(&(cloud.points[at] - point))
+    /// The places of a surface in the directions of the samples.
+    fn feet(&self, surface: &Position) -> Vec<Vector3<f64>> {
+        let found = surface.points_and_tangents(&self.cloud.directions);
+        found.into_iter().map(|(foot, _)| foot).collect()
+    }
+
+    /// Distances of the samples from their feet, along the normals of the scan.
+    fn distances(&self, feet: &[Vector3<f64>]) -> Vec<f64> {
+        let samples = self.cloud.points.iter().zip(&self.cloud.normals);
+        let distance = |((point, normal), foot): ((_, &Vector3<f64>), _)| {
+            let point: &Vector3<f64> = point;
+            normal.dot(&(point - foot))
         };
-        found.iter().enumerate().map(distance).collect()
+        samples.zip(feet).map(distance).collect()
     }
 
     /// Distances of held-out points over those of fitted ones.
@@ -171,7 +168,7 @@ impl Solved<'_> {
         unresolved: f64,
     ) -> SMatrix<f64, INTEGRALS, INTEGRALS> {
         let cloud = self.cloud;
-        let without = self.distances(self.other);
+        let without = self.distances(&self.feet(self.other));
         let areas = cloud.areas_of_points();
         let [
             mut fitted,
@@ -220,12 +217,12 @@ impl Solved<'_> {
     }
 
     /// Standard deviation of the height of a surface between voxels, on average over all of it.
-    fn miscounted(&self) -> f64 {
+    pub(super) fn miscounted(&self) -> f64 {
         self.cloud.miscount / self.cloud.area().sqrt()
     }
 
     /// Functions of which the roughness leaves the points to decide.
-    fn told(&self) -> f64 {
+    pub(super) fn told(&self) -> f64 {
         let root = self.roughness.sqrt();
         (root * self.functions.count() as f64).atan() / root
     }
@@ -272,40 +269,3 @@ const HELD_IN: f64 = 7.0 / 8.0;
 
 /// Largest share of the points' freedom that functions are taken to spend.
 const MOST_SPENT: f64 = 0.7;
-
-/// Axes whose turn has a larger standard deviation, in radians, have no direction of their own, ...
-const LARGEST_TURN: f64 = 0.1;
-
-/// ... and an extent along them has this share of the range of extents as standard error: it may be told at one end
-/// and be at the other.
-const OF_RANGE: f64 = 0.6;
-
-/// The change of an extent with the figures, for its ends move, and its axis turns with the inertia, the entries of which
-/// have a covariance; and the error of an axis that may lie anywhere.
-fn extent(
-    functionals: &Functionals,
-    jacobian: &SMatrix<f64, INTEGRALS, INTEGRALS>,
-    inertia: &Matrix6<f64>,
-    axis: usize,
-) -> (Figures, f64) {
-    let PrincipalInertia { moments, axes } = &functionals.principal;
-    let span = functionals.span(axis);
-    let (mut by_inertia, mut range) = (SVector::<f64, 6>::zeros(), 0.0_f64);
-    for other in (0..3).filter(|&other| other != axis) {
-        let [own, across] = [axis, other].map(|i| axes.column(i).into_owned());
-        let (form, gap) = (form(&across, &own), moments[axis] - moments[other]);
-        let sd = form.dot(&(inertia * form)).max(0.0).sqrt();
-        if sd < LARGEST_TURN * gap.abs() {
-            by_inertia += form * (span.dot(&across) / gap);
-        } else {
-            range = range.hypot(OF_RANGE * functionals.range(axis, other));
-        }
-    }
-    let mut change = Figures::zeros();
-    let turn = jacobian.fixed_rows::<6>(INERTIA).transpose() * by_inertia;
-    change.fixed_rows_mut::<INTEGRALS>(0).copy_from(&turn);
-    for end in &functionals.ends[axis] {
-        change[end.figure] = 1.0;
-    }
-    (change, range)
-}

@@ -39,8 +39,8 @@ pub(super) struct Functionals {
 /// Where a surface reaches farthest.
 pub(super) struct End {
     pub(super) figure: usize,
-    point: Vector3<f64>,
-    along: Vector3<f64>,
+    pub(super) point: Vector3<f64>,
+    pub(super) along: Vector3<f64>,
 }
 
 /// A direction, and the changes of the figures for a move of the surface there along a vector.

@@ -5,6 +5,8 @@
 //! [rounds](rounds) that also move the directions; cells are [split](search) where the distance asks for it.
 
 mod cloud;
+mod dimension_errors;
+mod ends;
 mod errors;
 mod foot;
 mod functionals;

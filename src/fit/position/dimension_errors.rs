@@ -1,0 +1,112 @@
+//! How well length, width and thickness of a surface are known.
+//!
+//! To first order by the covariances of its ends and of the inertia tensor that turns its axes. To it are added, as squares,
+//!
+//! - that the highest of many ripples is higher than the surface;
+//! - what points near the [ends](super::ends) tell, and at the ends of voxels what a function reaches;
+//! - the range of extents along axes that may lie anywhere, and what another axis of about this length is longer or shorter:
+//!   of lengths that are alike the longest found is one of those that are told too long.
+
+use super::ends::Ends;
+use super::errors::{FLOOR, Solved};
+use super::functionals::{End, FIGURES, Figures, Functionals};
+use crate::fit::figures::{INERTIA, INTEGRALS, by_size, form};
+use crate::measure::PrincipalInertia;
+use nalgebra::{Matrix6, SMatrix, SVector, Vector3};
+
+/// Least standard error where there are cells, relative: ends, which few samples tell, are off by so much on clean bodies.
+const FLOOR_OF_CELLS: f64 = 1e-4;
+
+/// Axes whose turn has a larger standard deviation, in radians, have no direction of their own, ...
+const LARGEST_TURN: f64 = 0.1;
+
+/// ... and an extent along them has this share of the range of extents as standard error: it may be told at one end
+/// and be at the other.
+const OF_RANGE: f64 = 0.6;
+
+/// A surface, and how well its integrals and ends are known.
+pub(super) struct Lengths<'a> {
+    pub(super) solved: &'a Solved<'a>,
+    pub(super) functionals: &'a Functionals,
+    pub(super) covariance: &'a SMatrix<f64, FIGURES, FIGURES>,
+    /// From the integrals to the figures.
+    pub(super) jacobian: &'a SMatrix<f64, INTEGRALS, INTEGRALS>,
+    /// Covariance of the entries of the inertia tensor.
+    pub(super) inertia: Matrix6<f64>,
+    /// Root mean square of what is not resolved.
+    pub(super) unresolved: f64,
+}
+
+impl Lengths<'_> {
+    /// Squares of the standard errors of length, width and thickness.
+    pub(super) fn squares(&self, ends: &Ends<'_>) -> Vector3<f64> {
+        let lengths = Vector3::from_fn(|i, _| self.functionals.length(i));
+        let squares = Vector3::from_fn(|i, _| self.along(i, lengths[i], ends));
+        let with_rivals = |i: usize| {
+            let apart = squares.iter().zip(&lengths).map(|(square, length)| {
+                let apart = (length - lengths[i]).powi(2);
+                if apart < square + squares[i] {
+                    apart
+                } else {
+                    0.0
+                }
+            });
+            squares[i] + apart.fold(0.0, f64::max)
+        };
+        Vector3::from(by_size(&lengths).map(with_rivals))
+    }
+
+    /// The square along a principal axis.
+    fn along(&self, axis: usize, length: f64, ends: &Ends<'_>) -> f64 {
+        let functions = &self.solved.functions;
+        let (extent, range) = extent(self.functionals, self.jacobian, &self.inertia, axis);
+        let mut squares = extent.dot(&(self.covariance * extent)) + range * range;
+        let mut higher = 0.0;
+        for end in &self.functionals.ends[axis] {
+            higher += self.higher(end);
+            squares += ends.square(end);
+        }
+        let least = functions.cover().map_or(FLOOR, |_| FLOOR_OF_CELLS);
+        let at_ends = 2.0 * self.solved.miscounted().powi(2) * self.solved.told();
+        squares + higher * higher + (least * length).powi(2) + at_ends
+    }
+
+    /// By how much the highest of the ripples near an end is higher than the surface.
+    fn higher(&self, end: &End) -> f64 {
+        let variance = self.covariance[(end.figure, end.figure)].max(0.0);
+        let sd = (variance + self.unresolved * self.unresolved).sqrt();
+        let near = self.functionals.share_within(2.0 * sd, end);
+        let rivals = near * self.solved.functions.count() as f64;
+        sd * (2.0 * rivals.ln_1p()).sqrt() + self.unresolved
+    }
+}
+
+/// The change of an extent with the figures, for its ends move, and its axis turns with the inertia, the entries of which
+/// have a covariance; and the error of an axis that may lie anywhere.
+fn extent(
+    functionals: &Functionals,
+    jacobian: &SMatrix<f64, INTEGRALS, INTEGRALS>,
+    inertia: &Matrix6<f64>,
+    axis: usize,
+) -> (Figures, f64) {
+    let PrincipalInertia { moments, axes } = &functionals.principal;
+    let span = functionals.span(axis);
+    let (mut by_inertia, mut range) = (SVector::<f64, 6>::zeros(), 0.0_f64);
+    for other in (0..3).filter(|&other| other != axis) {
+        let [own, across] = [axis, other].map(|i| axes.column(i).into_owned());
+        let (form, gap) = (form(&across, &own), moments[axis] - moments[other]);
+        let sd = form.dot(&(inertia * form)).max(0.0).sqrt();
+        if sd < LARGEST_TURN * gap.abs() {
+            by_inertia += form * (span.dot(&across) / gap);
+        } else {
+            range = range.hypot(OF_RANGE * functionals.range(axis, other));
+        }
+    }
+    let mut change = Figures::zeros();
+    let turn = jacobian.fixed_rows::<6>(INERTIA).transpose() * by_inertia;
+    change.fixed_rows_mut::<INTEGRALS>(0).copy_from(&turn);
+    for end in &functionals.ends[axis] {
+        change[end.figure] = 1.0;
+    }
+    (change, range)
+}
