@@ -7,7 +7,7 @@
 //! - the mean square of what is [missing](super::tips) at the ends, as far as the points tell it: the prior is the same
 //!   everywhere, and takes the last of a beak or a tip for noise;
 //! - where residuals are no noise, by how much the points near the ends are missed when they are
-//!   [left out](super::left_out);
+//!   [left out](super::left_out), or by how much farther the body may reach, whichever is more;
 //! - what turning an axis by its standard deviation does to the extent beyond first order (of a box it grows whichever
 //!   way it turns), and the range of extents in the plane of two axes that are not told apart.
 
@@ -86,10 +86,13 @@ pub(super) fn dimensions(
         for (at, end) in (2 * i..).zip(&extent.ends) {
             let value = dot(&ends[at], &solved[at]).max(0.0);
             found.excess[i] += end.excess(value, slope_per_value * value);
-            let rough = left_out.map_or(0.0, |points| points.near(&end.direction));
             let at = tips.missing(&end.direction);
             missing += at.height * end.by_radius;
-            chance += (at.variance + rough) * end.by_radius * end.by_radius;
+            chance += at.variance * end.by_radius * end.by_radius;
+            if let Some(points) = left_out {
+                let missed = points.near(&end.direction) * end.by_radius * end.by_radius;
+                squares += missed.max(end.exceeded(points).powi(2));
+            }
         }
         squares += missing * missing + chance;
         squares += (0.5 * found.excess[i]).powi(2);

@@ -15,6 +15,7 @@
 //! over the directions and s the random slope of the ripples' height, by E[-s' H^-1 s / 2], at most by the standard
 //! deviation of the ripples.
 
+use super::left_out::LeftOut;
 use super::outcome::Estimate;
 use crate::fit::figures::form;
 use crate::measure::{PrincipalInertia, support_near};
@@ -118,6 +119,13 @@ impl Reach {
 }
 
 impl End {
+    /// By how much the body may reach farther, where what is left of the points is no noise.
+    pub(super) fn exceeded(&self, points: &LeftOut<'_>) -> f64 {
+        let towards = self.direction * self.along + self.tilt;
+        let beyond = points.beyond(&towards, self.point.dot(&towards));
+        self.by_radius / self.along * beyond
+    }
+
     /// By how much the mean of the height over the posterior exceeds the height of the mean, where radius and gradient
     /// have these variances.
     pub(super) fn excess(&self, value: f64, slope: f64) -> f64 {

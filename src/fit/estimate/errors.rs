@@ -66,7 +66,7 @@ impl Estimate {
             let kurtosis = kurtosis(&of_mean_weight);
             return Err(NoInterval::Unresolved { kurtosis });
         }
-        let left_out = LeftOut::new(self, &posterior, &residuals);
+        let left_out = LeftOut::new(self, &posterior, &residuals, is_rough);
         let left_out = (is_rough || left_out.stand_out).then_some(left_out);
         // Of a rough surface the points left out tell.
         let blur = Blur::new(self, &residuals);

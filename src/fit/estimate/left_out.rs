@@ -38,6 +38,8 @@ pub(super) struct LeftOut<'a> {
     noise: f64,
     /// Whether one of them is missed by more than noise can tell.
     pub(super) stand_out: bool,
+    /// Whether what is left of them is no noise.
+    is_rough: bool,
 }
 
 /// The largest of n normal numbers is in nineteen of twenty cases below sqrt(2 log 4n) standard deviations.
@@ -49,6 +51,7 @@ impl<'a> LeftOut<'a> {
         estimate: &Estimate,
         posterior: &'a Posterior<'a>,
         residuals: &[f64],
+        is_rough: bool,
     ) -> Self {
         let noise = estimate.spectrum.noise().powi(2);
         let spares = estimate.spares();
@@ -65,6 +68,7 @@ impl<'a> LeftOut<'a> {
             errors: errors.map(|(e, spare)| e / spare).collect(),
             noise,
             stand_out,
+            is_rough,
         }
     }
 
@@ -96,6 +100,31 @@ impl<'a> LeftOut<'a> {
         let near = neighbours.nearest(n, VICINITY);
         let squares = near.iter().map(|&i| self.errors[i] * self.errors[i]);
         squares.sum::<f64>() / near.len().max(1) as f64
+    }
+
+    /// By how much the body may reach farther along a unit vector than `height`, where what is left is no noise: an edge,
+    /// of which the points hold more than the surface, and the body about as much more than the farthest point as
+    /// this is farther than the third (of a cone 1.2 times as much in the mean, of a round end half). In units of the mean
+    /// radius, in the stretched space.
+    pub(super) fn beyond(&self, towards: &Vector3<f64>, height: f64) -> f64 {
+        let cloud = self.posterior.cloud;
+        let points = cloud.directions.iter().zip(&cloud.radii);
+        let mut highest = [f64::NEG_INFINITY; 3];
+        for (n, radius) in points.filter(|_| self.is_rough) {
+            let own = radius * n.dot(towards);
+            let place = highest.partition_point(|other| *other >= own);
+            if place < highest.len() {
+                highest[place..].rotate_right(1);
+                highest[place] = own;
+            }
+        }
+        let [first, _, third] = highest;
+        let beyond = 2.0 * first - third - height;
+        if beyond.is_finite() {
+            beyond.max(0.0)
+        } else {
+            0.0
+        }
     }
 }
 

@@ -8,13 +8,16 @@
 //!   of lengths that are alike the longest found is one of those that are told too long.
 
 use super::ends::Ends;
-use super::errors::{FLOOR, Solved};
 use super::functionals::{End, FIGURES, Figures, Functionals};
+use super::functions::Functions;
 use crate::fit::figures::{INERTIA, INTEGRALS, by_size, form};
 use crate::measure::PrincipalInertia;
 use nalgebra::{Matrix6, SMatrix, SVector, Vector3};
 
-/// Least standard error where there are cells, relative: ends, which few samples tell, are off by so much on clean bodies.
+/// Least standard errors, relative.
+const FLOOR: f64 = 2e-5;
+
+/// The same where there are cells: ends, which few samples tell, are off by so much on clean bodies.
 const FLOOR_OF_CELLS: f64 = 1e-4;
 
 /// Axes whose turn has a larger standard deviation, in radians, have no direction of their own, ...
@@ -26,7 +29,7 @@ const OF_RANGE: f64 = 0.6;
 
 /// A surface, and how well its integrals and ends are known.
 pub(super) struct Lengths<'a> {
-    pub(super) solved: &'a Solved<'a>,
+    pub(super) functions: &'a Functions,
     pub(super) functionals: &'a Functionals,
     pub(super) covariance: &'a SMatrix<f64, FIGURES, FIGURES>,
     /// From the integrals to the figures.
@@ -35,6 +38,8 @@ pub(super) struct Lengths<'a> {
     pub(super) inertia: Matrix6<f64>,
     /// Root mean square of what is not resolved.
     pub(super) unresolved: f64,
+    /// Square of what voxels hide at an end.
+    pub(super) miscounted: f64,
 }
 
 impl Lengths<'_> {
@@ -58,7 +63,6 @@ impl Lengths<'_> {
 
     /// The square along a principal axis.
     fn along(&self, axis: usize, length: f64, ends: &Ends<'_>) -> f64 {
-        let functions = &self.solved.functions;
         let (extent, range) = extent(self.functionals, self.jacobian, &self.inertia, axis);
         let mut squares = extent.dot(&(self.covariance * extent)) + range * range;
         let mut higher = 0.0;
@@ -66,9 +70,8 @@ impl Lengths<'_> {
             higher += self.higher(end);
             squares += ends.square(end);
         }
-        let least = functions.cover().map_or(FLOOR, |_| FLOOR_OF_CELLS);
-        let at_ends = 2.0 * self.solved.miscounted().powi(2) * self.solved.told();
-        squares + higher * higher + (least * length).powi(2) + at_ends
+        let least = self.functions.cover().map_or(FLOOR, |_| FLOOR_OF_CELLS);
+        squares + higher * higher + (least * length).powi(2) + 2.0 * self.miscounted
     }
 
     /// By how much the highest of the ripples near an end is higher than the surface.
@@ -76,7 +79,7 @@ impl Lengths<'_> {
         let variance = self.covariance[(end.figure, end.figure)].max(0.0);
         let sd = (variance + self.unresolved * self.unresolved).sqrt();
         let near = self.functionals.share_within(2.0 * sd, end);
-        let rivals = near * self.solved.functions.count() as f64;
+        let rivals = near * self.functions.count() as f64;
         sd * (2.0 * rivals.ln_1p()).sqrt() + self.unresolved
     }
 }

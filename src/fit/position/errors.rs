@@ -55,7 +55,7 @@ pub(super) struct Solved<'a> {
 }
 
 /// Least standard errors, relative.
-pub(super) const FLOOR: f64 = 2e-5;
+const FLOOR: f64 = 2e-5;
 
 /// Share of what is not resolved that has one sign all over the surface: of bodies whose truth is known at most a fifth.
 const ONE_SIDED: f64 = 0.15;
@@ -90,12 +90,13 @@ impl Solved<'_> {
             form.dot(&(inertia * form))
         });
         let lengths = Lengths {
-            solved: self,
+            functions: self.functions,
             functionals: &functionals,
             covariance: &covariance,
             jacobian: &jacobian,
             inertia: inertia.into_owned(),
             unresolved,
+            miscounted: self.miscounted().powi(2) * self.told(),
         };
         let dimensions = lengths.squares(&Ends::new(self.cloud, &feet, &distances, self.rms[0]));
         let root = |x: f64| x.max(0.0).sqrt();
@@ -217,12 +218,12 @@ impl Solved<'_> {
     }
 
     /// Standard deviation of the height of a surface between voxels, on average over all of it.
-    pub(super) fn miscounted(&self) -> f64 {
+    fn miscounted(&self) -> f64 {
         self.cloud.miscount / self.cloud.area().sqrt()
     }
 
     /// Functions of which the roughness leaves the points to decide.
-    pub(super) fn told(&self) -> f64 {
+    fn told(&self) -> f64 {
         let root = self.roughness.sqrt();
         (root * self.functions.count() as f64).atan() / root
     }

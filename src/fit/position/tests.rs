@@ -3,7 +3,7 @@ use super::functions::Functions;
 use super::map::MapError;
 use super::rounds::crossing_places;
 use super::*;
-use crate::measure::grain_properties;
+use crate::measure::{grain_properties, support};
 use crate::model::PositionGrain;
 use crate::shapes::{Curled, CurledOptions, synthesize_curled};
 use crate::sphere::{CubeCell, GaussLegendre, coefficient_count, cube_grid, harmonics};
@@ -212,6 +212,34 @@ fn errors_are_those_of_noise_and_hold_the_truth() {
     assert!((found.area - truth.area).abs() < 3.0 * errors.area);
     let [one, other] = [found, truth].map(|solid| solid.principal().unwrap().moments);
     assert!((one - other).component_div(&errors.moments).amax() < 3.0);
+}
+
+/// A cup is as long as it is wide and thick, so that the longest of the three that are found is too long; and it ends in a rim,
+/// which a smooth surface swings over.
+#[test]
+fn errors_of_lengths_hold_rims_and_the_longest_of_three() {
+    let mut squares = 0.0;
+    for seed in 0..4 {
+        let noisy = CurledOptions::clean(Curled::Cup).with_noise(0.005);
+        let seen = noisy.with_points(6146).with_seed(seed);
+        let scan = Scan::from_points(synthesize_curled(&seen).unwrap().mesh.vertices);
+        let fit = fit_position(&scan, &FitOptions::default(), &Context::default()).unwrap();
+        let errors = fit.errors.unwrap().dimensions;
+        let grain = PositionGrain::new(fit.frame, fit.surface).unwrap();
+        let axes = grain_properties(&grain)
+            .properties
+            .principal()
+            .unwrap()
+            .axes;
+        let reach = |along: &Vector3<f64>| support(&grain, along).point.dot(along);
+        let lengths = axes
+            .column_iter()
+            .map(|axis| reach(&axis.into()) + reach(&-axis));
+        let longest = lengths.fold(0.0, f64::max);
+        assert!((0.003..0.04).contains(&errors.x), "{errors}");
+        squares += ((longest - 2.0) / errors.x).powi(2) / 4.0;
+    }
+    assert!(squares.sqrt() < 1.4, "{}", squares.sqrt());
 }
 
 /// A surface with the coordinates of a function of degree 3 or less.

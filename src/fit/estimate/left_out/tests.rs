@@ -22,7 +22,7 @@ fn moves_are_those_of_estimates_without_a_point() {
     let known = estimate
         .given(&posterior)
         .covariances(&[functional.clone()]);
-    let left_out = LeftOut::new(&estimate, &posterior, &residuals);
+    let left_out = LeftOut::new(&estimate, &posterior, &residuals, true);
     let moves = left_out.moves(&known[0]);
 
     let covariance = left_out.covariance(&vec![known[0].clone(); INTEGRALS]);
@@ -45,9 +45,19 @@ fn moves_are_those_of_estimates_without_a_point() {
     assert!((left_out.near(&n) / mean - 1.0).abs() < 1e-12);
 
     let mut off = vec![0.0; residuals.len()];
-    assert!(!LeftOut::new(&estimate, &posterior, &off).stand_out);
+    assert!(!LeftOut::new(&estimate, &posterior, &off, false).stand_out);
     off[7] = 1.0;
-    assert!(LeftOut::new(&estimate, &posterior, &off).stand_out);
+    let of_noise = LeftOut::new(&estimate, &posterior, &off, false);
+    assert!(of_noise.stand_out);
+
+    let heights = estimate.cloud.points().into_iter().map(|point| point.x);
+    let mut heights: Vec<f64> = heights.collect();
+    heights.sort_by(|one, other| other.total_cmp(one));
+    let farthest = heights[0] + (heights[0] - heights[2]);
+    let beyond = left_out.beyond(&Vector3::x(), farthest - 0.25);
+    assert!((beyond - 0.25).abs() < 1e-12, "{beyond}");
+    assert_eq!(left_out.beyond(&Vector3::x(), farthest + 0.25), 0.0);
+    assert_eq!(of_noise.beyond(&Vector3::x(), farthest - 0.25), 0.0);
 
     let whole = dot(&functional, &estimate.coefficients);
     let scale = moves.iter().fold(0.0, |most: f64, d| most.max(d.abs()));
