@@ -214,6 +214,42 @@ fn errors_are_those_of_noise_and_hold_the_truth() {
     assert!((one - other).component_div(&errors.moments).amax() < 3.0);
 }
 
+/// Directions along and against the principal axes, and how far the surface reaches in each.
+fn ends(grain: &PositionGrain) -> [[(Vector3<f64>, f64); 2]; 3] {
+    let axes = grain_properties(grain).properties.principal().unwrap().axes;
+    [0, 1, 2].map(|axis| {
+        [1.0, -1.0].map(|sign| {
+            let along = axes.column(axis) * sign;
+            (along, support(grain, &along).point.dot(&along))
+        })
+    })
+}
+
+/// Of few clean points of a hook: what lies above the highest of them is not known.
+#[test]
+fn no_length_is_known_better_than_its_ends_are_seen() {
+    let seen = CurledOptions::clean(Curled::Hook).with_points(3000);
+    let points = synthesize_curled(&seen).unwrap().mesh.vertices;
+    let scan = Scan::from_points(points.clone());
+    let fit = fit_position(&scan, &FitOptions::default(), &Context::default()).unwrap();
+    let errors = fit.errors.unwrap().dimensions;
+    let centre = fit.frame.centre;
+    let grain = PositionGrain::new(fit.frame, fit.surface).unwrap();
+    let mut lengths = ends(&grain).map(|ends| {
+        let length: f64 = ends.iter().map(|(_, height)| height).sum();
+        let [one, other] = ends.map(|(along, height)| {
+            let heights = points.iter().map(|point| (point - centre).dot(&along));
+            (height - heights.fold(f64::NEG_INFINITY, f64::max)).max(0.0)
+        });
+        (length, one.hypot(other))
+    });
+    lengths.sort_by(|(one, _), (other, _)| other.total_cmp(one));
+    for ((length, unseen), error) in lengths.iter().zip(&errors) {
+        assert!(*unseen > 5e-4 * length, "{unseen}");
+        assert!((0.9..3.0).contains(&(error / unseen)), "{error} {unseen}");
+    }
+}
+
 /// A cup is as long as it is wide and thick, so that the longest of the three that are found is too long; and it ends in a rim,
 /// which a smooth surface swings over.
 #[test]
@@ -226,16 +262,8 @@ fn errors_of_lengths_hold_rims_and_the_longest_of_three() {
         let fit = fit_position(&scan, &FitOptions::default(), &Context::default()).unwrap();
         let errors = fit.errors.unwrap().dimensions;
         let grain = PositionGrain::new(fit.frame, fit.surface).unwrap();
-        let axes = grain_properties(&grain)
-            .properties
-            .principal()
-            .unwrap()
-            .axes;
-        let reach = |along: &Vector3<f64>| support(&grain, along).point.dot(along);
-        let lengths = axes
-            .column_iter()
-            .map(|axis| reach(&axis.into()) + reach(&-axis));
-        let longest = lengths.fold(0.0, f64::max);
+        let lengths = ends(&grain).map(|[(_, one), (_, other)]| one + other);
+        let longest = lengths.into_iter().fold(0.0, f64::max);
         assert!((0.003..0.04).contains(&errors.x), "{errors}");
         squares += ((longest - 2.0) / errors.x).powi(2) / 4.0;
     }
