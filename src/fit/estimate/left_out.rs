@@ -107,10 +107,12 @@ impl<'a> LeftOut<'a> {
     /// this is farther than the third (of a cone 1.2 times as much in the mean, of a round end half). In units of the mean
     /// radius, in the stretched space.
     pub(super) fn beyond(&self, towards: &Vector3<f64>, height: f64) -> f64 {
+        if !self.is_rough {
+            return 0.0;
+        }
         let cloud = self.posterior.cloud;
-        let points = cloud.directions.iter().zip(&cloud.radii);
         let mut highest = [f64::NEG_INFINITY; 3];
-        for (n, radius) in points.filter(|_| self.is_rough) {
+        for (n, radius) in cloud.directions.iter().zip(&cloud.radii) {
             let own = radius * n.dot(towards);
             let place = highest.partition_point(|other| *other >= own);
             if place < highest.len() {

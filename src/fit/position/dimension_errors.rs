@@ -48,14 +48,10 @@ impl Lengths<'_> {
         let lengths = Vector3::from_fn(|i, _| self.functionals.length(i));
         let squares = Vector3::from_fn(|i, _| self.along(i, lengths[i], ends));
         let with_rivals = |i: usize| {
-            let apart = squares.iter().zip(&lengths).map(|(square, length)| {
-                let apart = (length - lengths[i]).powi(2);
-                if apart < square + squares[i] {
-                    apart
-                } else {
-                    0.0
-                }
-            });
+            let apart = lengths.map(|length| (length - lengths[i]).powi(2));
+            let alike = apart.iter().zip(&squares);
+            let alike = alike.filter(|(apart, square)| **apart < *square + squares[i]);
+            let apart = alike.map(|(apart, _)| *apart);
             squares[i] + apart.fold(0.0, f64::max)
         };
         Vector3::from(by_size(&lengths).map(with_rivals))

@@ -10,6 +10,7 @@
 
 use super::cloud::Cloud;
 use super::functionals::End;
+use crate::fit::neighbours::Neighbours;
 use nalgebra::Vector3;
 use std::f64::consts::SQRT_2;
 
@@ -38,6 +39,8 @@ struct Seen<'a> {
 /// The points of a scan, seen from the ends of lengths.
 pub(super) struct Ends<'a> {
     seen: Vec<Seen<'a>>,
+    /// Their feet, by place.
+    feet: Neighbours,
     /// Of the distances.
     rms: f64,
 }
@@ -56,8 +59,14 @@ impl<'a> Ends<'a> {
             foot: &feet[at],
             distance: distances[at],
         });
+        Self::of(seen.collect(), rms)
+    }
+
+    fn of(seen: Vec<Seen<'a>>, rms: f64) -> Self {
+        let feet: Vec<_> = seen.iter().map(|seen| *seen.foot).collect();
         Self {
-            seen: seen.collect(),
+            feet: Neighbours::new(&feet),
+            seen,
             rms,
         }
     }
@@ -108,11 +117,9 @@ impl<'a> Ends<'a> {
 
     /// Mean square of the distance of the points nearest to an end, but for that of noise.
     fn missed(&self, end: &End) -> f64 {
-        let away = |seen: &Seen<'_>| ((end.point - seen.foot).norm_squared(), seen.distance);
-        let mut near: Vec<(f64, f64)> = self.seen.iter().map(away).collect();
-        near.sort_unstable_by(|(one, _), (other, _)| one.total_cmp(other));
         let square = |&count: &usize| {
-            let sum: f64 = near.iter().take(count).map(|(_, distance)| distance).sum();
+            let near = self.feet.nearest(&end.point, count);
+            let sum: f64 = near.iter().map(|&at| self.seen[at].distance).sum();
             let count = count as f64;
             (sum / count).powi(2) - self.rms.powi(2) / count
         };
@@ -168,10 +175,7 @@ mod tests {
                     foot,
                     distance: point.z - foot.z,
                 });
-            let ends = Ends {
-                seen: seen.collect(),
-                rms: NOISE,
-            };
+            let ends = Ends::of(seen.collect(), NOISE);
             let end = End {
                 figure: 0,
                 point: Vector3::new(0.0, 0.0, height),
