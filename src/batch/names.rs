@@ -1,11 +1,12 @@
 //! What models and meshes of a batch are called.
 
 use super::queue::{with_label, without_label};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
+use std::iter::once;
 use std::path::{Path, PathBuf};
 
 /// A name for every scan, by which its model and its mesh are saved: that of its file, or where several have it, that of
-/// its path.
+/// its path. Where that is taken too, as of `lot/x/1.ply` by `lot_x/1.ply`, a number follows.
 pub(super) fn of_scans(scans: &[PathBuf]) -> Vec<String> {
     let mut counts = HashMap::new();
     for path in scans {
@@ -15,7 +16,15 @@ pub(super) fn of_scans(scans: &[PathBuf]) -> Vec<String> {
         Some(1) => stem(path),
         _ => path.to_string_lossy().replace(['/', '\\', ':'], "_"),
     };
-    scans.iter().map(name).collect()
+    let mut taken = HashSet::new();
+    let mut free = |name: String| {
+        let numbered = (2..).map(|number| format!("{name}_{number}"));
+        let mut names = once(name.clone()).chain(numbered);
+        names
+            .find(|name| taken.insert(name.clone()))
+            .unwrap_or(name)
+    };
+    scans.iter().map(|path| free(name(path))).collect()
 }
 
 /// The names of models by the rows of results.
@@ -48,6 +57,13 @@ mod tests {
     fn models_are_called_as_their_scans_or_their_paths_and_by_their_labels() {
         let rows = ["a/ct.nrrd#1", "a/ct.nrrd#-2", "a/b.ply", "c/b.ply", "d#3"].map(String::from);
         let expected = ["ct#1", "ct#-2", "a_b.ply", "c_b.ply", "d#3"];
+        assert_eq!(names(&rows), expected);
+    }
+
+    #[test]
+    fn no_two_are_called_alike() {
+        let rows = ["lot/x/1.ply", "lot_x/1.ply", "lot_x_1.ply.ply"].map(String::from);
+        let expected = ["lot_x_1.ply", "lot_x_1.ply_2", "lot_x_1.ply_3"];
         assert_eq!(names(&rows), expected);
     }
 }

@@ -2,7 +2,7 @@
 
 use super::grain::told;
 use super::inputs::is_image;
-use crate::scan::{Extent, Scan, Volume, parse_file, parse_volume, read_stream};
+use crate::scan::{Extent, Scan, Volume, parse_file, parse_volume, read_stream, voxel_file};
 use std::collections::{BTreeMap, VecDeque};
 use std::fs::File;
 use std::io::{self, Read};
@@ -124,10 +124,10 @@ impl Task<'_> {
 }
 
 impl Content {
-    /// The hash of the file.
-    pub(super) fn hash(&self) -> String {
+    /// The hash of the file, and of the one beside it that has the voxels, where it is a header.
+    pub(super) fn hash(&self, path: &Path, limit: u64) -> String {
         match self {
-            Self::Bytes(bytes) => blake3::hash(bytes).to_hex().to_string(),
+            Self::Bytes(bytes) => hash(path, bytes, limit),
             Self::Label(image, ..) => image.hash.clone(),
         }
     }
@@ -156,9 +156,19 @@ impl Image {
         let unpacked = read_stream(&bytes[..], path, limit).ok()?;
         let volume = parse_volume(path, &unpacked, limit).ok()??;
         let labels = volume.grains().ok().filter(|labels| labels.len() > 1)?;
-        let hash = blake3::hash(&bytes).to_hex().to_string();
+        let hash = hash(path, &bytes, limit);
         Some((Self { volume, hash }, labels))
     }
+}
+
+fn hash(path: &Path, bytes: &[u8], limit: u64) -> String {
+    let mut hasher = blake3::Hasher::new();
+    hasher.update(bytes);
+    let voxels = is_image(path).then(|| voxel_file(path, bytes)).flatten();
+    if let Some(Ok(voxels)) = voxels.map(|voxels| read(&voxels, limit)) {
+        hasher.update(&voxels);
+    }
+    hasher.finalize().to_hex().to_string()
 }
 
 /// `ct.nrrd#3`, or the name alone.

@@ -212,7 +212,8 @@ impl Work<'_> {
         let shown = task.name();
         let version = env!("CARGO_PKG_VERSION");
         let content = task.content(settings.max_bytes);
-        let hash = content.as_ref().ok().map(|content| content.hash());
+        let hash = content.as_ref().ok();
+        let hash = hash.map(|content| content.hash(task.path, settings.max_bytes));
         let known = hash.as_ref().and_then(|hash| {
             let key = key(&shown, hash, &self.settings, version);
             self.state().journal.find(&key)

@@ -43,7 +43,7 @@ fn bytes(folder: &TempDir, results: &str) -> Vec<Vec<u8>> {
 }
 
 /// The rows of a table by the names of their columns.
-fn rows(path: &Path) -> Vec<BTreeMap<String, String>> {
+pub(super) fn rows(path: &Path) -> Vec<BTreeMap<String, String>> {
     let mut reader = csv::Reader::from_path(path).unwrap();
     reader.deserialize().map(|row| row.unwrap()).collect()
 }

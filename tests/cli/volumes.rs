@@ -193,3 +193,32 @@ fn labels_that_the_border_cuts_off_or_of_few_voxels_are_refused() {
     assert_eq!(names(&folder.path().join("grains")).len(), 1);
     assert_eq!(report["warnings"].as_array().unwrap().len(), 2);
 }
+
+#[test]
+fn a_batch_sees_that_the_voxels_beside_a_header_changed() {
+    let folder = folder();
+    balls(&folder.path().join("ct.nrrd"));
+    let bytes = std::fs::read(folder.path().join("ct.nrrd")).unwrap();
+    std::fs::remove_file(folder.path().join("ct.nrrd")).unwrap();
+    let mut head = header([80, 40, 20]);
+    let voxels = &bytes[head.len()..];
+    head.truncate(head.len() - 1);
+    head.extend(b"data file: ct.raw\n\n");
+    std::fs::write(folder.path().join("ct.nhdr"), head).unwrap();
+    let volumes = |kept: &[u8]| {
+        let voxels: Vec<u8> = voxels
+            .iter()
+            .map(|label| label * u8::from(kept.contains(label)))
+            .collect();
+        std::fs::write(folder.path().join("ct.raw"), voxels).unwrap();
+        let words = ["batch", "ct.nhdr", "-o", "r", "--only", "volume", "--quiet"];
+        succeed(&folder, &words);
+        let rows = super::batch::rows(&folder.path().join("r/results.csv"));
+        let volumes: Vec<String> = rows.into_iter().map(|row| row["volume"].clone()).collect();
+        volumes
+    };
+    let both = volumes(&[4, 9]);
+    assert_eq!(both.len(), 2);
+    assert_eq!(volumes(&[4]), both[..1]);
+    assert_eq!(volumes(&[9]), both[1..]);
+}

@@ -3,8 +3,8 @@
 use super::{FacesDefect, Fill, ScannedBody};
 use crate::measure::crossings::clear_crossings;
 use crate::measure::{SelfCrossing, self_crossing};
-use crate::mesh::{Mesh, part, parts, winding_number};
-use nalgebra::{Point3, Vector3};
+use crate::mesh::{Bounds, BoundsTree, Mesh, part, parts, winding_number};
+use nalgebra::Point3;
 
 /// Places in a part by which it is told whether they are inside of another.
 const PROBES: usize = 24;
@@ -23,8 +23,7 @@ enum Held {
 /// One closed surface among several.
 struct Part {
     mesh: Mesh,
-    low: Vector3<f64>,
-    high: Vector3<f64>,
+    bounds: Bounds,
     volume: f64,
 }
 
@@ -34,30 +33,22 @@ impl Part {
         let place = |corner: u32| mesh.vertices[corner as usize].coords;
         let first = triangles
             .first()
-            .map_or_else(Vector3::zeros, |&i| place(mesh.triangles[i][0]));
-        let (mut low, mut high, mut volume) = (first, first, 0.0);
-        for corners in corners() {
+            .map(|&i| place(mesh.triangles[i][0]))
+            .unwrap_or_default();
+        let volumes = corners().map(|corners| {
             let [a, b, c] = corners.map(place);
-            for corner in [a, b, c] {
-                (low, high) = (low.inf(&corner), high.sup(&corner));
-            }
-            volume += (a - first).dot(&(b - first).cross(&(c - first))) / 6.0;
-        }
+            (a - first).dot(&(b - first).cross(&(c - first))) / 6.0
+        });
         Self {
             mesh: part(mesh, triangles),
-            low,
-            high,
-            volume,
+            bounds: Bounds::new(corners().flatten().map(|corner| place(corner).into()), 0.0),
+            volume: volumes.sum(),
         }
-    }
-
-    fn meets(&self, low: &Vector3<f64>, high: &Vector3<f64>) -> bool {
-        self.low <= *high && *low <= self.high
     }
 
     /// Places inside, just below the middle of each triangle.
     fn places(&self) -> impl Iterator<Item = Point3<f64>> {
-        let below = BELOW * (self.high - self.low).norm() * self.volume.signum();
+        let below = BELOW * self.bounds.size() * self.volume.signum();
         self.mesh.triangles.iter().filter_map(move |corners| {
             let [a, b, c] = corners.map(|corner| self.mesh.vertices[corner as usize]);
             let out = (b - a).cross(&(c - a)).try_normalize(0.0)?;
@@ -68,10 +59,7 @@ impl Part {
     /// How much of this part another one holds, by the winding number about some of its places: those that lie in the
     /// other's box, where a small overlap is.
     fn held_by(&self, other: &Self) -> Held {
-        if !self.meets(&other.low, &other.high) {
-            return Held::Nothing;
-        }
-        let is_near = |place: &Point3<f64>| other.meets(&place.coords, &place.coords);
+        let is_near = |place: &Point3<f64>| other.bounds.holds(place);
         let near: Vec<Point3<f64>> = self.places().filter(is_near).collect();
         let is_whole = near.len() == self.places().count();
         let step = near.len().div_ceil(PROBES).max(1);
@@ -85,28 +73,31 @@ impl Part {
     }
 }
 
+/// For every part, the others whose boxes meet its own.
+fn neighbours(parts: &[Part]) -> Vec<Vec<&Part>> {
+    let tree = BoundsTree::new(parts.iter().map(|part| part.bounds).collect());
+    let of_part = |(own, part): (usize, &Part)| {
+        let met = tree.meeting(&part.bounds).map(|other| other as usize);
+        met.filter(|&other| other != own)
+            .map(|other| &parts[other])
+            .collect()
+    };
+    parts.iter().enumerate().map(of_part).collect()
+}
+
 /// Whether triangles of different parts go through one another. Only those are looked at that other parts may reach.
-fn are_crossing(mesh: &Mesh, lists: &[Vec<usize>], parts: &[Part]) -> bool {
+fn are_crossing(mesh: &Mesh, lists: &[Vec<usize>], neighbours: &[Vec<&Part>]) -> bool {
     let mut near = Mesh {
         vertices: mesh.vertices.clone(),
         triangles: Vec::new(),
     };
     let mut owners = Vec::new();
-    for (owner, (list, part)) in lists.iter().zip(parts).enumerate() {
-        let is_other = |&(index, other): &(usize, &Part)| {
-            index != owner && part.meets(&other.low, &other.high)
-        };
-        let others: Vec<&Part> = parts
-            .iter()
-            .enumerate()
-            .filter(is_other)
-            .map(|(_, other)| other)
-            .collect();
+    for (owner, (list, others)) in lists.iter().zip(neighbours).enumerate() {
         for &triangle in list {
             let corners = mesh.triangles[triangle];
-            let [a, b, c] = corners.map(|corner| mesh.vertices[corner as usize].coords);
-            let (low, high) = (a.inf(&b).inf(&c), a.sup(&b).sup(&c));
-            if others.iter().any(|other| other.meets(&low, &high)) {
+            let places = corners.map(|corner| mesh.vertices[corner as usize]);
+            let bounds = Bounds::new(places, 0.0);
+            if others.iter().any(|other| other.bounds.meets(&bounds)) {
                 near.triangles.push(corners);
                 owners.push(owner);
             }
@@ -130,11 +121,12 @@ pub(super) fn arrange(mut mesh: Mesh, fill: Option<Fill>) -> ScannedBody {
     let lists = parts(&mesh);
     let parts: Vec<Part> = lists.iter().map(|list| Part::new(&mesh, list)).collect();
     let mut cavities = 0;
-    let mut is_overlapping = are_crossing(&mesh, &lists, &parts);
+    let neighbours = neighbours(&parts);
+    let mut is_overlapping = are_crossing(&mesh, &lists, &neighbours);
     for (index, part) in parts.iter().enumerate() {
         let mut depth = 0;
-        for other in (0..parts.len()).filter(|&other| other != index) {
-            let held = part.held_by(&parts[other]);
+        for other in &neighbours[index] {
+            let held = part.held_by(other);
             is_overlapping |= held == Held::Some;
             depth += usize::from(held == Held::All);
         }

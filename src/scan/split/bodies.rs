@@ -1,6 +1,6 @@
 //! The bodies of a mesh: what shares no point with the rest, and with it the inner surfaces that bound its hollows.
 
-use crate::mesh::{Bounds, Mesh, part, parts, winding_number};
+use crate::mesh::{Bounds, BoundsTree, Mesh, part, parts, winding_number};
 use nalgebra::Point3;
 use rayon::prelude::*;
 
@@ -17,12 +17,17 @@ pub(super) fn bodies(mesh: &Mesh) -> Vec<Mesh> {
         .iter()
         .map(|triangles| Part::new(part(mesh, triangles)))
         .collect();
+    let tree = BoundsTree::new(parts.iter().map(|part| part.bounds).collect());
     let holders: Vec<Vec<usize>> = parts
         .par_iter()
         .enumerate()
         .map(|(own, part)| {
-            let others = (0..parts.len()).filter(|&other| other != own);
-            others.filter(|&other| parts[other].holds(part)).collect()
+            let near = tree.meeting(&part.bounds).map(|other| other as usize);
+            let others = near.filter(|&other| other != own);
+            let mut holders: Vec<usize> =
+                others.filter(|&other| parts[other].holds(part)).collect();
+            holders.sort_unstable();
+            holders
         })
         .collect();
     let mut triangles = vec![Vec::new(); parts.len()];

@@ -2,26 +2,20 @@
 //! their own (.mhd).
 
 use super::samples::{Kind, Order, Samples};
-use super::{Beside, Volume, VolumeError};
+use super::{Beside, Volume, VolumeError, source};
 use nalgebra::{Matrix3, Point3, Vector3};
 use std::collections::HashMap;
 use std::io::Read;
+use std::path::Path;
+
+/// Whether a file is called as one.
+pub(super) fn is_it(path: &Path) -> bool {
+    let extension = source::extension(path).map(str::to_ascii_lowercase);
+    matches!(extension.as_deref(), Some("mhd" | "mha"))
+}
 
 pub(super) fn parse(bytes: &[u8], beside: &Beside<'_>) -> Result<Volume, VolumeError> {
-    let mut fields = HashMap::new();
-    let mut rest = bytes;
-    while !fields.contains_key("ElementDataFile") {
-        let end = rest.iter().position(|byte| *byte == b'\n');
-        let end = end.unwrap_or(rest.len());
-        let line = String::from_utf8_lossy(&rest[..end]).into_owned();
-        let Some((name, value)) = line.split_once('=') else {
-            return Err(VolumeError::Header {
-                what: "ElementDataFile",
-            });
-        };
-        fields.insert(name.trim().to_owned(), value.trim().to_owned());
-        rest = rest.get(end + 1..).unwrap_or_default();
-    }
+    let (fields, rest) = header(bytes)?;
     let field = |name: &str| fields.get(name).map(String::as_str);
     let three = |names: &[&str]| names.iter().find_map(|name| numbers::<3>(field(name)));
     let size = three(&["DimSize"]).filter(|size| size.iter().all(|n| *n >= 1.0));
@@ -39,10 +33,7 @@ pub(super) fn parse(bytes: &[u8], beside: &Beside<'_>) -> Result<Volume, VolumeE
         let what = "a MetaImage of several numbers per voxel".into();
         return Err(VolumeError::Unsupported { what });
     }
-    let named = match field("ElementDataFile") {
-        Some("LOCAL") | None => None,
-        Some(name) => Some(beside.read(name)?),
-    };
+    let named = named(&fields).map(|name| beside.read(name)).transpose()?;
     let voxels = named.as_deref().unwrap_or(rest);
     let bytes = match is_true("CompressedData") {
         true => inflate(voxels, beside.limit)?,
@@ -66,6 +57,35 @@ pub(super) fn parse(bytes: &[u8], beside: &Beside<'_>) -> Result<Volume, VolumeE
         Point3::from(origin),
         directions * Matrix3::from_diagonal(&Vector3::from(spacing)),
     )
+}
+
+/// The file that has the voxels, where they are not in that of the header.
+pub(super) fn voxel_file(bytes: &[u8]) -> Option<String> {
+    named(&header(bytes).ok()?.0).map(str::to_owned)
+}
+
+fn named(fields: &HashMap<String, String>) -> Option<&str> {
+    let name = fields.get("ElementDataFile").map(String::as_str);
+    name.filter(|name| *name != "LOCAL")
+}
+
+/// The fields, and what follows them.
+fn header(bytes: &[u8]) -> Result<(HashMap<String, String>, &[u8]), VolumeError> {
+    let mut fields = HashMap::new();
+    let mut rest = bytes;
+    while !fields.contains_key("ElementDataFile") {
+        let end = rest.iter().position(|byte| *byte == b'\n');
+        let end = end.unwrap_or(rest.len());
+        let line = String::from_utf8_lossy(&rest[..end]).into_owned();
+        let Some((name, value)) = line.split_once('=') else {
+            return Err(VolumeError::Header {
+                what: "ElementDataFile",
+            });
+        };
+        fields.insert(name.trim().to_owned(), value.trim().to_owned());
+        rest = rest.get(end + 1..).unwrap_or_default();
+    }
+    Ok((fields, rest))
 }
 
 /// What is packed with zlib.

@@ -25,7 +25,7 @@ use crate::mesh::{Grid, Mesh, contour};
 use nalgebra::{Matrix3, Point3, Vector3};
 use samples::Samples;
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// More labels than any scan has grains: it is an image of grey values.
 const MOST_LABELS: usize = 100_000;
@@ -56,10 +56,11 @@ pub struct Volume {
 /// # Errors
 /// [`ReadError::Volume`] with what is wrong.
 pub fn parse_volume(path: &Path, bytes: &[u8], limit: u64) -> Result<Option<Volume>, ReadError> {
-    let folder = path.parent().unwrap_or(Path::new("."));
-    let beside = Beside { folder, limit };
-    let extension = source::extension(path).map(str::to_ascii_lowercase);
-    let found = if bytes.starts_with(b"NRRD") {
+    let beside = Beside {
+        header: path,
+        limit,
+    };
+    let found = if nrrd::is_it(bytes) {
         nrrd::parse(bytes, &beside)
     } else if bytes.starts_with(b"\x93NUMPY") {
         npy::parse(bytes)
@@ -67,7 +68,7 @@ pub fn parse_volume(path: &Path, bytes: &[u8], limit: u64) -> Result<Option<Volu
         tiff::parse(bytes, limit)
     } else if nifti::is_it(bytes) {
         nifti::parse(bytes)
-    } else if matches!(extension.as_deref(), Some("mhd" | "mha")) {
+    } else if metaimage::is_it(path) {
         metaimage::parse(bytes, &beside)
     } else {
         return Ok(None);
@@ -78,24 +79,38 @@ pub fn parse_volume(path: &Path, bytes: &[u8], limit: u64) -> Result<Option<Volu
     })
 }
 
+/// The file beside an image's own that has its voxels, where the image is a header that names one.
+pub(crate) fn voxel_file(path: &Path, bytes: &[u8]) -> Option<PathBuf> {
+    let name = if nrrd::is_it(bytes) {
+        nrrd::voxel_file(bytes)
+    } else if metaimage::is_it(path) {
+        metaimage::voxel_file(bytes)
+    } else {
+        None
+    };
+    beside(path, &name?)
+}
+
+/// A file in the same folder; `None` where the name leads elsewhere.
+fn beside(path: &Path, name: &str) -> Option<PathBuf> {
+    let is_plain = Path::new(name).file_name().is_some_and(|own| own == name);
+    is_plain.then(|| path.with_file_name(name))
+}
+
 /// Where a header finds the voxels that it names, and how much may be read of them.
 struct Beside<'a> {
-    folder: &'a Path,
+    header: &'a Path,
     limit: u64,
 }
 
 impl Beside<'_> {
     /// The bytes of a file in the same folder, unpacked.
     fn read(&self, name: &str) -> Result<Vec<u8>, VolumeError> {
-        let is_plain = Path::new(name).file_name().is_some_and(|own| own == name);
-        if !is_plain {
-            return Err(VolumeError::Elsewhere { name: name.into() });
-        }
-        source::read_bytes(&self.folder.join(name), self.limit).map_err(|error| {
-            VolumeError::Voxels {
-                name: name.into(),
-                reason: error.to_string(),
-            }
+        let path = beside(self.header, name);
+        let path = path.ok_or_else(|| VolumeError::Elsewhere { name: name.into() })?;
+        source::read_bytes(&path, self.limit).map_err(|error| VolumeError::Voxels {
+            name: name.into(),
+            reason: error.to_string(),
         })
     }
 

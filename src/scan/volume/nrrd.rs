@@ -5,6 +5,10 @@ use super::{Beside, Volume, VolumeError};
 use nalgebra::{Matrix3, Point3, Vector3};
 use std::collections::HashMap;
 
+pub(super) fn is_it(bytes: &[u8]) -> bool {
+    bytes.starts_with(b"NRRD")
+}
+
 pub(super) fn parse(bytes: &[u8], beside: &Beside<'_>) -> Result<Volume, VolumeError> {
     let (fields, voxels) = header(bytes)?;
     let field = |name: &str| fields.get(name).map(String::as_str);
@@ -26,10 +30,7 @@ pub(super) fn parse(bytes: &[u8], beside: &Beside<'_>) -> Result<Volume, VolumeE
         Some("big") => Order::Big,
         _ => Order::Little,
     };
-    let named = match field("data file").or(field("datafile")) {
-        Some(name) => Some(beside.read(name)?),
-        None => None,
-    };
+    let named = named(&fields).map(|name| beside.read(name)).transpose()?;
     let voxels = named.as_deref().unwrap_or(voxels);
     let bytes = match field("encoding") {
         Some("raw") => voxels.to_vec(),
@@ -63,6 +64,16 @@ pub(super) fn parse(bytes: &[u8], beside: &Beside<'_>) -> Result<Volume, VolumeE
     };
     let samples = Samples { bytes, kind, order };
     Volume::new(size, samples, Point3::from(origin), steps)
+}
+
+/// The file that has the voxels, where they are not in that of the header.
+pub(super) fn voxel_file(bytes: &[u8]) -> Option<String> {
+    named(&header(bytes).ok()?.0).map(str::to_owned)
+}
+
+fn named(fields: &HashMap<String, String>) -> Option<&str> {
+    let name = fields.get("data file").or_else(|| fields.get("datafile"));
+    name.map(String::as_str)
 }
 
 /// The fields, and what follows them.
