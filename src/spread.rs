@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, Vector3};
 
 /// Standard deviation over median absolute deviation of a normal distribution.
-pub(crate) const PER_MEDIAN: f64 = 1.4826;
+const PER_MEDIAN: f64 = 1.4826;
 
 /// Standard deviation of values round zero, told by the median of their sizes.
 pub(crate) fn robust_deviation(values: impl Iterator<Item = f64>) -> f64 {

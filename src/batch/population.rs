@@ -2,7 +2,7 @@
 
 use super::columns::{Column, FIRST};
 use super::journal::Row;
-use crate::spread::{PER_MEDIAN, median};
+use crate::spread::{median, robust_deviation};
 use serde::Serialize;
 
 /// The measures by which grains are compared, as far as they are there.
@@ -163,8 +163,7 @@ impl Population {
         let values = &self.values[at];
         let mut known: Vec<f64> = values.iter().flatten().copied().collect();
         let middle = median(&mut known).unwrap_or(0.0);
-        let mut sizes: Vec<f64> = known.iter().map(|value| (value - middle).abs()).collect();
-        let deviation = PER_MEDIAN * median(&mut sizes).unwrap_or(0.0);
+        let deviation = robust_deviation(known.iter().map(|value| value - middle));
         if known.len() < LEAST_GRAINS || deviation <= 0.0 {
             return Vec::new();
         }

@@ -43,7 +43,7 @@ impl PreparedScan<'_> {
         StarGrain::new(*self.frame(), family).expect("the axes are orthonormal")
     }
 
-    /// What is known before any fit.
+    /// A fitted grain with what the prepared scan tells of it; its family adds the rest.
     pub(super) fn fitted(
         &self,
         grain: StarGrain,

@@ -28,7 +28,7 @@ const STEEP_SHARE: f64 = 0.005;
 /// Cells along a cube's edge of the directions looked at.
 const LOOKED_AT: usize = 24;
 
-/// Where a surface is folded it is fitted again with half as many cells, as long as there are more than these.
+/// The fewest cells: a surface that is folded is fitted once more with half its cells, but no fewer than these.
 const FEWEST_CELLS: usize = 6;
 
 /// What a radius does not see is far from it in few places: the mean of all distances is then less than this share of

@@ -35,6 +35,7 @@ mod sound;
 mod sparse;
 mod standard_errors;
 mod superquadric;
+mod turn;
 mod unseen;
 mod warning;
 

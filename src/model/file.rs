@@ -1,12 +1,13 @@
 //! A grain as JSON: versioned, exact to the last bit, and refused where it is not sound.
 //!
-//! Version 5 holds either `superquadrics`, or `position`, the `cells` or the `harmonics` of the position of points over the sphere, or of
-//! a radius one of `cells` (blended), `segments` (independent), `symmetry` (mirrored) and
-//! `harmonics` (the whole sphere), of the grain stretched along its axes by `stretch`, if that is there.
-//! `margin` goes with `cells`; `curvature_errors` with a radius or a position, if they are known; with all, `unseen`, if the scan did not see
-//! much of the grain, and `contradicted`, if the polyhedron through its points has another area or volume. Version 4 knew neither. Version 3, which knew neither
-//! `superquadrics` nor `position`, version 2, which knew none of `harmonics`, `stretch`, `margin` and `curvature_errors` either, and version 1,
-//! which knew segments only, are still read.
+//! A file holds one surface: a radius (`cells` and `margin`; `parts_per_angle` and `segments`; `symmetry` and
+//! `coefficients`; or `harmonics`; with `stretch`, if the grain is stretched), a `position`, or `superquadrics`. It may
+//! hold `curvature_errors` (of a radius or a position), `unseen`, if the scan did not see much of the grain, and
+//! `contradicted`, if the polyhedron through its points has another area or volume.
+//!
+//! Version 5 is written. Version 4 had no `unseen` and no `contradicted`; version 3 no `position` and no `superquadrics`
+//! either; version 2 no `harmonics`, `stretch`, `margin` and `curvature_errors` either; version 1 had segments alone. All
+//! are read.
 
 use super::grain::Kind;
 use super::superquadric::PartRecord;

@@ -240,7 +240,7 @@ impl Joint {
     fn patch_pass(&self, patch: &Patch, coefficients: &[f64]) -> (Vec<f64>, f64) {
         let rows = patch.weights.len();
         let mut lacking = vec![0.0; rows * patch.cells.len()];
-        let mut blend = patch.radii.clone();
+        let mut blend = vec![0.0; rows];
         let mut values = patch.values.chunks_exact(rows);
         for (at, &cell) in patch.cells.iter().enumerate() {
             let own = &mut lacking[at * rows..(at + 1) * rows];
@@ -254,7 +254,6 @@ impl Joint {
             }
         }
         // r - sum of s f = sum of s (r - f), for shares add up to 1.
-        blend.fill(0.0);
         for (own, shares) in lacking
             .chunks_exact(rows)
             .zip(patch.shares.chunks_exact(rows))

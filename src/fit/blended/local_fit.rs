@@ -16,7 +16,7 @@ use nalgebra::Vector3;
 use rayon::prelude::*;
 use std::collections::HashMap;
 
-/// Gauss nodes per side of a cell and its margins: 100 for the 25 coefficients of degree 4.
+/// Least Gauss nodes per side of a cell: 64 in all for the 25 coefficients of degree 4.
 const NODES_PER_SIDE: usize = 8;
 
 /// Errors below this part of the radius are rounding.
@@ -33,7 +33,7 @@ pub(super) struct LocalFits {
 /// A cell of face 0, of which others are images.
 struct Shape {
     directions: Vec<Vector3<f64>>,
-    /// Square roots of the quadrature weights times the cell's weight.
+    /// Square roots of the nodes' solid angles.
     roots: Vec<f64>,
     /// Orthonormal columns, by degree.
     columns: Vec<f64>,

@@ -41,7 +41,7 @@ pub(crate) struct Settings {
     pub(crate) max_degree: usize,
     /// 6 n^2 cells of the same size; `None` chooses cells.
     pub(crate) segments: Option<usize>,
-    /// Most cells chosen; at least 6 there are.
+    /// Most cells chosen, though never fewer than 6.
     pub(crate) max_segments: usize,
     /// Root of the mean squared difference from the target that is good enough, a length.
     pub(crate) limit: f64,

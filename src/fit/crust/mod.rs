@@ -1,9 +1,10 @@
 //! The surface that points without faces lie on, where no centre sees all of it: its topology, and a place on it for
 //! every point.
 //!
-//! All voxels near a point are a crust, thinner across the surface where the neighbours of the point lie in a plane. What the crust keeps apart from the outside is inside; across the crust a field
-//! goes from -1 outside to 1 inside, and mostly changes near the points, for it is led well far from them. The surface
-//! is where it is zero (Hornung and Kobbelt 2006, with a harmonic field for their cut). No normals are needed.
+//! All voxels near a point are a crust, thinner across the surface where the neighbours of the point lie in a plane. What
+//! the crust keeps apart from the outside is inside; across the crust a field goes from -1 outside to 1 inside, and mostly
+//! changes near the points, for it is led well far from them. The surface is where it is zero (Hornung and Kobbelt 2006,
+//! with a harmonic field for their cut). No normals are needed.
 
 mod field;
 mod voxels;
@@ -11,7 +12,8 @@ mod voxels;
 use super::error::FitError;
 use super::neighbours::Neighbours;
 use crate::mesh::{Grid, Mesh, contour, part, parts};
-use crate::spread::covariance;
+use crate::scan::drawn;
+use crate::spread::{covariance, median};
 use field::harmonic;
 use nalgebra::{Point3, Vector3};
 use voxels::Voxels;
@@ -50,7 +52,7 @@ const LARGEST_OFF: f64 = 0.01;
 /// [`FitError::NoInside`], [`FitError::Ring`] or [`FitError::OffCrust`] where the points enclose nothing, enclose a ring, or
 /// do not lie on the surface found.
 pub(super) fn surface_of_points(points: &[Point3<f64>]) -> Result<Mesh, FitError> {
-    let drawn = drawn(points);
+    let drawn = drawn(points, MOST_POINTS);
     let spacing = spacing(&drawn);
     let squeezes = squeezes(&drawn);
     let mut failed = FitError::NoInside;
@@ -145,26 +147,7 @@ fn spacing(points: &[Point3<f64>]) -> f64 {
         last.map_or(0.0, |at| (places[at] - place).norm())
     };
     let mut distances: Vec<f64> = places.iter().map(distance).collect();
-    distances.sort_by(f64::total_cmp);
-    distances.get(distances.len() / 2).copied().unwrap_or(0.0)
-}
-
-/// The distinct points, or a sample of them that does not depend on their order; sorted.
-fn drawn(points: &[Point3<f64>]) -> Vec<Point3<f64>> {
-    let step = points.len().div_ceil(MOST_POINTS).max(1) as u64;
-    let hash = |point: &&Point3<f64>| {
-        let mix =
-            |hash: u64, c: &f64| (hash ^ (c + 0.0).to_bits()).wrapping_mul(0x9e37_79b9_7f4a_7c15);
-        (point.iter().fold(0, mix) >> 29).is_multiple_of(step)
-    };
-    let mut drawn: Vec<Point3<f64>> = points.iter().filter(hash).copied().collect();
-    drawn.sort_unstable_by(|a, b| {
-        a.iter()
-            .partial_cmp(b.iter())
-            .unwrap_or(std::cmp::Ordering::Equal)
-    });
-    drawn.dedup();
-    drawn
+    median(&mut distances).unwrap_or(0.0)
 }
 
 #[cfg(test)]

@@ -77,10 +77,15 @@ impl Cloud {
         self.radii.len()
     }
 
+    /// Weighted sum of the squares of an error per point.
+    pub(super) fn squares(&self, errors: impl IntoIterator<Item = f64>) -> f64 {
+        let weighted = errors.into_iter().zip(&self.weights);
+        weighted.map(|(e, w)| w * e * e).sum()
+    }
+
     /// Weighted mean square of an error per point.
     pub(super) fn mean_square(&self, errors: impl IntoIterator<Item = f64>) -> f64 {
-        let weighted = errors.into_iter().zip(&self.weights);
-        weighted.map(|(e, w)| w * e * e).sum::<f64>() / self.len() as f64
+        self.squares(errors) / self.len() as f64
     }
 
     /// Errors per point in units of that of one of mean weight: means of many points have smaller ones.

@@ -11,24 +11,20 @@
 //! - what turning an axis by its standard deviation does to the extent beyond first order (of a box it grows whichever
 //!   way it turns), and the range of extents in the plane of two axes that are not told apart.
 
-use super::dimensions::{End, Extent, LARGEST_TURN, Reach};
-use super::functionals::{combined, dot};
+use super::dimensions::{End, Extent, Reach};
+use super::functionals::combined;
 use super::left_out::LeftOut;
 use super::outcome::Estimate;
 use super::outcome::{slope_variance, variance};
 use super::posterior::Conditioned;
 use super::tips::Tips;
 use crate::fit::figures::{INERTIA, by_size};
+use crate::fit::turn::{OF_RANGE, TURNS, are_apart, by_inertia};
 use crate::measure::PrincipalInertia;
 use crate::sphere::HarmonicBasis;
+use crate::vectorize::dot;
 use nalgebra::Vector3;
 use std::f64::consts::PI;
-
-/// Steps of half a turn at which the extents along axes that are not told apart are compared.
-const TURNS: usize = 8;
-
-/// Standard error as a share of the range of these: an axis may be at one end of it and be told at the other.
-const OF_RANGE: f64 = 0.6;
 
 /// Length, width and thickness, with their errors.
 pub(super) struct Dimensions {
@@ -75,7 +71,7 @@ pub(super) fn dimensions(
     };
     for (i, extent) in extents.iter().enumerate() {
         let factors = extent.ends.iter().map(|end| end.by_radius);
-        let turn = extent.by_inertia(principal, i, &sd);
+        let turn = by_inertia(principal, i, &extent.span, &sd);
         let factors: Vec<f64> = factors.chain(turn.iter().copied()).collect();
         let whole = |ends: &[Vec<f64>], mass: &[Vec<f64>]| {
             let vectors = ends[2 * i..2 * i + 2].iter().chain(&mass[INERTIA..]);
@@ -125,7 +121,7 @@ fn turned(
             reach.along(&axis).length
         };
         let (sd, gap) = (sd(i, j), (moments[i] - moments[j]).abs());
-        if sd < LARGEST_TURN * gap {
+        if are_apart(sd, gap) {
             let turn = sd / gap;
             return (0.5 * (at(turn) + at(-turn)) - length).powi(2);
         }

@@ -3,13 +3,11 @@
 //!
 //! The extent along a unit axis a is h = a.(X+ - X-), X+ and X- the points that lie farthest along a and -a. To
 //! first order these points move along the surface, which does not change h: what does is the change of the radius in
-//! their fixed directions, and the turn of the axis,
+//! their fixed directions, and the [turn](crate::fit::turn) of the axis,
 //!
 //! ```text
-//! dh = a.(dX+ - dX-) + (X+ - X-).da,     da_i = sum over j of a_j (a_j' dI a_i) / (I_i - I_j)
+//! dh = a.(dX+ - dX-) + (X+ - X-).da
 //! ```
-//!
-//! but for j with nearly the same moment: such axes have no direction of their own.
 //!
 //! A largest value over a surface with ripples exceeds that over their mean. With H the Hessian of the height a.X
 //! over the directions and s the random slope of the ripples' height, by E[-s' H^-1 s / 2], at most by the standard
@@ -17,14 +15,9 @@
 
 use super::left_out::LeftOut;
 use super::outcome::Estimate;
-use crate::fit::figures::form;
-use crate::measure::{PrincipalInertia, support_near};
+use crate::measure::support_near;
 use crate::model::{Radial, StarSurface, Whole};
-use nalgebra::{Matrix3, SVector, Vector3};
-
-/// Axes whose turn has a larger standard deviation, in radians, have no direction of their own: their moments differ
-/// by less than 5 standard deviations of that difference, which is twice that of the entry between them.
-pub(super) const LARGEST_TURN: f64 = 0.1;
+use nalgebra::{Matrix3, Vector3};
 
 /// An extent.
 pub(super) struct Extent {
@@ -32,7 +25,7 @@ pub(super) struct Extent {
     /// Along the axis and against it.
     pub(super) ends: [End; 2],
     /// X+ - X-.
-    span: Vector3<f64>,
+    pub(super) span: Vector3<f64>,
 }
 
 /// An end of an extent.
@@ -138,26 +131,5 @@ impl End {
         let rise = self.bowl.try_inverse();
         let rise = rise.map_or(sd, |bowl| 0.5 * (bowl * slopes).trace());
         self.by_radius / self.along * if (0.0..sd).contains(&rise) { rise } else { sd }
-    }
-}
-
-impl Extent {
-    /// The derivative by the inertia tensor, through axis `i`; `sd` says how well an off-diagonal entry is known
-    /// along the principal axes.
-    pub(super) fn by_inertia(
-        &self,
-        principal: &PrincipalInertia,
-        i: usize,
-        sd: impl Fn(usize, usize) -> f64,
-    ) -> SVector<f64, 6> {
-        let PrincipalInertia { moments, axes } = principal;
-        let column = |j: usize| axes.column(j).into_owned();
-        let told =
-            (0..3).filter(|&j| j != i && sd(i, j) < LARGEST_TURN * (moments[i] - moments[j]).abs());
-        told.map(|j| {
-            let factor = self.span.dot(&column(j)) / (moments[i] - moments[j]);
-            form(&column(j), &column(i)) * factor
-        })
-        .sum()
     }
 }

@@ -20,20 +20,20 @@
 use super::blur::Blur;
 use super::dimension_errors::dimensions;
 use super::dimensions::Reach;
-use super::functionals::{RingSurface, combined, dot};
+use super::functionals::{RingSurface, combined};
 use super::left_out::LeftOut;
 use super::outcome::Estimate;
 use super::posterior::Posterior;
 use super::rims::Rim;
 use super::texture::hidden_slopes;
 use super::unresolved::{is_rough, kurtosis};
-use crate::fit::figures::{
-    Figures, INERTIA, INTEGRALS, MassList, derivatives, form, list, mass, unlist,
-};
+use crate::fit::figures::{Figures, INERTIA, INTEGRALS, MassList, derivatives, list, mass, unlist};
 use crate::fit::gaps::{largest_gap, random_gap};
 use crate::fit::standard_errors::{NoInterval, StandardErrors};
+use crate::fit::turn::entry_variance;
 use crate::measure::{Moments, PrincipalInertia};
-use nalgebra::{Matrix3, SMatrix, Vector3};
+use crate::vectorize::dot;
+use nalgebra::{Matrix6, SMatrix, Vector3};
 use std::f64::consts::PI;
 
 /// Half-angle of holes, in radians, up to which 95 % intervals of area and volume cover: of 20 degrees they do (92 %
@@ -145,7 +145,9 @@ impl Best {
         let nodes = surface.nodes.iter().zip(&surface.radii);
         let starts: Vec<_> = nodes.map(|((n, _), (r, _))| (*n, *r)).collect();
         let reach = Reach::new(estimate, starts)?;
-        let sd = |i: usize, j: usize| turn_variance(&covariance, &principal.axes, i, j).sqrt();
+        let sd = |i: usize, j: usize| {
+            entry_variance(&of_inertia(&covariance), &principal.axes, i, j).sqrt()
+        };
         let mass_and = (&gradients[..], &covariances[..]);
         let dimensions = dimensions(estimate, &given, &reach, &principal, mass_and, sd, left_out);
         Some(Self {
@@ -190,7 +192,7 @@ impl Best {
         let moments = Vector3::from_fn(|i, _| {
             let axis = axes.column(i).into_owned();
             let shift = axis.dot(&(shifts.second * axis));
-            turn_variance(&self.covariance, axes, i, i)
+            self.entry_variance(i, i)
                 + square(best.moments[i] + shift - told.moments[i])
                 + square(self.repulsion(i))
         });
@@ -211,14 +213,19 @@ impl Best {
         }
     }
 
+    /// Variance of the entry i, j of the inertia tensor along the principal axes.
+    fn entry_variance(&self, i: usize, j: usize) -> f64 {
+        entry_variance(&of_inertia(&self.covariance), &self.principal.axes, i, j)
+    }
+
     /// The mean of a principal moment is pushed away from its neighbours': by var(I_ij) / (I_i - I_j) each, at most
     /// the standard deviation.
     fn repulsion(&self, i: usize) -> f64 {
-        let PrincipalInertia { moments, axes } = &self.principal;
+        let moments = self.principal.moments;
         let others = (0..3).filter(|&j| j != i);
         others
             .map(|j| {
-                let variance = turn_variance(&self.covariance, axes, i, j);
+                let variance = self.entry_variance(i, j);
                 let (gap, sd) = (moments[i] - moments[j], variance.sqrt());
                 match variance < sd * gap.abs() {
                     true => variance / gap,
@@ -229,16 +236,9 @@ impl Best {
     }
 }
 
-/// Variance of the entry i, j of the inertia tensor along the principal axes.
-fn turn_variance(
-    covariance: &SMatrix<f64, INTEGRALS, INTEGRALS>,
-    axes: &Matrix3<f64>,
-    i: usize,
-    j: usize,
-) -> f64 {
-    let form = form(&axes.column(i).into(), &axes.column(j).into());
-    let block = covariance.fixed_view::<6, 6>(INERTIA, INERTIA);
-    form.dot(&(block * form)).max(0.0)
+/// The covariance of the entries of the inertia tensor.
+fn of_inertia(covariance: &SMatrix<f64, INTEGRALS, INTEGRALS>) -> Matrix6<f64> {
+    covariance.fixed_view::<6, 6>(INERTIA, INERTIA).into_owned()
 }
 
 /// G'C G of functionals G and C G, made symmetric.

@@ -15,9 +15,9 @@
 //! A_ij = 1/2 (x'D_i b_j - b_i'C b_j)    of the noise and i: b_i'C b    of the noise: 2 (e'We / s^2 - b'C b)
 //! ```
 
-use super::functionals::dot;
 use super::posterior::Conditioned;
 use super::spectrum::{NOISE, PARAMETERS, Spectrum};
+use crate::vectorize::dot;
 use nalgebra::Matrix5;
 
 impl Conditioned<'_> {
@@ -44,8 +44,7 @@ impl Conditioned<'_> {
         let rights: Vec<Vec<f64>> = moved.iter().map(over).collect();
         let solved = self.solve_factored(factor, &rights);
         let residuals = self.posterior.residuals(mean);
-        let weighted = residuals.iter().zip(&self.posterior.cloud.weights);
-        let squared: f64 = weighted.map(|(e, w)| w * e * e).sum();
+        let squared = self.posterior.cloud.squares(residuals);
         Some(Matrix5::from_fn(|i, j| {
             let left = dot(&rights[i], &solved[j]);
             match (i == NOISE, j == NOISE) {

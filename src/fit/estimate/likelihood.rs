@@ -12,7 +12,7 @@
 //! moves, the gradient of F is that of the exact likelihood. Exact, and in no need of rounds, where the
 //! points are spread evenly: then N_l = n / 4 pi for all degrees.
 
-use super::spectrum::{BOUNDS, PARAMETERS, STEPS, Spectrum, TEXTURE};
+use super::spectrum::{BOUNDS, Bounds, PARAMETERS, STEPS, Spectrum};
 use nalgebra::{Matrix5, Vector5};
 
 /// What the points say of each degree.
@@ -174,9 +174,6 @@ impl Evidence {
     }
 }
 
-/// Bounds of the logarithms.
-type Bounds = [[f64; 2]; PARAMETERS];
-
 /// A Newton step that keeps to bounds.
 struct Step {
     gradient: Vector5<f64>,
@@ -187,16 +184,7 @@ impl Step {
     fn new(evidence: &Evidence, at: &Spectrum, bounds: &Bounds) -> Self {
         let mut gradient = Vector5::from(evidence.value(at).1);
         let mut hessian = evidence.curvature(at);
-        for (i, &[low, high]) in bounds.iter().enumerate() {
-            let is_held = at.logarithms[i] <= low && (gradient[i] > 0.0 || i == TEXTURE)
-                || at.logarithms[i] >= high && gradient[i] < 0.0;
-            if is_held {
-                hessian.fill_row(i, 0.0);
-                hessian.fill_column(i, 0.0);
-                hessian[(i, i)] = 1.0;
-                gradient[i] = 0.0;
-            }
-        }
+        at.hold(bounds, &mut gradient, &mut hessian);
         Self { gradient, hessian }
     }
 

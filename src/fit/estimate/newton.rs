@@ -7,7 +7,7 @@
 //! A step fails that does not lower the cost; where no cost is known, one after which the gradient points back more steeply.
 
 use super::spectrum::Spectrum;
-use super::spectrum::{BOUNDS, PARAMETERS, STEPS, TEXTURE};
+use super::spectrum::{BOUNDS, STEPS};
 use nalgebra::{Matrix5, Vector5};
 
 /// Proposals are trusted as long as they bring this share of what they promise.
@@ -118,20 +118,7 @@ impl Newton {
         let at = &place.spectrum.logarithms;
         let mut matrix = place.information.unwrap_or_else(|| self.learnt(place));
         let mut right = place.gradient;
-        for i in 0..PARAMETERS {
-            let [low, high] = BOUNDS[i];
-            // Of texture that is not there nothing can be told.
-            let is_held = (at[i] <= low && (right[i] > 0.0 || i == TEXTURE))
-                || (at[i] >= high && right[i] < 0.0);
-            if is_held {
-                for j in 0..PARAMETERS {
-                    matrix[(i, j)] = 0.0;
-                    matrix[(j, i)] = 0.0;
-                }
-                matrix[(i, i)] = 1.0;
-                right[i] = 0.0;
-            }
-        }
+        place.spectrum.hold(&BOUNDS, &mut right, &mut matrix);
         let step = matrix
             .cholesky()
             .map_or_else(Vector5::zeros, |factor| -factor.solve(&right));

@@ -6,10 +6,10 @@
 //! derivatives, and for how far the points of a patch lean to one side. The squares of the residuals there tell the noise of
 //! the points.
 
-use super::functionals::dot;
 use crate::fit::prepare::Sample;
 use crate::sphere::CubeCell;
 use crate::spread::{covariance, median, robust_deviation};
+use crate::vectorize::dot;
 use nalgebra::{Matrix3, Vector3};
 use std::iter::once;
 

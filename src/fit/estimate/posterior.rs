@@ -212,9 +212,7 @@ impl Conditioned<'_> {
         let log_determinant = self.factor.as_ref()?.log_root_determinant();
         let cloud = self.posterior.cloud;
         // y'Wy - y'WY x without cancellation: the weighted squares of the residuals and x'V^-1 x s^2.
-        let residuals = self.posterior.residuals(mean);
-        let squared = residuals.iter().zip(&cloud.weights);
-        let squared: f64 = squared.map(|(e, w)| w * e * e).sum();
+        let squared = cloud.squares(self.posterior.residuals(mean));
         let shrunk = mean.iter().zip(&self.variances);
         let shrunk: f64 = shrunk.map(|(x, v)| x * x / v).sum();
         Some(

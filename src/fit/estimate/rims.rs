@@ -2,7 +2,8 @@
 //!
 //! As with [tips](super::tips): what the prior takes of a rim for noise is left in the residuals there, and over a whole
 //! rim the area lacks more than its standard error. A rim is a bump around a circle at the polar angle t of one of the axes of
-//! the stretched space: the mean of [bumps](super::bump) about its points. Height and variance are those of a tip, of the width, circle and axis under which the points are most likely.
+//! the stretched space: the mean of [bumps](super::bump) about its points. Height and variance are those of a tip, of the
+//! width, circle and axis under which the points are most likely.
 //!
 //! What is found so is a rounded rim still, and has .2 to .6 of the area that is missing. Measured on lenses 2.5 to
 //! 10 times as wide as thick, and on ones of unequal halves, of 1500 and 6000 points with noise of .1 to 2 % of the mean

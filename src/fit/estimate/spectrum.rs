@@ -19,6 +19,8 @@
 //! grain's longest axis, its z. The variance of order m is that of its degree times a share, exp(t |m| / l) over the mean
 //! of these, with the tilt t: 0 where no direction differs from another, above 0 where furrows lie along the axis.
 
+use nalgebra::{Matrix5, Vector5};
+
 /// The spectrum of a grain.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Spectrum {
@@ -59,9 +61,12 @@ pub(crate) const TEXTURE: usize = 4;
 const NO_TEXTURE: f64 = -40.0;
 const SOME_TEXTURE: f64 = -18.0;
 
-/// Bounds of the logarithms: variances from none to those of a star of spikes, slopes 1.2 to 50, knees .5 to 60, noise
+/// Bounds of the logarithms.
+pub(crate) type Bounds = [[f64; 2]; PARAMETERS];
+
+/// Those of a search: variances from none to those of a star of spikes, slopes 1.2 to 50, knees .5 to 60, noise
 /// 3e-6 to .5 of the mean radius, texture from none on.
-pub(crate) const BOUNDS: [[f64; 2]; PARAMETERS] = [
+pub(crate) const BOUNDS: Bounds = [
     [-150.0, 2.0],
     [-0.51, 3.22],
     [-0.69, 4.1],
@@ -120,6 +125,26 @@ impl Spectrum {
         let mut logarithms = self.logarithms;
         logarithms[TEXTURE] = SOME_TEXTURE;
         self.moved_to(logarithms)
+    }
+
+    /// Takes the logarithms that a step would lead out of bounds out of the equations of a Newton step, by the gradient here.
+    /// Of texture that is not there nothing can be told.
+    pub(crate) fn hold(
+        &self,
+        bounds: &Bounds,
+        gradient: &mut Vector5<f64>,
+        hessian: &mut Matrix5<f64>,
+    ) {
+        for (i, &[low, high]) in bounds.iter().enumerate() {
+            let is_held = self.logarithms[i] <= low && (gradient[i] > 0.0 || i == TEXTURE)
+                || self.logarithms[i] >= high && gradient[i] < 0.0;
+            if is_held {
+                hessian.fill_row(i, 0.0);
+                hessian.fill_column(i, 0.0);
+                hessian[(i, i)] = 1.0;
+                gradient[i] = 0.0;
+            }
+        }
     }
 
     /// Other logarithms, the same tilt.

@@ -332,9 +332,7 @@ fn told(
     let points = cloud.len() as f64;
     let noise = spectrum.noise().powi(2);
     let terms = spectrum.terms(posterior.degree());
-    let residuals = posterior.residuals(mean);
-    let squares = residuals.iter().zip(&cloud.weights);
-    let squared: f64 = squares.map(|(e, w)| w * e * e).sum();
+    let squared = cloud.squares(posterior.residuals(mean));
     let mut left = squared;
     let (_, mut gradient) = hyperprior(points, spectrum);
     gradient[3] += points - squared / noise;

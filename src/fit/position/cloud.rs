@@ -17,7 +17,7 @@ const MOST_PARTS: usize = 32;
 const SPHERE_SHARE: f64 = 0.2;
 
 /// One vertex in so many is held out, or one point.
-const HELD_OUT: usize = 8;
+pub(super) const HELD_OUT: usize = 8;
 
 /// Share of the weight of the vertices of a mesh that is only near the points: enough that functions between points are
 /// told, and not so much that its errors are.

@@ -10,22 +10,16 @@
 use super::ends::Ends;
 use super::functionals::{End, FIGURES, Figures, Functionals};
 use super::functions::Functions;
-use crate::fit::figures::{INERTIA, INTEGRALS, by_size, form};
+use crate::fit::figures::{INERTIA, INTEGRALS, by_size};
+use crate::fit::turn::{OF_RANGE, are_apart, by_inertia, entry_variance};
 use crate::measure::PrincipalInertia;
-use nalgebra::{Matrix6, SMatrix, SVector, Vector3};
+use nalgebra::{Matrix6, SMatrix, Vector3};
 
 /// Least standard errors, relative.
-const FLOOR: f64 = 2e-5;
+pub(super) const FLOOR: f64 = 2e-5;
 
-/// The same where there are cells: ends, which few samples tell, are off by so much on clean bodies.
+/// Those of lengths where there are cells: ends, which few samples tell, are off by so much on clean bodies.
 const FLOOR_OF_CELLS: f64 = 1e-4;
-
-/// Axes whose turn has a larger standard deviation, in radians, have no direction of their own, ...
-const LARGEST_TURN: f64 = 0.1;
-
-/// ... and an extent along them has this share of the range of extents as standard error: it may be told at one end
-/// and be at the other.
-const OF_RANGE: f64 = 0.6;
 
 /// A surface, and how well its integrals and ends are known.
 pub(super) struct Lengths<'a> {
@@ -89,18 +83,13 @@ fn extent(
     axis: usize,
 ) -> (Figures, f64) {
     let PrincipalInertia { moments, axes } = &functionals.principal;
-    let span = functionals.span(axis);
-    let (mut by_inertia, mut range) = (SVector::<f64, 6>::zeros(), 0.0_f64);
-    for other in (0..3).filter(|&other| other != axis) {
-        let [own, across] = [axis, other].map(|i| axes.column(i).into_owned());
-        let (form, gap) = (form(&across, &own), moments[axis] - moments[other]);
-        let sd = form.dot(&(inertia * form)).max(0.0).sqrt();
-        if sd < LARGEST_TURN * gap.abs() {
-            by_inertia += form * (span.dot(&across) / gap);
-        } else {
-            range = range.hypot(OF_RANGE * functionals.range(axis, other));
-        }
-    }
+    let sd = |i: usize, j: usize| entry_variance(inertia, axes, i, j).sqrt();
+    let others = (0..3).filter(|&other| other != axis);
+    let anywhere =
+        others.filter(|&other| !are_apart(sd(axis, other), moments[axis] - moments[other]));
+    let ranges = anywhere.map(|other| OF_RANGE * functionals.range(axis, other));
+    let range = ranges.fold(0.0, f64::hypot);
+    let by_inertia = by_inertia(&functionals.principal, axis, &functionals.span(axis), sd);
     let mut change = Figures::zeros();
     let turn = jacobian.fixed_rows::<6>(INERTIA).transpose() * by_inertia;
     change.fixed_rows_mut::<INTEGRALS>(0).copy_from(&turn);

@@ -98,7 +98,7 @@ impl<'a> Ends<'a> {
             };
             counts.iter().enumerate().map(chance).sum()
         };
-        // The number of points above a height is one of Poisson's.
+        // The number of points above a height is Poisson-distributed: that there is none has the chance exp(-mean).
         let highest = |chance: f64| {
             let (mut low, mut high) = (-(DEPTH as f64), DEPTH as f64);
             for _ in 0..HALVINGS {

@@ -24,8 +24,8 @@
 //!
 //! There are none of a surface that crosses itself.
 
-use super::cloud::Cloud;
-use super::dimension_errors::Lengths;
+use super::cloud::{Cloud, HELD_OUT};
+use super::dimension_errors::{FLOOR, Lengths};
 use super::ends::Ends;
 use super::functionals::{FIGURES, Figures, Functionals, by_move};
 use super::functions::{Functions, Rows};
@@ -53,9 +53,6 @@ pub(super) struct Solved<'a> {
     /// Weight of the roughness.
     pub(super) roughness: f64,
 }
-
-/// Least standard errors, relative.
-const FLOOR: f64 = 2e-5;
 
 /// Share of what is not resolved that has one sign all over the surface: of bodies whose truth is known at most a fifth.
 const ONE_SIDED: f64 = 0.15;
@@ -266,7 +263,7 @@ impl Solved<'_> {
 }
 
 /// Share of the points that are not held out.
-const HELD_IN: f64 = 7.0 / 8.0;
+const HELD_IN: f64 = 1.0 - 1.0 / HELD_OUT as f64;
 
 /// Largest share of the points' freedom that functions are taken to spend.
 const MOST_SPENT: f64 = 0.7;

@@ -12,9 +12,10 @@
 use super::functions::Functions;
 use super::least_squares::{add_adjoint, no_sums};
 use crate::fit::figures::{INTEGRALS, list};
+use crate::fit::turn::TURNS;
 use crate::measure::{Curvature, Moments, PrincipalInertia, support};
 use crate::model::{Frame, Position, PositionDerivatives, PositionGrain, SurfaceJet, area_normal};
-use crate::sphere::{CubeCell, GaussLegendre};
+use crate::sphere::GaussLegendre;
 use faer::Mat;
 use nalgebra::{Point3, SVector, Vector3};
 use std::f64::consts::PI;
@@ -53,12 +54,6 @@ struct Place {
 /// Nodes of the quadrature per side of a cell, which is right to five figures.
 const NODES: usize = 8;
 
-/// Steps of half a turn at which extents are compared.
-const TURNS: usize = 8;
-
-/// Cells per edge of the cube for a surface that has none.
-const WHOLE_PARTS: u16 = 3;
-
 /// The changes of area, volume and moments for a move along the normal, per area.
 pub(super) fn by_move(n: &Vector3<f64>, at: &PositionDerivatives) -> SVector<f64, INTEGRALS> {
     let jet = SurfaceJet {
@@ -78,10 +73,7 @@ impl Functionals {
     /// `None` if the surface is not finite.
     pub(super) fn new(functions: &Functions, surface: &Position) -> Option<Self> {
         let rule = GaussLegendre::new(NODES);
-        let cells = match functions.cover() {
-            Some(cover) => cover.cells().to_vec(),
-            None => CubeCell::uniform(WHOLE_PARTS),
-        };
+        let cells = functions.cells();
         let mut moments = Moments::default();
         let mut places = Vec::new();
         let mut points = Vec::new();

@@ -7,6 +7,7 @@ use crate::sphere::{
 };
 use nalgebra::Vector3;
 use rayon::prelude::*;
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 /// Margin of covers, in widths of a cell.
@@ -87,6 +88,14 @@ impl Functions {
         match &self.kind {
             Kind::Whole(_) => None,
             Kind::Cells(cover, _) => Some(cover),
+        }
+    }
+
+    /// The cells; of the whole sphere those of a quadrature.
+    pub(super) fn cells(&self) -> Cow<'_, [CubeCell]> {
+        match self.cover() {
+            Some(cover) => cover.cells().into(),
+            None => CubeCell::uniform(WHOLE_PARTS).into(),
         }
     }
 
@@ -181,11 +190,8 @@ impl Functions {
     /// |Hess f + f g|², with g the metric. What is linear in n, as the coordinates of an ellipsoid are, has none.
     pub(super) fn roughness(&self) -> Vec<Rows> {
         let rule = GaussLegendre::new(ROUGHNESS_NODES);
-        let cells = match self.cover() {
-            Some(cover) => cover.cells().to_vec(),
-            None => CubeCell::uniform(WHOLE_PARTS),
-        };
-        let nodes: Vec<(Vector3<f64>, f64, f64)> = cells
+        let nodes: Vec<(Vector3<f64>, f64, f64)> = self
+            .cells()
             .iter()
             .flat_map(|cell| {
                 let step = DIFFERENCE * cell.width();

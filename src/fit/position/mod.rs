@@ -1,8 +1,9 @@
 //! The position of a surface's points over the sphere, fitted to the faces of a scan, or to points that have none: for
 //! surfaces that no centre sees, and for those with steep sides.
 //!
-//! The faces, or those of a [crust](super::crust) around points, are [mapped](map) to the sphere, one to one. Then coordinates are fitted as functions on the sphere, in
-//! [rounds](rounds) that also move the directions; cells are [split](search) where the distance asks for it.
+//! The faces, or those of a [crust](super::crust) around points, are [mapped](map) to the sphere, one to one. Then
+//! coordinates are fitted as functions on the sphere, in [rounds](rounds) that also move the directions; cells are
+//! [split](search) where the distance asks for it.
 
 mod cloud;
 mod dimension_errors;
@@ -100,8 +101,7 @@ pub fn fit_position(
     fit_position_if(scan, options, context, &|_| true)
 }
 
-/// The same, where the fit is worth its rounds: asked is by the number of its coefficients and the least distance that
-/// they may leave.
+/// The same, but only where `is_worth` says so of the number of coefficients and the least distance that they may leave.
 ///
 /// # Errors
 /// Also [`FitError::NoEstimate`] if it is not.

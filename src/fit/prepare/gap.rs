@@ -7,6 +7,7 @@ use crate::measure::Unit;
 use crate::mesh::Mesh;
 use crate::model::Unseen;
 use crate::sphere::triangulate_directions;
+use crate::spread::median;
 use nalgebra::{Point3, Vector3};
 use std::f64::consts::PI;
 
@@ -86,8 +87,7 @@ fn is_hole_in_space(directions: &[Vector3<f64>], places: &[Vector3<f64>]) -> boo
     let spacing = |place: &Vector3<f64>| -> f64 {
         let near = neighbours.nearest(place, NEAR).into_iter();
         let mut distances: Vec<f64> = near.map(|other| distance(&places[other])).collect();
-        distances.sort_unstable_by(f64::total_cmp);
-        distances.get(distances.len() / 2).copied().unwrap_or(0.0)
+        median(&mut distances).unwrap_or(0.0)
     };
     let by_chance = random_hole(places.len());
     triangles.iter().any(|corners| {

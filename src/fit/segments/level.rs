@@ -6,6 +6,7 @@ use super::segment::{DegreeFit, Level, SegmentFit, Workspace};
 use crate::fit::candidate::{Candidate, Rejection};
 use crate::fit::prepare::Reference;
 use crate::sphere::coefficient_count;
+use crate::spread::median;
 use rayon::prelude::*;
 
 /// A candidate that misses a held-out sample, or tears at a seam, by more than this fraction of the
@@ -116,10 +117,6 @@ impl FittedLevel {
             .iter()
             .filter_map(|segment| segment.degrees.last()?.residual_variance)
             .collect();
-        let middle = variances.len() / 2;
-        if variances.is_empty() {
-            return 0.0;
-        }
-        *variances.select_nth_unstable_by(middle, f64::total_cmp).1
+        median(&mut variances).unwrap_or(0.0)
     }
 }

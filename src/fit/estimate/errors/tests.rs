@@ -2,6 +2,7 @@ mod textured;
 
 use super::*;
 use crate::fit::estimate::trial::{estimated, fibonacci, lens, samples};
+use crate::fit::turn::by_inertia;
 use crate::measure::Survey;
 use crate::model::{Family, Frame, StarGrain};
 use crate::shapes::{Body, Sampling, SynthOptions, synthesize};
@@ -265,7 +266,7 @@ fn extents_change_by_their_ends_and_their_axes() {
     let harmonics = crate::sphere::HarmonicBasis::new(estimate.degree);
     for i in 0..3 {
         let extent = reach.along(&principal.axes.column(i).into());
-        let turn = extent.by_inertia(&principal, i, |_, _| 0.0);
+        let turn = by_inertia(&principal, i, &extent.span, |_, _| 0.0);
         let inertia = |at: usize| {
             dot(
                 &combined(integrals.iter(), jacobian.row(INERTIA + at).iter()),
@@ -335,7 +336,7 @@ fn errors_are_the_roots_of_variances_and_of_what_is_told_off() {
     for i in 0..3 {
         let axis = found.principal.axes.column(i);
         let shift = axis.dot(&(excess.second * axis));
-        let square = turn_variance(&found.covariance, &found.principal.axes, i, i);
+        let square = found.entry_variance(i, i);
         let moments = found.errors(&mean).moments[i];
         close(moments, square + shift.powi(2) + found.repulsion(i).powi(2));
     }

@@ -5,6 +5,7 @@ use crate::fit::figures::{derivatives, mass};
 use crate::measure::grain_properties;
 use crate::model::{Family, Frame, StarGrain, Stretch, Whole};
 use crate::sphere::coefficient_count;
+use crate::vectorize::dot;
 use nalgebra::{Matrix3, Point3};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;

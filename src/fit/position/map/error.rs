@@ -39,7 +39,7 @@ pub enum MapError {
         /// Their number.
         genus: usize,
     },
-    /// There are fewer than four vertices, or two coordinates of a vertex are not finite.
+    /// There are fewer than four vertices, a coordinate is not finite, or all vertices are in one place.
     #[error(
         "the faces enclose no body: at least four vertices with finite coordinates, not all in one place, do"
     )]

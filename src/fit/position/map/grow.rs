@@ -67,7 +67,7 @@ pub(super) fn grow(
     let mut next_sweep = 2 * growing.living.len();
     for (done, &h) in removed.iter().rev().enumerate() {
         if done % PATIENCE == 0 {
-            context.check().map_err(|_| MapError::Cancelled)?;
+            context.check()?;
         }
         growing.put_back(h)?;
         if growing.living.len() >= next_sweep {
@@ -78,7 +78,7 @@ pub(super) fn grow(
     }
     growing.rescale();
     for _ in 0..sweeps.at_the_end {
-        context.check().map_err(|_| MapError::Cancelled)?;
+        context.check()?;
         if growing.sweep(1) < STILL {
             break;
         }

@@ -15,6 +15,7 @@ mod star;
 
 pub use error::MapError;
 
+use super::on_sphere::spherical_area;
 use crate::fit::context::Context;
 use crate::mesh::Mesh;
 use crate::predicates::orient3d;
@@ -112,8 +113,7 @@ fn certify(mesh: &Mesh, places: &[Vector3<f64>]) -> Result<(), MapError> {
         if !is_upright([a, b, c]) {
             flips += 1;
         }
-        let volume = a.dot(&(b - a).cross(&(c - a)));
-        solid_angle += 2.0 * volume.atan2(1.0 + a.dot(&b) + b.dot(&c) + c.dot(&a));
+        solid_angle += spherical_area([a, b, c]);
     }
     let degree = solid_angle / (4.0 * PI);
     match flips == 0 && (degree - 1.0).abs() < DEGREE_ERROR {
