@@ -74,6 +74,19 @@ impl Mesh {
         }
     }
 
+    /// Unit normals at the vertices: of the triangles round each, by their areas. Zero where there are none.
+    pub(crate) fn normals(&self) -> Vec<Vector3<f64>> {
+        let mut sums = vec![Vector3::zeros(); self.vertices.len()];
+        for corners in &self.triangles {
+            let [a, b, c] = corners.map(|corner| self.vertices[corner as usize]);
+            let area = (b - a).cross(&(c - a));
+            corners.iter().for_each(|&i| sums[i as usize] += area);
+        }
+        sums.iter()
+            .map(|sum| sum.try_normalize(0.0).unwrap_or_default())
+            .collect()
+    }
+
     /// Checks that the mesh is one closed, consistently oriented, manifold surface of the topology
     /// of a sphere, with every vertex in use.
     ///

@@ -1,6 +1,6 @@
 //! Middle and spread of values, which a few wild ones do not move, and of points.
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix3, SymmetricEigen, Vector3};
 
 /// Standard deviation over median absolute deviation of a normal distribution.
 const PER_MEDIAN: f64 = 1.4826;
@@ -19,6 +19,23 @@ pub(crate) fn covariance(
     let mean = points.clone().sum::<Vector3<f64>>() / count;
     let squares = points.map(|point| (point - mean) * (point - mean).transpose());
     (mean, squares.sum::<Matrix3<f64>>() / count)
+}
+
+/// Iterations allowed for the eigenvalues of a 3 x 3 matrix, which takes fewer than ten.
+const MAX_EIGEN_ITERATIONS: usize = 100;
+
+/// Eigenvalues of a symmetric matrix, ascending, and unit eigenvectors in the columns; `None` where it is not finite.
+pub(crate) fn principal(matrix: &Matrix3<f64>) -> Option<(Vector3<f64>, Matrix3<f64>)> {
+    let is_finite = matrix.iter().all(|entry| entry.is_finite());
+    is_finite.then_some(())?;
+    let eigen = SymmetricEigen::try_new(*matrix, f64::EPSILON, MAX_EIGEN_ITERATIONS)?;
+    let mut order = [0, 1, 2];
+    order.sort_by(|&i, &j| eigen.eigenvalues[i].total_cmp(&eigen.eigenvalues[j]));
+    let columns = order.map(|i| eigen.eigenvectors.column(i).into_owned());
+    Some((
+        Vector3::from(order.map(|i| eigen.eigenvalues[i])),
+        Matrix3::from_columns(&columns),
+    ))
 }
 
 /// The median, the upper one of two.

@@ -2,15 +2,13 @@
 
 use super::link::Link;
 use super::settle::Bed;
-use nalgebra::{Matrix3, SymmetricEigen};
+use crate::spread::principal;
+use nalgebra::Matrix3;
 use serde::Serialize;
 use std::collections::BTreeSet;
 
 /// Shares of the contacts whose forces are told.
 const QUANTILES: [f64; 5] = [0.05, 0.25, 0.5, 0.75, 0.95];
-
-/// Iterations allowed for the eigenvalues of a 3 x 3 matrix, which takes fewer than ten.
-const MAX_EIGEN_ITERATIONS: usize = 100;
 
 /// Contacts between grains, and how grains lie.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -165,13 +163,11 @@ fn order(bed: &Bed) -> Option<Order> {
     }
     let sum: Matrix3<f64> = axes.iter().map(|u| u * u.transpose()).sum();
     let tensor = sum * (1.5 / axes.len() as f64) - Matrix3::identity() * 0.5;
-    let eigen = SymmetricEigen::try_new(tensor, f64::EPSILON, MAX_EIGEN_ITERATIONS)?;
-    let mut eigenvalues: [f64; 3] = eigen.eigenvalues.into();
-    eigenvalues.sort_by(|a, b| b.total_cmp(a));
+    let (ascending, _) = principal(&tensor)?;
     Some(Order {
         grains: axes.len(),
         tensor: [0, 1, 2].map(|i| [0, 1, 2].map(|j| tensor[(i, j)])),
-        eigenvalues,
+        eigenvalues: [2, 1, 0].map(|i| ascending[i]),
         vertical: tensor[(2, 2)],
     })
 }

@@ -3,7 +3,6 @@
 use super::paint::painted;
 use super::settings::Container;
 use super::settle::Bed;
-use crate::mesh::Mesh;
 use crate::picture::{Camera, Image, Line, Scene, render};
 use nalgebra::{Point3, Vector3};
 use std::f64::consts::TAU;
@@ -34,7 +33,7 @@ pub(crate) fn picture(bed: &Bed) -> Image {
     let mut scene = Scene::default();
     for grain in painted(bed, cells(bed)) {
         let colours = vec![grain.colour; grain.mesh.vertices.len()];
-        scene.add_mesh(&grain.mesh, &normals(&grain.mesh), &colours);
+        scene.add_mesh(&grain.mesh, &grain.mesh.normals(), &colours);
     }
     let top = scene
         .corners
@@ -56,19 +55,6 @@ fn cells(bed: &Bed) -> usize {
     (TRIANGLES / (12.0 * parts as f64))
         .sqrt()
         .clamp(fewest, most) as usize
-}
-
-/// Unit normals at the vertices: of the triangles round each, by their areas.
-fn normals(mesh: &Mesh) -> Vec<Vector3<f64>> {
-    let mut sums = vec![Vector3::zeros(); mesh.vertices.len()];
-    for corners in &mesh.triangles {
-        let [a, b, c] = corners.map(|i| mesh.vertices[i as usize]);
-        let area = (b - a).cross(&(c - a));
-        corners.iter().for_each(|&i| sums[i as usize] += area);
-    }
-    sums.iter()
-        .map(|sum| sum.try_normalize(0.0).unwrap_or_default())
-        .collect()
 }
 
 /// The edges of the container from the floor to a height: its floor, its walls, and how high grains lie.

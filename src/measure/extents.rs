@@ -1,5 +1,6 @@
 //! Extents along axes.
 
+use super::form::descending;
 use super::oriented_box::{OrientedBox, oriented};
 use super::support::support_near;
 use crate::Mesh;
@@ -48,7 +49,7 @@ impl Reach<'_> {
     /// farthest. Error: rounding where it is smooth, 1e-12 on edges.
     pub(super) fn dimensions(&self, axes: &Matrix3<f64>) -> Vector3<f64> {
         let [low, high] = self.bounds(axes);
-        sorted(high - low)
+        descending(&(high - low)).into()
     }
 
     /// The smallest box with these axes that holds the surface, likewise.
@@ -82,11 +83,4 @@ impl Reach<'_> {
             Vector3::from_fn(|i, _| reach(axis(i))),
         ]
     }
-}
-
-/// Extents in descending order.
-pub(super) fn sorted(extents: Vector3<f64>) -> Vector3<f64> {
-    let mut sorted: [f64; 3] = extents.into();
-    sorted.sort_by(|one, other| other.total_cmp(one));
-    sorted.into()
 }

@@ -1,10 +1,8 @@
 //! Area, volume, centroid and inertia, and the moments they come from.
 
-use nalgebra::{Matrix3, Point3, SymmetricEigen, Vector3};
+use crate::spread::principal;
+use nalgebra::{Matrix3, Point3, Vector3};
 use std::ops::{Add, AddAssign, Sub};
-
-/// Iterations allowed for the eigenvalues of a 3 x 3 matrix, which takes fewer than ten.
-const MAX_EIGEN_ITERATIONS: usize = 100;
 
 /// Area, volume, centroid and inertia of a solid of density one.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -23,19 +21,14 @@ pub struct MassProperties {
 impl MassProperties {
     /// Principal moments of inertia and their axes; `None` when the inertia is not finite.
     pub fn principal(&self) -> Option<PrincipalInertia> {
-        if !self.inertia.iter().all(|entry| entry.is_finite()) {
-            return None;
-        }
-        let eigen = SymmetricEigen::try_new(self.inertia, f64::EPSILON, MAX_EIGEN_ITERATIONS)?;
-        let mut order = [0, 1, 2];
-        order.sort_by(|&i, &j| eigen.eigenvalues[i].total_cmp(&eigen.eigenvalues[j]));
+        let (moments, axes) = principal(&self.inertia)?;
         let axis = |i: usize| {
-            let axis = eigen.eigenvectors.column(order[i]).into_owned();
+            let axis = axes.column(i).into_owned();
             axis * axis[axis.iamax()].signum()
         };
         let (first, second) = (axis(0), axis(1));
         Some(PrincipalInertia {
-            moments: Vector3::from_fn(|i, _| eigen.eigenvalues[order[i]]),
+            moments,
             axes: Matrix3::from_columns(&[first, second, first.cross(&second)]),
         })
     }

@@ -23,6 +23,10 @@ pub(crate) struct Unit {
 }
 
 impl Unit {
+    /// Least volume of a body of unit size, that is of one whose box is some two units long: a needle a hundred thousand
+    /// times as long as thick. Points in one plane, rounded, have 1e-16.
+    pub(crate) const LEAST_VOLUME: f64 = 1e-11;
+
     /// The body's own unit and origin.
     pub(super) const OWN: Self = Self {
         length: 1.0,

@@ -30,8 +30,9 @@ const REFINEMENTS: usize = 2;
 /// After a step that changes the coefficients by less than this share of them, the next one would by less than its square.
 const SMALL_STEP: f64 = 1e-5;
 
-/// Patches whose products are held at once: those of all would take hundreds of megabytes.
-const PATCHES_AT_ONCE: usize = 128;
+/// Patches per thread whose products are held at once: those of all would take hundreds of megabytes, and few stay in the
+/// processor's own memory.
+const PATCHES_AT_ONCE: usize = 16;
 
 /// The least-squares problem of a cover with a degree per cell.
 pub(super) struct Joint {
@@ -65,9 +66,7 @@ impl Joint {
             .with_min_len(32)
             .map(|number| {
                 let (home, quarter) = (number / 4, number % 4);
-                let mut patch = Patch::new(cover, quarter, samples[home]);
-                patch.evaluate(cover, degrees, bases);
-                patch
+                Patch::new(cover, quarter, samples[home], degrees, bases)
             })
             .collect();
         Self {
@@ -124,8 +123,9 @@ impl Joint {
     fn factor(&self) -> Option<BlockFactor> {
         let sizes = self.degrees.iter().map(|&d| coefficient_count(d)).collect();
         let mut matrix = BlockMatrix::new(sizes);
-        for patches in self.patches.chunks(PATCHES_AT_ONCE) {
-            let products = patches.par_iter().with_min_len(16);
+        let at_once = PATCHES_AT_ONCE * rayon::current_num_threads();
+        for patches in self.patches.chunks(at_once) {
+            let products = patches.par_iter().with_min_len(8);
             let products: Vec<Mat<f64>> = products.map(|patch| self.product(patch)).collect();
             for (patch, product) in patches.iter().zip(&products) {
                 let mut row = 0;

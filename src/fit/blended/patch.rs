@@ -16,8 +16,14 @@ pub(super) struct Patch {
 }
 
 impl Patch {
-    /// Those of a quarter of a cell's samples; the directions stand in the place of the values.
-    pub(super) fn new(cover: &Cover, quarter: usize, samples: &Samples) -> Self {
+    /// Those of a quarter of a cell's samples, with the values of bases of each cell's degree.
+    pub(super) fn new(
+        cover: &Cover,
+        quarter: usize,
+        samples: &Samples,
+        degrees: &[usize],
+        bases: &[CapBasis],
+    ) -> Self {
         let (side, half) = (samples.side, samples.side / 2);
         let [first_row, first_column] = [quarter / 2 * half, quarter % 2 * half];
         let numbers: Vec<usize> = (0..half * half)
@@ -42,8 +48,13 @@ impl Patch {
         }
         let mut order: Vec<usize> = (0..cells.len()).collect();
         order.sort_unstable_by_key(|&at| cells[at]);
+        let cells: Vec<u16> = order.iter().map(|&at| cells[at]).collect();
+        let directions: Vec<[f64; 4]> = numbers
+            .iter()
+            .map(|&i| samples.directions[i])
+            .map(|n| [n.x, n.y, n.z, 0.0])
+            .collect();
         Self {
-            cells: order.iter().map(|&at| cells[at]).collect(),
             weights: numbers.iter().map(|&i| samples.weights[i]).collect(),
             radii: numbers.iter().map(|&i| samples.radii[i]).collect(),
             shares: order
@@ -51,35 +62,34 @@ impl Patch {
                 .flat_map(|&at| &shares[at * rows..(at + 1) * rows])
                 .copied()
                 .collect(),
-            values: numbers
-                .iter()
-                .flat_map(|&i| samples.directions[i].iter().copied())
-                .collect(),
+            values: values(cover, &cells, &directions, degrees, bases),
+            cells,
         }
     }
+}
 
-    /// Evaluates the bases at the samples.
-    pub(super) fn evaluate(&mut self, cover: &Cover, degrees: &[usize], bases: &[CapBasis]) {
-        let rows = self.weights.len();
-        let directions: Vec<[f64; 4]> = self
-            .values
-            .chunks_exact(3)
-            .map(|n| [n[0], n[1], n[2], 0.0])
-            .collect();
-        let degree = |&cell: &u16| degrees[usize::from(cell)];
-        let columns: usize = self
-            .cells
-            .iter()
-            .map(|c| coefficient_count(degree(c)))
-            .sum();
-        self.values.resize(columns * rows, 0.0);
-        let (mut places, mut start) = (Places::default(), 0);
-        for cell in &self.cells {
-            cover
-                .cap(usize::from(*cell))
-                .locate(&directions, &mut places);
-            bases[degree(cell)].evaluate(&places, &mut self.values[start * rows..], rows);
-            start += coefficient_count(degree(cell));
-        }
+/// Values of the bases of some cells in some directions.
+fn values(
+    cover: &Cover,
+    cells: &[u16],
+    directions: &[[f64; 4]],
+    degrees: &[usize],
+    bases: &[CapBasis],
+) -> Vec<f64> {
+    let rows = directions.len();
+    let degree = |&cell: &u16| degrees[usize::from(cell)];
+    let columns: usize = cells
+        .iter()
+        .map(|cell| coefficient_count(degree(cell)))
+        .sum();
+    let mut values = vec![0.0; columns * rows];
+    let (mut places, mut start) = (Places::default(), 0);
+    for cell in cells {
+        cover
+            .cap(usize::from(*cell))
+            .locate(directions, &mut places);
+        bases[degree(cell)].evaluate(&places, &mut values[start * rows..], rows);
+        start += coefficient_count(degree(cell));
     }
+    values
 }

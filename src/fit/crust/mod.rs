@@ -13,7 +13,7 @@ use super::error::FitError;
 use super::neighbours::Neighbours;
 use crate::mesh::{Grid, Mesh, contour, part, parts};
 use crate::scan::drawn;
-use crate::spread::{covariance, median};
+use crate::spread::{covariance, median, principal};
 use field::harmonic;
 use nalgebra::{Point3, Vector3};
 use voxels::Voxels;
@@ -126,14 +126,11 @@ fn squeezes(points: &[Point3<f64>]) -> Vec<Vector3<f64>> {
     let squeeze = |place: &Vector3<f64>| {
         let own = near.nearest(place, AROUND);
         let (_, spread) = covariance(own.iter().map(|&at| places[at]));
-        let eigen = spread.symmetric_eigen();
-        let mut order = [0, 1, 2];
-        order.sort_by(|&i, &j| eigen.eigenvalues[i].total_cmp(&eigen.eigenvalues[j]));
-        let [least, middle, _] = order.map(|i| eigen.eigenvalues[i]);
-        match least < FLAT * FLAT * middle {
-            true => eigen.eigenvectors.column(order[0]) * (SQUEEZE * SQUEEZE - 1.0).sqrt(),
-            false => Vector3::zeros(),
-        }
+        let plane =
+            principal(&spread).filter(|(variances, _)| variances[0] < FLAT * FLAT * variances[1]);
+        plane.map_or_else(Vector3::zeros, |(_, axes)| {
+            axes.column(0) * (SQUEEZE * SQUEEZE - 1.0).sqrt()
+        })
     };
     places.iter().map(squeeze).collect()
 }

@@ -58,19 +58,10 @@ pub(super) struct Distances {
 impl<'a> Cloud<'a> {
     /// The vertices of a closed mesh, with their places on the sphere.
     pub(super) fn new(mesh: &'a Mesh, map: Vec<Vector3<f64>>) -> Self {
-        let mut normals = vec![Vector3::zeros(); mesh.vertices.len()];
-        for corners in &mesh.triangles {
-            let [a, b, c] = corners.map(|corner| mesh.vertices[corner as usize]);
-            let normal = (b - a).cross(&(c - a));
-            for &corner in corners {
-                normals[corner as usize] += normal;
-            }
-        }
         let is_left_out = left_out(&map);
-        let unit = |normal: Vector3<f64>| normal.try_normalize(0.0).unwrap_or_default();
         let mut cloud = Self {
             points: mesh.vertices.iter().map(|vertex| vertex.coords).collect(),
-            normals: normals.into_iter().map(unit).collect(),
+            normals: mesh.normals(),
             weights: Vec::new(),
             inside: Vec::new(),
             is_of_points: false,

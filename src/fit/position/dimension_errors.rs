@@ -8,7 +8,7 @@
 //!   of lengths that are alike the longest found is one of those that are told too long.
 
 use super::ends::Ends;
-use super::functionals::{End, FIGURES, Figures, Functionals};
+use super::functionals::{End, FIGURES, FigureVector, Functionals};
 use super::functions::Functions;
 use crate::fit::figures::{INERTIA, INTEGRALS, by_size};
 use crate::fit::turn::{OF_RANGE, are_apart, by_inertia, entry_variance};
@@ -81,7 +81,7 @@ fn extent(
     jacobian: &SMatrix<f64, INTEGRALS, INTEGRALS>,
     inertia: &Matrix6<f64>,
     axis: usize,
-) -> (Figures, f64) {
+) -> (FigureVector, f64) {
     let PrincipalInertia { moments, axes } = &functionals.principal;
     let sd = |i: usize, j: usize| entry_variance(inertia, axes, i, j).sqrt();
     let others = (0..3).filter(|&other| other != axis);
@@ -90,7 +90,7 @@ fn extent(
     let ranges = anywhere.map(|other| OF_RANGE * functionals.range(axis, other));
     let range = ranges.fold(0.0, f64::hypot);
     let by_inertia = by_inertia(&functionals.principal, axis, &functionals.span(axis), sd);
-    let mut change = Figures::zeros();
+    let mut change = FigureVector::zeros();
     let turn = jacobian.fixed_rows::<6>(INERTIA).transpose() * by_inertia;
     change.fixed_rows_mut::<INTEGRALS>(0).copy_from(&turn);
     for end in &functionals.ends[axis] {

@@ -27,7 +27,7 @@
 use super::cloud::{Cloud, HELD_OUT};
 use super::dimension_errors::{FLOOR, Lengths};
 use super::ends::Ends;
-use super::functionals::{FIGURES, Figures, Functionals, by_move};
+use super::functionals::{FIGURES, FigureVector, Functionals, by_move};
 use super::functions::{Functions, Rows};
 use super::least_squares::values;
 use crate::fit::figures::{INERTIA, INTEGRALS, derivatives, form, mass, unlist};
@@ -138,7 +138,7 @@ impl Solved<'_> {
         let cloud = self.cloud;
         let mut solved = functionals.gradients(self.functions);
         self.factor.solve(&mut solved);
-        let mut influences = vec![Figures::zeros(); cloud.points.len()];
+        let mut influences = vec![FigureVector::zeros(); cloud.points.len()];
         let mut add = |figure: usize, rows: &Rows| {
             let of_cell = |cell: u16| solved[usize::from(cell)].col_as_slice(figure);
             for (value, &member) in values(rows, of_cell).iter().zip(&rows.members) {

@@ -24,7 +24,7 @@ use std::f64::consts::PI;
 pub(super) const FIGURES: usize = INTEGRALS + 6;
 
 /// A number for each figure.
-pub(super) type Figures = SVector<f64, FIGURES>;
+pub(super) type FigureVector = SVector<f64, FIGURES>;
 
 /// A surface, and the places that its figures are made of.
 pub(super) struct Functionals {
@@ -48,7 +48,7 @@ pub(super) struct End {
 struct Place {
     direction: Vector3<f64>,
     along: Vector3<f64>,
-    changes: Figures,
+    changes: FigureVector,
 }
 
 /// Nodes of the quadrature per side of a cell, which is right to five figures.
@@ -82,7 +82,7 @@ impl Functionals {
             let area = area_normal(&n, &at.tangents) * solid_angle;
             moments.add_element(&at.point, &area);
             points.push((at.point, solid_angle));
-            let mut changes = Figures::zeros();
+            let mut changes = FigureVector::zeros();
             changes
                 .fixed_rows_mut::<INTEGRALS>(0)
                 .copy_from(&by_move(&n, &at));
@@ -101,7 +101,7 @@ impl Functionals {
             places.push(Place {
                 direction: found.direction,
                 along,
-                changes: Figures::ith(figure, 1.0),
+                changes: FigureVector::ith(figure, 1.0),
             });
             End {
                 figure,

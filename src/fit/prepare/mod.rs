@@ -47,9 +47,6 @@ const NEGLIGIBLE_SHARE: f64 = 1e-4;
 /// Rounds in which the surface between voxels loses its steps before a centre looks at it.
 const ROUNDS_OVER_STEPS: usize = 10;
 
-/// Least volume of a scan whose box is some two units long: points in one plane, rounded, have 1e-16.
-const LEAST_VOLUME: f64 = 1e-11;
-
 /// A scan made ready to be fitted.
 #[derive(Debug, Clone)]
 pub struct PreparedScan<'a> {
@@ -85,7 +82,7 @@ impl<'a> PreparedScan<'a> {
         let mesh = unit.mesh(&surface.mesh);
         let properties = mesh_properties(&mesh)
             .ok()
-            .filter(|properties| properties.volume > LEAST_VOLUME)
+            .filter(|properties| properties.volume > Unit::LEAST_VOLUME)
             .ok_or(FitError::NoVolume {
                 points: scan.points.len(),
             })?;

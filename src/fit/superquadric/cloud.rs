@@ -1,7 +1,8 @@
 //! The points about their mean, in units of their mean distance from it.
 
 use super::error::SuperquadricFitError;
-use nalgebra::{Matrix3, Point3, SymmetricEigen, Vector3};
+use crate::spread::{covariance, principal};
+use nalgebra::{Matrix3, Point3, Vector3};
 use std::collections::BTreeMap;
 
 /// Cells of directions along an edge of the cube from which points are taken to begin with.
@@ -12,9 +13,6 @@ const FEW: usize = 6 * CELLS * CELLS;
 
 /// Flatter than this, as a ratio of standard deviations, points lie in a plane.
 const LEAST_THICKNESS: f64 = 1e-6;
-
-/// Iterations allowed for the eigenvalues of a 3 x 3 matrix, which takes fewer than ten.
-const MAX_EIGEN_ITERATIONS: usize = 100;
 
 /// Points in a frame of their own, so that neither place nor size of the scan matters.
 #[derive(Debug, Clone)]
@@ -109,14 +107,9 @@ impl Cloud {
 
 /// Axes and standard deviations along them; `None` if the points lie in a plane.
 pub(super) fn principal_axes(points: &[Vector3<f64>]) -> Option<(Matrix3<f64>, Vector3<f64>)> {
-    let count = points.len() as f64;
-    let mean = points.iter().sum::<Vector3<f64>>() / count;
-    let squares = points.iter().map(|p| (p - mean) * (p - mean).transpose());
-    let covariance = squares.sum::<Matrix3<f64>>() / count;
-    let eigen = SymmetricEigen::try_new(covariance, f64::EPSILON, MAX_EIGEN_ITERATIONS)?;
-    let mut order = [0, 1, 2];
-    order.sort_by(|&i, &j| eigen.eigenvalues[i].total_cmp(&eigen.eigenvalues[j]));
-    let deviations = Vector3::from_fn(|i, _| eigen.eigenvalues[order[i]].max(0.0).sqrt());
+    let (mean, spread) = covariance(points.iter().copied());
+    let (variances, own) = principal(&spread)?;
+    let deviations = variances.map(|variance| variance.max(0.0).sqrt());
     if deviations[0].partial_cmp(&(LEAST_THICKNESS * deviations[2]))
         != Some(std::cmp::Ordering::Greater)
     {
@@ -126,7 +119,7 @@ pub(super) fn principal_axes(points: &[Vector3<f64>]) -> Option<(Matrix3<f64>, V
         let skew: f64 = points.iter().map(|p| (p - mean).dot(&axis).powi(3)).sum();
         if skew < 0.0 { -axis } else { axis }
     };
-    let axis = |i: usize| longer_side(eigen.eigenvectors.column(order[i]).into_owned());
+    let axis = |i: usize| longer_side(own.column(i).into_owned());
     let (first, second) = (axis(0), axis(1));
     let axes = Matrix3::from_columns(&[first, second, first.cross(&second)]);
     Some((axes, deviations))

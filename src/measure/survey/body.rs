@@ -14,10 +14,6 @@ use nalgebra::Vector3;
 /// Parts per angle of the source's grid.
 const PUBLISHED_GRID: usize = 128;
 
-/// Least volume of a body of unit size, that is of one whose box is some two units long: a needle a
-/// hundred thousand times as long as thick. Points in one plane, rounded, have 1e-16.
-const LEAST_VOLUME: f64 = 1e-11;
-
 pub(super) enum Body<'a> {
     Grain(Box<Grain>, Scheme),
     /// A surface whose area, volume and moments are known.
@@ -83,7 +79,7 @@ impl<'a> Body<'a> {
         let figures = found.inertia.iter().chain(found.centroid.iter());
         let is_finite = found.area.is_finite() && figures.copied().all(f64::is_finite);
         // Written so that NaN fails.
-        if !(is_finite && found.area > 0.0 && found.volume > LEAST_VOLUME) {
+        if !(is_finite && found.area > 0.0 && found.volume > Unit::LEAST_VOLUME) {
             return Err(SurveyError::NotSolid);
         }
         Ok(found)

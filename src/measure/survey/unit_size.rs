@@ -5,7 +5,8 @@ use super::body::Body;
 use super::error::SurveyError;
 use crate::Mesh;
 use crate::measure::elements::{Element, mesh_elements, surface_elements};
-use crate::measure::extents::{RESOLUTION, Reach, sorted};
+use crate::measure::extents::{RESOLUTION, Reach};
+use crate::measure::form::descending;
 use crate::measure::nodes::{Integrand, nodes};
 use crate::measure::{
     Ball, EquivalentEllipsoid, MassProperties, OrientedBox, PrincipalInertia, SolidProperties,
@@ -53,7 +54,7 @@ impl Survey<'_> {
             let axes = self.own_axes()?;
             Ok(match self.reach() {
                 Some(reach) => reach.dimensions(&axes),
-                None => sorted(extents(self.mesh(), &axes)),
+                None => descending(&extents(self.mesh(), &axes)).into(),
             })
         };
         self.extents.get_or_init(dimensions).clone()

@@ -1,6 +1,7 @@
 //! The surface of a grain that touches another: smooth, and known at some of its points.
 
 use crate::sphere::{HarmonicBasis, coefficient_count};
+use crate::spread::covariance;
 use faer::Mat;
 use faer::linalg::solvers::SolveLstsq;
 use nalgebra::{Matrix3, Point3, SymmetricEigen, Vector3};
@@ -34,11 +35,9 @@ impl Outline {
         if taken.len() < terms {
             return None;
         }
-        let count = taken.len() as f64;
-        let sum: Vector3<f64> = taken.iter().map(|point| point.coords).sum();
-        let middle = Point3::from(sum / count);
-        let rays = taken.iter().map(|point| point - middle);
-        let spread: Matrix3<f64> = rays.map(|ray| ray * ray.transpose() / count).sum();
+        let first = taken[0];
+        let (middle, spread) = covariance(taken.iter().map(|point| point - first));
+        let middle = first + middle;
         let SymmetricEigen {
             eigenvalues,
             eigenvectors,
@@ -65,7 +64,8 @@ impl Outline {
         for degree in 0..=DEGREE {
             for term in degree * degree..(degree + 1) * (degree + 1) {
                 let laplacian = (degree * (degree + 1)) as f64;
-                rows[(taken.len() + term, term)] = STIFFNESS * count.sqrt() * laplacian;
+                rows[(taken.len() + term, term)] =
+                    STIFFNESS * (taken.len() as f64).sqrt() * laplacian;
             }
         }
         let right = Mat::from_fn(rows.nrows(), 1, |row, _| {

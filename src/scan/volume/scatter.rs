@@ -1,7 +1,7 @@
 //! How far the points between voxels are off the surface.
 
 use crate::mesh::{Mesh, relaxed};
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Matrix3;
 
 /// Rounds of smoothing after which the steps between voxels no longer turn the normals.
 const ROUNDS: usize = 10;
@@ -10,24 +10,18 @@ const ROUNDS: usize = 10;
 /// between two voxels, and the surface anywhere on the step between them: it is off by the 12th part of the squared
 /// step, as seen along the normal. `contour` has steps of length 1 along the axes, and `steps` are the true ones.
 pub(super) fn scatter(contour: &Mesh, steps: &Matrix3<f64>) -> f64 {
-    let smooth = relaxed(contour, ROUNDS);
-    let place = |corner: u32| steps * smooth.vertices[corner as usize].coords;
-    let mut normals = vec![Vector3::zeros(); contour.vertices.len()];
-    for corners in &contour.triangles {
-        let [a, b, c] = corners.map(place);
-        let normal = (b - a).cross(&(c - a));
-        for &corner in corners {
-            normals[corner as usize] += normal;
-        }
+    let mut smooth = relaxed(contour, ROUNDS);
+    for vertex in &mut smooth.vertices {
+        *vertex = steps * *vertex;
     }
+    let normals = smooth.normals();
     let squares = contour
         .vertices
         .iter()
         .zip(&normals)
         .map(|(vertex, normal)| {
             let axis = vertex.coords.map(f64::fract).iamax();
-            let normal = normal.try_normalize(0.0).unwrap_or_default();
-            steps.column(axis).dot(&normal).powi(2) / 12.0
+            steps.column(axis).dot(normal).powi(2) / 12.0
         });
     (squares.sum::<f64>() / contour.vertices.len() as f64).sqrt()
 }
@@ -37,6 +31,7 @@ mod tests {
     use super::*;
     use crate::mesh::{Grid, contour};
     use approx::assert_relative_eq;
+    use nalgebra::Vector3;
 
     /// Of an ellipsoid in its voxels, as scattered as it is told to be.
     #[test]
