@@ -124,5 +124,9 @@ mod tests {
         let found = compare(&lot(&[1.0, 1.0]), &lot(&[2.0, 2.0]));
         assert_eq!((found[0].difference, found[0].effect), (1.0, None));
         assert!(compare(&lot(&[1.0]), &lot(&[2.0, 3.0])).is_empty());
+        // Whose sums are rounded.
+        let found = compare(&lot(&[0.1; 3]), &lot(&[0.1; 7]));
+        assert_eq!((found[0].difference, found[0].effect), (0.0, None));
+        assert_eq!(found[0].deviations, [0.0, 0.0]);
     }
 }

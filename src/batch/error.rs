@@ -25,6 +25,12 @@ pub(crate) enum BatchError {
         /// How the names of scans end.
         endings: Vec<&'static str>,
     },
+    /// A list of paths is empty.
+    #[error("{} names no scans: write a path into each line", path.display())]
+    EmptyList {
+        /// The list.
+        path: PathBuf,
+    },
     /// A folder or list cannot be read.
     #[error("cannot read {}: {source}", path.display())]
     Read {

@@ -3,7 +3,6 @@
 use super::error::BatchError;
 use std::collections::HashSet;
 use std::ffi::OsStr;
-use std::io;
 use std::path::{Component, Path, PathBuf};
 
 /// How the names of scans end, packed or not: of meshes and points, ...
@@ -42,13 +41,18 @@ fn named(path: &Path) -> Result<Vec<PathBuf>, BatchError> {
     let text = path.to_string_lossy();
     if let Some(list) = text.strip_prefix('@') {
         let list = PathBuf::from(list);
-        let text = std::fs::read_to_string(&list)
-            .map_err(|source| BatchError::Read { path: list, source })?;
+        let text = std::fs::read_to_string(&list).map_err(|source| BatchError::Read {
+            path: list.clone(),
+            source,
+        })?;
+        let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
         let lines = text.lines().map(str::trim);
-        return Ok(lines
-            .filter(|line| !line.is_empty())
-            .map(PathBuf::from)
-            .collect());
+        let lines = lines.filter(|line| !line.is_empty());
+        let paths: Vec<PathBuf> = lines.map(PathBuf::from).collect();
+        return match paths.is_empty() {
+            true => Err(BatchError::EmptyList { path: list }),
+            false => Ok(paths),
+        };
     }
     let found = if path.is_dir() {
         let mut files = files_in(path)?;
@@ -105,20 +109,21 @@ fn matching(text: &str) -> Result<Vec<PathBuf>, BatchError> {
 /// The files in a folder and in its folders, by name; also those that are not to be read.
 fn files_in(folder: &Path) -> Result<Vec<PathBuf>, BatchError> {
     let mut files = Vec::new();
-    walk(folder, &mut files).map_err(|source| BatchError::Read {
-        path: folder.into(),
-        source,
-    })?;
+    walk(folder, &mut files)?;
     files.sort();
     Ok(files)
 }
 
-fn walk(folder: &Path, files: &mut Vec<PathBuf>) -> io::Result<()> {
+fn walk(folder: &Path, files: &mut Vec<PathBuf>) -> Result<(), BatchError> {
     if folder.join(JOURNAL).is_file() {
         return Ok(());
     }
-    for entry in folder.read_dir()? {
-        let path = entry?.path();
+    let failed = |source| BatchError::Read {
+        path: folder.into(),
+        source,
+    };
+    for entry in folder.read_dir().map_err(failed)? {
+        let path = entry.map_err(failed)?.path();
         let is_hidden = path
             .file_name()
             .is_some_and(|name| name.as_encoded_bytes().starts_with(b"."));
@@ -190,7 +195,13 @@ mod tests {
         assert_eq!(of(&[folder.path().into()]), ["a.STL", "b.ply", "c.xyz.gz"]);
         assert_eq!(of(&[path("[bn]*")]), ["b.ply", "notes.txt"]);
         let list = PathBuf::from(format!("@{}", path("list.txt").display()));
-        assert_eq!(of(&[path("b.ply"), list]), ["b.ply", "notes.txt"]);
+        assert_eq!(of(&[path("b.ply"), list.clone()]), ["b.ply", "notes.txt"]);
+        let marked = format!("\u{feff}{}\n", path("b.ply").display());
+        std::fs::write(path("list.txt"), marked).unwrap();
+        assert_eq!(of(std::slice::from_ref(&list)), ["b.ply"]);
+        std::fs::write(path("list.txt"), "\n\n").unwrap();
+        let empty = inputs(&[list]);
+        assert!(matches!(empty, Err(BatchError::EmptyList { .. })));
         assert_eq!(of(&[path("./b.ply"), path("b.ply")]), ["b.ply"]);
         assert_eq!(of(&[path("gone.ply")]), ["gone.ply"]);
         let nothing = inputs(&[path("*.obj")]);

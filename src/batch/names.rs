@@ -14,7 +14,7 @@ pub(super) fn of_scans(scans: &[PathBuf]) -> Vec<String> {
     }
     let name = |path: &PathBuf| match counts.get(&stem(path)) {
         Some(1) => stem(path),
-        _ => path.to_string_lossy().replace(['/', '\\', ':'], "_"),
+        _ => plain(path),
     };
     let mut taken = HashSet::new();
     let mut free = |name: String| {
@@ -44,6 +44,12 @@ pub(crate) fn names(rows: &[String]) -> Vec<String> {
     .collect()
 }
 
+/// A path in one word; `./` at its beginning would hide the file.
+fn plain(path: &Path) -> String {
+    let path = path.strip_prefix(".").unwrap_or(path);
+    path.to_string_lossy().replace(['/', '\\', ':'], "_")
+}
+
 fn stem(path: &Path) -> String {
     let stem = path.file_stem().unwrap_or_default();
     stem.to_string_lossy().into_owned()
@@ -62,7 +68,7 @@ mod tests {
 
     #[test]
     fn no_two_are_called_alike() {
-        let rows = ["lot/x/1.ply", "lot_x/1.ply", "lot_x_1.ply.ply"].map(String::from);
+        let rows = ["./lot/x/1.ply", "lot_x/1.ply", "lot_x_1.ply.ply"].map(String::from);
         let expected = ["lot_x_1.ply", "lot_x_1.ply_2", "lot_x_1.ply_3"];
         assert_eq!(names(&rows), expected);
     }

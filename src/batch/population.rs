@@ -201,7 +201,12 @@ impl Statistics {
 /// Mean and standard deviation (with n - 1).
 pub(super) fn moments(values: &[f64]) -> (f64, Option<f64>) {
     let count = values.len() as f64;
-    let mean = values.iter().sum::<f64>() / count.max(1.0);
+    // The mean of equal values is rounded, and they would be told to vary.
+    let is_constant = values.windows(2).all(|pair| pair[0] == pair[1]);
+    let mean = match values.first() {
+        Some(&value) if is_constant => value,
+        _ => values.iter().sum::<f64>() / count.max(1.0),
+    };
     let squares: f64 = values.iter().map(|value| (value - mean).powi(2)).sum();
     (
         mean,

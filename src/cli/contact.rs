@@ -19,6 +19,10 @@ pub(super) fn run(args: ContactArgs, console: Console) -> Result<()> {
     console.tell(&report, args.json, None, &report.warnings)
 }
 
+/// Why there is no force where neither body gives.
+pub(super) const RIGID: &str = "both bodies are rigid, so that no force presses them together: give one of them a lower Young's \
+                     modulus, or a Poisson's ratio above -1";
+
 impl ContactArgs {
     /// The materials of the grain, of this Young's modulus, and of what it touches.
     pub(super) fn materials(&self, modulus_mpa: f64) -> Result<[Material; 2]> {
@@ -50,7 +54,7 @@ fn contact(args: &ContactArgs) -> Result<ContactReport> {
         indentation_um,
     };
     if !load.effective_modulus_pa.is_finite() {
-        bail!("both bodies are rigid: give one of them a finite Young's modulus");
+        bail!(RIGID);
     }
     if inputs::is_stream(&args.model) && args.other.as_deref().is_some_and(inputs::is_stream) {
         bail!("standard input holds one model: read the other from a file");

@@ -14,8 +14,8 @@ use std::ops::RangeInclusive;
 const WORTH_A_WORD: RangeInclusive<f64> = 0.01..=0.05;
 
 /// What to know of faces between voxels.
-const STEPS: &str = "The faces are those between voxels: their steps make the area larger than the grain's, by up to a \
-                     tenth. Fit the volume, and measure the model.";
+const STEPS: &str = "The faces are those between voxels: their steps make the area larger than the grain's, by a tenth \
+                     or, where voxels are longer than wide, by more. Fit the volume, and measure the model.";
 
 pub(super) fn run(args: MeasureArgs, console: Console) -> Result<()> {
     threads::start(0, console)?;

@@ -22,6 +22,12 @@ pub(super) fn pair(text: &str) -> Result<[f64; 2], String> {
     }
 }
 
+/// An angle in degrees.
+pub(super) fn angle(text: &str) -> Result<f64, &'static str> {
+    let found = text.parse().ok().filter(|angle: &f64| angle.is_finite());
+    found.ok_or("expected a number of degrees")
+}
+
 /// The exponents n1 and n2, separated by a comma.
 pub(super) fn exponents(text: &str) -> Result<[f64; 2], &'static str> {
     let found = numbers(text).and_then(|numbers| numbers.try_into().ok());

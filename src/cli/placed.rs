@@ -3,10 +3,10 @@
 use super::args::ContactArgs;
 use super::console::Console;
 use super::values::{LawArg, PoseArg};
-use super::{inputs, outputs, solid};
+use super::{contact, inputs, outputs, solid};
 use crate::annotate::{self, ContactFrame};
 use crate::contact::{
-    ContactBody, VolumeLaw, contact_regions, effective_modulus_pa, union_contacts,
+    ContactBody, VolumeLaw, contact_regions, effective_modulus_pa, reach, union_contacts,
 };
 use crate::export::{Detail, MeshFormat};
 use crate::measure::{grain_properties, solid_properties};
@@ -137,13 +137,14 @@ fn law(args: &ContactArgs, grains: &[Grain; 2]) -> Result<Option<NormalLaw>> {
     let [own, other] = args.materials(modulus)?;
     let effective_modulus_pa = effective_modulus_pa(&own, &other);
     if !effective_modulus_pa.is_finite() {
-        bail!("both bodies are rigid: give one of them a finite Young's modulus");
+        bail!(contact::RIGID);
     }
     let metres_per_unit = unit.metres();
     Ok(Some(match args.law.unwrap_or(LawArg::Hertz) {
         LawArg::Hertz => NormalLaw::Hertz(HertzLaw {
             effective_modulus_pa,
             metres_per_unit,
+            body: reach(&grains[0]).min(reach(&grains[1])),
         }),
         LawArg::Volume => {
             let volumes = grains.each_ref().map(|grain| match grain.superquadric() {

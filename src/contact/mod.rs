@@ -38,5 +38,5 @@ pub use regions::{
     contact_regions,
 };
 pub use relative::{ContactError, Correction, LARGEST_RATIO, RelativeCurvature};
-pub use touch::{Touch, TouchError, touch};
+pub use touch::{Touch, TouchError, reach, touch};
 pub use volume_law::VolumeLaw;

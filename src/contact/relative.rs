@@ -19,6 +19,7 @@
 //! c   = (2/pi R_F(0, q², 1))^(-3/2) (4/(3 pi))^(1/2) (R_D(0, 1, q²) R_D(0, q², 1))^(1/4)
 //! ```
 
+use crate::digits::significant;
 use crate::elliptic::{rd, rf};
 use crate::measure::Curvature;
 use std::f64::consts::{FRAC_2_PI, PI};
@@ -56,7 +57,7 @@ pub enum ContactError {
     /// line or in several places.
     #[error(
         "the surfaces do not part in all directions from the point of contact (relative curvatures \
-         {larger} and {smaller}); Hertz's theory needs a gap that opens"
+         {} and {}); Hertz's theory needs a gap that opens", significant(*larger, 4), significant(*smaller, 4)
     )]
     NotConvex {
         /// The larger relative curvature A.
@@ -66,14 +67,26 @@ pub enum ContactError {
     },
     /// The gap opens [`LARGEST_RATIO`] times faster one way than the other.
     #[error(
-        "the relative curvatures {larger} and {smaller} are more than {LARGEST_RATIO} times apart: \
-         a contact along a line, for which this theory is not made"
+        "the relative curvatures {} and {} are more than {LARGEST_RATIO} times apart: \
+         a contact along a line, for which this theory is not made", significant(*larger, 4), significant(*smaller, 4)
     )]
     Line {
         /// The larger relative curvature A.
         larger: f64,
         /// The smaller one B.
         smaller: f64,
+    },
+    /// The bodies would touch all over a side.
+    #[error(
+        "by their curvatures there the surfaces would touch as far as {} from the middle of the contact, and the body \
+         reaches {} only: for Hertz's theory the surface is too flat, or the indentation too large",
+        significant(*reach, 4), significant(*body, 4)
+    )]
+    Flat {
+        /// How far from its middle the contact would reach.
+        reach: f64,
+        /// How far the smaller body reaches.
+        body: f64,
     },
 }
 
@@ -127,6 +140,21 @@ impl RelativeCurvature {
     /// The smaller radius 1 / (2 A) of the gap: on a plane, the body's smaller radius of curvature.
     pub fn smaller_radius(&self) -> f64 {
         0.5 / self.larger
+    }
+
+    /// How far from its middle the overlap reaches of bodies that do not give, sqrt(u / B) for an indentation u; half of the
+    /// length of Hertz's patch is .6 to 1 of it. Checks that it ends before a body does that reaches `body`, all in the unit of the
+    /// surfaces.
+    ///
+    /// # Errors
+    ///
+    /// [`ContactError::Flat`] if not.
+    pub fn reach(&self, indentation: f64, body: f64) -> Result<f64, ContactError> {
+        let reach = (indentation.max(0.0) / self.smaller).sqrt();
+        match reach < body {
+            true => Ok(reach),
+            false => Err(ContactError::Flat { reach, body }),
+        }
     }
 
     /// The effective radius rho = 1 / (2 sqrt(A B)): of a sphere on a plane, its radius.
@@ -217,6 +245,15 @@ mod tests {
         ([2.0, 2.0], 1.0, 2.0, 1.885e-3),
         ([2.005, 2.005], 1.0, 2.005, 1.888e-3),
     ];
+
+    #[test]
+    fn a_contact_ends_before_the_body_does() {
+        let ball = RelativeCurvature::new([1.0, 1.0], [0.0; 2], 0.0).unwrap();
+        assert_relative_eq!(ball.reach(0.02, 1.0).unwrap(), 0.2, max_relative = 1e-14);
+        let flat = RelativeCurvature::new([1e-14, 1e-14], [0.0; 2], 0.0).unwrap();
+        let refused = flat.reach(0.02, 1.0).unwrap_err();
+        assert!(matches!(refused, ContactError::Flat { reach, body: 1.0 } if reach > 1e6));
+    }
 
     #[test]
     fn the_analytic_rows_of_table_3_6_are_met_to_every_digit() {

@@ -4,7 +4,7 @@ use super::{EdgeError, TangentCap};
 use crate::Mesh;
 use crate::measure::{Curvature, Support, crossings, support};
 use crate::model::Surface;
-use crate::sphere::tangents;
+use crate::sphere::{cube_grid, tangents};
 use nalgebra::Vector3;
 use std::f64::consts::TAU;
 use thiserror::Error;
@@ -21,6 +21,9 @@ const ONE_SIDE: f64 = 2e-3;
 
 /// Cells per edge of the cube of directions of the mesh in which crossings are looked for.
 const CROSSING: usize = 64;
+
+/// Cells per edge of the cube of directions in which it is looked how far a body reaches.
+const LOOKED_AT: usize = 16;
 
 /// A point of a body by which it touches a plane.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -95,6 +98,13 @@ pub fn touch(
         towards,
         edge_radius,
     )
+}
+
+/// How far a surface reaches from its centre.
+pub fn reach(surface: &(impl Surface + ?Sized)) -> f64 {
+    let (directions, _) = cube_grid(LOOKED_AT);
+    let places = surface.places(&directions).into_iter();
+    places.map(|place| place.norm()).fold(0.0, f64::max)
 }
 
 /// Refuses a mesh that goes through itself.

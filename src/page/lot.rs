@@ -6,6 +6,8 @@ use crate::model::{Surface, load_grain};
 use nalgebra::Point3;
 use rayon::prelude::*;
 use serde::Serialize;
+use std::collections::HashMap;
+use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
@@ -36,6 +38,19 @@ pub(crate) enum LotError {
         /// The table.
         truth: PathBuf,
         /// The name of one of the scans.
+        example: String,
+    },
+    /// A name in a table of truths is that of several grains.
+    #[error(
+        "which {name} of {} is meant is not clear: write the scans' paths into its first column, such as {example}",
+        truth.display()
+    )]
+    Ambiguous {
+        /// The table.
+        truth: PathBuf,
+        /// The name of the files.
+        name: String,
+        /// The path of one of the scans.
         example: String,
     },
     /// A table of truths tells nothing that was measured.
@@ -88,7 +103,8 @@ impl LotPart {
     }
 
     /// Reads the table in a folder of results, and surfaces from the models in it, of a thousand grains at most. `truth`
-    /// is a table whose first column names the files of scans, and whose others are called as those of results.
+    /// is a table whose first column names scans by their paths, or by their files where each name is there once, and whose
+    /// others are called as those of results.
     ///
     /// # Errors
     /// [`LotError`] where there is no table, or where `truth` tells nothing of what it holds.
@@ -139,15 +155,33 @@ impl Truth {
     /// Reads what is known of some scans.
     fn read(path: &Path, paths: &[String]) -> Result<Self, LotError> {
         let (columns, rows) = table(path)?;
+        let known = rows.iter().filter_map(|row| Some((row.first()?, row)));
+        let by_path: HashMap<&String, &Vec<String>> = known.clone().collect();
+        let mut by_name: HashMap<&OsStr, Vec<&Vec<String>>> = HashMap::new();
+        for (text, row) in known {
+            by_name.entry(file_name(text)).or_default().push(row);
+        }
+        let mut scans: HashMap<&OsStr, usize> = HashMap::new();
+        for input in paths {
+            *scans.entry(file_name(input)).or_default() += 1;
+        }
         let of = |input: &String| {
-            let is_of = |row: &&Vec<String>| {
-                let name = row.first().map(Path::new).and_then(Path::file_name);
-                name.is_some() && name == Path::new(input).file_name()
-            };
-            rows.iter().find(is_of).cloned()
+            if let Some(row) = by_path.get(input) {
+                return Ok(Some((*row).clone()));
+            }
+            let name = file_name(input);
+            match by_name.get(name).map(Vec::as_slice) {
+                None => Ok(None),
+                Some([row]) if scans[name] == 1 => Ok(Some((*row).clone())),
+                Some(_) => Err(LotError::Ambiguous {
+                    truth: path.into(),
+                    name: name.to_string_lossy().into_owned(),
+                    example: input.clone(),
+                }),
+            }
         };
         Ok(Self {
-            rows: paths.iter().map(of).collect(),
+            rows: paths.iter().map(of).collect::<Result<_, _>>()?,
             columns,
         })
     }
@@ -181,6 +215,10 @@ impl Truth {
         }
         Ok(())
     }
+}
+
+fn file_name(path: &str) -> &OsStr {
+    Path::new(path).file_name().unwrap_or_default()
 }
 
 /// The names of the columns of a table, and its rows.

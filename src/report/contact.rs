@@ -3,7 +3,9 @@
 use super::escape::escaped;
 use super::number::{short, triple, with_error};
 use super::unit::Unit;
-use crate::contact::{ContactError, Correction, Curved, RelativeCurvature, Touch, force_error};
+use crate::contact::{
+    ContactError, Correction, Curved, RelativeCurvature, Touch, force_error, reach,
+};
 use crate::model::{Grain, Surface};
 use nalgebra::Vector3;
 use serde::Serialize;
@@ -60,6 +62,9 @@ pub struct TouchRecord {
     /// Radius of the cap by which an edge was rounded.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub edge_radius: Option<f64>,
+    /// How far the body reaches from its centre.
+    #[serde(skip)]
+    pub reach: f64,
 }
 
 /// What a contact is loaded with.
@@ -81,7 +86,32 @@ const HERTZIAN: f64 = 0.1;
 const UNCERTAIN: f64 = 0.1;
 
 /// What a depth is compared with where both bodies' curvatures are known.
-pub(super) const CURVED: &str = "smaller radius of curvature";
+const CURVED: &str = "smaller radius of curvature of the gap between the bodies";
+
+/// The share of a body up to which a contact is small beside it: that of a ball that is pressed in by [`HERTZIAN`].
+const SMALL: f64 = 0.45;
+
+/// What to know of an indentation by Hertz, in the unit of the surfaces, of bodies of which the smaller reaches `body`.
+///
+/// # Errors
+///
+/// [`ContactError::Flat`], see [`RelativeCurvature::reach`].
+pub(super) fn beside_hertz(
+    what: &str,
+    relative: &RelativeCurvature,
+    indentation: f64,
+    body: f64,
+) -> Result<Vec<String>, ContactError> {
+    let share = relative.reach(indentation, body)? / body;
+    let deep = beyond_hertz(what, indentation / relative.smaller_radius(), CURVED);
+    let wide = (share > SMALL).then(|| {
+        format!(
+            "the contact reaches {:.0} % as far as the smaller body; Hertz's theory is for a contact that is small beside it",
+            100.0 * share
+        )
+    });
+    Ok(deep.into_iter().chain(wide).collect())
+}
 
 /// What to know of a depth that is such a share of a radius, if it is too deep for Hertz.
 pub(super) fn beyond_hertz(depth: &str, share: f64, radius: &str) -> Option<String> {
@@ -107,6 +137,7 @@ impl TouchRecord {
                 None => grain.curvature_error(&touch.direction),
             },
             edge_radius: touch.cap.map(|cap| cap.radius),
+            reach: reach(grain),
         }
     }
 
@@ -146,8 +177,16 @@ impl ContactReport {
             .zip(other)
             .map(|(one, other)| force_error(&one, &other, angle_rad));
         let mut warnings = Vec::new();
-        let share_of_radius = indentation_m / (relative.smaller_radius() * metres);
-        warnings.extend(beyond_hertz("the indentation", share_of_radius, CURVED));
+        let body = second
+            .as_ref()
+            .map_or(first.reach, |other| first.reach.min(other.reach));
+        let indentation = indentation_m / metres;
+        warnings.extend(beside_hertz(
+            "the indentation",
+            &relative,
+            indentation,
+            body,
+        )?);
         match share {
             None => warnings.push(
                 "how certain the curvature is there is not known, so the force has no standard error: fit the scan \

@@ -1,6 +1,6 @@
 //! Normal forces by Hertz where two bodies are placed so that they overlap.
 
-use super::contact::{CURVED, beyond_hertz};
+use super::contact::beside_hertz;
 use crate::contact::RelativeCurvature;
 use crate::measure::Curvature;
 
@@ -11,6 +11,8 @@ pub struct HertzLaw {
     pub effective_modulus_pa: f64,
     /// The bodies' unit of length, in metres.
     pub metres_per_unit: f64,
+    /// How far the smaller body reaches from its centre, in their unit.
+    pub body: f64,
 }
 
 impl HertzLaw {
@@ -26,10 +28,14 @@ impl HertzLaw {
             .dot(&two.directions[0])
             .clamp(-1.0, 1.0)
             .acos();
-        match RelativeCurvature::new(one.principal, two.principal, angle) {
-            Ok(relative) => {
-                let share = depth / relative.smaller_radius();
-                warnings.extend(beyond_hertz("The depth", share, CURVED).map(|told| told + "."));
+        let known =
+            RelativeCurvature::new(one.principal, two.principal, angle).and_then(|relative| {
+                let beside = beside_hertz("the depth", &relative, depth, self.body)?;
+                Ok((relative, beside))
+            });
+        match known {
+            Ok((relative, beside)) => {
+                warnings.extend(beside.iter().map(|told| sentence(told)));
                 let metres = self.metres_per_unit;
                 Some(relative.normal_force_n(metres, depth * metres, self.effective_modulus_pa))
             }
@@ -39,4 +45,10 @@ impl HertzLaw {
             }
         }
     }
+}
+
+/// With a capital letter and a full stop.
+fn sentence(told: &str) -> String {
+    let (first, rest) = told.split_at(1);
+    format!("{}{rest}.", first.to_uppercase())
 }

@@ -81,6 +81,12 @@ impl SplitReport {
                 grain.file
             )
         });
+        let is_volume = split.grains.iter().any(|grain| grain.label.is_some());
+        let steps = is_volume.then(|| {
+            "The files hold the steps between voxels, which a fit of them takes for the grain's own: fit the image itself \
+             for figures, with --label or by batch."
+                .to_owned()
+        });
         let left_out = split
             .left_out
             .iter()
@@ -98,7 +104,7 @@ impl SplitReport {
             dust: split.dust,
             dust_points: split.dust_points,
             cuts: split.cuts,
-            warnings: warnings.chain(left_out).collect(),
+            warnings: steps.into_iter().chain(warnings).chain(left_out).collect(),
             grains,
         }
     }

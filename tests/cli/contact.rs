@@ -199,7 +199,7 @@ fn what_cannot_be_pressed_is_refused_in_a_sentence() {
         ),
         (
             &["1e300", "--youngs-modulus-mpa", "9", "--towards", "1,0,0"],
-            "beyond the range of numbers",
+            "the indentation too large",
         ),
         (
             &["1", "--youngs-modulus-mpa", "9", "--other-towards", "0,1,0"],
@@ -240,4 +240,70 @@ fn the_edge_of_a_mirrored_model_is_rounded_when_its_radius_is_given() {
     let curvatures = &report["first"]["principal_curvatures"];
     assert!((curvatures[0].as_f64().unwrap() - 10.0).abs() < 1e-9);
     assert!((curvatures[1].as_f64().unwrap() - 0.5).abs() < 0.05);
+}
+
+/// A body of one superquadric that was fitted, in the file `m.json`.
+fn superquadric(axes: &str, exponents: &str) -> tempfile::TempDir {
+    let folder = folder();
+    let words = [
+        "synth",
+        "superquadric",
+        "--axes",
+        axes,
+        "--exponents",
+        exponents,
+        "-o",
+        "s.ply",
+    ];
+    succeed(&folder, &words);
+    succeed(
+        &folder,
+        &["fit", "s.ply", "--surface", "superquadric", "-o", "m.json"],
+    );
+    folder
+}
+
+#[test]
+fn a_flat_side_has_no_force_by_hertz() {
+    for exponents in ["3,5", "4,2"] {
+        let folder = superquadric("3,2,1", exponents);
+        let load = ["--unit", "mm", "--youngs-modulus-mpa", "200"];
+        let pressed = [&["contact", "m.json", "--indentation-um", "10"], &load[..]].concat();
+        let output = grainform(&folder, &pressed);
+        assert_eq!(output.status.code(), Some(2), "{exponents}");
+        let told = errors(&output);
+        assert!(
+            told.contains("too flat") || told.contains("do not part"),
+            "{told}"
+        );
+        let pose = [
+            "contact",
+            "m.json",
+            "m.json",
+            "--pose-b",
+            "0.01,0,1.98,1,0,0,0",
+        ];
+        let report = json(&folder, &[&pose, &load[..]].concat());
+        assert!(report["regions"][0]["normal_force_n"].is_null(), "{report}");
+    }
+}
+
+/// On its axis a fitted ellipsoid, whose exponents are 2 but for rounding, is as curved as beside it.
+#[test]
+fn ellipsoids_that_were_fitted_are_curved_on_their_axes() {
+    let folder = superquadric("3,2,1", "2,2");
+    let words = [
+        "contact",
+        "m.json",
+        "m.json",
+        "--pose-b",
+        "0,0,1.95,1,0,0,0",
+        "--unit",
+        "mm",
+        "--youngs-modulus-mpa",
+        "200",
+    ];
+    let report = json(&folder, &words);
+    let force = report["regions"][0]["normal_force_n"].as_f64().unwrap();
+    assert!((force / 2.876 - 1.0).abs() < 1e-3, "{force}");
 }

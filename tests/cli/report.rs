@@ -245,6 +245,27 @@ fn a_truth_that_tells_nothing_of_the_results_is_refused() {
 }
 
 #[test]
+fn a_truth_is_told_by_path_where_names_are_there_twice() {
+    let folder = folder();
+    fs::create_dir(folder.path().join("lot")).unwrap();
+    let table = "path,status,area\na/one.ply,ok,2.5\nb/one.ply,ok,3.5\n";
+    fs::write(folder.path().join("lot/results.csv"), table).unwrap();
+    let told = |truth: &str| {
+        fs::write(folder.path().join("truth.csv"), truth).unwrap();
+        let words = ["report", "lot", "--truth", "truth.csv", "-o", "r.html"];
+        let output = grainform(&folder, &words);
+        (output.status.code(), errors(&output))
+    };
+    let (code, message) = told("file,area\none.ply,2.4\n");
+    assert_eq!(code, Some(2));
+    assert!(message.contains("such as a/one.ply"), "{message}");
+    let by_path = "file,area\nb/one.ply,3.4\na/one.ply,2.4\n";
+    assert_eq!(told(by_path), (Some(0), String::new()));
+    let page = fs::read_to_string(folder.path().join("r.html")).unwrap();
+    assert!(page.contains("[[\"a/one.ply\",\"2.4\"],[\"b/one.ply\",\"3.4\"]]"));
+}
+
+#[test]
 fn a_page_of_positions_tells_why_and_names_their_ball() {
     let folder = folder();
     succeed(&folder, &["synth", "banana", "-o", "banana.ply"]);

@@ -10,7 +10,7 @@ pub(super) use engines::{ClumpArgs, ExportDemArgs, SpheresArgs};
 pub(super) use many::{BatchArgs, CompareArgs, ReportArgs, SplitArgs};
 pub(super) use shared::{FittingArgs, InputArgs, LimitArgs, MeshingArgs};
 
-use super::numbers::{count, exponents, share, vector};
+use super::numbers::{angle, count, exponents, share, vector};
 use super::values::{CloudFormat, LawArg, PoseArg, SchemeArg, SemiAxes, Subject, SurfaceArg};
 use crate::export::MeshFormat;
 use crate::report::{Measure, Unit};
@@ -117,7 +117,8 @@ pub(super) struct FitArgs {
 
 /// Fit every candidate of the search and list them
 ///
-/// Nothing is skipped, as with --exhaustive; the choice is the same as that of `fit`.
+/// Nothing is skipped, as with --exhaustive. Listed are models of the radius, and the choice is that of
+/// `fit --surface star`: where `fit` takes the position of points instead, its model is another.
 #[derive(Args)]
 pub(super) struct SearchArgs {
     #[command(flatten)]
@@ -220,13 +221,13 @@ pub(super) struct ContactArgs {
     pub(super) other_towards: Vector3<f64>,
 
     /// Angle between the directions of largest curvature of the two grains
-    #[arg(long, value_name = "DEG", default_value_t = 0.0)]
+    #[arg(long, value_name = "DEG", default_value_t = 0.0, value_parser = angle)]
     pub(super) angle_deg: f64,
 
     /// Place the second body: what its scan is moved by and, as a quaternion, turned by about the origin before; tells
     /// all places where they overlap, and with --unit and --youngs-modulus-mpa the forces there
     #[arg(long, value_name = "X,Y,Z,QW,QX,QY,QZ", requires = "other",
-          conflicts_with_all = ["indentation_um", "edge_radius"])]
+          conflicts_with_all = ["indentation_um", "edge_radius", "towards", "other_towards", "angle_deg"])]
     pub(super) pose_b: Option<PoseArg>,
 
     /// Write both bodies and the frames of their contacts as one mesh, with the number of the body at every vertex

@@ -6,6 +6,9 @@ use std::array::from_fn;
 /// edge, large but finite.
 const LEAST_RATIO: f64 = 1e-12;
 
+/// Exponents below this are no more than 2, but for rounding: a fitted ellipsoid is not flat where it meets its axes.
+const SQUARE: f64 = 2.0 + 1e-9;
+
 /// `x` to the power `n`, for `x` from 0 to 1; small whole powers are multiplied out. By logarithms it loses digits of
 /// small powers only, which do not tell beside the one that they are added to.
 #[inline(always)]
@@ -104,7 +107,7 @@ impl NormJet {
     #[inline(always)]
     pub(super) fn side_by_side<const N: usize>(x: [f64; N], y: [f64; N], n: [f64; N]) -> [Self; N] {
         let ratio: [f64; N] = from_fn(|i| ratio(x[i], y[i]));
-        let bent: [f64; N] = from_fn(|i| match n[i] < 2.0 {
+        let bent: [f64; N] = from_fn(|i| match n[i] < SQUARE {
             true => power(ratio[i].max(LEAST_RATIO), n[i] - 2.0),
             false => power(ratio[i], n[i] - 2.0),
         });

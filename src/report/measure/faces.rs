@@ -50,7 +50,8 @@ impl FacesRecord {
     pub(super) fn sentences(&self, labels: Labels, sums_are_told: bool) -> Vec<String> {
         let filled = self.filled.map(|filled| {
             format!(
-                "Small holes were closed: {} with {}; the area holds {}{} for their fill.",
+                "Small holes were closed: {} with {}; the area holds {}{} for their fill, and lengths, volume \
+                 and moments lack what the grain has beyond it.",
                 filled.holes,
                 plural(filled.edges, "edge"),
                 short(filled.area),

@@ -95,7 +95,7 @@ pub enum VolumeError {
     },
     /// There are several labels.
     #[error(
-        "the image has several grains, and one can be read: ask for one with --label, or split it (grainform split); {}",
+        "the image has several grains, and one can be read: ask for one with --label, or fit all of them (grainform batch); {}",
         listed(labels)
     )]
     SeveralLabels {

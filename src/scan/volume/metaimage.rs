@@ -39,7 +39,7 @@ pub(super) fn parse(bytes: &[u8], beside: &Beside<'_>) -> Result<Volume, VolumeE
         true => inflate(voxels, beside.limit)?,
         false => voxels.to_vec(),
     };
-    let spacing = three(&["ElementSpacing", "ElementSize"]).unwrap_or([1.0; 3]);
+    let spacing = three(&["ElementSpacing", "ElementSize"]);
     let origin = three(&["Offset", "Position", "Origin"]).unwrap_or_default();
     let directions = ["TransformMatrix", "Rotation", "Orientation"];
     let directions = directions.iter().find_map(|name| numbers::<9>(field(name)));
@@ -51,12 +51,17 @@ pub(super) fn parse(bytes: &[u8], beside: &Beside<'_>) -> Result<Volume, VolumeE
         true => Order::Big,
         false => Order::Little,
     };
-    Volume::new(
+    let steps = Vector3::from(spacing.unwrap_or([1.0; 3]));
+    let volume = Volume::new(
         size.map(|side| side as usize),
         Samples { bytes, kind, order },
         Point3::from(origin),
-        directions * Matrix3::from_diagonal(&Vector3::from(spacing)),
-    )
+        directions * Matrix3::from_diagonal(&steps),
+    )?;
+    Ok(match spacing {
+        Some(_) => volume,
+        None => volume.with_warning("The MetaImage has no spacing: lengths are in voxels."),
+    })
 }
 
 /// The file that has the voxels, where they are not in that of the header.

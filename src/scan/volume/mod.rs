@@ -168,6 +168,15 @@ impl Volume {
         self
     }
 
+    /// Warns where the file tells lengths in another unit than millimetres, which most are in: none is converted.
+    fn in_unit(self, unit: &str) -> Self {
+        let warning = format!("The image's lengths are in {unit}, as its header says.");
+        match unit == "mm" || self.warnings.contains(&warning) {
+            true => self,
+            false => self.with_warning(&warning),
+        }
+    }
+
     /// The labels but zero, and their numbers of voxels.
     ///
     /// # Errors

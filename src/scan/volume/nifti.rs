@@ -51,7 +51,12 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Volume, VolumeError> {
     };
     let (origin, steps) = header.lattice();
     let bytes = voxels.to_vec();
-    Volume::new(size, Samples { bytes, kind, order }, origin, steps)
+    let volume = Volume::new(size, Samples { bytes, kind, order }, origin, steps)?;
+    let unit = ["", "m", "mm", "um"].get(usize::from(header.bytes[123] & 7));
+    let unit = unit.filter(|unit| !unit.is_empty());
+    Ok(unit
+        .into_iter()
+        .fold(volume, |volume, unit| volume.in_unit(unit)))
 }
 
 struct Header<'a> {

@@ -63,7 +63,18 @@ pub(super) fn parse(bytes: &[u8], beside: &Beside<'_>) -> Result<Volume, VolumeE
         None => Vector3::zeros(),
     };
     let samples = Samples { bytes, kind, order };
-    Volume::new(size, samples, Point3::from(origin), steps)
+    let volume = Volume::new(size, samples, Point3::from(origin), steps)?;
+    let is_spaced = field("space directions").or(field("spacings")).is_some();
+    let volume = match is_spaced {
+        true => volume,
+        false => volume.with_warning("The NRRD image has no spacing: lengths are in voxels."),
+    };
+    let units = field("space units").or(field("units")).unwrap_or_default();
+    Ok(units
+        .split('"')
+        .map(str::trim)
+        .filter(|unit| !unit.is_empty() && unit.chars().all(char::is_alphabetic))
+        .fold(volume, |volume, unit| volume.in_unit(unit)))
 }
 
 /// The file that has the voxels, where they are not in that of the header.

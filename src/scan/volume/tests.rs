@@ -189,3 +189,42 @@ fn grey_values_and_files_elsewhere_are_refused() {
         })
     ));
 }
+
+#[test]
+fn what_headers_do_not_tell_or_tell_in_another_unit_is_warned_of() {
+    let [width, height, depth] = SIZE;
+    let told = |name: &str, head: String| {
+        let bytes = [head.as_bytes(), &labels(SIZE)].concat();
+        read(name, &bytes).warnings
+    };
+    let nrrd = |more: &str| {
+        let sizes = format!("sizes: {width} {height} {depth}");
+        told(
+            "a.nrrd",
+            format!("NRRD0004\ntype: uchar\ndimension: 3\n{sizes}\nencoding: raw\n{more}\n"),
+        )
+    };
+    assert!(nrrd("")[0].contains("no spacing"));
+    let spaced = "spacings: 1 1 2\nspace units: ";
+    assert_eq!(nrrd("spacings: 1 1 2\n"), [""; 0]);
+    assert_eq!(nrrd(&format!("{spaced}\"mm\" \"mm\" \"mm\"\n")), [""; 0]);
+    let microns = nrrd(&format!("{spaced}\"um\" \"um\" \"um\"\n"));
+    assert_eq!(
+        microns,
+        ["The image's lengths are in um, as its header says."]
+    );
+    let meta = format!(
+        "DimSize = {width} {height} {depth}\nElementType = MET_UCHAR\nElementDataFile = LOCAL\n"
+    );
+    assert!(told("a.mha", meta)[0].contains("no spacing"));
+    let (name, mut nifti, _) = formats().swap_remove(2);
+    assert!(name.ends_with(".nii"));
+    for (unit, warning) in [(2, None), (3, Some("in um")), (1, Some("in m,"))] {
+        nifti[123] = unit;
+        let told = read(name, &nifti).warnings.concat();
+        assert!(
+            warning.map_or(told.is_empty(), |part| told.contains(part)),
+            "{told}"
+        );
+    }
+}
