@@ -51,7 +51,7 @@ impl Fitted {
         };
         let shares = [shown / self.reference.area, volume / self.reference.volume];
         let found = Contradicted::beyond(LARGEST_DIFFERENCE + sag, shares)?;
-        let is_vouched = match self.standard_errors(&told, &survey.dimensions().ok()?) {
+        let is_vouched = match self.errors_of_points(&told, &survey.dimensions().ok()?) {
             Ok(errors) if has_faces => {
                 let is_area = found.area.is_none() || area <= VOUCHING * errors.area;
                 let is_volume = found.volume.is_none() || volume.abs() <= VOUCHING * errors.volume;

@@ -3,7 +3,7 @@
 use super::candidate::Search;
 use super::estimate::{Estimate, RadiusError};
 use super::figures::Figures;
-use super::prepare::Reference;
+use super::prepare::{Reference, ReferenceKind};
 use super::samples::Samples;
 use super::standard_errors::{NoInterval, StandardErrors};
 use super::warning::FitWarning;
@@ -149,11 +149,35 @@ impl Fitted {
 
     /// Standard errors of figures that are told of the grain: its mass properties and its length, width and
     /// thickness, all in the scan's frame. Where much of the surface was not seen, they allow for what holes are known
-    /// to hide. Computed when asked for.
+    /// to hide, and of a scan with faces for what lies between these and a surface through their corners. Computed when
+    /// asked for.
     ///
     /// # Errors
     /// [`NoInterval`] where none could be trusted.
     pub fn standard_errors(
+        &self,
+        told: &MassProperties,
+        dimensions: &Vector3<f64>,
+    ) -> Result<StandardErrors, NoInterval> {
+        let errors = self.errors_of_points(told, dimensions)?;
+        let figures = self.figures(told, dimensions)?;
+        Ok(errors.with_scale(self.beside_faces(told), &figures))
+    }
+
+    /// Standard error of a length, as a share of it, for what lies between flat faces and a surface that goes through
+    /// their corners. Scanners put these on the surface, and the faces are too small a body; what thins meshes out keeps
+    /// the faces about it, and puts the corners outside. The true volume is as likely to be anywhere in between: of
+    /// quadric edge collapses it is about half-way.
+    fn beside_faces(&self, told: &MassProperties) -> f64 {
+        if self.reference.kind != ReferenceKind::Faces {
+            return 0.0;
+        }
+        let larger = (told.volume - self.reference.volume) / told.volume;
+        larger.max(0.0) / 3.0 / 12.0_f64.sqrt()
+    }
+
+    /// The same as the points tell them.
+    pub(super) fn errors_of_points(
         &self,
         told: &MassProperties,
         dimensions: &Vector3<f64>,
@@ -170,16 +194,7 @@ impl Fitted {
         if self.warnings.contains(&FitWarning::Neck) {
             return Err(NoInterval::Neck);
         }
-        let frame = self.grain.frame();
-        let principal = told.principal().ok_or(NoInterval::NotFinite)?;
-        let figures = Figures {
-            area: told.area,
-            volume: told.volume,
-            centroid: frame.to_local(&told.centroid),
-            inertia: frame.axes.transpose() * told.inertia * frame.axes,
-            moments: principal.moments,
-            dimensions: *dimensions,
-        };
+        let figures = self.figures(told, dimensions)?;
         let posterior = self.posterior.as_ref().ok_or(NoInterval::NotEstimated);
         match self.grain.unseen() {
             Some(unseen) => {
@@ -189,6 +204,24 @@ impl Fitted {
             }
             None => posterior?.errors(&figures),
         }
+    }
+
+    /// The same figures along the grain's own axes.
+    fn figures(
+        &self,
+        told: &MassProperties,
+        dimensions: &Vector3<f64>,
+    ) -> Result<Figures, NoInterval> {
+        let frame = self.grain.frame();
+        let principal = told.principal().ok_or(NoInterval::NotFinite)?;
+        Ok(Figures {
+            area: told.area,
+            volume: told.volume,
+            centroid: frame.to_local(&told.centroid),
+            inertia: frame.axes.transpose() * told.inertia * frame.axes,
+            moments: principal.moments,
+            dimensions: *dimensions,
+        })
     }
 
     /// The grain with the [errors of its curvature](crate::model::CurvatureErrors), which a file of it keeps for its contacts. Without,

@@ -1,5 +1,6 @@
 //! Standard errors of what is told of a grain, or why there are none.
 
+use super::figures::Figures;
 use nalgebra::{Matrix3, Vector3};
 
 /// Standard errors (one standard deviation) of a grain's measures, in the powers of the scan's unit
@@ -34,6 +35,27 @@ impl StandardErrors {
         dimensions: Vector3::new(0.0, 0.0, 0.0),
         dimensions_excess: Vector3::new(0.0, 0.0, 0.0),
     };
+
+    /// With all lengths of a grain of these figures known to such a share only, all together.
+    pub(super) fn with_scale(self, share: f64, figures: &Figures) -> Self {
+        let with = |error: f64, power: f64, figure: f64| error.hypot(power * share * figure);
+        Self {
+            area: with(self.area, 2.0, figures.area),
+            volume: with(self.volume, 3.0, figures.volume),
+            inertia: self
+                .inertia
+                .zip_map(&figures.inertia, |error, figure| with(error, 5.0, figure)),
+            moments: self
+                .moments
+                .zip_map(&figures.moments, |error, figure| with(error, 5.0, figure)),
+            dimensions: self
+                .dimensions
+                .zip_map(&figures.dimensions, |error, figure| {
+                    with(error, 1.0, figure)
+                }),
+            ..self
+        }
+    }
 
     /// Those of a grain so many times as large.
     pub(crate) fn times(self, factor: f64) -> Self {

@@ -4,6 +4,7 @@ use super::number::{percent, short, triple};
 use super::unit::{Labels, Unit};
 use crate::clump::Clump;
 use crate::measure::Ball;
+use crate::scan::plural;
 use serde::Serialize;
 use std::fmt;
 use std::io::{self, Write};
@@ -96,8 +97,8 @@ impl fmt::Display for ClumpReport {
         let largest = radii.fold(0.0, f64::max);
         writeln!(
             f,
-            "clump         {} spheres, radii {} to {}{}",
-            self.spheres.len(),
+            "clump         {}, radii {} to {}{}",
+            plural(self.spheres.len(), "sphere"),
             short(least),
             short(largest),
             labels.length()

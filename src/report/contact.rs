@@ -189,8 +189,8 @@ impl ContactReport {
         )?);
         match share {
             None => warnings.push(
-                "how certain the curvature is there is not known, so the force has no standard error: fit the scan \
-                 without --seams none, --symmetry, --surface position and --edge-radius for one"
+                "how certain the curvature is there is not known, so the force has no standard error: superquadrics, fits \
+                 with --seams none or --symmetry, and rounded edges have none"
                     .into(),
             ),
             Some(Err(_)) => warnings.push(

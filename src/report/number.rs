@@ -37,7 +37,8 @@ pub(super) fn round(value: f64) -> f64 {
 
 /// A signed share as a percentage: `-0.123 %`.
 pub fn percent(share: f64) -> String {
-    format!("{:+.3} %", 100.0 * share)
+    // What is rounded to zero has no sign of its own.
+    format!("{:+.3} %", (1e5 * share).round() / 1e3 + 0.0)
 }
 
 #[cfg(test)]
