@@ -27,6 +27,13 @@ pub enum FitWarning {
     },
     /// The points have a neck, at which [`split`](crate::scan::split) would cut them apart.
     Neck,
+    /// Points that the scan holds twice, a little apart, were replaced by their means.
+    Twins {
+        /// Points that it is fewer.
+        twins: usize,
+        /// Points of the scan.
+        points: usize,
+    },
     /// Points that stand apart from their neighbours were left out.
     Strays {
         /// Their number.

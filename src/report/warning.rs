@@ -93,6 +93,11 @@ impl FitWarning {
                 f,
                 "The points have a neck, as of two grains that touch: if these are two, split them (grainform split)."
             ),
+            Self::Twins { twins, points } => write!(
+                f,
+                "The scan seems to hold its points more than once, a little apart: {twins} of {points} points lie next \
+                 to others, and their means are fitted."
+            ),
             Self::Strays { strays: 1, points } => write!(
                 f,
                 "1 of {points} points stands apart from its neighbours by more than 10 % of the radius \

@@ -38,6 +38,33 @@ fn one_percent_of_outliers_changes_the_volume_by_less_than_a_tenth_of_a_percent(
     }
 }
 
+/// A scan that was written down twice, once rounded, or four times, is no finer than it was: its noise is not taken for texture.
+#[test]
+fn points_that_are_there_more_than_once_count_once() {
+    for body in GRAINS {
+        let once = cloud(body, 0.005, 0.0);
+        let figures = |points: Vec<Point3<f64>>| {
+            let fitted = fitted(points);
+            let told = grain_properties(&fitted.grain).properties;
+            let noise = fitted.estimate.expect("an estimate").noise;
+            (told.area, told.volume, noise)
+        };
+        let (area, volume, noise) = figures(once.clone());
+        for (copies, apart) in [(2, 1e-6), (4, 2e-4)] {
+            let moved = |copy: usize| {
+                let by = Vector3::new(1.0, -2.0, 1.0) * (apart * copy as f64);
+                once.iter().map(move |point| point + by)
+            };
+            let found = figures((0..copies).flat_map(moved).collect());
+            let changes = [found.0 / area, found.1 / volume, found.2 / noise];
+            assert!(
+                changes.iter().all(|change| (change - 1.0).abs() < 0.01),
+                "{body} {copies}: {changes:?}"
+            );
+        }
+    }
+}
+
 #[test]
 fn outliers_of_few_points_are_not_followed() {
     let truth = Body::Bean.surface().integrals().properties;

@@ -14,6 +14,7 @@ mod strays;
 mod surface;
 mod thin;
 mod together;
+mod twins;
 
 pub(crate) use axes::principal_axes;
 pub use largest::largest_body;

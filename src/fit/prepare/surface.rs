@@ -8,6 +8,7 @@ use super::reference::ReferenceKind;
 use super::strays::LEAST_STRAY;
 use super::thin::{Thinned, WHOLE_CLOUD, thin};
 use super::together::together;
+use super::twins::merged;
 use crate::fit::error::FitError;
 use crate::fit::warning::FitWarning;
 use crate::measure::{FacesDefect, Fill, SelfCrossing, scanned_body, self_crossing, without_dust};
@@ -29,6 +30,9 @@ type Points<'a> = Cow<'a, [Point3<f64>]>;
 
 /// Sizes beyond which volumes are no numbers.
 const SIZES: RangeInclusive<f64> = 1e-100..=1e100;
+
+/// Clouds up to this size are looked at for points that they hold twice.
+const MOST_WITH_TWINS: usize = 4 * WHOLE_CLOUD;
 
 /// Rounds of leaving out strays.
 const STRAY_ROUNDS: usize = 5;
@@ -216,7 +220,16 @@ fn filled(mesh: Mesh, fill: Option<Fill>) -> ScannedSurface<'static> {
 
 /// Of points alone.
 fn from_directions(points: Cow<'_, [Point3<f64>]>) -> Result<ScannedSurface<'_>, FitError> {
+    let given = points.len();
+    let merged = (given <= MOST_WITH_TWINS)
+        .then(|| merged(&points))
+        .flatten();
+    let points = merged.map_or(points, Cow::Owned);
     let all = points.len();
+    let twins = (all < given).then_some(FitWarning::Twins {
+        twins: given - all,
+        points: given,
+    });
     let pieces = Pieces::new(&points);
     if pieces.bodies > 1 {
         return Err(FitError::SeveralBodies {
@@ -261,7 +274,7 @@ fn from_directions(points: Cow<'_, [Point3<f64>]>) -> Result<ScannedSurface<'_>,
     Ok(ScannedSurface {
         unseen: gap.unseen,
         is_sparse: gap.is_sparse,
-        warnings: [neck, strays, gap.warning()]
+        warnings: [twins, neck, strays, gap.warning()]
             .into_iter()
             .flatten()
             .collect(),
