@@ -58,7 +58,7 @@ pub(crate) enum BatchError {
     },
     /// The folder for results cannot be written to.
     #[error(
-        "cannot write into {}: {source}; what was done so far is kept, and the same command goes on from there",
+        "cannot write into {}: {source}; what was done is kept, and the same command goes on from there once the folder can be written to",
         folder.display()
     )]
     Write {

@@ -21,6 +21,16 @@ pub(super) fn run(args: CompareArgs, console: Console) -> Result<()> {
         bail!("lots in {units} are not to be compared: run batch with the same --unit");
     }
     let [first, second] = &lots;
+    let unitless = [(first, &args.first), (second, &args.second)]
+        .into_iter()
+        .filter(|(lot, _)| lot.units.is_empty());
+    let taken = units.first().map(|unit| {
+        unitless.map(move |(_, path)| {
+            let path = path.display();
+            format!("{path} tells no unit: its lengths are taken to be in {unit}, as those of the other lot.")
+        })
+    });
+    console.warn(&taken.into_iter().flatten().collect::<Vec<_>>());
     let comparisons = compare(first, second);
     if comparisons.is_empty() {
         bail!(

@@ -39,6 +39,11 @@ pub(super) fn run(args: MeshArgs, console: Console) -> Result<()> {
     let doubts = Withheld::of(&grain, false).sentences(&inputs::name(&args.model));
     let resolution = args.meshing.resolution.into();
     let (vertices, triangles) = match format {
+        MeshFormat::Stl | MeshFormat::Obj if args.scan.is_some() => {
+            bail!(
+                "STL and OBJ hold no distances of the scan at vertices: write PLY, VTP or GLB, or leave --scan out"
+            )
+        }
         MeshFormat::Stl | MeshFormat::Obj => {
             let mesh = grain.mesh(resolution);
             progress.stage("Writing");

@@ -22,6 +22,17 @@ pub(super) fn pair(text: &str) -> Result<[f64; 2], String> {
     }
 }
 
+/// The label of a grain in a volume.
+pub(super) fn label(text: &str) -> Result<i64, &'static str> {
+    text.parse().map_err(|_| "expected a whole number")
+}
+
+/// Cells along an edge of the cube of directions.
+pub(super) fn resolution(text: &str) -> Result<u16, &'static str> {
+    let found = text.parse().ok().filter(|cells| *cells > 0);
+    found.ok_or("expected a whole number from 1 to 2886")
+}
+
 /// An angle in degrees.
 pub(super) fn angle(text: &str) -> Result<f64, &'static str> {
     let found = text.parse().ok().filter(|angle: &f64| angle.is_finite());

@@ -29,16 +29,25 @@ pub(super) fn run(args: SplitArgs, console: Console) -> Result<()> {
     };
     progress.stage("Writing");
     outputs::make_folder(&args.output)?;
-    let files: Vec<String> = (1..=found.grains.len())
-        .map(|number| format!("grain_{number:04}.ply"))
-        .collect();
+    let files: Vec<String> = (1..=found.grains.len()).map(file_name).collect();
     for (grain, file) in found.grains.iter().zip(&files) {
         write(&grain.scan, &args.output.join(file))?;
     }
     drop(progress);
-    let report = SplitReport::new(name, &found, files).in_unit(args.unit);
+    let next = args.output.join(file_name(files.len() + 1));
+    let mut report = SplitReport::new(name, &found, files).in_unit(args.unit);
+    if next.exists() {
+        report.warnings.push(format!(
+            "{} is of an earlier split, as may be those after it: remove them, or write into another folder.",
+            next.display()
+        ));
+    }
     let written = args.output.display().to_string();
     console.tell(&report, args.json, [written], &report.warnings)
+}
+
+fn file_name(number: usize) -> String {
+    format!("grain_{number:04}.ply")
 }
 
 fn write(grain: &Scan, path: &std::path::Path) -> Result<()> {

@@ -307,6 +307,9 @@ fn lots_in_different_units_are_not_compared() {
     for other in ["mm.csv", "none.csv"] {
         assert!(compared(other).status.success(), "{other}");
     }
+    let told = errors(&compared("none.csv"));
+    assert!(told.contains("none.csv tells no unit"), "{told}");
+    assert_eq!(errors(&compared("mm.csv")), "");
     let refused = compared("um.csv");
     assert_eq!(refused.status.code(), Some(2));
     let message = errors(&refused);

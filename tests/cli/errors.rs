@@ -145,7 +145,11 @@ fn settings_out_of_range_are_refused_before_work() {
         "a positive length such as 0.02, a share such as 0.3%, or auto",
     );
     fit("--tolerance", "nan%", "a positive length");
-    fit("--resolution", "0", "0 is not in 1..=65535");
+    fit(
+        "--resolution",
+        "0",
+        "expected a whole number from 1 to 2886",
+    );
     fit("--threads", "x", "see grainform fit --help");
     refuse(
         &["synth", "pea"],
@@ -178,7 +182,12 @@ fn negative_values_are_refused_as_what_they_are() {
         ("fit no.ply", "--degree", "-1", "of zero or more, or auto"),
         ("fit no.ply", "--max-degree", "-1", "of zero or more"),
         ("fit no.ply", "--threads", "-1", "of zero or more"),
-        ("fit no.ply", "--resolution", "-1", "-1 is not in 1..=65535"),
+        (
+            "fit no.ply",
+            "--resolution",
+            "-1",
+            "expected a whole number from 1 to 2886",
+        ),
         ("fit no.ply", "--max-bytes", "-1G", "of bytes above zero"),
         ("batch no.ply -o out", "--jobs", "-2", "of zero or more"),
         ("synth bean", "--points", "-5", "of zero or more"),

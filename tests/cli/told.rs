@@ -124,7 +124,7 @@ fn mistakes_in_usage_are_one_sentence_with_a_hint() {
         ),
         (
             &["fit", "a.ply", "--resolution", "0"],
-            "error: invalid value '0' for '--resolution <N>': 0 is not in 1..=65535; \
+            "error: invalid value '0' for '--resolution <N>': expected a whole number from 1 to 2886; \
              see grainform fit --help\n",
         ),
     ] {

@@ -66,6 +66,19 @@ fn a_label_is_fitted_with_its_volume_and_split_writes_all() {
         &["fit", "grains/grain_0001.ply", "--label", "4"],
     ));
     assert!(refused.contains("leave --label out"), "{refused}");
+    let words = ["fit", "ct.nrrd", "--label", "one"];
+    let refused = errors(&grainform(&folder, &words));
+    assert!(refused.contains("expected a whole number"), "{refused}");
+    // A split of fewer grains into the same folder leaves the second of these.
+    let bytes = std::fs::read(folder.path().join("ct.nrrd")).unwrap();
+    let fewer = bytes.iter().map(|&byte| if byte == 9 { 4 } else { byte });
+    std::fs::write(folder.path().join("one.nrrd"), fewer.collect::<Vec<u8>>()).unwrap();
+    let report = json(&folder, &["split", "one.nrrd", "-o", "grains"]);
+    let warnings = report["warnings"].to_string();
+    assert!(
+        warnings.contains("grain_0002.ply is of an earlier split"),
+        "{warnings}"
+    );
 }
 
 #[test]

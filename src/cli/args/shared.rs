@@ -1,12 +1,12 @@
 //! The arguments that several commands share.
 
 use super::{OUTPUT, RUN, SEARCH};
-use crate::cli::numbers::{bytes, count};
+use crate::cli::numbers::{bytes, count, label, resolution};
 use crate::cli::values::{Auto, ScanFormat, SeamsArg, tolerance};
 use crate::fit::Tolerance;
 use crate::report::Unit;
 use crate::sphere::Symmetry;
-use clap::{Args, value_parser};
+use clap::Args;
 use std::path::PathBuf;
 
 /// Cells per edge of the cube of directions.
@@ -25,7 +25,7 @@ pub(in crate::cli) struct LimitArgs {
 #[derive(Args)]
 pub(in crate::cli) struct InputArgs {
     /// The label of the grain in a segmented volume that has several
-    #[arg(long, value_name = "K", help_heading = RUN)]
+    #[arg(long, value_name = "K", value_parser = label, help_heading = RUN)]
     pub(in crate::cli) label: Option<i64>,
 
     /// Format of the scan, where neither its content nor its extension tells: ply, stl, obj or xyz
@@ -120,6 +120,6 @@ pub(in crate::cli) struct MeshingArgs {
     /// Cells N along each edge of a cube of directions: 6 N^2 + 2 vertices, 12 N^2 triangles; at most 2886, or
     /// 1348 with what is known at each vertex, which takes 4 GB of memory
     #[arg(long, value_name = "N", default_value_t = DEFAULT_RESOLUTION, help_heading = OUTPUT,
-          value_parser = value_parser!(u16).range(1..))]
+          value_parser = resolution)]
     pub(in crate::cli) resolution: u16,
 }
