@@ -248,3 +248,49 @@ impl Fitted {
         Some(posterior.radius_errors(grain, &local))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::fit::{FitOptions, fit};
+    use crate::measure::mesh_properties;
+    use crate::mesh::Mesh;
+    use crate::scan::Scan;
+    use approx::assert_relative_eq;
+    use std::f64::consts::PI;
+
+    /// Of a mesh whose corners lie as far outside a body as its faces lie within it, errors are 3^-1/2 of what it is too large
+    /// by: those of a distribution that is even between faces and fit.
+    #[test]
+    fn errors_hold_that_corners_may_lie_outside() {
+        let mut mesh = Mesh::radial(12, |n| 1.0 + 0.2 * n.z);
+        let truth = 4.0 / 3.0 * PI * 1.04;
+        let faces = mesh_properties(&mesh).unwrap().volume;
+        let scale = (2.0 * truth / (truth + faces)).cbrt();
+        mesh.vertices.iter_mut().for_each(|vertex| *vertex *= scale);
+        let errors = |scan: &Scan| {
+            let fitted = fit(scan, &FitOptions::default()).unwrap();
+            let survey = fitted.survey();
+            let (told, dimensions) = (survey.properties().unwrap(), survey.dimensions().unwrap());
+            let errors = fitted.standard_errors(&told, &dimensions).unwrap();
+            (told, dimensions, errors)
+        };
+        let cloud = Scan::from_points(mesh.vertices.clone());
+        let (told, dimensions, found) = errors(&Scan::from_mesh(mesh).unwrap());
+        let too_large = told.volume / truth - 1.0;
+        assert_relative_eq!(too_large, 3.0 * (scale - 1.0), max_relative = 0.02);
+        let own = too_large / 3.0 / 3.0_f64.sqrt();
+        // What the points leave open comes to it: next to nothing of the volume, more of lengths.
+        let same = |error: f64, expected: f64| {
+            let share = error / expected;
+            assert!((0.98..1.5).contains(&share), "{share}");
+        };
+        assert_relative_eq!(found.volume, 3.0 * own * told.volume, max_relative = 0.02);
+        same(found.area, 2.0 * own * told.area);
+        let moments = told.principal().unwrap().moments;
+        for i in 0..3 {
+            same(found.moments[i], 5.0 * own * moments[i]);
+            same(found.dimensions[i], own * dimensions[i]);
+        }
+        assert!(errors(&cloud).2.volume < 0.1 * found.volume);
+    }
+}

@@ -51,22 +51,7 @@ impl Blur {
 
     /// Standard errors of figures with those of a body that may have swollen.
     pub(super) fn with_swelling(&self, errors: StandardErrors, told: &Figures) -> StandardErrors {
-        let with =
-            |error: f64, power: f64, figure: f64| error.hypot(power * self.swelling * figure);
-        StandardErrors {
-            area: with(errors.area, 2.0, told.area),
-            volume: with(errors.volume, 3.0, told.volume),
-            inertia: errors
-                .inertia
-                .zip_map(&told.inertia, |e, x| with(e, 5.0, x)),
-            moments: errors
-                .moments
-                .zip_map(&told.moments, |e, x| with(e, 5.0, x)),
-            dimensions: errors
-                .dimensions
-                .zip_map(&told.dimensions, |e, x| with(e, 1.0, x)),
-            ..errors
-        }
+        errors.with_scale(self.swelling, told)
     }
 }
 
