@@ -35,8 +35,7 @@ pub use topology::Topology;
 pub(crate) use topology::each_edge;
 #[cfg(feature = "cli")]
 pub(crate) use volume::Extent;
-pub(crate) use volume::voxel_file;
-pub use volume::{LabelScan, Volume, VolumeError, parse_volume};
+pub use volume::{LabelScan, Volume, VolumeError, parse_volume, voxel_file};
 
 /// The points of a scan, in f64, in the file's own frame and unit, and the triangles between them.
 ///

@@ -79,8 +79,9 @@ pub fn parse_volume(path: &Path, bytes: &[u8], limit: u64) -> Result<Option<Volu
     })
 }
 
-/// The file beside an image's own that has its voxels, where the image is a header that names one.
-pub(crate) fn voxel_file(path: &Path, bytes: &[u8]) -> Option<PathBuf> {
+/// The file beside an image's own that has its voxels, where the image, of these bytes, is a header that names one
+/// (`.nhdr`, `.mhd`). `None` too where the name leads to another folder.
+pub fn voxel_file(path: &Path, bytes: &[u8]) -> Option<PathBuf> {
     let name = if nrrd::is_it(bytes) {
         nrrd::voxel_file(bytes)
     } else if metaimage::is_it(path) {
