@@ -220,18 +220,26 @@ fn a_browser_shows_it_all_without_an_error() {
     }
 }
 
-#[test]
-fn a_truth_that_tells_nothing_of_the_results_is_refused() {
+/// A folder with a table of results in its folder `lot`.
+fn results(table: &str) -> tempfile::TempDir {
     let folder = folder();
     fs::create_dir(folder.path().join("lot")).unwrap();
-    let table = "path,status,degree,area,area_se,volume\na/one.ply,ok,3,2.5,0.1,7\n";
     fs::write(folder.path().join("lot/results.csv"), table).unwrap();
-    let told = |truth: &str| {
-        fs::write(folder.path().join("truth.csv"), truth).unwrap();
-        let words = ["report", "lot", "--truth", "truth.csv", "-o", "r.html"];
-        let output = grainform(&folder, &words);
-        (output.status.code(), errors(&output))
-    };
+    folder
+}
+
+/// The exit code, and what is told on standard error, of a report of these results beside a table of truths.
+fn beside(folder: &tempfile::TempDir, truth: &str) -> (Option<i32>, String) {
+    fs::write(folder.path().join("truth.csv"), truth).unwrap();
+    let words = ["report", "lot", "--truth", "truth.csv", "-o", "r.html"];
+    let output = grainform(folder, &words);
+    (output.status.code(), errors(&output))
+}
+
+#[test]
+fn a_truth_that_tells_nothing_of_the_results_is_refused() {
+    let folder = results("path,status,degree,area,area_se,volume\na/one.ply,ok,3,2.5,0.1,7\n");
+    let told = |truth: &str| beside(&folder, truth);
     let (code, message) = told("file,mesh_area\none.ply,2.4\n");
     assert_eq!(code, Some(2));
     assert!(
@@ -246,16 +254,8 @@ fn a_truth_that_tells_nothing_of_the_results_is_refused() {
 
 #[test]
 fn a_truth_is_told_by_path_where_names_are_there_twice() {
-    let folder = folder();
-    fs::create_dir(folder.path().join("lot")).unwrap();
-    let table = "path,status,area\na/one.ply,ok,2.5\nb/one.ply,ok,3.5\n";
-    fs::write(folder.path().join("lot/results.csv"), table).unwrap();
-    let told = |truth: &str| {
-        fs::write(folder.path().join("truth.csv"), truth).unwrap();
-        let words = ["report", "lot", "--truth", "truth.csv", "-o", "r.html"];
-        let output = grainform(&folder, &words);
-        (output.status.code(), errors(&output))
-    };
+    let folder = results("path,status,area\na/one.ply,ok,2.5\nb/one.ply,ok,3.5\n");
+    let told = |truth: &str| beside(&folder, truth);
     let (code, message) = told("file,area\none.ply,2.4\n");
     assert_eq!(code, Some(2));
     assert!(message.contains("such as a/one.ply"), "{message}");
