@@ -4,16 +4,15 @@
 //! the position is fitted too, as far as it may still be better, and the one with fewer coefficients at the limit is kept.
 //! Of voxels the position alone, for a radius follows their steps as if they were texture.
 
-use super::candidate::{Candidate, Search, Work};
 use super::context::Context;
 use super::error::FitError;
 use super::options::{FitOptions, Kind, Seams};
-use super::outcome::{Fitted, KindChoice, Residuals, Rival};
-use super::position::{PositionFit, fit_position_if};
+use super::outcome::{Fitted, KindChoice, Rival};
+use super::positioned::positioned;
 use super::prepare::PreparedScan;
 use super::warning::FitWarning;
 use crate::measure::{Deviation, feet};
-use crate::model::{Grain, InvalidGrain, PositionGrain, StarSurface, Surface};
+use crate::model::{Grain, StarSurface};
 use crate::scan::Scan;
 use crate::sphere::{Symmetry, cube_grid};
 use nalgebra::Vector3;
@@ -27,9 +26,6 @@ const STEEP_SHARE: f64 = 0.005;
 
 /// Cells along a cube's edge of the directions looked at.
 const LOOKED_AT: usize = 24;
-
-/// The fewest cells: a surface that is folded is fitted once more with half its cells, but no fewer than these.
-const FEWEST_CELLS: usize = 6;
 
 /// What a radius does not see is far from it in few places: the mean of all distances is then less than this share of
 /// their RMS. Of noise it is .80 (Geary 1935).
@@ -217,103 +213,4 @@ fn normal_distances(grain: &Grain, scan: &Scan) -> Deviation {
     let some: Vec<_> = points.iter().step_by(every).copied().collect();
     let feet = feet(grain, &some);
     Deviation::of(feet.iter().map(|foot| (foot.distance, 1.0)))
-}
-
-/// The grain that was fitted, if its surface does not go through itself.
-fn sound(fit: &PositionFit) -> Result<PositionGrain, FitError> {
-    let grain = PositionGrain::new(fit.frame, fit.surface.clone()).map_err(FitError::NoSurface)?;
-    let folded_at = match grain.check() {
-        Ok(()) => None,
-        Err(InvalidGrain::Folded { direction }) => Some(grain.point(&direction.into())),
-        Err(error) => return Err(FitError::NoSurface(error)),
-    };
-    match folded_at.or(fit.crossing) {
-        Some(place) => Err(FitError::GoesThroughItself { place }),
-        None => Ok(grain),
-    }
-}
-
-/// Fits positions over the sphere, where that is worth its work.
-fn positioned(
-    scan: &Scan,
-    options: &FitOptions,
-    context: &Context<'_>,
-    kind: KindChoice,
-    is_worth: &(dyn Fn(Rival) -> bool + Sync),
-) -> Result<Fitted, FitError> {
-    let mut fit = fit_position_if(scan, options, context, is_worth)?;
-    let cells_of = |fit: &PositionFit| fit.surface.coefficients().len();
-    let mut grain = sound(&fit);
-    // Fewer cells may not go through themselves.
-    if grain.is_err() && options.segments.is_none() && cells_of(&fit) > FEWEST_CELLS {
-        let fewer = FitOptions {
-            max_segments: Some((cells_of(&fit) / 2).max(FEWEST_CELLS)),
-            ..options.clone()
-        };
-        fit = fit_position_if(scan, &fewer, context, is_worth)?;
-        grain = sound(&fit);
-    }
-    let (grain, cells) = (grain?, cells_of(&fit));
-    let (degree, radius) = (fit.surface.degree(), fit.radius);
-    let grain = Grain::from(grain);
-    let candidate = Candidate {
-        heldout_rms: Some(fit.held_out.rms),
-        ..Candidate::unfitted(degree, cells, grain.coefficient_count())
-    };
-    let mut warnings = fit.warnings;
-    if fit.turned_over > 0 {
-        warnings.push(FitWarning::TurnedOver {
-            samples: fit.turned_over,
-        });
-    }
-    let fitted = Fitted {
-        grain,
-        kind,
-        search: Search {
-            seams: Seams::Blended,
-            chosen: 0,
-            candidates: vec![candidate],
-            limit: fit.limit,
-            noise: None,
-            work: Work::default(),
-        },
-        reference: fit.reference,
-        points: fit.samples,
-        mean_radius: radius,
-        residuals: Residuals {
-            rms: fit.distance.rms,
-            max: fit.distance.max,
-        },
-        asymmetry: None,
-        estimate: None,
-        whole: None,
-        warnings,
-        properties: None,
-        posterior: None,
-        samples: Some(fit.fitted_to),
-        errors: Some(fit.errors),
-    };
-    Ok(fitted.beside_polyhedron())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::fit::position::fit_position;
-    use crate::mesh::Mesh;
-    use nalgebra::Point3;
-
-    #[test]
-    fn a_surface_that_goes_through_itself_is_refused_with_the_place() {
-        let ball = Scan::from_mesh(Mesh::radial(8, |_| 1.0)).unwrap();
-        let options = FitOptions::default().with_segments(1).with_degree(1);
-        let mut fit = fit_position(&ball, &options, &Context::default()).unwrap();
-        assert!(sound(&fit).is_ok());
-        let place = Point3::new(0.5, 0.0, 1.0);
-        fit.crossing = Some(place);
-        let refused = sound(&fit).unwrap_err();
-        assert_eq!(refused, FitError::GoesThroughItself { place });
-        let told = refused.to_string();
-        assert!(told.contains("near (0.5000, 0.0000, 1.0000)"), "{told}");
-    }
 }

@@ -28,6 +28,7 @@ mod neighbours;
 mod options;
 mod outcome;
 mod position;
+mod positioned;
 mod prepare;
 mod samples;
 mod segments;

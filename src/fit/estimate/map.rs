@@ -69,19 +69,16 @@ pub(super) fn rounder(
     may_stand_alone: bool,
     context: &Context<'_>,
 ) -> Result<Rounder, Cancelled> {
+    let compared = first.min(compared_degree(samples.len()));
     let mean = (axes.x * axes.y * axes.z).cbrt();
     let stretch = |strength: f64| axes.map(|axis| (mean / axis).powf(strength));
     let strengths = match axes.max() > ROUND * axes.min() {
         true => &STRENGTHS[..],
         false => &STRENGTHS[2..],
     };
-    let compared = first.min(compared_degree(samples.len()));
-    let mut samples = Cow::Borrowed(samples);
-    let mut outliers = 0;
-    let mut rounds = 0;
-    let mut maps = loop {
+    let maps_of = |samples: &[Sample]| -> Vec<Mapped> {
         let maps = strengths.par_iter().map(|&strength| {
-            let cloud = Cloud::new(&samples, counts, stretch(strength));
+            let cloud = Cloud::new(samples, counts, stretch(strength));
             let every = cloud.len().div_ceil(COMPARED_POINTS);
             let part = (compared < first).then(|| cloud.every(every));
             let part = part.as_ref().unwrap_or(&cloud);
@@ -92,50 +89,14 @@ pub(super) fn rounder(
                 fit,
             }
         });
-        let maps: Vec<Mapped> = maps.collect();
-        let is_whole = counts.is_none() && samples.len() <= COMPARED_POINTS;
-        if !may_stand_alone || rounds == ROUNDS || !is_whole {
-            break maps;
-        }
-        let best = best(&maps);
-        let posterior = Posterior::with(&best.cloud, Arc::clone(&best.fit.sums));
-        let alone = alone(&posterior, &best.fit);
-        if alone.is_empty() {
-            break maps;
-        }
-        rounds += 1;
-        outliers += alone.len();
-        let mut alone = alone.into_iter().peekable();
-        let kept = samples.iter().enumerate();
-        let kept = kept.filter(|(at, _)| alone.next_if_eq(at).is_none());
-        samples = kept.map(|(_, sample)| *sample).collect();
+        maps.collect()
     };
-    let points = samples.len().min(COMPARED_POINTS) as f64;
-    keep(&mut maps, CLOSE * points);
-    let mut is_open = maps.len() > 1 && compared < first;
-    if is_open && is_small(samples.len()) {
-        maps.par_iter_mut().try_for_each(|map| {
-            context.check()?;
-            let posterior = Posterior::new(&map.cloud, compared, true);
-            map.fit = first_step(&posterior, map.fit.spectrum);
-            Ok(())
-        })?;
-        keep(&mut maps, TIED * points);
-        is_open = maps.len() > 1 && !maps.iter().all(|map| map.fit.is_enough());
-    }
-    if is_open {
-        maps.par_iter_mut().try_for_each(|map| {
-            context.check()?;
-            map.fit = match is_small(samples.len()) {
-                true => {
-                    let posterior = Posterior::new(&map.cloud, first, true);
-                    first_step(&posterior, map.fit.spectrum.raised(compared, first))
-                }
-                false => fitted(&map.cloud, first, map.fit.spectrum),
-            };
-            Ok(())
-        })?;
-    }
+    let is_whole = counts.is_none() && samples.len() <= COMPARED_POINTS;
+    let (mut maps, outliers) = match may_stand_alone && is_whole {
+        true => without_outliers(samples, maps_of),
+        false => (maps_of(samples), 0),
+    };
+    tell_apart(&mut maps, compared, first, context)?;
     let strength = best(&maps).strength;
     let found = maps.into_iter().find(|map| map.strength == strength);
     let Mapped { cloud, fit, .. } = found.expect("one of them is the best");
@@ -143,6 +104,70 @@ pub(super) fn rounder(
         cloud,
         fit,
         outliers,
+    })
+}
+
+/// The maps of what is left where the points that stand alone in the best of them are left out, and their number.
+fn without_outliers(
+    samples: &[Sample],
+    maps_of: impl Fn(&[Sample]) -> Vec<Mapped>,
+) -> (Vec<Mapped>, usize) {
+    let mut maps = maps_of(samples);
+    let mut samples = Cow::Borrowed(samples);
+    let mut outliers = 0;
+    for _ in 0..ROUNDS {
+        let best = best(&maps);
+        let posterior = Posterior::with(&best.cloud, Arc::clone(&best.fit.sums));
+        let alone = alone(&posterior, &best.fit);
+        if alone.is_empty() {
+            break;
+        }
+        outliers += alone.len();
+        let mut alone = alone.into_iter().peekable();
+        let kept = samples.iter().enumerate();
+        let kept = kept.filter(|(at, _)| alone.next_if_eq(at).is_none());
+        samples = kept.map(|(_, sample)| *sample).collect();
+        maps = maps_of(&samples);
+    }
+    (maps, outliers)
+}
+
+/// Drops maps that are clearly worse, and fits closer those that are left, as far as it takes to tell them apart.
+fn tell_apart(
+    maps: &mut Vec<Mapped>,
+    compared: usize,
+    first: usize,
+    context: &Context<'_>,
+) -> Result<(), Cancelled> {
+    let points = maps[0].cloud.len();
+    let is_small = is_small(points);
+    let points = points.min(COMPARED_POINTS) as f64;
+    keep(maps, CLOSE * points);
+    if maps.len() == 1 || compared == first {
+        return Ok(());
+    }
+    if is_small {
+        maps.par_iter_mut().try_for_each(|map| {
+            context.check()?;
+            let posterior = Posterior::new(&map.cloud, compared, true);
+            map.fit = first_step(&posterior, map.fit.spectrum);
+            Ok(())
+        })?;
+        keep(maps, TIED * points);
+        if maps.len() == 1 || maps.iter().all(|map| map.fit.is_enough()) {
+            return Ok(());
+        }
+    }
+    maps.par_iter_mut().try_for_each(|map| {
+        context.check()?;
+        map.fit = match is_small {
+            true => {
+                let posterior = Posterior::new(&map.cloud, first, true);
+                first_step(&posterior, map.fit.spectrum.raised(compared, first))
+            }
+            false => fitted(&map.cloud, first, map.fit.spectrum),
+        };
+        Ok(())
     })
 }
 

@@ -15,8 +15,7 @@
 //! standard errors; with this allowance by less than 2.5 of 21 of 24, by 4.2 of the roughest. Of 40 to 180 points of 25
 //! bodies areas were more than 3 standard errors off in 13 of 59, 12 at most, where without the last allowance it was 27 and 91.
 
-use super::LAST_DEGREES;
-use super::outcome::Estimate;
+use super::outcome::{Estimate, LAST_DEGREES};
 use super::spectrum::texture_fall;
 use std::f64::consts::PI;
 

@@ -13,6 +13,7 @@ mod foot;
 mod functionals;
 mod functions;
 mod least_squares;
+mod local_faces;
 pub(crate) mod map;
 mod on_mesh;
 mod on_sphere;
@@ -20,21 +21,16 @@ mod rounds;
 mod search;
 
 use super::context::Context;
-use super::crust::surface_of_points;
 use super::error::FitError;
 use super::options::FitOptions;
 use super::outcome::Rival;
-use super::prepare::{
-    Reference, ReferenceKind, principal_axes, scanned_surface, semi_axes, usable,
-};
+use super::prepare::Reference;
 use super::samples::Samples;
 use super::standard_errors::{NoInterval, StandardErrors};
 use super::warning::FitWarning;
-use crate::measure::{Unit, equivalent_radius, mesh_properties};
-use crate::mesh::Mesh;
 use crate::model::{Frame, Position};
 use crate::scan::Scan;
-use cloud::Cloud;
+use local_faces::LocalFaces;
 use map::spherical_map;
 use nalgebra::Point3;
 use search::search;
@@ -114,48 +110,13 @@ pub(super) fn fit_position_if(
     if options.is_of_points() {
         return Err(FitError::PointOfDegreeZero);
     }
-    let Faces {
-        mesh,
-        kind,
-        warnings,
-    } = faces(scan)?;
-    let points = mesh.vertices.len();
-    let unit = Unit::of(&mesh);
-    let at_unit = unit.mesh(&mesh);
-    let properties = mesh_properties(&at_unit).map_err(|_| FitError::NoVolume { points })?;
-    if properties.volume.is_nan() || properties.volume <= 0.0 {
-        return Err(FitError::NoVolume { points });
-    }
-    let size = equivalent_radius(properties.volume);
-    let at_unit_frame = Frame {
-        centre: properties.centroid,
-        axes: principal_axes(&at_unit, &properties),
-    };
-    let place = |point: &Point3<f64>| Point3::from(at_unit_frame.to_local(point) / size);
-    let local = Mesh {
-        vertices: at_unit.vertices.iter().map(place).collect(),
-        triangles: at_unit.triangles,
-    };
-    let radius = size * unit.length;
+    let local = LocalFaces::new(scan)?;
+    let radius = local.radius;
     let limit = options
         .tolerance
         .length(radius)
         .max(OVER_SCATTER * scan.scatter);
-    let directions = spherical_map(&local, context)?;
-    let mut cloud = match kind {
-        ReferenceKind::Crust => {
-            let points = Mesh {
-                vertices: scan.points.clone(),
-                triangles: Vec::new(),
-            };
-            let points = unit.mesh(&points).vertices;
-            let points = points.iter().map(|point| place(point).coords);
-            Cloud::of_points(&local, directions, points.collect())
-        }
-        _ => Cloud::new(&local, directions),
-    };
-    cloud.semi_axes = semi_axes(&properties, &at_unit_frame) / size;
-    cloud.miscount = scan.miscount / (radius * radius);
+    let mut cloud = local.cloud(spherical_map(&local.mesh, context)?);
     let is_worth = |coefficients: usize, rms: f64| {
         is_worth(Rival {
             coefficients,
@@ -169,26 +130,11 @@ pub(super) fn fit_position_if(
         max: found.max * radius,
     };
     let [turned_over, crossings] = fitted.faults;
-    let frame = Frame {
-        centre: unit.point(&at_unit_frame.centre),
-        ..at_unit_frame
-    };
-    let points = cloud
-        .points
-        .iter()
-        .map(|point| frame.to_scan(&(point * radius)));
-    let normals = cloud.normals.iter().map(|normal| frame.axes * normal);
     Ok(PositionFit {
-        crossing: fitted
-            .crossing
-            .map(|place| frame.to_scan(&(place * radius))),
-        frame,
+        crossing: fitted.crossing.map(|place| local.to_scan(&place)),
+        frame: local.frame,
         surface: fitted.surface.times(radius),
-        reference: Reference {
-            kind,
-            area: unit.area(properties.area),
-            volume: unit.volume(properties.volume),
-        },
+        reference: local.reference,
         radius,
         samples: cloud.scanned(),
         distance: distance(fitted.distances),
@@ -199,65 +145,11 @@ pub(super) fn fit_position_if(
         crossings,
         errors: fitted.errors.map(|errors| errors.times(radius)),
         fitted_to: Samples {
-            points: points.collect(),
-            normals: normals.collect(),
+            points: cloud.points.iter().map(|p| local.to_scan(p)).collect(),
+            normals: cloud.normals.iter().map(|n| local.frame.axes * n).collect(),
         },
-        warnings,
+        warnings: local.warnings,
     })
-}
-
-/// The faces that are mapped to the sphere.
-struct Faces {
-    mesh: Mesh,
-    kind: ReferenceKind,
-    warnings: Vec<FitWarning>,
-}
-
-/// The scan's own faces, or of points without any those of their crust.
-fn faces(scan: &Scan) -> Result<Faces, FitError> {
-    if scan.topology.is_none() {
-        usable(scan)?;
-        return Ok(Faces {
-            mesh: surface_of_points(&scan.points)?,
-            kind: ReferenceKind::Crust,
-            warnings: Vec::new(),
-        });
-    }
-    let surface = scanned_surface(scan)?;
-    match surface.kind {
-        ReferenceKind::Faces | ReferenceKind::Voxels => Ok(Faces {
-            mesh: compact(&surface.mesh),
-            kind: surface.kind,
-            warnings: surface.warnings,
-        }),
-        _ => Err(FitError::NoFaces),
-    }
-}
-
-/// The mesh without the vertices that no triangle names.
-fn compact(mesh: &Mesh) -> Mesh {
-    let mut is_used = vec![false; mesh.vertices.len()];
-    for &corner in mesh.triangles.as_flattened() {
-        is_used[corner as usize] = true;
-    }
-    let mut vertices = Vec::with_capacity(mesh.vertices.len());
-    let mut numbers = vec![0; mesh.vertices.len()];
-    for (at, vertex) in mesh
-        .vertices
-        .iter()
-        .enumerate()
-        .filter(|(at, _)| is_used[*at])
-    {
-        numbers[at] = vertices.len() as u32;
-        vertices.push(*vertex);
-    }
-    let triangles = mesh.triangles.iter();
-    Mesh {
-        triangles: triangles
-            .map(|t| t.map(|corner| numbers[corner as usize]))
-            .collect(),
-        vertices,
-    }
 }
 
 #[cfg(test)]

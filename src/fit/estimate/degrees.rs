@@ -1,0 +1,198 @@
+//! The search for the degree of an estimate: higher ones are tried as long as the last degrees of one carry something, and
+//! points that stand alone are left out of each.
+
+use super::cloud::Cloud;
+use super::map::Rounder;
+use super::outcome::{LAST_DEGREES, last_power};
+use super::outliers::{ROUNDS, alone};
+use super::patches::Patches;
+use super::posterior::{Posterior, is_small};
+use super::residuals;
+use super::spectrum_fit::{Count, SpectrumFit, fit_spectrum};
+use super::tilt::most_likely;
+use crate::fit::context::{Cancelled, Context};
+use crate::sphere::coefficient_count;
+use std::sync::Arc;
+
+/// Degrees that are tried, as long as the last degrees of one carry something.
+const DEGREES: [usize; 5] = [36, 48, 60, 72, 80];
+
+/// A higher degree is kept if points that are left out are missed by this share less: else what the last degrees carried was
+/// noise, of which the prior expected more. The likelihood does not tell: as far as it is known of so many points it is off by
+/// a thousand in its logarithm, one way or the other.
+const WORTH_A_DEGREE: f64 = 0.01;
+
+/// Coefficients per point beyond which a higher degree is not tried.
+const MOST_PER_POINT: f64 = 0.9;
+
+/// The degree that a cloud of so many points is first fitted at.
+pub(super) fn first_degree(points: usize) -> usize {
+    match points {
+        0..=20 => 16,
+        21..=100 => 30,
+        _ => DEGREES[0],
+    }
+}
+
+/// A cloud that is fitted with one degree after the other.
+pub(super) struct Degrees {
+    pub(super) cloud: Cloud,
+    /// Those of which the cloud is the means.
+    pub(super) patches: Option<Patches>,
+    pub(super) degree: usize,
+    pub(super) fit: SpectrumFit,
+    /// Points left out.
+    pub(super) outliers: usize,
+    /// Rounds of leaving out.
+    rounds: usize,
+    may_stand_alone: bool,
+    /// Whether `fit` is one of this degree to this cloud.
+    is_fitted: bool,
+    /// The degree below and its fit, which this one has to beat.
+    lower: Option<(usize, SpectrumFit)>,
+    /// A fit of a higher degree to more points, from which that to fewer starts.
+    higher: Option<(usize, SpectrumFit)>,
+}
+
+impl Degrees {
+    pub(super) fn new(
+        rounder: Rounder,
+        patches: Option<Patches>,
+        first: usize,
+        may_stand_alone: bool,
+    ) -> Self {
+        let Rounder {
+            cloud,
+            mut fit,
+            outliers,
+        } = rounder;
+        let compared = fit.sums.degree();
+        let mut degree = first;
+        if is_small(cloud.len()) {
+            if fit.is_enough() {
+                degree = compared;
+            }
+            fit.spectrum = fit.spectrum.raised(compared, degree);
+        }
+        // The comparison of maps may have found the exact likelihood at this degree.
+        let is_fitted = fit.factor.is_some() && compared == first;
+        if !is_fitted {
+            let tilt = most_likely(&fit.coefficients, &fit.unlearnt, &fit.spectrum);
+            fit.spectrum = fit.spectrum.tilted(tilt);
+        }
+        Self {
+            outliers: patches
+                .as_ref()
+                .map_or(outliers, |patches| patches.left_out),
+            cloud,
+            patches,
+            degree,
+            fit,
+            rounds: 0,
+            may_stand_alone,
+            is_fitted,
+            lower: None,
+            higher: None,
+        }
+    }
+
+    /// The same at the degree that suits the points.
+    pub(super) fn searched(mut self, context: &Context<'_>) -> Result<Self, Cancelled> {
+        loop {
+            context.check()?;
+            if !self.is_fitted {
+                self.fit();
+            }
+            if !self.leaves_out() && !self.goes_on() {
+                return Ok(self);
+            }
+        }
+    }
+
+    fn fit(&mut self) {
+        let posterior = Posterior::new(&self.cloud, self.degree, is_small(self.cloud.len()));
+        let mut coefficients = std::mem::take(&mut self.fit.coefficients);
+        coefficients.resize(coefficient_count(self.degree), 0.0);
+        let spectrum = self.fit.spectrum;
+        self.fit = fit_spectrum(&posterior, spectrum, Some(coefficients), Count::Probed);
+    }
+
+    /// Leaves out points that stand alone, and goes back to the lower degree, which was fitted to all points. Whether there
+    /// were any.
+    fn leaves_out(&mut self) -> bool {
+        let are_told = self.patches.as_ref().is_none_or(Patches::are_some_thin);
+        if !self.may_stand_alone || self.rounds == ROUNDS || !are_told {
+            return false;
+        }
+        let posterior = Posterior::with(&self.cloud, Arc::clone(&self.fit.sums));
+        let alone = alone(&posterior, &self.fit);
+        let left_out = match &mut self.patches {
+            Some(patches) => {
+                patches.leave_out(&alone, |places| residuals(places, &self.cloud, &self.fit))
+            }
+            None => alone.len(),
+        };
+        if left_out == 0 {
+            return false;
+        }
+        self.rounds += 1;
+        self.outliers += left_out;
+        self.cloud = match &self.patches {
+            Some(patches) => Cloud::new(&patches.means, Some(&patches.counts), self.cloud.stretch),
+            None => self.cloud.without(&alone),
+        };
+        if let Some((degree, fit)) = self.lower.take() {
+            let higher = std::mem::replace(&mut self.fit, fit);
+            self.higher = Some((std::mem::replace(&mut self.degree, degree), higher));
+        }
+        self.is_fitted = false;
+        true
+    }
+
+    /// Goes on to a higher degree, or back to the lower one for good. Whether there is a higher one.
+    fn goes_on(&mut self) -> bool {
+        if let Some((degree, before)) = self.lower.take() {
+            let limit = (1.0 - WORTH_A_DEGREE) * before.held_out(&self.cloud);
+            if self.fit.held_out(&self.cloud) > limit {
+                (self.degree, self.fit) = (degree, before);
+                return false;
+            }
+        }
+        let Some(next) = self.next() else {
+            return false;
+        };
+        let start = match self.higher.take().filter(|(higher, _)| *higher == next) {
+            Some((_, before)) => before,
+            None => SpectrumFit {
+                spectrum: self.fit.spectrum.raised(self.degree, next),
+                ..self.fit.clone()
+            },
+        };
+        self.lower = Some((self.degree, std::mem::replace(&mut self.fit, start)));
+        self.degree = next;
+        self.is_fitted = false;
+        true
+    }
+
+    /// A higher degree, if the last ones carry something and the points are enough: the next one, or the highest at once where
+    /// even that is expected to carry something to its end.
+    fn next(&self) -> Option<usize> {
+        let points = self.cloud.len();
+        let carried = last_power(&self.fit.coefficients, self.degree);
+        if is_small(points) || self.fit.hides(carried) {
+            return None;
+        }
+        let most = MOST_PER_POINT * points as f64;
+        let mut higher = DEGREES
+            .into_iter()
+            .filter(|&next| next > self.degree && coefficient_count(next) as f64 <= most);
+        let highest = higher.clone().next_back()?;
+        match self
+            .fit
+            .expects_little(highest - LAST_DEGREES, highest, points)
+        {
+            true => higher.next(),
+            false => Some(highest),
+        }
+    }
+}

@@ -1,0 +1,161 @@
+//! The faces of a scan where they are fitted: about their centroid, along their principal axes, and so large that the ball of
+//! equal volume has the radius 1.
+
+use super::cloud::Cloud;
+use crate::fit::crust::surface_of_points;
+use crate::fit::error::FitError;
+use crate::fit::prepare::{
+    Reference, ReferenceKind, principal_axes, scanned_surface, semi_axes, usable,
+};
+use crate::fit::warning::FitWarning;
+use crate::measure::{Unit, equivalent_radius, mesh_properties};
+use crate::mesh::Mesh;
+use crate::model::Frame;
+use crate::scan::Scan;
+use nalgebra::{Point3, Vector3};
+
+/// Closed faces in their own place and size, and the way back to the scan.
+pub(super) struct LocalFaces {
+    pub(super) mesh: Mesh,
+    /// The scan's points, if the faces are only near them.
+    points: Option<Vec<Vector3<f64>>>,
+    /// Of the ellipsoid of equal moments.
+    semi_axes: Vector3<f64>,
+    /// [Miscount](Cloud::miscount) of voxels.
+    miscount: f64,
+    /// Centroid and principal axes, in the scan's unit.
+    pub(super) frame: Frame,
+    /// Of the ball of equal volume, in the scan's unit.
+    pub(super) radius: f64,
+    /// Area and volume of the faces, in the scan's unit.
+    pub(super) reference: Reference,
+    pub(super) warnings: Vec<FitWarning>,
+}
+
+impl LocalFaces {
+    /// # Errors
+    /// [`FitError`] if the faces are not closed, or if they or the points enclose nothing.
+    pub(super) fn new(scan: &Scan) -> Result<Self, FitError> {
+        let Faces {
+            mesh,
+            kind,
+            warnings,
+        } = faces(scan)?;
+        let no_volume = FitError::NoVolume {
+            points: mesh.vertices.len(),
+        };
+        let unit = Unit::of(&mesh);
+        let at_unit = unit.mesh(&mesh);
+        let Ok(properties) = mesh_properties(&at_unit) else {
+            return Err(no_volume);
+        };
+        if properties.volume.is_nan() || properties.volume <= 0.0 {
+            return Err(no_volume);
+        }
+        let size = equivalent_radius(properties.volume);
+        let at_unit_frame = Frame {
+            centre: properties.centroid,
+            axes: principal_axes(&at_unit, &properties),
+        };
+        let place = |point: &Point3<f64>| at_unit_frame.to_local(point) / size;
+        let points = (kind == ReferenceKind::Crust).then(|| {
+            let points = Mesh {
+                vertices: scan.points.clone(),
+                triangles: Vec::new(),
+            };
+            unit.mesh(&points).vertices.iter().map(place).collect()
+        });
+        let vertices = at_unit.vertices.iter().map(place);
+        let radius = size * unit.length;
+        Ok(Self {
+            points,
+            semi_axes: semi_axes(&properties, &at_unit_frame) / size,
+            miscount: scan.miscount / (radius * radius),
+            frame: Frame {
+                centre: unit.point(&at_unit_frame.centre),
+                ..at_unit_frame
+            },
+            radius,
+            reference: Reference {
+                kind,
+                area: unit.area(properties.area),
+                volume: unit.volume(properties.volume),
+            },
+            warnings,
+            mesh: Mesh {
+                vertices: vertices.map(Point3::from).collect(),
+                triangles: at_unit.triangles,
+            },
+        })
+    }
+
+    /// What is fitted, from the places of the vertices on the sphere.
+    pub(super) fn cloud(&self, directions: Vec<Vector3<f64>>) -> Cloud<'_> {
+        let mut cloud = match &self.points {
+            Some(points) => Cloud::of_points(&self.mesh, directions, points.clone()),
+            None => Cloud::new(&self.mesh, directions),
+        };
+        cloud.semi_axes = self.semi_axes;
+        cloud.miscount = self.miscount;
+        cloud
+    }
+
+    /// A place in the scan's frame and unit.
+    pub(super) fn to_scan(&self, place: &Vector3<f64>) -> Point3<f64> {
+        self.frame.to_scan(&(place * self.radius))
+    }
+}
+
+/// The faces that are mapped to the sphere.
+struct Faces {
+    mesh: Mesh,
+    kind: ReferenceKind,
+    warnings: Vec<FitWarning>,
+}
+
+/// The scan's own faces, or of points without any those of their crust.
+fn faces(scan: &Scan) -> Result<Faces, FitError> {
+    if scan.topology.is_none() {
+        usable(scan)?;
+        return Ok(Faces {
+            mesh: surface_of_points(&scan.points)?,
+            kind: ReferenceKind::Crust,
+            warnings: Vec::new(),
+        });
+    }
+    let surface = scanned_surface(scan)?;
+    match surface.kind {
+        ReferenceKind::Faces | ReferenceKind::Voxels => Ok(Faces {
+            mesh: compact(&surface.mesh),
+            kind: surface.kind,
+            warnings: surface.warnings,
+        }),
+        _ => Err(FitError::NoFaces),
+    }
+}
+
+/// The mesh without the vertices that no triangle names.
+fn compact(mesh: &Mesh) -> Mesh {
+    let mut is_used = vec![false; mesh.vertices.len()];
+    for &corner in mesh.triangles.as_flattened() {
+        is_used[corner as usize] = true;
+    }
+    let mut vertices = Vec::with_capacity(mesh.vertices.len());
+    let mut numbers = vec![0; mesh.vertices.len()];
+    for (at, vertex) in mesh
+        .vertices
+        .iter()
+        .enumerate()
+        .filter(|(at, _)| is_used[*at])
+    {
+        numbers[at] = vertices.len() as u32;
+        vertices.push(*vertex);
+    }
+    let triangles = mesh.triangles.iter();
+    Mesh {
+        triangles: triangles
+            .map(|t| t.map(|corner| numbers[corner as usize]))
+            .collect(),
+        vertices,
+    }
+}
