@@ -24,6 +24,7 @@ mod batch;
 pub mod bed;
 #[cfg(feature = "cli")]
 pub mod bench;
+mod buckets;
 #[cfg(feature = "cli")]
 #[doc(hidden)]
 pub mod cli;

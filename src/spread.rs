@@ -44,6 +44,17 @@ pub(crate) fn median(values: &mut [f64]) -> Option<f64> {
     (!values.is_empty()).then(|| *values.select_nth_unstable_by(middle, f64::total_cmp).1)
 }
 
+/// Of values that are not negative the one of which those that are less have half of the sum: many small ones hardly move it.
+pub(crate) fn middle_of_sum(mut values: Vec<f64>) -> Option<f64> {
+    values.sort_unstable_by(f64::total_cmp);
+    let half = 0.5 * values.iter().sum::<f64>();
+    let mut sum = 0.0;
+    values.into_iter().find(|value| {
+        sum += value;
+        sum >= half
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -54,5 +65,12 @@ mod tests {
         assert_eq!(robust_deviation(sizes.into_iter()), 1.4826 * 2.0);
         assert_eq!(median(&mut [4.0, 1.0, 3.0, 2.0]), Some(3.0));
         assert_eq!(median(&mut []), None);
+    }
+
+    #[test]
+    fn half_of_the_sum_is_below_the_middle() {
+        assert_eq!(middle_of_sum(vec![1.0, 10.0, 2.0, 1.0, 9.0]), Some(9.0));
+        assert_eq!(middle_of_sum(vec![1.0; 5]), Some(1.0));
+        assert_eq!(middle_of_sum(Vec::new()), None);
     }
 }

@@ -1,12 +1,10 @@
 //! Parts that may touch: what is kept of each two from step to step, and the forces of a pair of bodies.
 
 use super::record;
+use crate::contact::SAME_NORMAL;
 use crate::contact::law::{Contact, Law};
 use nalgebra::{Point3, Vector3};
 use serde::{Deserialize, Serialize};
-
-/// Cosine of the angle between normals at which touches are half as one: 20 degrees.
-const SAME_NORMAL: f64 = 0.939_692_620_785_908_4;
 
 /// A part of a grain, and a part of another or a wall, that may touch.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -29,8 +29,8 @@ pub use run::{BenchError, measure, run};
 pub use setting::{Asked, Family, Setting, asked};
 pub use subject::{NOISE, Subject, Truth, synthetic};
 
+use crate::digits::plural;
 use crate::report::{Unit, escaped};
-use crate::scan::plural;
 use serde::Serialize;
 
 /// The rows of several scans.

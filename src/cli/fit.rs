@@ -6,9 +6,9 @@ use super::fitting::{ScanFit, fit_scan, say_stats};
 use super::streams::put_json;
 use super::values::SurfaceArg;
 use super::{outputs, superquadric};
+use crate::digits::plural;
 use crate::fit::Fitted;
 use crate::report::{FitReport, largest_loss, write_harmonics};
-use crate::scan::plural;
 use anyhow::{Result, bail};
 use std::time::Instant;
 

@@ -4,6 +4,7 @@ use super::args::ReportArgs;
 use super::console::Console;
 use super::{inputs, outputs, solid, threads};
 use crate::bench;
+use crate::digits::plural;
 use crate::fit::{
     Context as FitContext, FitOptions, Fitted, Kind, Seams, fit_scan, whole_or_largest,
 };
@@ -16,7 +17,7 @@ use crate::report::{
     FitReport, Measure, MeasureReport, Measures, SearchReport, Withheld, by_reason, escaped,
     sentences, short,
 };
-use crate::scan::{Scan, plural};
+use crate::scan::Scan;
 use anyhow::{Context, Result, bail};
 use std::path::Path;
 

@@ -27,6 +27,7 @@ mod relative;
 mod touch;
 mod volume_law;
 
+pub(crate) use convex::SAME_NORMAL;
 pub use convex::{
     ConvexContact, ConvexPair, ConvexStatus, Method, UnionContact, Warm, union_contacts,
 };

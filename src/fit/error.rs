@@ -2,9 +2,9 @@
 
 use super::context::Cancelled;
 use super::position::map::MapError;
+use crate::digits::plural;
 use crate::measure::SelfCrossing;
 use crate::model::InvalidGrain;
-use crate::scan::plural;
 use nalgebra::{Point3, Vector3};
 
 /// Why a fit cannot be made.

@@ -39,6 +39,7 @@ mod superquadric;
 mod turn;
 mod unseen;
 mod warning;
+mod without;
 
 pub use candidate::{Candidate, Rejection, Search, Work};
 pub use context::{Context, Stage};

@@ -22,14 +22,9 @@ impl MassProperties {
     /// Principal moments of inertia and their axes; `None` when the inertia is not finite.
     pub fn principal(&self) -> Option<PrincipalInertia> {
         let (moments, axes) = principal(&self.inertia)?;
-        let axis = |i: usize| {
-            let axis = axes.column(i).into_owned();
-            axis * axis[axis.iamax()].signum()
-        };
-        let (first, second) = (axis(0), axis(1));
         Some(PrincipalInertia {
             moments,
-            axes: Matrix3::from_columns(&[first, second, first.cross(&second)]),
+            axes: right_handed(&axes, [0, 1]),
         })
     }
 }
@@ -138,6 +133,16 @@ impl Sub for Moments {
             second: self.second - other.second,
         }
     }
+}
+
+/// Two columns of an orthonormal matrix, each with its largest component positive, and the third axis that makes a rotation
+/// of them.
+pub(super) fn right_handed(axes: &Matrix3<f64>, columns: [usize; 2]) -> Matrix3<f64> {
+    let [first, second] = columns.map(|i| {
+        let axis = axes.column(i).into_owned();
+        axis * axis[axis.iamax()].signum()
+    });
+    Matrix3::from_columns(&[first, second, first.cross(&second)])
 }
 
 #[cfg(test)]

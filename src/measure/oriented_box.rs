@@ -1,5 +1,6 @@
 //! Boxes of any orientation.
 
+use super::mass::right_handed;
 use nalgebra::{Matrix3, Point3, Vector3};
 
 /// A box of any orientation.
@@ -26,13 +27,9 @@ pub(super) fn oriented([low, high]: [Vector3<f64>; 2], axes: &Matrix3<f64>) -> O
     let extents = high - low;
     let mut order = [0, 1, 2];
     order.sort_by(|&i, &j| extents[j].total_cmp(&extents[i]));
-    let [first, second] = [order[0], order[1]].map(|i| {
-        let axis = axes.column(i).into_owned();
-        axis * axis[axis.iamax()].signum()
-    });
     OrientedBox {
         centre: Point3::from(axes * ((low + high) / 2.0)),
-        axes: Matrix3::from_columns(&[first, second, first.cross(&second)]),
+        axes: right_handed(axes, [order[0], order[1]]),
         extents: Vector3::from_fn(|i, _| extents[order[i]]),
     }
 }

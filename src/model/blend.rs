@@ -1,6 +1,7 @@
 //! K functions on a cover of the sphere, blended so that no seam is left.
 
 use super::InvalidGrain;
+use crate::buckets::Buckets;
 use crate::sphere::{CapBasis, CapExpansion, Cover, FacePlaces, Jet, Jets, cube_grid};
 use crate::vectorize::vectorize;
 use nalgebra::Vector3;
@@ -143,29 +144,17 @@ impl<const K: usize> Blend<K> {
             .iter()
             .map(|n| self.cover.bucket(n) as u32)
             .collect();
-        let mut starts = vec![0_usize; self.cover.buckets() + 1];
-        for &bucket in &buckets {
-            starts[bucket as usize + 1] += 1;
-        }
-        for bucket in 1..starts.len() {
-            starts[bucket] += starts[bucket - 1];
-        }
-        let mut sorted = vec![0_u32; directions.len()];
-        let mut next = starts.clone();
-        for (index, &bucket) in buckets.iter().enumerate() {
-            sorted[next[bucket as usize]] = index as u32;
-            next[bucket as usize] += 1;
-        }
+        let sorted = Buckets::new(self.cover.buckets(), &buckets);
         let parts: Vec<Vec<T>> = (0..self.cover.buckets())
             .into_par_iter()
             .with_min_len(16)
             .map(|bucket| {
-                let members = &sorted[starts[bucket]..starts[bucket + 1]];
-                self.blend_near(self.cover.near(bucket), members, directions, of)
+                let near = self.cover.near(bucket);
+                self.blend_near(near, sorted.get(bucket), directions, of)
             })
             .collect();
         let mut out = vec![none; directions.len()];
-        for (&index, value) in sorted.iter().zip(parts.into_iter().flatten()) {
+        for (&index, value) in sorted.members().iter().zip(parts.into_iter().flatten()) {
             out[index as usize] = value;
         }
         out

@@ -1,7 +1,7 @@
 //! Why parts do not make a grain.
 
 use super::{InvalidSuperquadric, Whole};
-use crate::scan::plural;
+use crate::digits::plural;
 
 /// Why parts do not make a grain.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

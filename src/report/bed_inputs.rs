@@ -1,7 +1,7 @@
 //! What `grainform bed --dry-run` tells.
 
 use super::number::short;
-use crate::scan::plural;
+use crate::digits::plural;
 use serde::Serialize;
 use std::fmt;
 

@@ -3,8 +3,8 @@
 use super::number::{percent, short, triple};
 use super::unit::{Labels, Unit};
 use crate::clump::Clump;
+use crate::digits::plural;
 use crate::measure::Ball;
-use crate::scan::plural;
 use serde::Serialize;
 use std::fmt;
 use std::io::{self, Write};

@@ -3,7 +3,7 @@
 use super::escape::escaped;
 use super::number::round;
 use super::truth::TruthRecord;
-use crate::scan::plural;
+use crate::digits::plural;
 use crate::shapes::{CurledOptions, CurledScan};
 use serde::Serialize;
 use std::fmt;

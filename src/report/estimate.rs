@@ -1,8 +1,8 @@
 //! What a fit tells of its estimate, and of what an evaluation costs.
 
+use crate::digits::plural;
 use crate::fit::EstimateSummary;
 use crate::model::{Grain, Surface};
-use crate::scan::plural;
 use crate::sphere::cube_grid;
 use serde::Serialize;
 use std::fmt;

@@ -5,8 +5,8 @@ use super::hertz::HertzLaw;
 use super::number::{short, triple};
 use super::unit::{Labels, Unit};
 use crate::contact::UnionContact;
+use crate::digits::plural;
 use crate::measure::Curvature;
-use crate::scan::plural;
 use serde::Serialize;
 use std::fmt;
 

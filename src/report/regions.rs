@@ -6,7 +6,7 @@ use super::hertz::HertzLaw;
 use super::number::{short, triple, with_error};
 use super::unit::{Labels, Unit};
 use crate::contact::{ContactRegion, ContactRegions, VolumeLaw};
-use crate::scan::plural;
+use crate::digits::plural;
 use serde::Serialize;
 use std::fmt;
 

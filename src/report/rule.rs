@@ -2,8 +2,8 @@
 
 use super::number::{round, short};
 use super::unit::{Labels, Unit};
+use crate::digits::plural;
 use crate::fit::{FitOptions, Fitted, KindChoice, Rival, Tolerance};
-use crate::scan::plural;
 use crate::sphere::Symmetry;
 
 /// The rule of [`crate::fit`] as it decided here.

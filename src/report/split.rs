@@ -2,7 +2,8 @@
 
 use super::number::{short, triple};
 use super::unit::Unit;
-use crate::scan::{Split, plural};
+use crate::digits::plural;
+use crate::scan::Split;
 use serde::Serialize;
 use std::fmt;
 

@@ -3,10 +3,10 @@
 use super::escape::escaped;
 use super::number::{short, triple, with_error};
 use super::unit::{Labels, Unit};
+use crate::digits::plural;
 use crate::fit::{MultiFit, ParameterErrors, Residuals, SuperquadricFit};
 use crate::measure::{SolidProperties, superquadric_properties, union_properties};
 use crate::model::{Frame, Superquadric};
-use crate::scan::plural;
 use serde::Serialize;
 use std::fmt;
 

@@ -2,7 +2,7 @@
 
 use super::escape::escaped;
 use super::number::round;
-use crate::scan::plural;
+use crate::digits::plural;
 use crate::shapes::{Origin, SyntheticTray, TrayOptions};
 use serde::Serialize;
 use std::fmt;

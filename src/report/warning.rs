@@ -2,10 +2,10 @@
 
 use super::number::{percent, short};
 use super::unit::{Labels, Unit};
+use crate::digits::plural;
 use crate::fit::{FitWarning, NoInterval, Rejection};
 use crate::measure::{FacesDefect, Fill};
 use crate::model::{Contradicted, Unseen};
-use crate::scan::plural;
 use std::fmt;
 
 impl fmt::Display for Rejection {

@@ -4,7 +4,8 @@ use std::fmt;
 use std::io;
 use std::path::PathBuf;
 
-use super::{VolumeError, plural};
+use super::VolumeError;
+use crate::digits::plural;
 
 /// Why [`read_scan`](super::read_scan) failed; names the file.
 #[derive(Debug, thiserror::Error)]

@@ -1,9 +1,10 @@
 //! Looks over the triangles of a scan: drops degenerate and repeated ones, turns the mesh right side out, and
 //! warns of what a closed surface of one body would not have.
 
+use super::Scan;
 use super::topology::Topology;
 use super::weld::first_at_same_place;
-use super::{Scan, plural};
+use crate::digits::plural;
 use std::collections::HashSet;
 
 /// Fills in `topology` and the warnings. All indices must be in range.

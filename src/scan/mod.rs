@@ -239,12 +239,6 @@ pub fn parse_scan(bytes: &[u8], extension: Option<&str>) -> Result<Scan, ParseEr
     Ok(scan)
 }
 
-/// `1 row`, `2 rows`.
-pub(crate) fn plural(count: usize, noun: &str) -> String {
-    let s = if count == 1 { "" } else { "s" };
-    format!("{count} {noun}{s}")
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -7,10 +7,11 @@ use std::borrow::Cow;
 
 use nalgebra::Point3;
 
+use super::Scan;
 use super::error::{ParseError, Place};
 use super::polygon::Faces;
 use super::text::{Lines, coordinate, integer, unexpected, words};
-use super::{Scan, plural};
+use crate::digits::plural;
 
 /// The words that OBJ files begin with; nothing else does.
 const KEYWORDS: [&[u8]; 10] = [

@@ -1,7 +1,8 @@
 //! Faces: checked indices, and polygons as triangles.
 
+use super::Scan;
 use super::error::{ParseError, Place};
-use super::{Scan, plural};
+use crate::digits::plural;
 use crate::mesh::{LEAST_AREA_CORNERS, least_area};
 use nalgebra::{Point3, Vector3};
 

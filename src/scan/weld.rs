@@ -5,7 +5,8 @@ use std::collections::HashMap;
 use nalgebra::Point3;
 
 use super::topology::each_edge;
-use super::{ParseError, Scan, plural};
+use super::{ParseError, Scan};
+use crate::digits::plural;
 use crate::mesh::Mesh;
 
 /// Corners of an open rim this near, relative to the longest side of the scan, are one corner.

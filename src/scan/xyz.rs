@@ -7,9 +7,10 @@
 
 use nalgebra::Point3;
 
+use super::Scan;
 use super::error::ParseError;
 use super::text::{Lines, integer, number, quote, unexpected, words};
-use super::{Scan, plural};
+use crate::digits::plural;
 
 /// Fewer rows may be numbered by chance.
 const LEAST_COUNTED: usize = 4;

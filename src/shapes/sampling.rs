@@ -1,7 +1,7 @@
 //! Where a synthetic scan looks: sets of directions.
 
 use super::random::{Stream, random};
-use crate::scan::plural;
+use crate::digits::plural;
 use nalgebra::Vector3;
 use rand_distr::{Distribution, UnitSphere};
 use std::f64::consts::{FRAC_PI_4, PI, TAU};

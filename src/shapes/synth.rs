@@ -2,8 +2,8 @@
 
 use super::random::{Stream, random};
 use super::{AxesError, MIN_POINTS, Sampling, SamplingError, Subject};
+use crate::digits::plural;
 use crate::measure::{Integrals, MassProperties};
-use crate::scan::plural;
 use nalgebra::{Point3, Vector3};
 use rand_distr::{Distribution, StandardNormal, StandardUniform};
 use thiserror::Error;

@@ -4,6 +4,7 @@
 //! (n_b, n_c) / |n_a|, with a the face's axis and b, c the next two. Cells are cut at equal angles,
 //! which makes them nearly equal, without slivers at any pole.
 
+use super::cube_place::{cube_place, part};
 use super::face_rectangle::FaceRectangle;
 use super::{Cap, MARGIN};
 use nalgebra::Vector3;
@@ -48,13 +49,10 @@ impl CubeCell {
 
     /// The position among [`Self::uniform`] cells of the one that holds a direction.
     pub fn position(parts: u16, n: &Vector3<f64>) -> usize {
-        let (axis, parts) = (n.iamax(), usize::from(parts.max(1)));
-        let face = 2 * axis + usize::from(n[axis] < 0.0);
-        let place = |height: f64| {
-            let share = 0.5 + (height / n[axis].abs()).atan() / FRAC_PI_2;
-            ((share * parts as f64) as usize).min(parts - 1)
-        };
-        (face * parts + place(n[(axis + 1) % 3])) * parts + place(n[(axis + 2) % 3])
+        let parts = usize::from(parts.max(1));
+        let (face, place) = cube_place(n);
+        let [row, column] = place.map(|tangent| part(tangent.atan() / FRAC_PI_4, parts));
+        (face * parts + row) * parts + column
     }
 
     /// Whether a direction lies in the cell.

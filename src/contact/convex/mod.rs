@@ -25,4 +25,5 @@ mod union;
 
 pub use contact::{ConvexContact, ConvexStatus, Method, Warm};
 pub use pair::ConvexPair;
+pub(crate) use union::SAME_NORMAL;
 pub use union::{UnionContact, union_contacts};

@@ -7,7 +7,7 @@ use crate::model::{Frame, MultiSuperquadric, Part};
 use nalgebra::{Point3, Vector3};
 
 /// Cosine of the largest angle between normals of one touch: 20 degrees.
-const SAME_NORMAL: f64 = 0.939_692_620_785_908_4;
+pub(crate) const SAME_NORMAL: f64 = 0.939_692_620_785_908_4;
 
 /// One touch of two bodies.
 #[derive(Debug, Clone, Copy, PartialEq)]

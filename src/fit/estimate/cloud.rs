@@ -1,6 +1,7 @@
 //! The points that an estimate rests on, in a space in which the grain is rounder.
 
 use crate::fit::prepare::Sample;
+use crate::fit::without::without;
 use crate::sphere::{HarmonicBasis, coefficient_count};
 use nalgebra::Vector3;
 
@@ -126,17 +127,11 @@ impl Cloud {
 
     /// The cloud without the points at the given ascending positions.
     pub(crate) fn without(&self, left_out: &[usize]) -> Self {
-        fn keep<T: Copy>(values: &[T], left_out: &[usize]) -> Vec<T> {
-            let mut left_out = left_out.iter().peekable();
-            let kept = values.iter().enumerate();
-            kept.filter(|(at, _)| left_out.next_if_eq(&at).is_none())
-                .map(|(_, value)| *value)
-                .collect()
-        }
+        let left_out = || left_out.iter().copied();
         Self {
-            directions: keep(&self.directions, left_out),
-            radii: keep(&self.radii, left_out),
-            weights: keep(&self.weights, left_out),
+            directions: without(&self.directions, left_out()),
+            radii: without(&self.radii, left_out()),
+            weights: without(&self.weights, left_out()),
             ..*self
         }
     }

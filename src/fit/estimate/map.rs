@@ -11,6 +11,7 @@ use super::spectrum::Spectrum;
 use super::spectrum_fit::{Count, SpectrumFit, first_step, fit_spectrum};
 use crate::fit::context::{Cancelled, Context};
 use crate::fit::prepare::Sample;
+use crate::fit::without::without;
 use nalgebra::Vector3;
 use rayon::prelude::*;
 use std::borrow::Cow;
@@ -123,10 +124,7 @@ fn without_outliers(
             break;
         }
         outliers += alone.len();
-        let mut alone = alone.into_iter().peekable();
-        let kept = samples.iter().enumerate();
-        let kept = kept.filter(|(at, _)| alone.next_if_eq(at).is_none());
-        samples = kept.map(|(_, sample)| *sample).collect();
+        samples = Cow::Owned(without(&samples, alone));
         maps = maps_of(&samples);
     }
     (maps, outliers)

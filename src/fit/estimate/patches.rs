@@ -6,6 +6,7 @@
 //! derivatives, and for how far the points of a patch lean to one side. The squares of the residuals there tell the noise of
 //! the points.
 
+use crate::buckets::Buckets;
 use crate::fit::prepare::Sample;
 use crate::sphere::CubeCell;
 use crate::spread::{covariance, median, robust_deviation};
@@ -63,21 +64,9 @@ impl Patches {
                     as u32
             })
             .collect();
-        let mut starts = vec![0_usize; cells + 1];
-        for &cell in &place {
-            starts[cell as usize + 1] += 1;
-        }
-        for cell in 0..cells {
-            starts[cell + 1] += starts[cell];
-        }
-        let mut members = vec![0_u32; samples.len()];
-        let mut next = starts.clone();
-        for (index, &cell) in place.iter().enumerate() {
-            members[next[cell as usize]] = index as u32;
-            next[cell as usize] += 1;
-        }
+        let sorted = Buckets::new(cells, &place);
         let mut patches = Self::default();
-        let cells = starts.windows(2).map(|pair| &members[pair[0]..pair[1]]);
+        let cells = sorted.iter();
         let tells = |members: &&[u32]| members.len() >= FEWEST;
         let some = cells.clone().filter(tells).step_by(EVERY_PATCH);
         let mut spreads: Vec<f64> = some

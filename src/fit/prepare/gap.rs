@@ -7,7 +7,7 @@ use crate::measure::Unit;
 use crate::mesh::Mesh;
 use crate::model::Unseen;
 use crate::sphere::triangulate_directions;
-use crate::spread::median;
+use crate::spread::{median, middle_of_sum};
 use nalgebra::{Point3, Vector3};
 use std::f64::consts::PI;
 
@@ -56,7 +56,7 @@ impl Gap {
         Self {
             half_angle,
             direction,
-            spacing: middle(angles).sqrt(),
+            spacing: middle_of_sum(angles).unwrap_or(0.0).sqrt(),
             unseen,
             is_sparse: unseen.is_some() && !is_hole_in_space(&directions, &places()),
         }
@@ -119,18 +119,6 @@ fn middle_of_area(mesh: &Mesh) -> Point3<f64> {
         area += own;
     }
     first + sum / area
-}
-
-/// The value of which those that are less have half of the sum: many points at one place have no part in it.
-fn middle(mut values: Vec<f64>) -> f64 {
-    values.sort_unstable_by(f64::total_cmp);
-    let half = 0.5 * values.iter().sum::<f64>();
-    let mut sum = 0.0;
-    let reached = values.iter().find(|value| {
-        sum += **value;
-        sum >= half
-    });
-    reached.copied().unwrap_or(0.0)
 }
 
 #[cfg(test)]

@@ -11,6 +11,7 @@ use super::together::together;
 use super::twins::merged;
 use crate::fit::error::FitError;
 use crate::fit::warning::FitWarning;
+use crate::fit::without::without;
 use crate::measure::{FacesDefect, Fill, SelfCrossing, scanned_body, self_crossing, without_dust};
 use crate::mesh::Mesh;
 use crate::model::Unseen;
@@ -122,9 +123,16 @@ fn from_faces<'a>(scan: &'a Scan, unreferenced: &[u32]) -> Result<ScannedSurface
         vertices: scan.points.clone(),
         triangles: scan.triangles.clone(),
     };
+    let points = match unreferenced.is_empty() {
+        true => Cow::Borrowed(scan.points.as_slice()),
+        false => Cow::Owned(without(
+            &scan.points,
+            unreferenced.iter().map(|&index| index as usize),
+        )),
+    };
     Ok(ScannedSurface {
         warnings: crossing.into_iter().collect(),
-        ..closed(mesh, without(&scan.points, unreferenced))
+        ..closed(mesh, points)
     })
 }
 
@@ -257,7 +265,7 @@ fn from_directions(points: Cow<'_, [Point3<f64>]>) -> Result<ScannedSurface<'_>,
             let (mesh, _) = one_surface(&representatives, &centre)?;
             let kept = match strays.is_empty() {
                 true => points,
-                false => Cow::Owned(without(&points, &strays).into_owned()),
+                false => Cow::Owned(without(&points, strays.iter().map(|&index| index as usize))),
             };
             (mesh, kept, Some(representatives))
         }
@@ -329,22 +337,4 @@ fn refuse_second_surface(points: &[Point3<f64>], kept: &[Point3<f64>]) -> Result
 
 fn select(points: &[Point3<f64>], indices: &[u32]) -> Vec<Point3<f64>> {
     indices.iter().map(|&i| points[i as usize]).collect()
-}
-
-/// All points but those at the given sorted indices.
-fn without<'a>(points: &'a [Point3<f64>], indices: &[u32]) -> Cow<'a, [Point3<f64>]> {
-    if indices.is_empty() {
-        return Cow::Borrowed(points);
-    }
-    let mut left_out = indices.iter().peekable();
-    let is_kept =
-        |&(i, _): &(usize, &Point3<f64>)| left_out.next_if(|&&index| index as usize == i).is_none();
-    Cow::Owned(
-        points
-            .iter()
-            .enumerate()
-            .filter(is_kept)
-            .map(|(_, point)| *point)
-            .collect(),
-    )
 }

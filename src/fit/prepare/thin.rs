@@ -7,6 +7,7 @@
 
 use super::bin::{BINS, bin};
 use super::samples::{Sample, order};
+use crate::buckets::Buckets;
 use nalgebra::{Point3, Rotation3};
 
 /// Clouds up to this size are used whole.
@@ -24,31 +25,19 @@ pub(crate) struct Thinned {
 /// Thins `points` as seen from `centre`.
 pub(crate) fn thin(points: &[Point3<f64>], centre: &Point3<f64>, apart: f64) -> Thinned {
     let turn = Rotation3::from_euler_angles(0.37, 1.13, 2.71);
-    let bins: Vec<u16> = points
+    let bins: Vec<u32> = points
         .iter()
-        .map(|p| bin(&(turn * (p - centre))) as u16)
+        .map(|p| bin(&(turn * (p - centre))) as u32)
         .collect();
-    let mut starts = vec![0usize; BINS + 1];
-    for &b in &bins {
-        starts[b as usize + 1] += 1;
-    }
-    for b in 1..starts.len() {
-        starts[b] += starts[b - 1];
-    }
-    let mut members = vec![0u32; points.len()];
-    let mut next = starts.clone();
-    for (index, &b) in bins.iter().enumerate() {
-        members[next[b as usize]] = index as u32;
-        next[b as usize] += 1;
-    }
+    let sorted = Buckets::new(BINS, &bins);
     let mut thinned = Thinned {
         representatives: Vec::new(),
         strays: Vec::new(),
     };
     let mut keyed: Vec<(Sample, u32)> = Vec::new();
-    for pair in starts.windows(2).filter(|pair| pair[0] < pair[1]) {
+    for members in sorted.iter().filter(|members| !members.is_empty()) {
         keyed.clear();
-        keyed.extend(members[pair[0]..pair[1]].iter().map(|&index| {
+        keyed.extend(members.iter().map(|&index| {
             let p = points[index as usize];
             ([p.x, p.y, p.z, (p - centre).norm()], index)
         }));

@@ -1,6 +1,7 @@
 //! The points about their mean, in units of their mean distance from it.
 
 use super::error::SuperquadricFitError;
+use crate::sphere::{cube_place, part};
 use crate::spread::{covariance, principal};
 use nalgebra::{Matrix3, Point3, Vector3};
 use std::collections::BTreeMap;
@@ -73,17 +74,9 @@ impl Cloud {
 
     /// The cell of directions that a point is seen in: face of the cube, row and column.
     pub(super) fn cell(&self, point: &Vector3<f64>, cells: usize) -> [usize; 3] {
-        let seen = self.axes.tr_mul(point);
-        let axis = seen.iamax();
-        let share = |x: f64| {
-            let share = 0.5 * (1.0 + x / seen[axis].abs());
-            ((share * cells as f64) as usize).min(cells - 1)
-        };
-        [
-            2 * axis + usize::from(seen[axis] < 0.0),
-            share(seen[(axis + 1) % 3]),
-            share(seen[(axis + 2) % 3]),
-        ]
+        let (face, place) = cube_place(&self.axes.tr_mul(point));
+        let [row, column] = place.map(|tangent| part(tangent, cells));
+        [face, row, column]
     }
 
     /// Some [`FEW`] points, as dense everywhere as all are, whatever their order: every so many of them, cell by cell of

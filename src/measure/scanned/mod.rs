@@ -9,8 +9,9 @@ mod parts;
 mod rims;
 
 use super::SelfCrossing;
+use crate::digits::plural;
 use crate::mesh::{Mesh, parts};
-use crate::scan::{Scan, each_edge, plural};
+use crate::scan::{Scan, each_edge};
 use bodies::arrange;
 pub use fill::Fill;
 use fill::fill;

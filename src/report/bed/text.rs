@@ -2,10 +2,10 @@
 
 use super::{BedKindRecord, BedMean, BedReport, BedRunRecord};
 use crate::bed::Container;
+use crate::digits::plural;
 use crate::digits::{given, significant};
 use crate::report::escape::escaped;
 use crate::report::number::short;
-use crate::scan::plural;
 use std::fmt;
 
 impl fmt::Display for BedReport {

@@ -1,12 +1,12 @@
 //! The report of a fit for a person.
 
 use super::{FitReport, ReferenceRecord};
+use crate::digits::plural;
 use crate::fit::ReferenceKind;
 use crate::report::escape::escaped;
 use crate::report::measure::by_reason;
 use crate::report::number::{percent, short, with_error};
 use crate::report::unit::Labels;
-use crate::scan::plural;
 use crate::sphere::Symmetry;
 use std::fmt;
 

@@ -1,9 +1,9 @@
 //! What the faces of a scan enclose.
 
+use crate::digits::plural;
 use crate::measure::{Fill, ScannedBody};
 use crate::report::number::short;
 use crate::report::unit::Labels;
-use crate::scan::plural;
 use serde::Serialize;
 use std::fmt;
 

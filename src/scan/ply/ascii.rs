@@ -9,10 +9,11 @@ use ply_rs::ply::{ElementDef, PropertyType};
 
 use super::header::Header;
 use super::strips;
+use crate::digits::plural;
+use crate::scan::Scan;
 use crate::scan::error::{ParseError, Place};
 use crate::scan::polygon::Faces;
 use crate::scan::text::{Lines, coordinate, integer, unexpected, words};
-use crate::scan::{Scan, plural};
 
 /// What to do with the values of a property.
 enum Column {

@@ -9,9 +9,10 @@ use ply_rs::ply::{
 
 use super::header::{Header, Skipped};
 use super::strips;
+use crate::digits::plural;
+use crate::scan::Scan;
 use crate::scan::error::{ParseError, Place};
 use crate::scan::polygon::Faces;
-use crate::scan::{Scan, plural};
 
 pub(super) fn read(bytes: &[u8], header: &Header) -> Result<Scan, ParseError> {
     let (mut scan, mut faces) = (Scan::default(), Faces::default());

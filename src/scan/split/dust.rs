@@ -1,5 +1,7 @@
 //! What is too small for a grain.
 
+use crate::spread::middle_of_sum;
+
 /// Points of the smallest grain of a cloud.
 pub(super) const LEAST_POINTS: usize = 30;
 
@@ -14,17 +16,7 @@ pub(super) fn without_dust<T>(
     size: impl Fn(&T) -> f64,
 ) -> (Vec<T>, Vec<T>) {
     let (large, mut dust): (Vec<T>, Vec<T>) = all.partition(|one| size(one) >= least);
-    let mut sizes: Vec<f64> = large.iter().map(&size).collect();
-    sizes.sort_unstable_by(f64::total_cmp);
-    let half = sizes.iter().sum::<f64>() / 2.0;
-    let sums = sizes.iter().scan(0.0, |sum, size| {
-        *sum += size;
-        Some((*sum, *size))
-    });
-    let typical = sums
-        .filter(|(sum, _)| *sum >= half)
-        .map(|(_, size)| size)
-        .next();
+    let typical = middle_of_sum(large.iter().map(&size).collect());
     let least = LEAST_SHARE * typical.unwrap_or(0.0);
     let (large, small): (Vec<T>, Vec<T>) = large.into_iter().partition(|one| size(one) >= least);
     dust.extend(small);

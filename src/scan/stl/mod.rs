@@ -10,9 +10,10 @@ mod ascii;
 
 use nalgebra::Point3;
 
+use super::Scan;
 use super::error::{ParseError, Place};
 use super::weld::Welder;
-use super::{Scan, plural};
+use crate::digits::plural;
 
 const HEADER: usize = 84;
 const FACET: usize = 50;

@@ -1,8 +1,8 @@
 //! What the border of an image cuts off a label: there the voxels end, and not the grain.
 
 use super::{Extent, VolumeError};
+use crate::digits::plural;
 use crate::mesh::Grid;
-use crate::scan::plural;
 
 /// Share of a label's boundary that may lie on one side of the image: of a ball that is merely cropped to its voxels it
 /// is 3 % at a radius of 12 voxels.

@@ -1,6 +1,6 @@
 //! Why an image holds no grain that can be read.
 
-use crate::scan::plural;
+use crate::digits::plural;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 

@@ -1,8 +1,8 @@
 //! Why a mesh has no map to the sphere.
 
+use crate::digits::plural;
 use crate::fit::context::Cancelled;
 use crate::mesh::MeshDefect;
-use crate::scan::plural;
 
 /// Why a mesh has no map to the sphere.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
