@@ -3,6 +3,7 @@
 use super::args::BatchArgs;
 use super::console::Console;
 use super::count::Count;
+use super::signals;
 use crate::batch::{Batch, Population, Settings, inputs, run as run_batch};
 use crate::fit::FitOptions;
 use crate::report::{Measure, escaped, short};
@@ -50,6 +51,7 @@ pub(super) fn run(args: BatchArgs, console: Console) -> Result<()> {
         },
     };
     let count = Count::new(batch.inputs.len(), console);
+    signals::keeps_work(console);
     let done = run_batch(&batch, &|progress| {
         count.step(progress.done, progress.kept, progress.all);
     })?;

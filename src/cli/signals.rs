@@ -1,10 +1,20 @@
 //! Ctrl-C and its like: temporary files are removed, then the process ends as it would have.
 
+use super::console::Console;
 use crate::export::remove_temporaries;
 use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
 use signal_hook::iterator::Signals;
 use signal_hook::low_level::emulate_default_handler;
+use std::sync::OnceLock;
 use std::thread;
+
+/// Who is told that the work can go on.
+static GOES_ON: OnceLock<Console> = OnceLock::new();
+
+/// From here on work is saved as it is done: whoever ends the process by a signal is told so.
+pub(super) fn keeps_work(console: Console) {
+    let _ = GOES_ON.set(console);
+}
 
 /// Waits for the signals in a thread of its own. Where that cannot be had, they end the process at once.
 pub(super) fn watch() {
@@ -17,6 +27,9 @@ pub(super) fn watch() {
     thread::spawn(move || {
         for signal in signals.forever() {
             remove_temporaries();
+            if let Some(console) = GOES_ON.get() {
+                console.note("stopped", "the same command goes on from what is saved");
+            }
             let _ = emulate_default_handler(signal);
         }
     });

@@ -12,7 +12,7 @@ const FEW: [&str; 3] = ["--only", "area,volume,dimensions", "-q"];
 const RESULTS: [&str; 3] = ["results.csv", "results.parquet", "summary.json"];
 
 /// A folder with some small scans in the folder `lot`.
-fn lot(count: usize) -> TempDir {
+pub(super) fn lot(count: usize) -> TempDir {
     let folder = folder();
     std::fs::create_dir(folder.path().join("lot")).unwrap();
     for number in 0..count {
@@ -106,7 +106,7 @@ fn rows_are_the_same_bytes_with_any_number_of_threads_and_bad_files_are_told() {
 }
 
 /// A command that is begun, and not waited for.
-fn begin(folder: &TempDir, words: &[&str]) -> Child {
+pub(super) fn begin(folder: &TempDir, words: &[&str]) -> Child {
     Command::new(assert_cmd::cargo::cargo_bin!("grainform"))
         .args(words)
         .current_dir(folder.path())

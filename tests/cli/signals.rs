@@ -1,3 +1,4 @@
+use super::batch::{begin, lot};
 use super::{folder, grain, names, succeed};
 use rustix::process::{Pid, Signal, kill_process};
 use std::os::unix::process::ExitStatusExt;
@@ -89,6 +90,22 @@ fn the_temporary_file_of_a_living_run_is_left_alone() {
     succeed(&folder, &["synth", "bean", "-o", "b.ply"]);
     assert!(child.wait().unwrap().success());
     assert_eq!(names(folder.path()), ["b.ply", "m.json", "m.stl"]);
+}
+
+#[test]
+fn a_batch_that_is_stopped_tells_how_it_goes_on() {
+    if is_ignored(Signal::INT) {
+        return;
+    }
+    let folder = lot(6);
+    let child = begin(&folder, &["batch", "lot", "-o", "out", "--jobs", "1"]);
+    while !folder.path().join("out/journal.jsonl").exists() {}
+    send(&child, Signal::INT);
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.signal(), Some(Signal::INT.as_raw()));
+    let told = String::from_utf8(output.stderr).unwrap();
+    let expected = "stopped: the same command goes on from what is saved";
+    assert!(told.contains(expected), "{told}");
 }
 
 #[cfg(target_os = "linux")]

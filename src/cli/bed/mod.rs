@@ -9,7 +9,7 @@ mod watch;
 
 use super::args::BedArgs;
 use super::console::Console;
-use super::{inputs, outputs, threads};
+use super::{inputs, outputs, signals, threads};
 use crate::bed::{Bed, BedError, BedSettings, Container, Folder, Rest, fabric, picture};
 use crate::mesh::Mesh;
 use crate::report::{BedInputsReport, BedReport, BedRunRecord, Unit, short};
@@ -99,6 +99,7 @@ fn settle(bed: Bed, path: &Path, unit: f64, console: Console) -> Result<(Bed, Be
         );
     }
     let place = Place::make(path)?;
+    signals::keeps_work(console);
     let mut watch = Watch::new(console, bed.settings().rest);
     // The loop runs in a thread of the pool, so that its parts need not be handed there one by one.
     let rest = rayon::scope(|_| {
