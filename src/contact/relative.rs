@@ -248,8 +248,8 @@ mod tests {
 
     #[test]
     fn a_contact_ends_before_the_body_does() {
-        let ball = RelativeCurvature::new([1.0, 1.0], [0.0; 2], 0.0).unwrap();
-        assert_relative_eq!(ball.reach(0.02, 1.0).unwrap(), 0.2, max_relative = 1e-14);
+        let rod = RelativeCurvature::new([4.0, 1.0], [0.0; 2], 0.0).unwrap();
+        assert_relative_eq!(rod.reach(0.02, 1.0).unwrap(), 0.2, max_relative = 1e-14);
         let flat = RelativeCurvature::new([1e-14, 1e-14], [0.0; 2], 0.0).unwrap();
         let refused = flat.reach(0.02, 1.0).unwrap_err();
         assert!(matches!(refused, ContactError::Flat { reach, body: 1.0 } if reach > 1e6));

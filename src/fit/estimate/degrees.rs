@@ -196,3 +196,51 @@ impl Degrees {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::trial::{estimated, fibonacci, samples};
+    use super::*;
+    use nalgebra::Vector3;
+
+    /// At degree 36, after 30, of which points are missed by so many times as much.
+    fn above(times: f64) -> Degrees {
+        let cloud = samples(&fibonacci(3200), |n| 3.0 + 0.5 * n.z.powi(3), 0.01);
+        let estimate = estimated(&cloud, Vector3::repeat(3.0));
+        let fit = SpectrumFit {
+            spectrum: estimate.spectrum,
+            coefficients: estimate.coefficients,
+            unlearnt: estimate.unlearnt,
+            cost: 0.0,
+            sums: estimate.sums,
+            factor: None,
+        };
+        let cloud = estimate.cloud;
+        let mut lower = fit.clone();
+        // A surface that is off everywhere by d misses points by hypot(d, noise).
+        let missed = Posterior::with(&cloud, Arc::clone(&fit.sums)).mean_square(&fit.coefficients);
+        let off = (missed * (times * times - 1.0)).sqrt();
+        lower.coefficients[0] += off * (4.0 * std::f64::consts::PI).sqrt();
+        Degrees {
+            cloud,
+            patches: None,
+            degree: 36,
+            fit,
+            outliers: 0,
+            rounds: 0,
+            may_stand_alone: true,
+            is_fitted: true,
+            lower: Some((30, lower)),
+            higher: None,
+        }
+    }
+
+    #[test]
+    fn a_higher_degree_is_kept_where_points_left_out_are_missed_by_a_hundredth_less() {
+        for (times, kept) in [(1.0, 30), (1.005, 30), (1.05, 36)] {
+            let mut degrees = above(times);
+            assert!(!degrees.goes_on());
+            assert_eq!(degrees.degree, kept, "{times}");
+        }
+    }
+}
