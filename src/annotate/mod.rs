@@ -9,7 +9,6 @@ pub use placed::{ContactFrame, placed};
 use crate::measure::Curvature;
 use crate::mesh::Mesh;
 use crate::model::{Grain, Surface};
-use crate::sphere::cube_grid;
 use nalgebra::Vector3;
 use rayon::prelude::*;
 
@@ -50,11 +49,7 @@ impl Annotated {
                 let vertices = mesh.vertices.iter();
                 vertices.map(|v| (v - centre).normalize()).collect()
             }
-            None => {
-                let axes = grain.frame().axes;
-                let (local, _) = cube_grid(resolution);
-                local.iter().map(|n| axes * n).collect()
-            }
+            None => grain.grid(resolution).0,
         };
         let bent = directions
             .par_iter()

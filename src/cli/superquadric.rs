@@ -71,6 +71,7 @@ fn fitted(args: &FitArgs, form: SuperquadricArg) -> Result<(Grain, Scan, Superqu
         input: name.clone(),
         unit,
         points: points.len(),
+        reference: prepared.as_ref().ok().map(|prepared| prepared.reference),
         warnings: sentences(&scan.warnings, &of_fit, unit),
     };
     let context = FitContext::default();

@@ -17,6 +17,10 @@ const SAG: f64 = 50.0;
 /// Standard errors of a figure that vouch for a larger difference from closed faces.
 const VOUCHING: f64 = 4.0;
 
+/// By how much the area may be larger than that of the polyhedron through points without faces, as a share of it, whatever vouches
+/// for it.
+const WILD: f64 = 0.3;
+
 impl Fitted {
     /// The same, of whose grain it is known what the polyhedron contradicts.
     pub(super) fn beside_polyhedron(mut self) -> Self {
@@ -57,6 +61,8 @@ impl Fitted {
                 let is_volume = found.volume.is_none() || volume.abs() <= VOUCHING * errors.volume;
                 is_area && is_volume
             }
+            // Between points in few rows a surface may go anywhere, and no error tells it.
+            _ if !has_faces && shown > WILD * self.reference.area => false,
             Ok(_) => true,
             // Where there is another reason, a polyhedron between points may be as wrong.
             Err(reason) => !has_faces && !matches!(reason, NoInterval::Unresolved { .. }),

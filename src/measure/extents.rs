@@ -1,11 +1,9 @@
 //! Extents along axes.
 
-use super::form::descending;
 use super::oriented_box::{OrientedBox, oriented};
 use super::support::support_near;
 use crate::Mesh;
-use crate::model::{Frame, Surface};
-use crate::sphere::cube_grid;
+use crate::model::Surface;
 use nalgebra::{Matrix3, Point3, Vector3};
 
 /// Extents of a mesh along three unit axes (columns of `axes`): the sides of the smallest box with
@@ -31,6 +29,25 @@ pub(crate) fn box_along(points: &[Point3<f64>], axes: &Matrix3<f64>) -> Oriented
     oriented(bounds(points, axes), axes)
 }
 
+/// Length, width and thickness, and their axes.
+pub(super) struct Extents {
+    pub(super) dimensions: Vector3<f64>,
+    /// In the columns.
+    pub(super) axes: Matrix3<f64>,
+}
+
+impl Extents {
+    /// Of the extents along three axes, the columns.
+    pub(super) fn descending(along: &Vector3<f64>, axes: &Matrix3<f64>) -> Self {
+        let mut order = [0, 1, 2];
+        order.sort_by(|&i, &j| along[j].total_cmp(&along[i]));
+        Self {
+            dimensions: Vector3::from(order.map(|i| along[i])),
+            axes: Matrix3::from_columns(&order.map(|i| axes.column(i).into_owned())),
+        }
+    }
+}
+
 /// A surface with places all over it.
 pub(super) struct Reach<'a> {
     pub(super) surface: &'a (dyn Surface + Sync),
@@ -44,12 +61,11 @@ pub(super) struct Reach<'a> {
 pub(super) const RESOLUTION: usize = 64;
 
 impl Reach<'_> {
-    /// Length, width and thickness: extents along three unit axes, the columns, in descending order. They are those
-    /// between the planes across an axis that the surface touches, found from the vertices of its mesh that reach
-    /// farthest. Error: rounding where it is smooth, 1e-12 on edges.
-    pub(super) fn dimensions(&self, axes: &Matrix3<f64>) -> Vector3<f64> {
+    /// Extents along three unit axes, the columns: between the planes across an axis that the surface touches, found from the
+    /// vertices of its mesh that reach farthest. Error: rounding where it is smooth, 1e-12 on edges.
+    pub(super) fn extents(&self, axes: &Matrix3<f64>) -> Vector3<f64> {
         let [low, high] = self.bounds(axes);
-        descending(&(high - low)).into()
+        high - low
     }
 
     /// The smallest box with these axes that holds the surface, likewise.
@@ -58,8 +74,8 @@ impl Reach<'_> {
     }
 
     fn bounds(&self, axes: &Matrix3<f64>) -> [Vector3<f64>; 2] {
-        let (directions, _) = cube_grid(RESOLUTION);
-        let Frame { centre, axes: own } = self.surface.frame();
+        let (directions, _) = self.surface.grid(RESOLUTION);
+        let centre = self.surface.frame().centre;
         let reach = |towards: Vector3<f64>| {
             let heights = self
                 .mesh
@@ -71,8 +87,7 @@ impl Reach<'_> {
                 false => best,
             };
             let (height, farthest) = heights.enumerate().fold((f64::NEG_INFINITY, 0), higher);
-            let start = own * directions[farthest];
-            let touched = support_near(self.surface, &towards, &start)
+            let touched = support_near(self.surface, &towards, &directions[farthest])
                 .point
                 .dot(&towards);
             centre.coords.dot(&towards) + touched.max(height)

@@ -2,7 +2,6 @@
 
 use super::Curvature;
 use crate::model::Surface;
-use crate::sphere::cube_grid;
 use kiddo::{ImmutableKdTree, SquaredEuclidean};
 use nalgebra::{Matrix2, Point3, Vector2, Vector3};
 use rayon::prelude::*;
@@ -34,20 +33,19 @@ pub struct Foot {
 /// The nearest of a grid of places are refined by Newton's iteration on the distance. Error: rounding where the
 /// surface is smooth; a hollow narrower than the grid, of a hundredth of the size, may be passed over.
 pub fn feet(surface: &(impl Surface + Sync + ?Sized), points: &[Point3<f64>]) -> Vec<Foot> {
-    let frame = surface.frame();
-    let (local, _) = cube_grid(STARTS);
-    let directions: Vec<Vector3<f64>> = local.iter().map(|n| frame.axes * n).collect();
+    let centre = surface.frame().centre;
+    let (directions, _) = surface.grid(STARTS);
     let places = surface.places(&directions).into_iter();
     let places: Vec<[f64; 3]> = places.map(Into::into).collect();
     let nowhere = |point: &Point3<f64>| Foot {
         direction: directions[0],
-        distance: (point - frame.centre).norm() * f64::NAN,
+        distance: (point - centre).norm() * f64::NAN,
     };
     let Ok(tree) = ImmutableKdTree::<f64, 3>::new_from_slice(&places) else {
         return points.iter().map(nowhere).collect();
     };
     let foot = |point: &Point3<f64>| {
-        let towards = point - frame.centre;
+        let towards = point - centre;
         let query: [f64; 3] = towards.into();
         let near = tree.query(&query).nearest_n::<SquaredEuclidean<f64>>(TRIED);
         let starts = near.execute().into_iter();

@@ -24,31 +24,52 @@ const SAMPLES: usize = 960;
 /// makes 0.35, of 0.5 0.52, of 0.8 0.80, of a sharp one about 0.2.
 pub(super) fn roundness(points: &[Vector2<f64>], inscribed_radius: f64) -> f64 {
     let slopes = slope_series(points);
-    let (mut length, mut angle) = (0.0, 0.0);
-    for sample in 0..SAMPLES {
-        let place = TAU * sample as f64 / SAMPLES as f64;
-        // The first derivative and the second.
-        let (mut first, mut second) = (Vector2::zeros(), Vector2::zeros());
-        let step = phase(place);
-        let mut turn = Vector2::x();
-        for (order, [forth, back]) in (1..).map(f64::from).zip(&slopes) {
-            turn = product(turn, step);
-            let (forth, back) = (product(*forth, turn), product(*back, conjugate(turn)));
-            first += forth + back;
-            let difference = forth - back;
-            second += Vector2::new(-difference.y, difference.x) * order;
-        }
-        let speed = first.norm();
-        let turn = first.perp(&second) / first.norm_squared();
-        if turn * inscribed_radius > speed {
-            length += speed;
-            angle += turn;
-        }
-    }
+    let samples = (0..SAMPLES).map(|sample| {
+        let [speed, turn] = speed_and_turn(&slopes, TAU * sample as f64 / SAMPLES as f64);
+        (Vector2::new(speed, turn), turn * inscribed_radius - speed)
+    });
+    let samples: Vec<(Vector2<f64>, f64)> = samples.collect();
+    let next = samples.iter().cycle().skip(1);
+    let within = samples
+        .iter()
+        .zip(next)
+        .map(|(from, to)| in_corner(from, to));
+    let sums: Vector2<f64> = within.sum();
+    let (length, angle) = (sums.x, sums.y);
     if angle > 0.0 {
         length / angle / inscribed_radius
     } else {
         1.0
+    }
+}
+
+/// Length and angle that the curve goes through per step of its parameter.
+fn speed_and_turn(slopes: &[[Vector2<f64>; 2]; ROUNDNESS_ORDER], place: f64) -> [f64; 2] {
+    // The first derivative and the second.
+    let (mut first, mut second) = (Vector2::zeros(), Vector2::zeros());
+    let step = phase(place);
+    let mut turn = Vector2::x();
+    for (order, [forth, back]) in (1..).map(f64::from).zip(slopes) {
+        turn = product(turn, step);
+        let (forth, back) = (product(*forth, turn), product(*back, conjugate(turn)));
+        first += forth + back;
+        let difference = forth - back;
+        second += Vector2::new(-difference.y, difference.x) * order;
+    }
+    [first.norm(), first.perp(&second) / first.norm_squared()]
+}
+
+/// The integral between two samples over where the excess, the other number of each, is above zero, by straight lines.
+fn in_corner(from: &(Vector2<f64>, f64), to: &(Vector2<f64>, f64)) -> Vector2<f64> {
+    match (from.1 > 0.0, to.1 > 0.0) {
+        (true, true) => (from.0 + to.0) / 2.0,
+        (false, false) => Vector2::zeros(),
+        (is_first, _) => {
+            let (inside, outside) = if is_first { (from, to) } else { (to, from) };
+            let share = inside.1 / (inside.1 - outside.1);
+            let end = inside.0.lerp(&outside.0, share);
+            (inside.0 + end) * (share / 2.0)
+        }
     }
 }
 

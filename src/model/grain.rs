@@ -233,6 +233,10 @@ impl Surface for Grain {
         self.surface().may_cross()
     }
 
+    fn grid(&self, resolution: usize) -> (Vec<Vector3<f64>>, Vec<[u32; 3]>) {
+        self.surface().grid(resolution)
+    }
+
     fn mesh(&self, resolution: usize) -> Mesh {
         self.surface().mesh(resolution)
     }

@@ -5,8 +5,6 @@ use super::{
     Derivatives, Family, Frame, InvalidGrain, Node, StarSurface, Stretch, Surface, SurfaceElement,
     SurfaceJet, Tiling, Whole,
 };
-use crate::mesh::Mesh;
-use crate::sphere::cube_grid;
 use nalgebra::{Matrix3, Point3, Vector3};
 use rayon::prelude::*;
 
@@ -218,21 +216,5 @@ impl Surface for StarGrain {
 
     fn may_cross(&self) -> bool {
         false
-    }
-
-    /// An even resolution puts vertices on the mirror planes of a mirrored surface, and so follows its edges. Where
-    /// the radius jumps between independent segments the triangles in between bridge the step.
-    fn mesh(&self, resolution: usize) -> Mesh {
-        let (directions, triangles) = cube_grid(resolution);
-        let Frame { centre, axes } = self.frame;
-        let vertices = directions
-            .iter()
-            .zip(self.local_radii(&directions))
-            .map(|(local, radius)| centre + axes * (local * radius))
-            .collect();
-        Mesh {
-            vertices,
-            triangles,
-        }
     }
 }

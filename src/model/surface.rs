@@ -83,17 +83,34 @@ pub trait Surface {
         self.frame().centre + self.place(n)
     }
 
-    /// A closed, consistently oriented, manifold mesh with `resolution` cells along each edge of a
-    /// cube of directions: 6 N^2 + 2 vertices, 12 N^2 triangles, in the scan's frame.
-    fn mesh(&self, resolution: usize) -> Mesh {
-        let (directions, triangles) = cube_grid(resolution);
-        let Frame { centre, axes } = self.frame();
-        let directions: Vec<_> = directions.iter().map(|local| axes * local).collect();
-        let places = self.places(&directions).into_iter();
-        Mesh {
-            vertices: places.map(|place| centre + place).collect(),
-            triangles,
+    /// Directions all over the surface, and the triangles between them, counter-clockwise from outside: `resolution` cells
+    /// along each edge of a cube make 6 N^2 + 2 directions and 12 N^2 triangles. Of a surface that is stretched they are even
+    /// where it is rounder.
+    fn grid(&self, resolution: usize) -> (Vec<Vector3<f64>>, Vec<[u32; 3]>) {
+        let (mut directions, triangles) = cube_grid(resolution);
+        for direction in &mut directions {
+            (*direction, _) = self.node((*direction, 0.0));
         }
+        (directions, triangles)
+    }
+
+    /// A closed, consistently oriented, manifold mesh over the [`grid`](Self::grid), in the scan's frame.
+    fn mesh(&self, resolution: usize) -> Mesh {
+        mesh_over_grid(self, resolution)
+    }
+}
+
+/// The mesh of a surface over its grid.
+pub(in crate::model) fn mesh_over_grid(
+    surface: &(impl Surface + ?Sized),
+    resolution: usize,
+) -> Mesh {
+    let (directions, triangles) = surface.grid(resolution);
+    let centre = surface.frame().centre;
+    let places = surface.places(&directions).into_iter();
+    Mesh {
+        vertices: places.map(|place| centre + place).collect(),
+        triangles,
     }
 }
 

@@ -1,10 +1,11 @@
 //! What a fit of superquadrics tells.
 
+use super::ReferenceRecord;
 use super::escape::escaped;
-use super::number::{short, triple, with_error};
+use super::number::{percent, short, triple, with_error};
 use super::unit::{Labels, Unit};
 use crate::digits::plural;
-use crate::fit::{MultiFit, ParameterErrors, Residuals, SuperquadricFit};
+use crate::fit::{MultiFit, ParameterErrors, Reference, ReferenceKind, Residuals, SuperquadricFit};
 use crate::measure::{SolidProperties, superquadric_properties, union_properties};
 use crate::model::{Frame, Superquadric};
 use serde::Serialize;
@@ -36,6 +37,8 @@ pub struct SuperquadricReport {
     pub volume: f64,
     /// Its error, as a share of it; zero of a single one, whose volume is a closed form.
     pub volume_error: f64,
+    /// Area and volume of the scan's own faces, or of the polyhedron through its points.
+    pub reference: Option<ReferenceRecord>,
     /// RMS distances of points that were held out, of one part, of two and so on; absent of a single one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub held_out: Option<Vec<f64>>,
@@ -52,6 +55,8 @@ pub struct FittedScan {
     pub unit: Option<Unit>,
     /// Points of it that were fitted.
     pub points: usize,
+    /// Area and volume of its faces, or of the polyhedron through its points, where these are known.
+    pub reference: Option<Reference>,
     /// What to know of it.
     pub warnings: Vec<String>,
 }
@@ -181,6 +186,7 @@ impl SuperquadricReport {
         residuals: &Residuals,
         mean_radius: f64,
     ) -> Self {
+        let off_faces = scan.reference.and_then(|faces| off_faces(&faces, solid));
         let share = residuals.rms / mean_radius;
         let rough = (share > ROUGH).then(|| {
             format!(
@@ -201,11 +207,34 @@ impl SuperquadricReport {
             area_error: solid.area_error,
             volume: solid.properties.volume,
             volume_error: solid.volume_error,
+            reference: scan.reference.map(Into::into),
             held_out: None,
-            warnings: scan.warnings.into_iter().chain(rough).collect(),
+            warnings: scan
+                .warnings
+                .into_iter()
+                .chain(rough)
+                .chain(off_faces)
+                .collect(),
         }
     }
 }
+
+/// By how much area and volume are off those of the scan's own closed faces, where that is much.
+fn off_faces(faces: &Reference, solid: &SolidProperties) -> Option<String> {
+    let area = solid.properties.area / faces.area - 1.0;
+    let volume = solid.properties.volume / faces.volume - 1.0;
+    let is_much = area.abs() > OFF_FACES || volume.abs() > OFF_FACES;
+    (faces.kind == ReferenceKind::Faces && is_much).then(|| {
+        format!(
+            "The area is {} and the volume {} off those of the scan's own faces: superquadrics do not have this grain's shape.",
+            percent(area),
+            percent(volume)
+        )
+    })
+}
+
+/// Share of the area and of the volume of a scan's own faces from which on a difference is told.
+const OFF_FACES: f64 = 0.05;
 
 /// Share of the mean radius from which on points are told to be far off a fit.
 const ROUGH: f64 = 0.05;
@@ -251,12 +280,22 @@ impl fmt::Display for SuperquadricReport {
         writeln!(f, "area          {area}{}", labels.area())?;
         let volume = told(self.volume, self.volume_error);
         writeln!(f, "volume        {volume}{}", labels.volume())?;
+        if let Some(reference) = &self.reference {
+            let area = format!("{}{}", short(reference.area), labels.area());
+            let volume = format!("{}{}", short(reference.volume), labels.volume());
+            let description = reference.description();
+            writeln!(
+                f,
+                "polyhedron    {description}: area {area}, volume {volume}"
+            )?;
+        }
         for part in &self.parts {
             part.write(f, &length)?;
         }
         write!(
             f,
-            "Figures after ± are standard errors; of area and volume, errors of the quadrature. Lengths are in {}.",
+            "Figures after ± are standard errors; those of area and volume tell how well they are integrated, not how well \
+             superquadrics suit the grain. Lengths are in {}.",
             labels.name()
         )
     }

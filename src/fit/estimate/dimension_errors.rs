@@ -6,6 +6,7 @@
 //! - half of the excess of a largest value, by the variance at the end itself, for a scan may be thinner there;
 //! - the mean square of what is [missing](super::tips) at the ends, as far as the points tell it: the prior is the same
 //!   everywhere, and takes the last of a beak or a tip for noise;
+//! - what the largest [hole](super::hole) may hide;
 //! - where residuals are no noise, by how much the points near the ends are missed when they are
 //!   [left out](super::left_out), or by how much farther the body may reach, whichever is more;
 //! - what turning an axis by its standard deviation does to the extent beyond first order (of a box it grows whichever
@@ -13,6 +14,7 @@
 
 use super::dimensions::{End, Extent, Reach};
 use super::functionals::combined;
+use super::hole::Hole;
 use super::left_out::LeftOut;
 use super::outcome::Estimate;
 use super::outcome::{slope_variance, variance};
@@ -36,7 +38,7 @@ pub(super) struct Dimensions {
 
 /// `mass` are the gradients of area, volume, centroid and inertia, `covariances` theirs with all coefficients, and `sd`
 /// tells how well an entry of the inertia tensor is known along the principal axes; `left_out` are the points where
-/// residuals are no noise.
+/// residuals are no noise, `hole` is one that is no chance.
 pub(super) fn dimensions(
     estimate: &Estimate,
     given: &Conditioned<'_>,
@@ -44,7 +46,7 @@ pub(super) fn dimensions(
     principal: &PrincipalInertia,
     (mass, covariances): (&[Vec<f64>], &[Vec<f64>]),
     sd: impl Fn(usize, usize) -> f64,
-    left_out: Option<&LeftOut<'_>>,
+    (left_out, hole): (Option<&LeftOut<'_>>, Option<&Hole>),
 ) -> Dimensions {
     let extents: [Extent; 3] = [0, 1, 2].map(|i| reach.along(&principal.axes.column(i).into()));
     let basis = HarmonicBasis::new(estimate.degree);
@@ -85,6 +87,9 @@ pub(super) fn dimensions(
             let at = tips.missing(&end.direction);
             missing += at.height * end.by_radius;
             chance += at.variance * end.by_radius * end.by_radius;
+            if let Some(hole) = hole {
+                squares += (hole.hidden(&end.direction).0 * end.by_radius).powi(2);
+            }
             if let Some(points) = left_out {
                 let missed = points.near(&end.direction) * end.by_radius * end.by_radius;
                 squares += missed.max(end.exceeded(points).powi(2));

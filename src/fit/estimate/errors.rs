@@ -7,7 +7,7 @@
 //!   value of the estimate;
 //! - allowances for what second order brings: half of the area's excess, for it rests on degrees that the points
 //!   do not tell; [texture](super::texture) between the points, what noise along the surface [blurs](super::blur) of
-//!   it, what is missing of a [rim](super::rims); those of the [extents](super::dimension_errors); the repulsion of nearly
+//!   it, what is missing of a [rim](super::rims) or over a [hole](super::hole); those of the [extents](super::dimension_errors); the repulsion of nearly
 //!   equal moments;
 //! - a floor, for rounding and quadrature.
 //!
@@ -21,6 +21,7 @@ use super::blur::Blur;
 use super::dimension_errors::dimensions;
 use super::dimensions::Reach;
 use super::functionals::{RingSurface, combined};
+use super::hole::Hole;
 use super::left_out::LeftOut;
 use super::outcome::Estimate;
 use super::posterior::Posterior;
@@ -28,7 +29,7 @@ use super::rims::Rim;
 use super::texture::hidden_slopes;
 use super::unresolved::{is_rough, kurtosis};
 use crate::fit::figures::{Figures, INERTIA, INTEGRALS, MassList, derivatives, list, mass, unlist};
-use crate::fit::gaps::{largest_gap, random_gap};
+use crate::fit::gaps::random_gap;
 use crate::fit::standard_errors::{NoInterval, StandardErrors};
 use crate::fit::turn::entry_variance;
 use crate::measure::{Moments, PrincipalInertia};
@@ -46,17 +47,27 @@ impl Estimate {
     /// # Errors
     /// [`NoInterval`] where they could not be trusted.
     pub(in crate::fit) fn errors(&self, told: &Figures) -> Result<StandardErrors, NoInterval> {
-        let half_angle = largest_gap(&self.cloud.directions);
+        let hole = Hole::of(self);
+        let half_angle = hole.half_angle;
         if half_angle > LARGEST_HOLE.max(random_gap(self.cloud.len())) {
             return Err(NoInterval::Hole { half_angle });
         }
-        self.errors_beside_holes(told)
+        let hole = hole.is_no_chance(self.cloud.len()).then_some(hole);
+        self.errors_with(told, hole.as_ref())
     }
 
     /// The same, with what holes hide only as far as the prior tells it.
     pub(in crate::fit) fn errors_beside_holes(
         &self,
         told: &Figures,
+    ) -> Result<StandardErrors, NoInterval> {
+        self.errors_with(told, None)
+    }
+
+    fn errors_with(
+        &self,
+        told: &Figures,
+        hole: Option<&Hole>,
     ) -> Result<StandardErrors, NoInterval> {
         let posterior = self.posterior();
         let residuals = posterior.residuals(&self.coefficients);
@@ -72,7 +83,8 @@ impl Estimate {
         let blur = Blur::new(self, &residuals);
         let hidden = if is_rough { 0.0 } else { hidden_slopes(self) };
         let slopes = hidden + blur.slopes;
-        let best = Best::new(self, &posterior, &residuals, left_out.as_ref(), slopes);
+        let beside = (left_out.as_ref(), hole);
+        let best = Best::new(self, &posterior, &residuals, beside, slopes);
         let best = best.ok_or(NoInterval::NotFinite)?;
         Ok(blur.with_swelling(best.errors(told), told))
     }
@@ -108,13 +120,13 @@ pub(super) struct Best {
 }
 
 impl Best {
-    /// `None` if the figures are not finite. `left_out` are the points where residuals are no noise; `hidden_slopes` the
+    /// `None` if the figures are not finite. `left_out` are the points where residuals are no noise; `hole` is one that is no chance; `hidden_slopes` the
     /// mean square of the slopes of texture between the points.
     pub(super) fn new(
         estimate: &Estimate,
         posterior: &Posterior<'_>,
         residuals: &[f64],
-        left_out: Option<&LeftOut<'_>>,
+        (left_out, hole): (Option<&LeftOut<'_>>, Option<&Hole>),
         hidden_slopes: f64,
     ) -> Option<Self> {
         let surface = RingSurface::new(estimate);
@@ -141,6 +153,10 @@ impl Best {
             added[0] /= AREA_OF_RIM;
             covariance += added * added.transpose();
         }
+        if let Some(hole) = hole {
+            let added = jacobian * (list(&hole.moments(&surface)) - list(&moments));
+            covariance += added * added.transpose();
+        }
 
         let nodes = surface.nodes.iter().zip(&surface.radii);
         let starts: Vec<_> = nodes.map(|((n, _), (r, _))| (*n, *r)).collect();
@@ -149,7 +165,8 @@ impl Best {
             entry_variance(&of_inertia(&covariance), &principal.axes, i, j).sqrt()
         };
         let mass_and = (&gradients[..], &covariances[..]);
-        let dimensions = dimensions(estimate, &given, &reach, &principal, mass_and, sd, left_out);
+        let beside = (left_out, hole);
+        let dimensions = dimensions(estimate, &given, &reach, &principal, mass_and, sd, beside);
         Some(Self {
             figures: Figures {
                 area: mass.area,

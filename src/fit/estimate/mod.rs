@@ -6,7 +6,7 @@
 //!    under which the points are most likely. No degree has to be chosen: it is high enough when the last
 //!    degrees carry nothing.
 //! 3. Points that stand alone are left out, and the estimate is made again.
-//! 4. Clouds of more than 30 000 points are reduced to patch means, with one correction.
+//! 4. Clouds of more than 30 000 points, and uneven ones of more than 3000, are reduced to patch means, with one correction.
 //!
 //! The posterior covariance says how well every functional of the radius is known.
 
@@ -22,6 +22,7 @@ mod dimensions;
 mod draws;
 mod errors;
 mod functionals;
+mod hole;
 mod information;
 mod left_out;
 mod leverage;
@@ -51,28 +52,51 @@ pub(crate) use outcome::Estimate;
 
 use crate::fit::context::{Cancelled, Context};
 use crate::fit::prepare::Sample;
+use crate::fit::without::without;
 use crate::sphere::ScatteredHarmonics;
 use cloud::Cloud;
 use degrees::{Degrees, first_degree};
 use map::rounder;
 use nalgebra::Vector3;
 use outcome::Dense;
-use patches::{Patches, WHOLE_CLOUD};
+use outliers::strays;
+use patches::{Patches, patches_per_edge};
 use posterior::Posterior;
 use spectrum_fit::SpectrumFit;
 use std::sync::{Arc, OnceLock};
 use stopping::SETTLED;
 
-/// Estimates the radius from samples in the grain's own frame; `axes`: semi-axes of the ellipsoid of equal second moments,
-/// along the grain's own axes; `may_stand_alone`: whether a point may lie off the surface, as none does that was
-/// taken from a face.
+/// Estimates the radius, as [`by_degrees`] does. Where points that were left out are neighbours, on one side of the surface, they
+/// are no strays but a part of the grain that was taken off point by point: they are put back, and all are held.
 pub(crate) fn estimate(
     samples: &[Sample],
     axes: Vector3<f64>,
     may_stand_alone: bool,
     context: &Context<'_>,
 ) -> Result<Estimate, Cancelled> {
-    let patches = (samples.len() > WHOLE_CLOUD).then(|| Patches::new(samples, &axes));
+    let found = by_degrees(samples, axes, may_stand_alone, context)?;
+    if found.outliers == 0 || found.dense.is_some() {
+        return Ok(found);
+    }
+    let Some(strays) = strays(samples, &found) else {
+        return Ok(found);
+    };
+    let outliers = strays.len();
+    let found = by_degrees(&without(samples, strays), axes, false, context)?;
+    Ok(Estimate { outliers, ..found })
+}
+
+/// Estimates the radius from samples in the grain's own frame; `axes`: semi-axes of the ellipsoid of equal second moments,
+/// along the grain's own axes; `may_stand_alone`: whether a point may lie off the surface, as none does that was
+/// taken from a face.
+fn by_degrees(
+    samples: &[Sample],
+    axes: Vector3<f64>,
+    may_stand_alone: bool,
+    context: &Context<'_>,
+) -> Result<Estimate, Cancelled> {
+    let per_edge = patches_per_edge(samples, &axes);
+    let patches = per_edge.map(|per_edge| Patches::new(samples, &axes, per_edge));
     let (reduced, counts) = match &patches {
         Some(patches) => (patches.means.as_slice(), Some(patches.counts.as_slice())),
         None => (samples, None),

@@ -1,11 +1,14 @@
 //! Points that stand alone: far from the estimate, and far from what their neighbours say of it.
 
-use super::outcome::spare;
+use super::cloud::Cloud;
+use super::outcome::{Estimate, spare};
 use super::posterior::Posterior;
 use super::spectrum_fit::SpectrumFit;
 use crate::fit::neighbours::Neighbours;
+use crate::fit::prepare::Sample;
 use crate::spread::{median, robust_deviation};
 use nalgebra::Vector3;
+use std::collections::HashMap;
 
 /// Rounds of leaving out outliers.
 pub(super) const ROUNDS: usize = 5;
@@ -34,6 +37,31 @@ pub(super) fn alone(posterior: &Posterior<'_>, fit: &SpectrumFit) -> Vec<usize> 
     let mut errors = posterior.residuals(&fit.coefficients);
     errors.iter_mut().for_each(|e| *e /= spare);
     outliers(&posterior.cloud.directions, &errors)
+}
+
+/// Of the samples that an estimate has left out, one round after the other, the positions of those that are strays, ascending;
+/// `None` if all are. The others have [`COMPANY`] among their neighbours that were left out on the same side.
+pub(super) fn strays(samples: &[Sample], estimate: &Estimate) -> Option<Vec<usize>> {
+    let cloud = &estimate.cloud;
+    let mapped = Cloud::mapped(samples, cloud.stretch, 1.0);
+    let (directions, measured): (Vec<_>, Vec<_>) = mapped.into_iter().unzip();
+    let mut kept = cloud.directions.iter().peekable();
+    let is_left_out = |&at: &usize| kept.next_if_eq(&&directions[at]).is_none();
+    let left_out: Vec<usize> = (0..samples.len()).filter(is_left_out).collect();
+    let at = left_out.iter().map(|&at| directions[at]);
+    let fitted = estimate.stretched_radii(&at.collect::<Vec<_>>());
+    let sides = left_out.iter().zip(fitted);
+    let sides: HashMap<usize, bool> = sides.map(|(&at, r)| (at, measured[at] > r)).collect();
+    let neighbours = Neighbours::new(&directions);
+    let is_stray = |at: &usize| {
+        let near = neighbours.nearest(&directions[*at], NEIGHBOURS + 1);
+        let alike = near
+            .iter()
+            .filter(|other| sides.get(other) == sides.get(at));
+        alike.count() <= COMPANY
+    };
+    let strays: Vec<usize> = left_out.iter().copied().filter(is_stray).collect();
+    (strays.len() < left_out.len()).then_some(strays)
 }
 
 /// Positions of the outliers among points with these residuals, ascending.

@@ -6,6 +6,7 @@
 //! derivatives, and for how far the points of a patch lean to one side. The squares of the residuals there tell the noise of
 //! the points.
 
+use super::posterior::MOST_FACTORED;
 use crate::buckets::Buckets;
 use crate::fit::prepare::Sample;
 use crate::sphere::CubeCell;
@@ -19,6 +20,17 @@ pub(crate) const WHOLE_CLOUD: usize = 30_000;
 
 /// Patches along an edge of the cube: 6 x 64^2 = 24 576 in all.
 const PER_EDGE: u16 = 64;
+
+/// Of so many cells as there are points, even points hold .7 to .9 and random ones .63. Where they hold less than this share the
+/// points lie in rows or heaps, and conjugate gradients hardly tell what is between: then they are gathered in so few
+/// patches that the matrix is factored.
+const UNEVEN: f64 = 0.4;
+
+/// Points by which this is told, at most.
+const LOOKED_AT: usize = 30_000;
+
+/// The fewest patches along an edge.
+const FEWEST_PER_EDGE: u16 = 16;
 
 /// Points of a patch that stand apart from its median radius by more than this many standard deviations, its own and those of
 /// most patches, are left out, ...
@@ -50,17 +62,45 @@ pub(crate) struct Patches {
     ends: Vec<usize>,
 }
 
+/// Along how many patches of an edge samples of a grain with these semi-axes are gathered; `None` where they are used one by one.
+pub(crate) fn patches_per_edge(samples: &[Sample], axes: &Vector3<f64>) -> Option<u16> {
+    if samples.len() <= MOST_FACTORED {
+        return None;
+    }
+    let some = samples.iter().step_by(samples.len().div_ceil(LOOKED_AT));
+    let directions: Vec<Vector3<f64>> = some
+        .map(|&[x, y, z, _]| Vector3::new(x, y, z).component_div(axes))
+        .collect();
+    let held = |per_edge: u16| {
+        let mut cells: Vec<usize> = directions
+            .iter()
+            .map(|n| CubeCell::position(per_edge, n))
+            .collect();
+        cells.sort_unstable();
+        cells.dedup();
+        cells.len()
+    };
+    let as_many = (directions.len() as f64 / 6.0).sqrt() as u16;
+    match (held(as_many) as f64) < UNEVEN * directions.len() as f64 {
+        true => {
+            let mut sizes = (FEWEST_PER_EDGE..=PER_EDGE).rev();
+            sizes.find(|&per_edge| held(per_edge) <= MOST_FACTORED)
+        }
+        false => (samples.len() > WHOLE_CLOUD).then_some(PER_EDGE),
+    }
+}
+
 impl Patches {
-    /// Gathers samples of a grain with these semi-axes, in any unit. Its directions are stretched halfway to where it is round:
+    /// Gathers samples of a grain with these semi-axes, in any unit, so many along an edge. Its directions are stretched halfway to where it is round:
     /// unstretched, one patch would hold all of a long grain's tip (of a slender lemon of 40 000 points the area was .15 % off,
     /// and is .05 %); stretched all the way, patches along its sides were too long for their texture.
-    pub(crate) fn new(samples: &[Sample], axes: &Vector3<f64>) -> Self {
+    pub(crate) fn new(samples: &[Sample], axes: &Vector3<f64>, per_edge: u16) -> Self {
         let stretched = axes.map(f64::sqrt);
-        let cells = 6 * usize::from(PER_EDGE).pow(2);
+        let cells = 6 * usize::from(per_edge).pow(2);
         let place: Vec<u32> = samples
             .iter()
             .map(|&[x, y, z, _]| {
-                CubeCell::position(PER_EDGE, &Vector3::new(x, y, z).component_div(&stretched))
+                CubeCell::position(per_edge, &Vector3::new(x, y, z).component_div(&stretched))
                     as u32
             })
             .collect();
@@ -232,6 +272,7 @@ fn factor(mut rest: Matrix3<f64>) -> Matrix3<f64> {
 mod tests {
     use super::*;
     use crate::shapes::Sampling;
+    use std::f64::consts::TAU;
 
     /// An ellipsoid of 300 000 points, rough by a wave.
     fn samples() -> Vec<Sample> {
@@ -258,7 +299,7 @@ mod tests {
             [n.x, n.y, n.z, radius + own]
         };
         let samples: Vec<Sample> = cap.iter().enumerate().map(sample).collect();
-        Patches::new(&samples, &Vector3::repeat(1.0)).left_out
+        Patches::new(&samples, &Vector3::repeat(1.0), PER_EDGE).left_out
     }
 
     #[test]
@@ -281,7 +322,7 @@ mod tests {
         };
         let samples: Vec<Sample> = even.iter().map(sample).collect();
         let largest = |axes: &Vector3<f64>| {
-            let counts = Patches::new(&samples, axes).counts;
+            let counts = Patches::new(&samples, axes, PER_EDGE).counts;
             counts.into_iter().fold(0.0, f64::max)
         };
         let mean = 300_000.0 / 24_576.0;
@@ -293,7 +334,7 @@ mod tests {
     #[test]
     fn places_stand_for_points_to_the_second_degree() {
         let samples = samples();
-        let patches = Patches::new(&samples, &Vector3::repeat(1.0));
+        let patches = Patches::new(&samples, &Vector3::repeat(1.0), PER_EDGE);
         let of_places = |function: fn(&Sample) -> f64| {
             let values: Vec<f64> = patches.places().iter().map(function).collect();
             dot(&patches.means_of(&values), &patches.counts)
@@ -310,5 +351,28 @@ mod tests {
         assert!((off / exact).abs() < 1e-6, "{off} {exact}");
         assert!(patches.counts.iter().any(|&count| count > PLACES as f64));
         assert_eq!(patches.left_out, 0);
+    }
+
+    #[test]
+    fn points_in_rows_are_gathered_and_even_ones_are_not() {
+        let ball = Vector3::repeat(1.0);
+        let of = |directions: Vec<Vector3<f64>>| -> Vec<Sample> {
+            directions.iter().map(|n| [n.x, n.y, n.z, 1.0]).collect()
+        };
+        let rows = (0..24).flat_map(|row| {
+            let (sin, cos) = (TAU * f64::from(row) / 48.0).sin_cos();
+            (0..500).map(move |at| {
+                let (y, x) = (TAU * f64::from(at) / 500.0).sin_cos();
+                Vector3::new(x * cos, x * sin, y)
+            })
+        });
+        let per_edge = patches_per_edge(&of(rows.collect()), &ball).unwrap();
+        assert!((20..=64).contains(&per_edge), "{per_edge}");
+        for sampling in [Sampling::Fibonacci, Sampling::Random] {
+            let few = of(sampling.directions(6000, 1).unwrap());
+            assert_eq!(patches_per_edge(&few, &ball), None);
+        }
+        let many = of(Sampling::Random.directions(WHOLE_CLOUD + 1, 1).unwrap());
+        assert_eq!(patches_per_edge(&many, &ball), Some(PER_EDGE));
     }
 }

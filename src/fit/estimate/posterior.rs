@@ -37,7 +37,7 @@ struct Gram {
 const FACTORED: f64 = 0.45;
 
 /// ... but only of clouds up to this size, whose matrices of degree 36 take 30 ms.
-const MOST_FACTORED: usize = 3000;
+pub(super) const MOST_FACTORED: usize = 3000;
 
 /// 1 or -1, as often.
 pub(super) fn sign(random: &mut ChaCha8Rng) -> f64 {

@@ -15,21 +15,28 @@ const FLATTEST: f64 = 1e-3;
 
 /// The mesh of points that form one surface round a centre, and which of them stand apart from their neighbours.
 ///
-/// Few points of a long body differ from their neighbours by its shape: they are looked at in a space in which it is as
-/// wide as it is long.
+/// Points of a long body differ from their neighbours by its shape: where some stand apart they are looked at also in a space in
+/// which it is as wide as it is long, and those are strays that stand apart in both. Of few points only that space tells.
 pub(super) fn one_surface(
     points: &[Point3<f64>],
     centre: &Point3<f64>,
 ) -> Result<(Mesh, Vec<u32>), FitError> {
     let (mesh, Strays { indices, scatter }) = seen(points.to_vec(), centre)?;
-    if scatter <= LARGEST_SCATTER {
+    let is_one = scatter <= LARGEST_SCATTER;
+    if is_one && indices.is_empty() {
         return Ok((mesh, indices));
     }
     let refused = FitError::Scattered { scatter };
-    let places = rounder(&mesh, centre).ok_or_else(|| refused.clone())?;
-    let (Mesh { triangles, .. }, Strays { indices, scatter }) = seen(places, &Point3::origin())?;
-    match scatter <= LARGEST_SCATTER {
-        true => Ok((Mesh { triangles, ..mesh }, indices)),
+    let Some(places) = rounder(&mesh, centre) else {
+        return is_one.then_some((mesh, indices)).ok_or(refused);
+    };
+    let (Mesh { triangles, .. }, rounded) = seen(places, &Point3::origin())?;
+    if is_one {
+        let is_in_both = |index: &u32| rounded.indices.binary_search(index).is_ok();
+        return Ok((mesh, indices.into_iter().filter(is_in_both).collect()));
+    }
+    match rounded.scatter <= LARGEST_SCATTER {
+        true => Ok((Mesh { triangles, ..mesh }, rounded.indices)),
         false => Err(refused),
     }
 }
@@ -110,6 +117,18 @@ mod tests {
         assert!(strays.is_empty());
         rice[40] *= 2.0;
         assert_eq!(one_surface(&rice, &centre).unwrap().1, [40]);
+    }
+
+    #[test]
+    fn the_tips_of_a_needle_are_no_strays() {
+        let radius = |n: &Vector3<f64>| 1.0 / n.component_div(&Vector3::new(10.0, 1.0, 1.0)).norm();
+        let mut needle = points(6146, |n| n * radius(n));
+        let centre = Point3::origin();
+        let (_, plain) = seen(needle.clone(), &centre).unwrap();
+        assert!(!plain.indices.is_empty() && plain.scatter < LARGEST_SCATTER);
+        assert!(one_surface(&needle, &centre).unwrap().1.is_empty());
+        needle[3000] *= 1.5;
+        assert_eq!(one_surface(&needle, &centre).unwrap().1, [3000]);
     }
 
     #[test]

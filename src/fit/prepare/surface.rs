@@ -7,7 +7,7 @@ use super::pieces::Pieces;
 use super::reference::ReferenceKind;
 use super::strays::LEAST_STRAY;
 use super::thin::{Thinned, WHOLE_CLOUD, thin};
-use super::together::together;
+use super::together::{neighbouring, together};
 use super::twins::merged;
 use crate::fit::error::FitError;
 use crate::fit::warning::FitWarning;
@@ -295,8 +295,23 @@ fn from_directions(points: Cow<'_, [Point3<f64>]>) -> Result<ScannedSurface<'_>,
 }
 
 /// The triangulation of all points of a small cloud but its strays, and these points. With the first strays gone, those
-/// that hid behind them stand apart.
-fn whole(mut points: Points<'_>) -> Result<(Mesh, Points<'_>), FitError> {
+/// that hid behind them stand apart; what was taken off so point by point is a tip, and put back.
+fn whole(points: Points<'_>) -> Result<(Mesh, Points<'_>), FitError> {
+    let given = points.clone();
+    let (mesh, kept) = without_strays(points)?;
+    let tips = match kept.len() < given.len() {
+        true => neighbouring(&given, &kept),
+        false => Vec::new(),
+    };
+    if tips.is_empty() {
+        return Ok((mesh, kept));
+    }
+    let kept = [kept.into_owned(), tips].concat();
+    let (mesh, _) = one_surface(&kept, &middle(&kept))?;
+    Ok((mesh, Cow::Owned(kept)))
+}
+
+fn without_strays(mut points: Points<'_>) -> Result<(Mesh, Points<'_>), FitError> {
     let all = points.len();
     for _ in 0..STRAY_ROUNDS {
         let centre = middle(&points);

@@ -20,20 +20,40 @@ const NEIGHBOUR: usize = 6;
 /// Points whose neighbours are asked for.
 const ASKED: usize = 1000;
 
+/// The most points that may be a tip, and the share of a cloud that is as many.
+const TIP: usize = 6;
+const TIP_SHARE: f64 = 0.005;
+
 /// The number of points of a cloud, other than those that were kept, that are in company of each other.
 pub(super) fn together(points: &[Point3<f64>], kept: &[Point3<f64>]) -> usize {
+    let (apart, near) = apart(points, kept);
+    let is_in_company = |own: &&Vector3<f64>| apart.distance(own, COMPANY) <= near;
+    apart.places.iter().filter(is_in_company).count()
+}
+
+/// Of a few points that were not kept, those that are near another of them: they may be a tip of the grain.
+pub(super) fn neighbouring(points: &[Point3<f64>], kept: &[Point3<f64>]) -> Vec<Point3<f64>> {
+    let most = TIP.max((TIP_SHARE * points.len() as f64) as usize);
+    if points.len() - kept.len() > most {
+        return Vec::new();
+    }
+    let (apart, near) = apart(points, kept);
+    let is_near_one = |own: &&Vector3<f64>| apart.distance(own, 1) <= near;
+    let found = apart.places.iter().filter(is_near_one);
+    found.map(|place| Point3::from(*place)).collect()
+}
+
+/// The points that were not kept, and what is near in their cloud.
+fn apart(points: &[Point3<f64>], kept: &[Point3<f64>]) -> (Places, f64) {
     let key = |point: &Point3<f64>| [point.x, point.y, point.z].map(f64::to_bits);
     let mut known: Vec<_> = kept.iter().map(key).collect();
     known.sort_unstable();
     let is_apart = |point: &&Point3<f64>| known.binary_search(&key(point)).is_err();
     let all = Places::new(points.iter());
-    let apart = Places::new(points.iter().filter(is_apart));
-
     let asked = all.places.iter().step_by(all.places.len().div_ceil(ASKED));
     let mut spacings: Vec<f64> = asked.map(|own| all.distance(own, NEIGHBOUR)).collect();
     let near = NEAR * median(&mut spacings).unwrap_or(0.0);
-    let is_in_company = |own: &&Vector3<f64>| apart.distance(own, COMPANY) <= near;
-    apart.places.iter().filter(is_in_company).count()
+    (Places::new(points.iter().filter(is_apart)), near)
 }
 
 struct Places {
@@ -90,6 +110,20 @@ mod tests {
             let found = together(&cloud, &kept);
             assert!((found as f64) < 0.004 * points as f64, "{points}: {found}");
         }
+    }
+
+    #[test]
+    fn a_few_points_near_each_other_may_be_a_tip() {
+        let kept = ellipsoid(1000);
+        let tip = [[3.3, 0.0, 0.0], [3.2, 0.05, 0.0]].map(Point3::from);
+        let alone = Point3::new(0.0, 4.0, 0.0);
+        let mut cloud = kept.clone();
+        cloud.extend(tip);
+        cloud.push(alone);
+        assert_eq!(neighbouring(&cloud, &kept), tip);
+        let table = (0..50).map(|i| Point3::new(0.01 * f64::from(i), 0.0, -2.0));
+        cloud.extend(table);
+        assert_eq!(neighbouring(&cloud, &kept), []);
     }
 
     #[test]

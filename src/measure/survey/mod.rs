@@ -7,6 +7,7 @@ mod unit_size;
 use super::angularity::angularity;
 use super::bounds::ratio;
 use super::elements::Element;
+use super::extents::Extents;
 use super::nodes::{Integrand, nodes};
 use super::unit::Unit;
 use super::{
@@ -51,7 +52,7 @@ pub struct Survey<'a> {
     unit: Unit,
     union: OnceCell<Option<SolidProperties>>,
     properties: OnceCell<Result<MassProperties, SurveyError>>,
-    extents: OnceCell<Result<Vector3<f64>, SurveyError>>,
+    extents: OnceCell<Result<Extents, SurveyError>>,
     mesh: OnceCell<Mesh>,
     hull: OnceCell<Result<Mesh, SurveyError>>,
     minimum_box: OnceCell<Result<OrientedBox, SurveyError>>,
@@ -344,15 +345,15 @@ impl<'a> Survey<'a> {
         Ok(self.unit.expansion(found))
     }
 
-    /// Outlines seen along the principal axes: along the length, the width and the thickness. The last
-    /// is that of a body that lies on its flat side, seen from above.
+    /// Outlines seen along the axes of the [dimensions](Self::dimensions): along the length, the width and the thickness. The
+    /// last is that of a body that lies on its flat side, seen from above.
     ///
     /// # Errors
     ///
     /// As [`Self::dimensions`], and [`SurveyError::Projection`].
     pub fn projections(&self) -> Result<[Outline; 3], SurveyError> {
         self.one_body()?;
-        let axes = self.unit_principal()?.axes;
+        let axes = self.unit_axes()?;
         let centre = self.unit_properties()?.centroid;
         let along = |i: usize, along: &'static str| {
             let found = project(self.mesh(), &axes.column(i).into_owned(), &centre);

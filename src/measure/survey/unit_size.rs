@@ -5,8 +5,7 @@ use super::body::Body;
 use super::error::SurveyError;
 use crate::Mesh;
 use crate::measure::elements::{Element, mesh_elements, surface_elements};
-use crate::measure::extents::{RESOLUTION, Reach};
-use crate::measure::form::descending;
+use crate::measure::extents::{Extents, RESOLUTION, Reach};
 use crate::measure::nodes::{Integrand, nodes};
 use crate::measure::{
     Ball, EquivalentEllipsoid, MassProperties, OrientedBox, PrincipalInertia, SolidProperties,
@@ -49,15 +48,28 @@ impl Survey<'_> {
     }
 
     pub(super) fn unit_dimensions(&self) -> Result<Vector3<f64>, SurveyError> {
-        let dimensions = || {
+        Ok(self.unit_extents()?.dimensions)
+    }
+
+    /// The axes of length, width and thickness, in the columns.
+    pub(super) fn unit_axes(&self) -> Result<Matrix3<f64>, SurveyError> {
+        Ok(self.unit_extents()?.axes)
+    }
+
+    fn unit_extents(&self) -> Result<&Extents, SurveyError> {
+        let found = || {
             self.one_body()?;
             let axes = self.own_axes()?;
-            Ok(match self.reach() {
-                Some(reach) => reach.dimensions(&axes),
-                None => descending(&extents(self.mesh(), &axes)).into(),
-            })
+            let along = match self.reach() {
+                Some(reach) => reach.extents(&axes),
+                None => extents(self.mesh(), &axes),
+            };
+            Ok(Extents::descending(&along, &axes))
         };
-        self.extents.get_or_init(dimensions).clone()
+        self.extents
+            .get_or_init(found)
+            .as_ref()
+            .map_err(Clone::clone)
     }
 
     /// The principal axes, and of equal moments, whose axes may be any, those along the sides of the least box.

@@ -3,7 +3,10 @@
 use super::outside::outside;
 use super::{MultiSuperquadric, Part, Superquadric};
 use crate::mesh::Mesh;
-use crate::model::{Frame, InvalidGrain, Radial, StarSurface, Surface, SurfaceJet, Tiling};
+use crate::model::surface::mesh_over_grid;
+use crate::model::{
+    Frame, InvalidGrain, Node, Radial, StarSurface, Stretch, Surface, SurfaceJet, Tiling,
+};
 use nalgebra::{Matrix3, Point3, Vector3};
 
 /// A union of superquadrics and where it lies in the scan, seen as the surface that rays from its centre leave last.
@@ -13,6 +16,8 @@ use nalgebra::{Matrix3, Point3, Vector3};
 pub struct SuperquadricGrain {
     frame: Frame,
     body: MultiSuperquadric,
+    /// After which one along the axes of the frame is as wide along all; unions are not stretched.
+    stretch: Stretch,
     hidden_share: f64,
 }
 
@@ -38,6 +43,7 @@ impl SuperquadricGrain {
         Ok(Self {
             frame,
             hidden_share: body.hidden_share(),
+            stretch: stretch(&body),
             body,
         })
     }
@@ -61,6 +67,7 @@ impl SuperquadricGrain {
                 ..self.frame
             },
             body: self.body.times(factor),
+            stretch: self.stretch,
             hidden_share: self.hidden_share,
         }
     }
@@ -80,6 +87,17 @@ impl SuperquadricGrain {
         let parts = self.body.parts();
         let numbers = parts.iter().map(|part| part.shape.number_count());
         numbers.sum::<usize>() + 6 * (parts.len() - 1)
+    }
+}
+
+/// What makes a superquadric along the axes of its frame as wide along all.
+fn stretch(body: &MultiSuperquadric) -> Stretch {
+    match body.parts() {
+        [part] if part.frame == Frame::SCAN => {
+            let [x, y, z] = part.shape.semi_axes().map(|[one, other]| one.max(other));
+            Stretch::new(Vector3::new(x, y, z).map(f64::recip)).unwrap_or(Stretch::NONE)
+        }
+        _ => Stretch::NONE,
     }
 }
 
@@ -116,14 +134,20 @@ impl Surface for SuperquadricGrain {
         false
     }
 
+    /// From directions of the body stretched to equal widths.
+    fn node(&self, node: Node) -> Node {
+        let (direction, solid_angle) = self.stretch.node(node);
+        (self.frame.axes * direction, solid_angle)
+    }
+
     /// Of a union that the centre does not see whole one over a lattice, about as fine: closed and consistently oriented
     /// all the same.
     fn mesh(&self, resolution: usize) -> Mesh {
+        if self.hidden_share == 0.0 {
+            return mesh_over_grid(self, resolution);
+        }
         let Frame { centre, axes } = self.frame;
-        let local = match self.hidden_share > 0.0 {
-            true => outside(&self.body, resolution),
-            false => Mesh::radial(resolution, |n| self.body.radius(n)),
-        };
+        let local = outside(&self.body, resolution);
         let vertices = local.vertices.iter();
         Mesh {
             vertices: vertices

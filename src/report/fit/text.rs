@@ -12,7 +12,7 @@ use std::fmt;
 
 impl ReferenceRecord {
     /// What it is, in words.
-    fn description(&self) -> &'static str {
+    pub(in crate::report) fn description(&self) -> &'static str {
         let is_of = |kind: ReferenceKind| self.kind == kind.name();
         if is_of(ReferenceKind::Faces) {
             "the scan's own faces"

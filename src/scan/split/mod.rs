@@ -11,8 +11,10 @@ mod links;
 mod neck;
 mod outline;
 mod plane;
+mod spacing;
 
 pub use plane::Plane;
+use spacing::covering;
 
 use super::drawn::{by_coordinates, drawn};
 use super::{ParseError, Scan, Volume, VolumeError};
@@ -84,9 +86,15 @@ const NECK_POINTS: usize = 4000;
 /// Whether a cloud without faces, taken for one body, has a neck at which [`split`] would cut it.
 pub(crate) fn has_neck(points: &[Point3<f64>]) -> bool {
     let drawn = drawn(points, NECK_POINTS);
-    let distance = Links::new(&drawn).map(|links| links.distance);
-    let neck = distance.and_then(|distance| Neck::find(&drawn, distance));
-    neck.is_some_and(|neck| neck.is_narrow())
+    let Some(links) = Links::new(&drawn) else {
+        return false;
+    };
+    // Between rows of points thin slabs hold few of them; a neck is one in thick slabs too.
+    let distance = covering(&drawn, links.distance);
+    [1.0, 2.0].into_iter().all(|times| {
+        let neck = Neck::find(&drawn, times * distance);
+        neck.is_some_and(|neck| neck.is_narrow())
+    })
 }
 
 /// The grains of a segmented volume, one for each label, in the order of the labels.

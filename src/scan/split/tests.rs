@@ -4,6 +4,7 @@ use crate::shapes::{
     Body, Origin, Sampling, SynthOptions, SyntheticTray, TrayOptions, synthesize, synthesize_tray,
 };
 use nalgebra::{Rotation3, Vector3};
+use std::f64::consts::{PI, TAU};
 
 fn tray() -> SyntheticTray {
     let options = TrayOptions::clean(12).with_noise(0.002);
@@ -212,6 +213,19 @@ fn a_cloud_of_two_grains_that_touch_has_a_neck_and_one_grain_has_none() {
         points.extend(grain(Body::Bean).iter().map(|point| point + aside));
         assert!(has_neck(&points), "{aside}");
     }
+}
+
+#[test]
+fn a_grain_scanned_in_rings_has_no_neck() {
+    let rings = (0..12).flat_map(|ring| {
+        let (sin, cos) = (PI * (f64::from(ring) + 0.5) / 12.0).sin_cos();
+        (0..300).map(move |at| {
+            let azimuth = TAU * f64::from(at) / 300.0;
+            let n = Vector3::new(cos, sin * azimuth.cos(), sin * azimuth.sin());
+            Point3::from(n.component_mul(&Vector3::new(4.0, 3.0, 2.5)))
+        })
+    });
+    assert!(!has_neck(&rings.collect::<Vec<_>>()));
 }
 
 /// Balls of some radii about places on a line, each wound inwards where its radius is negative.

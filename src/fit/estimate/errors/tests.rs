@@ -25,7 +25,7 @@ fn best_with(estimate: &Estimate, residuals: &[f64]) -> Best {
         estimate,
         &estimate.posterior(),
         residuals,
-        None,
+        (None, None),
         hidden_slopes(estimate),
     )
     .unwrap()

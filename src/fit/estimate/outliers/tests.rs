@@ -1,4 +1,8 @@
+use super::super::by_degrees;
+use super::super::trial::{fibonacci, samples};
 use super::*;
+use crate::fit::context::Context;
+use crate::fit::without::without;
 use crate::shapes::Sampling;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
@@ -83,4 +87,26 @@ fn what_the_rest_of_the_surface_scatters_by_is_no_outlier_in_a_quiet_part() {
         found.retain(|&at| directions[at].z > 0.9);
         assert_eq!(found, expected);
     }
+}
+
+#[test]
+fn points_left_out_beside_each_other_are_no_strays() {
+    let directions = fibonacci(3000);
+    let mut all = samples(&directions, |_| 3.0, 0.003);
+    let tip = triangle(&directions);
+    let alone = 100;
+    for &at in tip.iter().chain([&alone]) {
+        all[at][3] = 3.6;
+    }
+    let mut left_out = [&tip[..], &[alone]].concat();
+    left_out.sort_unstable();
+    let of_rest = |all: &[Sample], left_out: &[usize]| {
+        let rest = without(all, left_out.iter().copied());
+        by_degrees(&rest, Vector3::repeat(3.0), false, &Context::default()).unwrap()
+    };
+    assert_eq!(strays(&all, &of_rest(&all, &left_out)), Some(vec![alone]));
+    assert_eq!(strays(&all, &of_rest(&all, &[alone])), None);
+    // One of them inside is none of the others.
+    all[tip[0]][3] = 2.4;
+    assert_eq!(strays(&all, &of_rest(&all, &left_out)), None);
 }
