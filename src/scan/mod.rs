@@ -230,7 +230,9 @@ pub fn parse_scan(bytes: &[u8], extension: Option<&str>) -> Result<Scan, ParseEr
     if format == Format::Stl && scan.triangles.is_empty() {
         return Err(ParseError::NoFacets);
     }
-    scan.look_over(format == Format::Stl)?;
+    let odd = scan.warnings.clone();
+    scan.look_over(format == Format::Stl)
+        .map_err(|error| error.beside(&odd))?;
     if scan.triangles.is_empty()
         && let Some(filled) = volume::filled_lattice(&scan.points)
     {
