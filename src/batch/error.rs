@@ -25,6 +25,38 @@ pub(crate) enum BatchError {
         /// How the names of scans end.
         endings: Vec<&'static str>,
     },
+    /// A folder to look for scans in is one of results.
+    #[error(
+        "{} holds the results of a batch, and scans are not looked for in it: name them, or move the results elsewhere",
+        folder.display()
+    )]
+    Results {
+        /// The folder.
+        folder: PathBuf,
+    },
+    /// The results would go into a folder in which scans are looked for.
+    #[error(
+        "the results cannot go into {}, for scans are looked for in it, and not in a folder of results: give another one \
+         with -o, such as {}",
+        folder.display(),
+        folder.join("results").display()
+    )]
+    AmongScans {
+        /// The folder.
+        folder: PathBuf,
+    },
+    /// No scan is there.
+    #[error(
+        "there is no {}{}; correct the paths, nothing was written",
+        path.display(),
+        if *scans == 1 { String::new() } else { format!(", nor any other of the {scans} scans") }
+    )]
+    Missing {
+        /// The first of them.
+        path: PathBuf,
+        /// How many there should be.
+        scans: usize,
+    },
     /// A list of paths is empty.
     #[error("{} names no scans: write a path into each line", path.display())]
     EmptyList {

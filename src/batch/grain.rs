@@ -108,7 +108,8 @@ pub(super) fn grain(
 fn fit(scan: Scan, settings: &Settings) -> Result<(Fitted, Vec<String>), String> {
     let (scan, left_out) = whole_or_largest(scan, settings.largest);
     let context = Context::default();
-    let mut fitted = fit_scan(&scan, &settings.fit, &context).map_err(|error| told(&error))?;
+    let mut fitted =
+        fit_scan(&scan, &settings.fit, &context).map_err(|error| scan.explained(told(&error)))?;
     fitted.warnings.extend(left_out);
     Ok((fitted, scan.warnings().to_vec()))
 }

@@ -14,21 +14,54 @@ const IMAGES: [&str; 8] = ["nrrd", "nhdr", "mha", "mhd", "nii", "npy", "tif", "t
 /// The file that makes a folder one of results: no scans are looked for in it.
 pub(super) const JOURNAL: &str = "journal.jsonl";
 
+/// What is named to a batch.
+#[derive(Debug, Default)]
+pub(crate) struct Inputs {
+    /// Each scan once, by its first name.
+    pub scans: Vec<PathBuf>,
+    /// Files in folders that are not named as scans are.
+    pub left_out: Vec<PathBuf>,
+}
+
 /// The files that paths name, in their order and each once, by its first name: a file is itself, a folder the scans in it
-/// and in its folders, `@list.txt` the paths in its lines, and what is no file is a pattern such as `lot*/*.ply`. Links
+/// and in its folders, `@list.txt` the paths in its lines, but for those that begin with `#`, and what is no file is a pattern such as `lot*/*.ply`. Links
 /// to folders are not followed in folders, nor by `**`.
 ///
 /// # Errors
 /// [`BatchError`] where a folder or list cannot be read, or where nothing is found. A file that is not there is told in
 /// its row.
-pub(crate) fn inputs(paths: &[PathBuf]) -> Result<Vec<PathBuf>, BatchError> {
-    let mut all = Vec::new();
+pub(crate) fn inputs(paths: &[PathBuf]) -> Result<Inputs, BatchError> {
+    let mut all = Inputs::default();
     for path in paths {
-        all.extend(named(path)?);
+        all.scans.extend(named(path, &mut all.left_out)?);
     }
     let mut seen = HashSet::new();
-    all.retain(|path| seen.insert(place(path)));
+    all.scans.retain(|path| seen.insert(place(path)));
+    all.left_out.retain(|path| seen.insert(place(path)));
     Ok(all)
+}
+
+/// Refuses a folder for results in which scans are looked for: the next run would find none there.
+///
+/// # Errors
+/// [`BatchError::AmongScans`].
+pub(crate) fn check_folder(folder: &Path, paths: &[PathBuf]) -> Result<(), BatchError> {
+    let looked_into = paths.iter().filter_map(|path| {
+        let text = path.to_string_lossy();
+        match text.split_once("**") {
+            _ if path.is_dir() => Some(path.clone()),
+            Some((before, _)) => Some(plain(before)),
+            None => None,
+        }
+    });
+    let results = place(folder);
+    let mut folders = looked_into.map(|path| place(&path));
+    match folders.any(|folder| folder == results) {
+        true => Err(BatchError::AmongScans {
+            folder: folder.into(),
+        }),
+        false => Ok(()),
+    }
 }
 
 /// Where a path leads; of a file that is not there, where it would.
@@ -37,7 +70,7 @@ fn place(path: &Path) -> PathBuf {
     found.unwrap_or_else(|_| path.into())
 }
 
-fn named(path: &Path) -> Result<Vec<PathBuf>, BatchError> {
+fn named(path: &Path, left_out: &mut Vec<PathBuf>) -> Result<Vec<PathBuf>, BatchError> {
     let text = path.to_string_lossy();
     if let Some(list) = text.strip_prefix('@') {
         let list = PathBuf::from(list);
@@ -47,7 +80,7 @@ fn named(path: &Path) -> Result<Vec<PathBuf>, BatchError> {
         })?;
         let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
         let lines = text.lines().map(str::trim);
-        let lines = lines.filter(|line| !line.is_empty());
+        let lines = lines.filter(|line| !line.is_empty() && !line.starts_with('#'));
         let paths: Vec<PathBuf> = lines.map(PathBuf::from).collect();
         return match paths.is_empty() {
             true => Err(BatchError::EmptyList { path: list }),
@@ -55,9 +88,15 @@ fn named(path: &Path) -> Result<Vec<PathBuf>, BatchError> {
         };
     }
     let found = if path.is_dir() {
-        let mut files = files_in(path)?;
-        files.retain(|path| is_scan(path));
-        files
+        if path.join(JOURNAL).is_file() {
+            return Err(BatchError::Results {
+                folder: path.into(),
+            });
+        }
+        let files = files_in(path)?.into_iter();
+        let (scans, others): (Vec<_>, Vec<_>) = files.partition(|path| is_scan(path));
+        left_out.extend(others);
+        scans
     } else if path.exists() || !text.contains(['*', '?', '[']) {
         vec![path.to_path_buf()]
     } else {
@@ -83,20 +122,13 @@ fn matching(text: &str) -> Result<Vec<PathBuf>, BatchError> {
         return Ok(found.flatten().filter(|path| !path.is_dir()).collect());
     };
     let pattern = glob::Pattern::new(text).map_err(failed)?;
-    let is_plain = |part: &Component| !part.as_os_str().to_string_lossy().contains(['*', '?', '[']);
-    let folder: PathBuf = Path::new(before)
-        .components()
-        .take_while(is_plain)
-        .collect();
-    let (folder, is_here) = match folder.as_os_str().is_empty() {
-        true => (Path::new("."), true),
-        false => (folder.as_path(), false),
-    };
+    let folder = plain(before);
+    let is_here = folder == Path::new(".") && !before.starts_with('.');
     let options = glob::MatchOptions {
         require_literal_separator: true,
         ..glob::MatchOptions::new()
     };
-    let files = files_in(folder)?.into_iter();
+    let files = files_in(&folder)?.into_iter();
     let files = files.map(|file| match file.strip_prefix(".") {
         Ok(own) if is_here => own.to_path_buf(),
         _ => file,
@@ -104,6 +136,17 @@ fn matching(text: &str) -> Result<Vec<PathBuf>, BatchError> {
     Ok(files
         .filter(|file| pattern.matches_path_with(file, options))
         .collect())
+}
+
+/// The folder that a pattern begins with.
+fn plain(pattern: &str) -> PathBuf {
+    let is_plain = |part: &Component| !part.as_os_str().to_string_lossy().contains(['*', '?', '[']);
+    let parts = Path::new(pattern).components().take_while(is_plain);
+    let folder: PathBuf = parts.collect();
+    match folder.as_os_str().is_empty() {
+        true => ".".into(),
+        false => folder,
+    }
 }
 
 /// The files in a folder and in its folders, by name; also those that are not to be read.
@@ -174,7 +217,7 @@ mod tests {
     /// The scans that paths name, without the folder.
     fn of(folder: &Path, paths: &[PathBuf]) -> Vec<String> {
         let own = |path: PathBuf| path.strip_prefix(folder).unwrap().display().to_string();
-        inputs(paths).unwrap().into_iter().map(own).collect()
+        inputs(paths).unwrap().scans.into_iter().map(own).collect()
     }
 
     #[test]
@@ -186,13 +229,20 @@ mod tests {
             &["b.ply", "a.STL", "c.xyz.gz", "notes.txt", ".d.ply"],
         );
         let list = format!(
-            "{}\n\n{}\n",
+            "# those of May\n{}\n\n{}\n",
             path("notes.txt").display(),
             path("b.ply").display()
         );
         std::fs::write(path("list.txt"), list).unwrap();
         let of = |paths: &[PathBuf]| of(folder.path(), paths);
         assert_eq!(of(&[folder.path().into()]), ["a.STL", "b.ply", "c.xyz.gz"]);
+        let found = inputs(&[folder.path().into()]).unwrap();
+        assert_eq!(found.left_out, [path("list.txt"), path("notes.txt")]);
+        let found = inputs(&[path("notes.txt"), folder.path().into()]).unwrap();
+        assert_eq!(
+            (found.scans.len(), found.left_out),
+            (4, vec![path("list.txt")])
+        );
         assert_eq!(of(&[path("[bn]*")]), ["b.ply", "notes.txt"]);
         let list = PathBuf::from(format!("@{}", path("list.txt").display()));
         assert_eq!(of(&[path("b.ply"), list.clone()]), ["b.ply", "notes.txt"]);
@@ -225,9 +275,29 @@ mod tests {
         write(folder.path(), &["r/journal.jsonl", "r/meshes/z.ply"]);
         let all = ["a/b/y.ply", "a/x.nrrd", "z.ply"];
         assert_eq!(of(folder.path(), &[folder.path().into()]), all);
+        let results = inputs(&[path("r")]);
+        assert!(matches!(results, Err(BatchError::Results { .. })));
         let of = |pattern: &str| of(folder.path(), &[path(pattern)]);
         assert_eq!(of("**/*.ply"), ["a/b/y.ply", "z.ply"]);
         assert_eq!(of("a*/**/y.ply"), ["a/b/y.ply"]);
+    }
+
+    #[test]
+    fn results_go_where_no_scans_are_looked_for() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = |name: &str| folder.path().join(name);
+        write(folder.path(), &["lot/a.ply", "lot/in/b.ply"]);
+        let is_refused = |output: &str, named: &str| {
+            let found = check_folder(&path(output), &[path("lot/a.ply"), path(named)]);
+            matches!(found, Err(BatchError::AmongScans { .. }))
+        };
+        for named in ["lot", "lot/", "lot/../lot", "lot/**/*.ply"] {
+            assert!(is_refused("lot", named), "{named}");
+            assert!(!is_refused("lot/r", named) && !is_refused("r", named));
+        }
+        for named in ["lot/in", "lot/*.ply", "lot/a.ply"] {
+            assert!(!is_refused("lot", named), "{named}");
+        }
     }
 
     #[cfg(unix)]

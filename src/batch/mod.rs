@@ -24,7 +24,7 @@ mod table;
 pub(crate) use columns::measures;
 pub(crate) use comparison::compare;
 pub(crate) use grain::Settings;
-pub(crate) use inputs::inputs;
+pub(crate) use inputs::{Inputs, check_folder, inputs};
 pub(crate) use names::names;
 pub(crate) use population::Population;
 pub(crate) use run::{Batch, run};

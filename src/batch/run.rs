@@ -64,10 +64,18 @@ pub(crate) struct Done {
 /// `progress` is told after every grain.
 ///
 /// # Errors
-/// [`BatchError`] if another batch works on the folder, it cannot be written to, or is removed. What is wrong with a scan is told
+/// [`BatchError`] if no scan is there, another batch works on the folder, it cannot be written to, or is removed. What is wrong with a scan is told
 /// in its row.
 pub(crate) fn run(batch: &Batch, progress: &(dyn Fn(Progress) + Sync)) -> Result<Done, BatchError> {
     let folder = &batch.folder;
+    if let Some(first) = batch.inputs.first()
+        && !batch.inputs.iter().any(|path| path.exists())
+    {
+        return Err(BatchError::Missing {
+            path: first.clone(),
+            scans: batch.inputs.len(),
+        });
+    }
     std::fs::create_dir_all(folder).map_err(|source| BatchError::NoFolder {
         folder: folder.clone(),
         source,

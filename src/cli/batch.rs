@@ -4,11 +4,14 @@ use super::args::BatchArgs;
 use super::console::Console;
 use super::count::Count;
 use super::signals;
-use crate::batch::{Batch, Population, Settings, inputs, run as run_batch};
+use crate::batch::{Batch, Inputs, Population, Settings, check_folder, inputs, run as run_batch};
+use crate::digits::plural;
 use crate::fit::FitOptions;
 use crate::report::{Measure, escaped, short};
 use anyhow::Result;
 use comfy_table::{CellAlignment, Table, presets::NOTHING};
+use std::collections::BTreeSet;
+use std::path::PathBuf;
 use std::thread::available_parallelism;
 
 /// Cells along an edge of the cube of directions of a mesh.
@@ -30,8 +33,11 @@ pub(super) fn run(args: BatchArgs, console: Console) -> Result<()> {
         .with_tolerance(args.tolerance)
         .with_segments(args.segments.0);
     fit.check()?;
+    check_folder(&args.output, &args.paths)?;
+    let Inputs { scans, left_out } = inputs(&args.paths)?;
+    tell_left_out(&left_out, console);
     let batch = Batch {
-        inputs: inputs(&args.paths)?,
+        inputs: scans,
         folder: args.output.clone(),
         settings: Settings {
             fit,
@@ -79,6 +85,26 @@ pub(super) fn run(args: BatchArgs, console: Console) -> Result<()> {
         }
         .into()),
     }
+}
+
+/// Tells of files in folders that are not named as scans are: tables of points may be among them.
+fn tell_left_out(files: &[PathBuf], console: Console) {
+    let Some(first) = files.first() else {
+        return;
+    };
+    let ending = |path: &PathBuf| match path.extension() {
+        Some(extension) => format!(".{}", extension.to_string_lossy()),
+        None => "none".into(),
+    };
+    let endings: BTreeSet<String> = files.iter().map(ending).collect();
+    let endings: Vec<String> = endings.into_iter().collect();
+    let note = format!(
+        "left {} out, whose endings ({}) are not those of scans: name them to fit them too, such as {}",
+        plural(files.len(), "file"),
+        endings.join(", "),
+        first.display()
+    );
+    console.note("note", &note);
 }
 
 /// What the grains are like together.

@@ -71,7 +71,9 @@ fn read(paths: &[PathBuf], input: &InputArgs) -> Result<Vec<Subject>> {
     let subject = |path: &PathBuf| {
         let scan = inputs::scan(path, input)?;
         let name = inputs::name(path);
-        PreparedScan::new(&scan, Symmetry::NONE).with_context(|| format!("cannot fit {name}"))?;
+        let failed = || format!("cannot fit {name}");
+        let prepared = PreparedScan::new(&scan, Symmetry::NONE).with_context(failed);
+        inputs::explained(prepared.map(drop), &scan)?;
         Ok(Subject::unknown(name, scan))
     };
     paths.iter().map(subject).collect()

@@ -11,10 +11,14 @@ use std::path::Path;
 /// Extensions of clumps.
 const CLUMP: &[&str] = &["json", "csv"];
 
+/// Spheres of a clump where no number is given.
+const SPHERES: usize = 10;
+
 pub(super) fn run(args: ClumpArgs, console: Console) -> Result<()> {
     threads::start(0, console)?;
     let output = (args.output.as_deref(), CLUMP);
-    let console = console.beside(outputs::check(Some(&args.path), &[output], args.json)?);
+    let read = Some(args.path.as_path());
+    let console = console.beside(outputs::check(read, &[output], args.json)?);
     let progress = console.progress();
     progress.stage("Reading");
     let solid = solid::read(&args.path, &args.input, args.unit)?;
@@ -47,7 +51,7 @@ impl SpheresArgs {
     pub(super) fn target(&self) -> ClumpTarget {
         match self.error {
             Some(share) => ClumpTarget::Error(share),
-            None => ClumpTarget::Spheres(self.spheres),
+            None => ClumpTarget::Spheres(self.spheres.unwrap_or(SPHERES)),
         }
     }
 }

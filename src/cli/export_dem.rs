@@ -1,16 +1,16 @@
 //! `grainform export-dem`
 
-use super::args::ExportDemArgs;
+use super::args::{DeckArgs, ExportDemArgs};
 use super::console::Console;
 use super::solid::Solid;
 use super::values::EngineArg;
-use super::{inputs, outputs, solid, threads};
+use super::{idle, inputs, outputs, solid, threads};
 use crate::clump::clump;
 use crate::engines::{AnmExpansion, Deck, GrainMaterial, InputFile, Kind, anm_files};
 use crate::measure::{SPECTRUM_DEGREE, Scheme, Survey};
 use crate::model::{Grain, Superquadric};
 use crate::report::{ClumpReport, short};
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, bail};
 
 /// A body, what its input is called, and its name in the folder.
 struct Subject {
@@ -19,7 +19,16 @@ struct Subject {
     name: String,
 }
 
+/// Grains in the engine where no number is given, and the seed of their orientations.
+const GRAINS: usize = 200;
+const SEED: u64 = 1;
+
 pub(super) fn run(args: ExportDemArgs, console: Console) -> Result<()> {
+    if let (EngineArg::Anm, Some(option)) = (args.engine, args.deck.asked()) {
+        bail!(
+            "{option} is for engines in which clumps of spheres fall, and anm tells shapes only: leave it out"
+        );
+    }
     threads::start(0, console)?;
     let progress = console.progress();
     progress.stage("Reading");
@@ -73,12 +82,14 @@ fn read(args: &ExportDemArgs) -> Result<Vec<Subject>> {
 /// The deck, and what is lost by each clump.
 fn deck(args: &ExportDemArgs, subjects: &[Subject]) -> Result<(Deck, Vec<String>)> {
     let metres = args.unit.metres();
+    let material = args.deck.material();
+    let density = material.density;
     let (mut kinds, mut told) = (Vec::new(), Vec::new());
     for Subject { solid, input, name } in subjects {
         let failed = || format!("cannot make a clump of {input}");
-        let found =
-            clump(&solid.mesh, &solid.properties, args.spheres.target()).with_context(failed)?;
-        let kind = Kind::new(name, &found, metres, args.density).with_context(failed)?;
+        let found = clump(&solid.mesh, &solid.properties, args.deck.spheres.target())
+            .with_context(failed)?;
+        let kind = Kind::new(name, &found, metres, density).with_context(failed)?;
         kinds.push(match solid.grain.as_ref().and_then(single) {
             Some(shape) => kind.with_superquadric(&shape, metres),
             None => kind,
@@ -86,15 +97,37 @@ fn deck(args: &ExportDemArgs, subjects: &[Subject]) -> Result<(Deck, Vec<String>
         let report = ClumpReport::new(input.clone(), &found, Some(args.unit), Vec::new());
         told.push(format!("grain         {name}\n{report}"));
     }
-    let material = GrainMaterial {
-        youngs_modulus: 1e6 * args.youngs_modulus_mpa,
-        poissons_ratio: args.poissons_ratio,
-        friction: args.friction,
-        rolling_friction: 0.0,
-        restitution: args.restitution,
-        density: args.density,
-    };
-    Ok((Deck::column(kinds, args.grains, material, args.seed)?, told))
+    let grains = args.deck.grains.unwrap_or(GRAINS);
+    let seed = args.deck.seed.unwrap_or(SEED);
+    Ok((Deck::column(kinds, grains, material, seed)?, told))
+}
+
+impl DeckArgs {
+    /// An option that is asked for.
+    fn asked(&self) -> Option<&'static str> {
+        idle::asked([
+            (self.spheres.spheres.is_some(), "--spheres"),
+            (self.spheres.error.is_some(), "--error"),
+            (self.grains.is_some(), "--grains"),
+            (self.seed.is_some(), "--seed"),
+            (self.density.is_some(), "--density"),
+            (self.youngs_modulus_mpa.is_some(), "--youngs-modulus-mpa"),
+            (self.poissons_ratio.is_some(), "--poissons-ratio"),
+            (self.friction.is_some(), "--friction"),
+            (self.restitution.is_some(), "--restitution"),
+        ])
+    }
+
+    fn material(&self) -> GrainMaterial {
+        GrainMaterial {
+            youngs_modulus: 1e6 * self.youngs_modulus_mpa.unwrap_or(10.0),
+            poissons_ratio: self.poissons_ratio.unwrap_or(0.3),
+            friction: self.friction.unwrap_or(0.3),
+            rolling_friction: 0.0,
+            restitution: self.restitution.unwrap_or(0.5),
+            density: self.density.unwrap_or(2500.0),
+        }
+    }
 }
 
 /// The one superquadric that a grain is.

@@ -20,7 +20,7 @@ pub(super) fn run(args: FitArgs, console: Console) -> Result<()> {
         args.meshing.check_for(path, console)?;
     }
     let is_taken = outputs::check(
-        Some(&fitting.scan),
+        Some(fitting.scan.as_path()),
         &[
             (args.output.as_deref(), &["json"]),
             (args.mesh.as_deref(), outputs::MESH),

@@ -71,7 +71,8 @@ pub(super) fn fit_scan(
         progress: Some(&tell),
         ..fit::Context::default()
     };
-    let mut fitted = fit::fit_scan(&scan, options, &context).with_context(failed)?;
+    let fitted = fit::fit_scan(&scan, options, &context).with_context(failed);
+    let mut fitted = inputs::explained(fitted, &scan)?;
     fitted.warnings.extend(others_left_out);
     Ok(ScanFit {
         fitted,

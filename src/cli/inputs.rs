@@ -1,6 +1,7 @@
 //! What is read: scans and models, from files or from standard input.
 
 use super::args::{InputArgs, LimitArgs};
+use super::sentence;
 use crate::model::{Grain, grain_from_json};
 use crate::scan::{ReadError, Scan, Volume, parse_file, parse_volume, read_bytes, read_stream};
 use anyhow::{Context, Result, anyhow, bail};
@@ -59,7 +60,7 @@ pub(super) fn parse_scan(path: &Path, bytes: &[u8], input: &InputArgs) -> Result
             name(path)
         );
     }
-    if bytes.trim_ascii_start().starts_with(b"{") {
+    if starts_as_model(bytes) {
         bail!(
             "{} is no scan: it starts as a model does, which measure, mesh, report and contact read",
             name(path)
@@ -67,6 +68,27 @@ pub(super) fn parse_scan(path: &Path, bytes: &[u8], input: &InputArgs) -> Result
     }
     let format = input.format.map(|format| format.0);
     Ok(parse_file(called(path), bytes, format)?)
+}
+
+/// Whether these are the bytes of a model, which has no labels.
+pub(super) fn is_model(path: &Path, bytes: &[u8], input: &InputArgs) -> Result<bool> {
+    let is_model = starts_as_model(bytes);
+    if is_model && input.label.is_some() {
+        bail!(
+            "{} is a model, and has no labels: leave --label out",
+            name(path)
+        );
+    }
+    Ok(is_model)
+}
+
+fn starts_as_model(bytes: &[u8]) -> bool {
+    bytes.trim_ascii_start().starts_with(b"{")
+}
+
+/// What was done with a scan. Where it failed, the error also tells what was odd about the scan, which may explain it.
+pub(super) fn explained<T>(done: Result<T>, scan: &Scan) -> Result<T> {
+    done.map_err(|error| anyhow!(scan.explained(sentence(&error))))
 }
 
 /// The grain in the bytes of a model file.

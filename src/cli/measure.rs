@@ -7,6 +7,7 @@ use crate::fit::scanned_surface;
 use crate::measure::{Scheme, Survey, scanned_body, smoothed_area};
 use crate::mesh::Mesh;
 use crate::report::{Measure, MeasureReport, Measured, Withheld, percent, sentences};
+use crate::scan::Scan;
 use anyhow::{Context, Result, bail};
 use std::ops::RangeInclusive;
 
@@ -34,7 +35,7 @@ fn measure(args: &MeasureArgs) -> Result<MeasureReport> {
         asked => asked,
     };
     let bytes = inputs::read(path, &args.input.limit)?;
-    if bytes.trim_ascii_start().starts_with(b"{") {
+    if inputs::is_model(path, &bytes, &args.input)? {
         let grain = inputs::parse_model(path, &bytes)?;
         let survey = Survey::of_grain(&grain, args.scheme.0);
         let withheld = Withheld::of(&grain, args.extrapolate);
@@ -45,10 +46,19 @@ fn measure(args: &MeasureArgs) -> Result<MeasureReport> {
         bail!("{input} is a scan: integration schemes are for models; leave --scheme out");
     }
     let scan = inputs::parse_scan(path, &bytes, &args.input)?;
+    inputs::explained(measure_scan(args, input, only, &scan), &scan)
+}
+
+fn measure_scan(
+    args: &MeasureArgs,
+    input: String,
+    only: &[Measure],
+    scan: &Scan,
+) -> Result<MeasureReport> {
     if scan.is_flat() {
         bail!("cannot measure {input}: all points lie in one plane, they do not enclose a body");
     }
-    if let Some(scanned) = scanned_body(&scan) {
+    if let Some(scanned) = scanned_body(scan) {
         let mut warnings = scan.warnings.clone();
         let of = match scan.scatter() > 0.0 {
             true => Measured::Voxels,
@@ -61,7 +71,7 @@ fn measure(args: &MeasureArgs) -> Result<MeasureReport> {
             input, &scanned, of, only, args.unit, warnings,
         ));
     }
-    let surface = scanned_surface(&scan).with_context(|| format!("cannot measure {input}"))?;
+    let surface = scanned_surface(scan).with_context(|| format!("cannot measure {input}"))?;
     let survey =
         Survey::of_mesh(&surface.mesh).with_context(|| format!("cannot measure {input}"))?;
     let mut warnings = sentences(&scan.warnings, &surface.warnings, args.unit);

@@ -25,7 +25,9 @@ const MANY_BYTES: u64 = 1_000_000_000;
 pub(super) fn run(args: MeshArgs, console: Console) -> Result<()> {
     threads::start(0, console)?;
     let output = (Some(args.output.as_path()), outputs::MESH);
-    let console = console.beside(outputs::check(Some(&args.model), &[output], false)?);
+    let read = [Some(args.model.as_path()), args.scan.as_deref()];
+    let is_taken = outputs::check(read.into_iter().flatten(), &[output], false)?;
+    let console = console.beside(is_taken);
     let format = MeshFormat::of(&args.output).unwrap_or(args.format);
     let bytes = match format {
         MeshFormat::Stl | MeshFormat::Obj => PLAIN,

@@ -13,6 +13,7 @@ mod count;
 mod export_dem;
 mod fit;
 mod fitting;
+mod idle;
 mod inputs;
 mod lengths;
 mod measure;

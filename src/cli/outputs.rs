@@ -20,9 +20,13 @@ pub(super) const MESH: &[&str] = &["stl", "ply", "obj", "vtp", "glb"];
 pub(super) type Output<'a> = (Option<&'a Path>, &'a [&'a str]);
 
 /// Refuses outputs that would fail at the end: each has a known extension, its folder exists, and it is neither
-/// the input nor another output. What a killed run left in these folders is removed. Gives whether an output goes
+/// an input nor another output. What a killed run left in these folders is removed. Gives whether an output goes
 /// to standard output, which then has no place for `json`.
-pub(super) fn check(input: Option<&Path>, outputs: &[Output<'_>], json: bool) -> Result<bool> {
+pub(super) fn check<'a>(
+    inputs: impl IntoIterator<Item = &'a Path>,
+    outputs: &[Output<'_>],
+    json: bool,
+) -> Result<bool> {
     let files = outputs
         .iter()
         .filter_map(|(path, extensions)| Some((path.as_deref()?, extensions)));
@@ -30,8 +34,8 @@ pub(super) fn check(input: Option<&Path>, outputs: &[Output<'_>], json: bool) ->
     if streams.len() + usize::from(json) > 1 && !streams.is_empty() {
         bail!("standard output takes one thing only: give another output the name of a file");
     }
-    let input = input.filter(|path| !is_stream(path));
-    let mut taken: Vec<PathBuf> = input.map(identity).into_iter().collect();
+    let inputs = inputs.into_iter().filter(|path| !is_stream(path));
+    let mut taken: Vec<PathBuf> = inputs.map(identity).collect();
     for (path, extensions) in files {
         check_file(path, extensions)?;
         let identity = identity(path);

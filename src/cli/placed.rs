@@ -27,7 +27,8 @@ pub(super) fn run(args: &ContactArgs, pose: &PoseArg, console: Console) -> Resul
         inputs::parse_model(path, &inputs::read(path, &args.limit)?)
     };
     let output = (args.mesh.as_deref(), outputs::MESH);
-    let console = console.beside(outputs::check(Some(&args.model), &[output], args.json)?);
+    let paths = [args.model.as_path(), other];
+    let console = console.beside(outputs::check(paths, &[output], args.json)?);
     let written = args.mesh.as_deref().map(outputs::name);
     let grains = [read(&args.model)?, read(other)?];
     let names = [inputs::name(&args.model), inputs::name(other)];

@@ -2,7 +2,7 @@
 
 use super::args::ReportArgs;
 use super::console::Console;
-use super::{inputs, outputs, solid, threads};
+use super::{idle, inputs, outputs, solid, threads};
 use crate::bench;
 use crate::digits::plural;
 use crate::fit::{
@@ -19,15 +19,19 @@ use crate::report::{
 };
 use crate::scan::Scan;
 use anyhow::{Context, Result, bail};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 pub(super) fn run(args: ReportArgs, console: Console) -> Result<()> {
     threads::start(0, console)?;
-    let input = match args.paths.as_slice() {
-        [path] if !path.is_dir() => Some(path.as_path()),
-        _ if args.png.is_some() => bail!("--png draws one grain: name one scan or model"),
-        _ => None,
-    };
+    let grains = args.paths.iter().filter(|path| !path.is_dir());
+    if args.png.is_some() && (args.paths.len() > 1 || grains.clone().next().is_none()) {
+        bail!("--png draws one grain: name one scan or model");
+    }
+    if let (None, Some(option)) = (grains.clone().next(), of_grains(&args)) {
+        bail!(
+            "{option} is for scans and models, and results are told as batch has found them: name a scan, or leave it out"
+        );
+    }
     let files = [
         (Some(args.output.as_path()), &["html", "htm"][..]),
         (args.png.as_deref(), &["png"][..]),
@@ -37,7 +41,8 @@ pub(super) fn run(args: ReportArgs, console: Console) -> Result<()> {
             "--truth tells what is known of the scans in a folder of results: name such a folder"
         );
     }
-    let console = console.beside(outputs::check(input, &files, false)?);
+    let read = grains.map(PathBuf::as_path);
+    let console = console.beside(outputs::check(read, &files, false)?);
     let progress = console.progress();
     let (mut grains, mut lots) = (Vec::new(), Vec::new());
     for path in &args.paths {
@@ -65,6 +70,18 @@ pub(super) fn run(args: ReportArgs, console: Console) -> Result<()> {
     Ok(())
 }
 
+/// An option of scans and models that is asked for.
+fn of_grains(args: &ReportArgs) -> Option<&'static str> {
+    idle::asked([
+        (args.search, "--search"),
+        (args.bench, "--bench"),
+        (args.largest, "--largest"),
+        (args.unit.is_some(), "--unit"),
+        (args.input.label.is_some(), "--label"),
+        (args.input.format.is_some(), "--format"),
+    ])
+}
+
 /// What was typed.
 fn command() -> String {
     let words = std::env::args_os().skip(1);
@@ -80,7 +97,7 @@ fn grain_part(path: &Path, args: &ReportArgs) -> Result<GrainPart> {
     let name = inputs::name(path);
     let bytes = inputs::read(path, &args.input.limit)?;
     let hash = ("BLAKE3 of the input", blake3::hash(&bytes).to_string());
-    if bytes.trim_ascii_start().starts_with(b"{") {
+    if inputs::is_model(path, &bytes, &args.input)? {
         let grain = inputs::parse_model(path, &bytes)?;
         solid::is_seen_whole(
             &grain,
@@ -109,7 +126,8 @@ fn grain_part(path: &Path, args: &ReportArgs) -> Result<GrainPart> {
     let (scan, left_out) = whole_or_largest(scan, args.largest);
     let options = FitOptions::default();
     let failed = || format!("cannot fit {name}");
-    let mut fitted = fit_scan(&scan, &options, &FitContext::default()).with_context(failed)?;
+    let fitted = fit_scan(&scan, &options, &FitContext::default()).with_context(failed);
+    let mut fitted = inputs::explained(fitted, &scan)?;
     fitted.warnings.extend(left_out);
     let search = match args.search {
         true => Some(search(&scan, &name).with_context(failed)?),

@@ -19,7 +19,8 @@ pub(super) fn run(args: SearchArgs, console: Console) -> Result<()> {
         ..fitting.settle(console)?
     };
     let csv = (args.csv.as_deref(), &["csv"][..]);
-    let console = console.beside(outputs::check(Some(&fitting.scan), &[csv], fitting.json)?);
+    let read = Some(fitting.scan.as_path());
+    let console = console.beside(outputs::check(read, &[csv], fitting.json)?);
 
     let progress = console.progress();
     let ScanFit {

@@ -7,6 +7,7 @@ use crate::measure::{MassProperties, Scheme, Survey, scanned_body};
 use crate::mesh::Mesh;
 use crate::model::{Grain, Surface};
 use crate::report::{Unit, Withheld, sentences};
+use crate::scan::Scan;
 use anyhow::{Context, Result, bail, ensure};
 use std::path::Path;
 
@@ -30,7 +31,7 @@ pub(super) fn read(path: &Path, input: &InputArgs, unit: Option<Unit>) -> Result
     let name = inputs::name(path);
     let unusable = || format!("{name} encloses no grain");
     let bytes = inputs::read(path, &input.limit)?;
-    if bytes.trim_ascii_start().starts_with(b"{") {
+    if inputs::is_model(path, &bytes, input)? {
         let grain = inputs::parse_model(path, &bytes)?;
         return Ok(Solid {
             properties: Survey::of_grain(&grain, Scheme::Exact)
@@ -42,7 +43,12 @@ pub(super) fn read(path: &Path, input: &InputArgs, unit: Option<Unit>) -> Result
         });
     }
     let scan = inputs::parse_scan(path, &bytes, input)?;
-    if let Some(scanned) = scanned_body(&scan) {
+    inputs::explained(of_scan(&scan, &name, unit), &scan)
+}
+
+fn of_scan(scan: &Scan, name: &str, unit: Option<Unit>) -> Result<Solid> {
+    let unusable = || format!("{name} encloses no grain");
+    if let Some(scanned) = scanned_body(scan) {
         if scanned.bodies > 1 {
             bail!("{name} holds {} bodies; split it first", scanned.bodies);
         }
@@ -57,7 +63,7 @@ pub(super) fn read(path: &Path, input: &InputArgs, unit: Option<Unit>) -> Result
             warnings: scan.warnings.iter().cloned().chain(crossing).collect(),
         });
     }
-    let surface = scanned_surface(&scan).with_context(unusable)?;
+    let surface = scanned_surface(scan).with_context(unusable)?;
     let survey = Survey::of_mesh(&surface.mesh).with_context(unusable)?;
     let properties = survey.properties()?;
     Ok(Solid {

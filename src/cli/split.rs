@@ -7,9 +7,11 @@ use crate::export::{save_mesh, write_points_ply};
 use crate::mesh::Mesh;
 use crate::report::SplitReport;
 use crate::scan::{Scan, split, split_labels};
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, bail};
+use std::path::Path;
 
 pub(super) fn run(args: SplitArgs, console: Console) -> Result<()> {
+    spares_the_scan(&args.scan, &args.output)?;
     threads::start(args.threads, console)?;
     let name = inputs::name(&args.scan);
     let progress = console.progress();
@@ -24,7 +26,7 @@ pub(super) fn run(args: SplitArgs, console: Console) -> Result<()> {
         _ => {
             let scan = inputs::parse_scan(&args.scan, &bytes, &args.input)?;
             progress.stage("Telling the grains apart");
-            split(&scan).with_context(failed)?
+            inputs::explained(split(&scan).with_context(failed), &scan)?
         }
     };
     progress.stage("Writing");
@@ -46,11 +48,32 @@ pub(super) fn run(args: SplitArgs, console: Console) -> Result<()> {
     console.tell(&report, args.json, [written], &report.warnings)
 }
 
+/// Refuses a folder in which a grain would replace the scan.
+fn spares_the_scan(scan: &Path, folder: &Path) -> Result<()> {
+    let (Ok(file), Ok(folder)) = (scan.canonicalize(), folder.canonicalize()) else {
+        return Ok(());
+    };
+    let name = file.file_name().map(|name| name.to_string_lossy());
+    let number = name.as_deref().and_then(|name| {
+        let number = name.strip_prefix("grain_")?.strip_suffix(".ply")?;
+        number.parse().ok()
+    });
+    if file.parent() == Some(&folder) && name == number.map(|number| file_name(number).into()) {
+        bail!(
+            "cannot write the grains into {}: the input {} is named as one of them, which would replace it; give \
+             another folder with -o",
+            folder.display(),
+            scan.display()
+        );
+    }
+    Ok(())
+}
+
 fn file_name(number: usize) -> String {
     format!("grain_{number:04}.ply")
 }
 
-fn write(grain: &Scan, path: &std::path::Path) -> Result<()> {
+fn write(grain: &Scan, path: &Path) -> Result<()> {
     match grain.topology() {
         Some(_) => {
             let mesh = Mesh {

@@ -49,11 +49,22 @@ pub(super) fn run(
 
 /// Reads and fits the scan.
 fn fitted(args: &FitArgs, form: SuperquadricArg) -> Result<(Grain, Scan, SuperquadricReport)> {
-    let (name, unit) = (args.fitting.name(), args.fitting.unit);
     let scan = inputs::scan(&args.fitting.scan, &args.fitting.input)?;
     let (scan, others_left_out) = whole_or_largest(scan, args.fitting.largest);
+    let fitted = fitted_to(args, form, &scan, others_left_out);
+    let (grain, report) = inputs::explained(fitted, &scan)?;
+    Ok((grain, scan, report))
+}
+
+fn fitted_to(
+    args: &FitArgs,
+    form: SuperquadricArg,
+    scan: &Scan,
+    others_left_out: Option<FitWarning>,
+) -> Result<(Grain, SuperquadricReport)> {
+    let (name, unit) = (args.fitting.name(), args.fitting.unit);
     let failed = || format!("cannot fit {name}");
-    let prepared = PreparedScan::new(&scan, FitOptions::default().symmetry);
+    let prepared = PreparedScan::new(scan, FitOptions::default().symmetry);
     let (points, of_fit) = match (&prepared, form) {
         // A union needs no centre that sees all points: none is left out because none does.
         (Err(_), SuperquadricArg::Multi(_)) => (scan.points(), Vec::new()),
@@ -79,12 +90,12 @@ fn fitted(args: &FitArgs, form: SuperquadricArg) -> Result<(Grain, Scan, Superqu
         SuperquadricArg::Single(form) => {
             let found = fit_superquadric(points, form, &context).with_context(failed)?;
             let report = SuperquadricReport::of_single(fitted, &found);
-            Ok((found.grain()?, scan, report))
+            Ok((found.grain()?, report))
         }
         SuperquadricArg::Multi(most) => {
             let found = fit_multi_superquadric(points, most, &context).with_context(failed)?;
             let report = SuperquadricReport::of_multi(fitted, &found);
-            Ok((found.grain()?, scan, report))
+            Ok((found.grain()?, report))
         }
     }
 }

@@ -9,8 +9,8 @@ use crate::export::{MeshFormat, write_points_ply, write_points_xyz};
 use crate::model::Superquadric;
 use crate::report::{CurledReport, SynthReport, TrayReport};
 use crate::shapes::{
-    self, Curled, CurledOptions, Origin, SynthOptions, TrayOptions, synthesize, synthesize_curled,
-    synthesize_tray,
+    self, Curled, CurledOptions, Origin, Sampling, SynthOptions, TrayOptions, synthesize,
+    synthesize_curled, synthesize_tray,
 };
 use anyhow::{Result, bail};
 use nalgebra::{Point3, Vector3};
@@ -25,6 +25,9 @@ const SUPERQUADRIC_AXES: [f64; 3] = [2.0, 2.0, 1.0];
 /// Its exponents n1 and n2.
 const EXPONENTS: [f64; 2] = [4.0, 2.0];
 
+/// Grains on a tray where no number is given.
+const GRAINS: usize = 100;
+
 pub(super) fn run(args: SynthArgs, console: Console) -> Result<()> {
     let is_mesh = matches!(args.body, Subject::Curled(_)) && args.points.is_none();
     let extensions: &[&str] = match is_mesh {
@@ -37,6 +40,15 @@ pub(super) fn run(args: SynthArgs, console: Console) -> Result<()> {
     if args.labels.is_some() && args.body != Subject::Tray {
         bail!(
             "--labels tells what the points of a tray were taken from; leave it out for one body"
+        );
+    }
+    if args.grains.is_some() && args.body != Subject::Tray {
+        bail!("--grains counts the grains on a tray; leave it out for one body");
+    }
+    if args.sampling.is_some() && matches!(args.body, Subject::Curled(_) | Subject::Tray) {
+        bail!(
+            "--sampling lays out the directions in which one centre sees a body; leave it out for a tray, and for what no \
+             centre sees whole"
         );
     }
     let is_superquadric = matches!(args.body, Subject::Superquadric | Subject::Poly);
@@ -80,7 +92,7 @@ fn body_scan(args: &SynthArgs, body: shapes::Subject, console: Console) -> Resul
         body,
         axes,
         points: args.points.unwrap_or(body.native_points()),
-        sampling: args.sampling,
+        sampling: args.sampling.unwrap_or(Sampling::Cube),
         noise: args.noise,
         outliers: args.outliers,
         missing_cap: args.missing_cap,
@@ -140,7 +152,7 @@ fn tray(args: &SynthArgs, console: Console) -> Result<()> {
             "--axes, --outliers, --missing-cap and --offset are for one body; leave them out for a tray"
         );
     }
-    let options = TrayOptions::clean(args.grains)
+    let options = TrayOptions::clean(args.grains.unwrap_or(GRAINS))
         .with_noise(args.noise)
         .with_seed(args.seed);
     let options = match args.points {

@@ -232,6 +232,9 @@ impl FromStr for Auto {
     }
 }
 
+/// The largest coordinate of a scan: beyond it shares of its lengths may be no numbers.
+const MOST_TOLERANCE: f64 = 1e100;
+
 /// A length, a percentage of the mean radius, or `auto`.
 pub(super) fn tolerance(text: &str) -> Result<Tolerance, String> {
     if text == "auto" {
@@ -242,10 +245,11 @@ pub(super) fn tolerance(text: &str) -> Result<Tolerance, String> {
         None => (text, false),
     };
     match number.parse::<f64>() {
-        Ok(value) if value > 0.0 && value.is_finite() && of_radius => {
-            Ok(Tolerance::OfMeanRadius(value / 100.0))
-        }
-        Ok(value) if value > 0.0 && value.is_finite() => Ok(Tolerance::Length(value)),
+        Ok(value) if value > MOST_TOLERANCE => Err(format!(
+            "expected at most {MOST_TOLERANCE:e}, which no scan reaches"
+        )),
+        Ok(value) if value > 0.0 && of_radius => Ok(Tolerance::OfMeanRadius(value / 100.0)),
+        Ok(value) if value > 0.0 => Ok(Tolerance::Length(value)),
         _ => Err("expected a positive length such as 0.02, a share such as 0.3%, or auto".into()),
     }
 }

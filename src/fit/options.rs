@@ -32,7 +32,7 @@ pub struct FitOptions {
     /// Largest degree searched; `None` for 4 in blended cells and 3 elsewhere. Positions are searched up to degree 7 over
     /// the whole sphere and 3 in cells, and not beyond this in either.
     pub max_degree: Option<usize>,
-    /// Largest number of segments searched; `None` for [`Seams::most_segments`].
+    /// Largest number of segments searched, and not below `segments`; `None` for [`Seams::most_segments`].
     pub max_segments: Option<usize>,
     /// Error that is good enough.
     pub tolerance: Tolerance,
@@ -220,6 +220,14 @@ impl FitOptions {
         let segments = self.segments.or(self.max_segments);
         if self.symmetry != Symmetry::NONE && (self.seams != Seams::Blended || segments.is_some()) {
             return Err(FitError::SymmetryOfSegments);
+        }
+        if let (Some(segments), Some(most)) = (self.segments, self.max_segments) {
+            within(
+                "the number of segments beside a largest one (--max-segments)",
+                segments,
+                1,
+                most,
+            )?;
         }
         if self.kind == Kind::Position && self.is_of_points() {
             return Err(FitError::PointOfDegreeZero);

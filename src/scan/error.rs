@@ -237,4 +237,25 @@ pub enum ParseError {
         /// How many points there are.
         points: usize,
     },
+    /// An error that something odd, which was found before, may explain.
+    #[error("{error}. {}", warnings.join(" "))]
+    Beside {
+        /// What stopped the reader.
+        error: Box<ParseError>,
+        /// What was odd before: whole sentences.
+        warnings: Vec<String>,
+    },
+}
+
+impl ParseError {
+    /// The same, with what was odd before.
+    pub(super) fn beside(self, warnings: &[String]) -> Self {
+        match warnings {
+            [] => self,
+            warnings => Self::Beside {
+                error: Box::new(self),
+                warnings: warnings.to_vec(),
+            },
+        }
+    }
 }

@@ -37,6 +37,9 @@ pub(crate) use topology::each_edge;
 pub(crate) use volume::Extent;
 pub use volume::{LabelScan, Volume, VolumeError, parse_volume, voxel_file};
 
+/// What is told of points in one plane.
+const FLAT: &str = "All points lie in one plane: they do not enclose a body.";
+
 /// The points of a scan, in f64, in the file's own frame and unit, and the triangles between them.
 ///
 /// Points and triangles do not change any more, so what is known of the triangles is true of them.
@@ -142,12 +145,22 @@ impl Scan {
         &self.warnings
     }
 
+    /// Why something failed with this scan, and what was odd about it, which may explain that.
+    /// What encloses nothing is refused as flat: that is not told twice.
+    #[cfg(feature = "cli")]
+    pub(crate) fn explained(&self, reason: String) -> String {
+        let odd = self.warnings.iter().filter(|odd| *odd != FLAT);
+        match odd.cloned().collect::<Vec<_>>().as_slice() {
+            [] => reason,
+            odd => format!("{reason}. {}", odd.join(" ")),
+        }
+    }
+
     /// Checks the points, closes the gaps between loose triangles, and inspects these.
     fn look_over(&mut self, are_loose: bool) -> Result<(), ParseError> {
         let span = check::check(&self.points)?;
         if span.flat {
-            let warning = "All points lie in one plane: they do not enclose a body.";
-            self.warnings.push(warning.into());
+            self.warnings.push(FLAT.into());
         }
         if are_loose {
             weld::close_gaps(self, span.extent);
@@ -230,7 +243,9 @@ pub fn parse_scan(bytes: &[u8], extension: Option<&str>) -> Result<Scan, ParseEr
     if format == Format::Stl && scan.triangles.is_empty() {
         return Err(ParseError::NoFacets);
     }
-    scan.look_over(format == Format::Stl)?;
+    let odd = scan.warnings.clone();
+    scan.look_over(format == Format::Stl)
+        .map_err(|error| error.beside(&odd))?;
     if scan.triangles.is_empty()
         && let Some(filled) = volume::filled_lattice(&scan.points)
     {

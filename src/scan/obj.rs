@@ -35,16 +35,9 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Scan, ParseError> {
     let mut lines = Lines::after(0, bytes);
     while let Some((number, line)) = lines.next() {
         let line = whole_line(line, &mut lines);
-        let mut values = words(&line);
+        let mut values = words(&line).take_while(|word| !word.starts_with(b"#"));
         match values.next() {
-            Some(b"v") => match [(); 3].map(|()| values.next()) {
-                [Some(x), Some(y), Some(z)] => scan.points.push(Point3::new(
-                    coordinate(number, x)?,
-                    coordinate(number, y)?,
-                    coordinate(number, z)?,
-                )),
-                _ => return Err(unexpected(number, "`v` and three numbers", &line)),
-            },
+            Some(b"v") => scan.points.push(vertex(number, &line, values)?),
             Some(b"f") => {
                 corners.clear();
                 for value in values {
@@ -69,6 +62,38 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Scan, ParseError> {
     }
     faces.give(&mut scan);
     Ok(scan)
+}
+
+/// The point of a line `v`. A fourth number that ends the line is a weight, by which the others are divided; where
+/// more follow they are a colour.
+fn vertex<'a>(
+    number: usize,
+    line: &[u8],
+    values: impl Iterator<Item = &'a [u8]>,
+) -> Result<Point3<f64>, ParseError> {
+    let values: Vec<&[u8]> = values.collect();
+    let [x, y, z, rest @ ..] = &values[..] else {
+        return Err(unexpected(number, "`v` and three numbers", line));
+    };
+    let point = Point3::new(
+        coordinate(number, x)?,
+        coordinate(number, y)?,
+        coordinate(number, z)?,
+    );
+    let &[weight] = rest else {
+        return Ok(point);
+    };
+    let weight = coordinate(number, weight)?;
+    if weight <= 0.0 {
+        let expected = "a weight above zero as the fourth number of `v`";
+        return Err(unexpected(number, expected, line));
+    }
+    let place = Place::Line(number);
+    let point = point / weight;
+    match point.iter().all(|c| c.is_finite()) {
+        true => Ok(point),
+        false => Err(ParseError::NotFinite { place }),
+    }
 }
 
 /// A line with those that continue it, where it ends with `\`. Remarks are never continued: one
@@ -149,6 +174,30 @@ mod tests {
             let error = parse(format!("{POINTS}{face}\nf 1 2 3").as_bytes()).unwrap_err();
             assert!(error.to_string().starts_with("line 5:"), "{error}");
         }
+    }
+
+    #[test]
+    fn a_fourth_number_is_a_weight_and_six_are_a_place_and_a_colour() {
+        let first = |line: &str| parse(format!("{line}\n{POINTS}").as_bytes()).map(|s| s.points[0]);
+        for line in [
+            "v 1 2 3",
+            "v 2 4 6 2",
+            "v .5 1 1.5 .5 # half",
+            "v 1 2 3 .5 .5 .5",
+        ] {
+            assert_eq!(first(line), Ok(Point3::new(1.0, 2.0, 3.0)), "{line}");
+        }
+        for line in ["v 1 2 3 0", "v 1 2 3 -1", "v 1e300 2 3 1e-300", "v 1 2 3 x"] {
+            let told = first(line).unwrap_err().to_string();
+            assert!(told.starts_with("line 1:"), "{told}");
+        }
+    }
+
+    #[test]
+    fn a_remark_may_follow_a_face_and_a_point() {
+        let points = POINTS.replace('\n', " # point\n");
+        let scan = parse(format!("{points}f 1 2 3 # face 4\nf 1 2 4 #").as_bytes()).unwrap();
+        assert_eq!(scan.triangles, [[0, 1, 2], [0, 1, 3]]);
     }
 
     #[test]

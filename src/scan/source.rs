@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
 
-use flate2::read::MultiGzDecoder;
+use flate2::bufread::GzDecoder;
 
 use super::ReadError;
 
@@ -54,12 +54,27 @@ pub fn read_stream(stream: impl Read, name: &Path, limit: u64) -> Result<Vec<u8>
     if !bytes.starts_with(GZIP) {
         return Ok(bytes);
     }
-    let unpacked =
-        bounded(MultiGzDecoder::new(&bytes[..]), limit).map_err(|source| ReadError::Packed {
-            path: path(),
-            source,
-        })?;
+    let unpacked = unpacked(&bytes, limit).map_err(|source| ReadError::Packed {
+        path: path(),
+        source,
+    })?;
     unpacked.ok_or_else(too_large)
+}
+
+/// What is packed with gzip, member after member; none where it is more than the limit. Zeros after the last member,
+/// which fill the blocks of a tape, are no member.
+fn unpacked(mut packed: &[u8], limit: u64) -> io::Result<Option<Vec<u8>>> {
+    let mut bytes = Vec::new();
+    while packed.iter().any(|&byte| byte != 0) {
+        let mut member = GzDecoder::new(packed);
+        let room = limit.saturating_add(1) - bytes.len() as u64;
+        member.by_ref().take(room).read_to_end(&mut bytes)?;
+        if bytes.len() as u64 > limit {
+            return Ok(None);
+        }
+        packed = member.into_inner();
+    }
+    Ok(Some(bytes))
 }
 
 /// All bytes; none where there are more than the limit.
@@ -124,6 +139,17 @@ mod tests {
             read(&bomb, 1 << 12),
             Err(ReadError::TooLarge { .. })
         ));
+    }
+
+    #[test]
+    fn zeros_after_the_last_member_are_no_damage_but_all_else_is() {
+        let padded = [packed(b"1 2 3"), vec![0; 512]].concat();
+        assert_eq!(read(&padded, 1000).unwrap(), b"1 2 3");
+        for tail in [&b"rest"[..], b"\0\0rest"] {
+            let spoilt = [&packed(b"1 2 3"), tail].concat();
+            let refused = read(&spoilt, 1000);
+            assert!(matches!(refused, Err(ReadError::Packed { .. })), "{tail:?}");
+        }
     }
 
     #[test]

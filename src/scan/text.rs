@@ -48,8 +48,14 @@ pub(super) fn words(line: &[u8]) -> impl Iterator<Item = &[u8]> {
 pub(super) fn number(line: usize, word: &[u8]) -> Result<f64, ParseError> {
     std::str::from_utf8(word)
         .ok()
-        .and_then(|word| word.parse().ok())
+        .and_then(|word| word.parse().ok().or_else(|| of_fortran(word)))
         .ok_or_else(|| unexpected(line, "a number with a decimal point", word))
+}
+
+/// A number such as `1.5D+00`, as Fortran writes those of double precision.
+fn of_fortran(word: &str) -> Option<f64> {
+    let (digits, exponent) = word.split_once(['D', 'd'])?;
+    format!("{digits}e{exponent}").parse().ok()
 }
 
 /// A number that can be a coordinate.

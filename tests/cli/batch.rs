@@ -175,6 +175,57 @@ fn a_batch_on_a_full_disk_keeps_what_was_done_and_goes_on() {
 }
 
 #[test]
+fn files_that_are_left_out_are_told() {
+    let folder = lot(1);
+    for name in ["a.csv", "b.csv", "README"] {
+        std::fs::write(folder.path().join("lot").join(name), "1").unwrap();
+    }
+    let only = ["--only", "volume"];
+    let told = |named: &str| {
+        let words = [&["batch", named, "-o", "r"], &only[..]].concat();
+        errors(&grainform(&folder, &words))
+    };
+    let note = "note: left 3 files out, whose endings (.csv, none) are not those of scans: name them to fit them too, \
+                such as lot/";
+    assert!(told("lot").starts_with(note), "{}", told("lot"));
+    assert!(!told("lot/00.xyz").contains("left"));
+}
+
+#[test]
+fn a_batch_that_cannot_do_anything_writes_nothing() {
+    let folder = lot(2);
+    for (words, expected) in [
+        (&["nothere", "-o", "r"][..], "there is no nothere; correct"),
+        (
+            &["gone.ply", "gone.stl", "-o", "r"],
+            "there is no gone.ply, nor any other of the 2 scans; correct",
+        ),
+        (
+            &["lot", "-o", "lot"],
+            "the results cannot go into lot, for scans are looked for in it",
+        ),
+    ] {
+        let refused = grainform(&folder, &batch(words));
+        assert_eq!(refused.status.code(), Some(2), "{words:?}");
+        let told = errors(&refused);
+        assert!(told.starts_with(&format!("error: {expected}")), "{told}");
+    }
+    assert_eq!(names(folder.path()), ["lot"]);
+    assert_eq!(names(&folder.path().join("lot")), ["00.xyz", "01.xyz"]);
+}
+
+#[test]
+fn results_are_no_scans() {
+    let folder = lot(1);
+    succeed(&folder, &batch(&["lot", "-o", "r"]));
+    let refused = errors(&grainform(&folder, &batch(&["r", "-o", "again"])));
+    assert!(
+        refused.starts_with("error: r holds the results of a batch"),
+        "{refused}"
+    );
+}
+
+#[test]
 fn a_batch_whose_folder_is_removed_stops_and_says_so() {
     let folder = lot(6);
     let child = begin(&folder, &batch(&["lot", "-o", "gone", "--jobs", "1"]));

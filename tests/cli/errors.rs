@@ -4,7 +4,7 @@ use nalgebra::point;
 use std::f64::consts::TAU;
 
 /// Runs `grainform`, which must refuse with exit code 2 and say these words, on one line.
-fn refuse(words: &[&str], expected: &[&str]) {
+pub(super) fn refuse(words: &[&str], expected: &[&str]) {
     let folder = folder();
     std::fs::write(folder.path().join("garbage.ply"), [0, 159, 3, 255, 7]).unwrap();
     std::fs::write(folder.path().join("other.json"), "{\"a\": 1}").unwrap();
@@ -94,6 +94,17 @@ fn outputs_are_checked_before_work() {
         &["it is the input or another output"],
     );
     refuse(
+        &[
+            "mesh",
+            "other.json",
+            "--scan",
+            "garbage.ply",
+            "-o",
+            "garbage.ply",
+        ],
+        &["it is the input or another output"],
+    );
+    refuse(
         &["synth", "bean", "--noise", "0.5", "-o", "a.ply"],
         &["the noise must lie"],
     );
@@ -145,6 +156,13 @@ fn settings_out_of_range_are_refused_before_work() {
         "a positive length such as 0.02, a share such as 0.3%, or auto",
     );
     fit("--tolerance", "nan%", "a positive length");
+    fit("--tolerance", "1e308", "expected at most 1e100");
+    let contradiction = "beside a largest one (--max-segments) is 24; it must be from 1 to 6";
+    for seams in ["blended", "none"] {
+        let words = "fit no.ply --segments 24 --max-segments 6 --seams";
+        let words: Vec<&str> = words.split(' ').chain([seams]).collect();
+        refuse(&words, &[contradiction]);
+    }
     fit(
         "--resolution",
         "0",

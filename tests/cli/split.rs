@@ -1,4 +1,4 @@
-use super::{folder, json, names, succeed};
+use super::{errors, folder, grainform, json, names, succeed};
 use std::collections::BTreeSet;
 
 #[test]
@@ -55,4 +55,24 @@ fn a_tray_becomes_a_file_for_each_grain_in_the_frame_of_the_tray() {
     assert_eq!(found.into_iter().collect::<Vec<_>>(), ["1", "2", "3", "4"]);
     let text = succeed(&folder, &["split", "tray.ply", "-o", "again"]);
     assert!(text.contains("neighbours    are at most"), "{text}");
+}
+
+#[test]
+fn a_grain_does_not_replace_the_scan_that_it_is_split_from() {
+    let folder = folder();
+    let scan = folder.path().join("grain_0001.ply");
+    succeed(&folder, &["synth", "bean", "-o", "grain_0001.ply"]);
+    let before = std::fs::read(&scan).unwrap();
+    std::fs::create_dir(folder.path().join("in")).unwrap();
+    for output in [".", "in/.."] {
+        let words = ["split", "grain_0001.ply", "-o", output];
+        let refused = grainform(&folder, &words);
+        assert_eq!(refused.status.code(), Some(2));
+        let told = errors(&refused);
+        assert!(
+            told.contains("the input grain_0001.ply is named as one"),
+            "{told}"
+        );
+    }
+    assert!(before == std::fs::read(&scan).unwrap());
 }

@@ -10,9 +10,9 @@ use std::path::PathBuf;
 /// How many spheres a clump has.
 #[derive(Args)]
 pub(in crate::cli) struct SpheresArgs {
-    /// Number of spheres, 1 to 500; fewer where more bring nothing
-    #[arg(long, value_name = "N", value_parser = count::<usize>, default_value_t = 10)]
-    pub(in crate::cli) spheres: usize,
+    /// Number of spheres, 1 to 500; fewer where more bring nothing [default: 10]
+    #[arg(long, value_name = "N", value_parser = count::<usize>)]
+    pub(in crate::cli) spheres: Option<usize>,
 
     /// Take the fewest spheres found that come within this share of the equivalent radius (RMS), such as 2%
     #[arg(long, value_name = "E%", value_parser = share, conflicts_with = "spheres")]
@@ -48,6 +48,42 @@ pub(in crate::cli) struct ClumpArgs {
     pub(in crate::cli) input: InputArgs,
 }
 
+/// What is asked of grains that fall in an engine.
+#[derive(Args)]
+pub(in crate::cli) struct DeckArgs {
+    #[command(flatten)]
+    pub(in crate::cli) spheres: SpheresArgs,
+
+    /// Number of grains [default: 200]
+    #[arg(long, value_name = "K", value_parser = count::<usize>)]
+    pub(in crate::cli) grains: Option<usize>,
+
+    /// Seed of the orientations at the start [default: 1]
+    #[arg(long, value_name = "S", value_parser = count::<u64>)]
+    pub(in crate::cli) seed: Option<u64>,
+
+    /// Density of the grains, in kg/m³ [default: 2500]
+    #[arg(long, value_name = "RHO")]
+    pub(in crate::cli) density: Option<f64>,
+
+    /// Young's modulus of grains and walls: softer than the grain's own, for the time step is as the inverse of its root
+    /// [default: 10]
+    #[arg(long, value_name = "E")]
+    pub(in crate::cli) youngs_modulus_mpa: Option<f64>,
+
+    /// Poisson's ratio [default: 0.3]
+    #[arg(long, value_name = "NU")]
+    pub(in crate::cli) poissons_ratio: Option<f64>,
+
+    /// Coefficient of sliding friction [default: 0.3]
+    #[arg(long, value_name = "MU")]
+    pub(in crate::cli) friction: Option<f64>,
+
+    /// Coefficient of restitution [default: 0.5]
+    #[arg(long, value_name = "E")]
+    pub(in crate::cli) restitution: Option<f64>,
+}
+
 /// Write a folder that an engine of the discrete element method runs as it is
 ///
 /// Each grain becomes a clump of spheres, with mass, centre and inertia of the grain; for anm, harmonics about its centre
@@ -73,35 +109,7 @@ pub(in crate::cli) struct ExportDemArgs {
     pub(in crate::cli) unit: Unit,
 
     #[command(flatten)]
-    pub(in crate::cli) spheres: SpheresArgs,
-
-    /// Number of grains
-    #[arg(long, value_name = "K", value_parser = count::<usize>, default_value_t = 200)]
-    pub(in crate::cli) grains: usize,
-
-    /// Seed of the orientations at the start
-    #[arg(long, value_name = "S", value_parser = count::<u64>, default_value_t = 1)]
-    pub(in crate::cli) seed: u64,
-
-    /// Density of the grains, in kg/m³
-    #[arg(long, value_name = "RHO", default_value_t = 2500.0)]
-    pub(in crate::cli) density: f64,
-
-    /// Young's modulus of grains and walls: softer than the grain's own, for the time step is as the inverse of its root
-    #[arg(long, value_name = "E", default_value_t = 10.0)]
-    pub(in crate::cli) youngs_modulus_mpa: f64,
-
-    /// Poisson's ratio
-    #[arg(long, value_name = "NU", default_value_t = 0.3)]
-    pub(in crate::cli) poissons_ratio: f64,
-
-    /// Coefficient of sliding friction
-    #[arg(long, value_name = "MU", default_value_t = 0.3)]
-    pub(in crate::cli) friction: f64,
-
-    /// Coefficient of restitution
-    #[arg(long, value_name = "E", default_value_t = 0.5)]
-    pub(in crate::cli) restitution: f64,
+    pub(in crate::cli) deck: DeckArgs,
 
     #[command(flatten)]
     pub(in crate::cli) input: InputArgs,

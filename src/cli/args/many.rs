@@ -49,7 +49,7 @@ pub(in crate::cli) struct SplitArgs {
 #[derive(Args)]
 pub(in crate::cli) struct BatchArgs {
     /// Scans; folders of scans, also within each other; patterns in quotes, such as 'lot*/*.ply'; or @list.txt, a path
-    /// per line
+    /// per line, but for lines that begin with #
     #[arg(value_name = "PATH", required = true)]
     pub(in crate::cli) paths: Vec<PathBuf>,
 

@@ -6,7 +6,7 @@ mod many;
 mod shared;
 
 pub(super) use bed::BedArgs;
-pub(super) use engines::{ClumpArgs, ExportDemArgs, SpheresArgs};
+pub(super) use engines::{ClumpArgs, DeckArgs, ExportDemArgs, SpheresArgs};
 pub(super) use many::{BatchArgs, CompareArgs, ReportArgs, SplitArgs};
 pub(super) use shared::{FittingArgs, InputArgs, LimitArgs, MeshingArgs};
 
@@ -170,7 +170,7 @@ pub(super) struct MeasureArgs {
     pub(super) path: PathBuf,
 
     /// Measure these only, separated by commas, and compute nothing else: area, volume, centroid,
-    /// inertia, principal, dimensions, minimum_box, form, spheres, sphericity, roundness, regularity,
+    /// inertia, principal, dimensions, minimum_box, ratios, form, spheres, sphericity, roundness, regularity,
     /// angularity, convexity, ellipsoid, projections, curvature, spectrum
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     pub(super) only: Vec<Measure>,
@@ -221,7 +221,7 @@ pub(super) struct ContactArgs {
     pub(super) other_towards: Vector3<f64>,
 
     /// Angle between the directions of largest curvature of the two grains
-    #[arg(long, value_name = "DEG", default_value_t = 0.0, value_parser = angle)]
+    #[arg(long, value_name = "DEG", default_value_t = 0.0, value_parser = angle, requires = "other")]
     pub(super) angle_deg: f64,
 
     /// Place the second body: what its scan is moved by and, as a quaternion, turned by about the origin before; tells
@@ -284,9 +284,9 @@ pub(super) struct SynthArgs {
     /// touching another, with dust
     pub(super) body: Subject,
 
-    /// Number of grains on a tray
-    #[arg(long, value_name = "N", value_parser = count::<usize>, default_value_t = 100)]
-    pub(super) grains: usize,
+    /// Number of grains on a tray [default: 100]
+    #[arg(long, value_name = "N", value_parser = count::<usize>)]
+    pub(super) grains: Option<usize>,
 
     /// Of a tray, write here what each point was taken from, a line each: plane, dust or the number of a grain
     #[arg(long, value_name = "FILE.txt")]
@@ -305,9 +305,9 @@ pub(super) struct SynthArgs {
     #[arg(long, value_name = "N", value_parser = count::<usize>)]
     pub(super) points: Option<usize>,
 
-    /// Layout of the directions: cube, fibonacci, rings or random
-    #[arg(long, default_value_t = Sampling::Cube)]
-    pub(super) sampling: Sampling,
+    /// Layout of the directions: cube, fibonacci, rings or random [default: cube]
+    #[arg(long)]
+    pub(super) sampling: Option<Sampling>,
 
     /// Standard deviation of the radial noise, as a share of the mean radius: 0.5% or 0.005
     #[arg(long, value_name = "S", default_value = "0", value_parser = share)]
@@ -381,10 +381,23 @@ pub(super) struct BenchArgs {
 #[cfg(test)]
 mod tests {
     use super::Cli;
+    use crate::report::Measure;
     use clap::CommandFactory;
 
     #[test]
     fn arguments_are_consistent() {
         Cli::command().debug_assert();
+    }
+
+    #[test]
+    fn the_help_of_measure_has_the_name_of_every_measure() {
+        let mut cli = Cli::command();
+        let measure = cli.find_subcommand_mut("measure").unwrap();
+        let only = measure.get_arguments().find(|a| a.get_id() == "only");
+        let help = only.and_then(|only| only.get_help()).unwrap().to_string();
+        let names: Vec<&str> = help.split([' ', ',', ':', '\n']).collect();
+        for measure in Measure::ALL {
+            assert!(names.contains(&measure.to_string().as_str()), "{measure}");
+        }
     }
 }

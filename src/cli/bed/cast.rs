@@ -71,7 +71,10 @@ impl Cast {
         let failed = || format!("{name} is no grain");
         let usual = args.engine.as_ref().map(|_| SPHERES);
         let Some(spheres) = args.spheres.or(usual) else {
-            let model = inputs::parse_model(path, &inputs::read(path, &args.input.limit)?)?;
+            let bytes = inputs::read(path, &args.input.limit)?;
+            // What is no model is refused as such.
+            inputs::is_model(path, &bytes, &args.input)?;
+            let model = inputs::parse_model(path, &bytes)?;
             let convex = model.superquadric().ok_or_else(|| {
                 anyhow!(
                     "{name} is not made of convex parts: take --spheres, or fit --surface poly12 or multi to its scan \

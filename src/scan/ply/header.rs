@@ -10,6 +10,7 @@ use std::collections::HashSet;
 use ply_rs::parser::{Parser, Reader};
 use ply_rs::ply::{ElementDef, Encoding, PropertyAccess, PropertyType, Version};
 
+use super::meaning;
 use crate::scan::error::{ParseError, Place};
 use crate::scan::text::{quote, unexpected, words};
 
@@ -18,7 +19,7 @@ use crate::scan::text::{quote, unexpected, words};
 const LONGEST_HEADER: usize = 1 << 20;
 
 /// The properties that are read; all others only take up room in their row.
-const NAMES: [&[u8]; 4] = [b"x", b"y", b"z", b"vertex_indices"];
+const NAMES: [&[u8]; 7] = [b"x", b"y", b"z", b"X", b"Y", b"Z", b"vertex_indices"];
 
 pub(super) struct Header {
     pub(super) encoding: Encoding,
@@ -31,6 +32,8 @@ pub(super) struct Header {
     pub(super) lines: usize,
     /// Whether the version is one that this reader was written for.
     pub(super) known_version: bool,
+    /// What is odd: whole sentences.
+    pub(super) warnings: Vec<String>,
 }
 
 /// A row that only has to be passed over.
@@ -159,7 +162,8 @@ fn parse<'a>(
             let found = original(line).unwrap_or_default();
             unexpected(line, expectation(found), found)
         })?;
-    let elements: Vec<ElementDef> = header.elements.into_values().collect();
+    let mut elements: Vec<ElementDef> = header.elements.into_values().collect();
+    let warnings = meaning::settle(&mut elements);
     let empty = |element: &&ElementDef| element.properties.is_empty() && element.count > 0;
     if let Some(element) = elements.iter().find(empty) {
         return Err(ParseError::Unexpected {
@@ -175,6 +179,7 @@ fn parse<'a>(
         body,
         lines,
         known_version: header.version == Version { major: 1, minor: 0 },
+        warnings,
     })
 }
 

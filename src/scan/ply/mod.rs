@@ -5,6 +5,7 @@
 mod ascii;
 mod binary;
 mod header;
+mod meaning;
 mod strips;
 
 use ply_rs::ply::Encoding;
@@ -17,6 +18,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Scan, ParseError> {
         Encoding::Ascii => ascii::read(bytes, &header)?,
         Encoding::BinaryLittleEndian | Encoding::BinaryBigEndian => binary::read(bytes, &header)?,
     };
+    scan.warnings.extend(header.warnings);
     if !header.known_version {
         let warning = "The PLY version is not 1.0; the file was read as if it were.";
         scan.warnings.push(warning.into());

@@ -1,0 +1,80 @@
+//! What stands before the rows of a table: remarks, a count, names of columns.
+
+use std::iter::Peekable;
+
+use super::names::named_axes;
+use super::separator::Separator;
+use crate::scan::text::{Lines, integer, number};
+
+/// Names, and their units below.
+const MOST_HEADINGS: usize = 2;
+
+/// The separator that Excel is told in the first line, as in `sep=;`: the rows show it.
+const SEPARATOR_LINE: &[u8] = b"sep=";
+
+#[derive(Default)]
+pub(super) struct Head<'a> {
+    /// How many rows there are, where a line of one whole number tells (PTS).
+    pub(super) count: Option<i64>,
+    /// Lines of words.
+    headings: Vec<&'a [u8]>,
+    /// Remarks without their marks.
+    remarks: Vec<&'a [u8]>,
+}
+
+impl<'a> Head<'a> {
+    /// Takes all lines before the first row.
+    pub(super) fn take(lines: &mut Peekable<Lines<'a>>) -> Self {
+        let mut head = Self::default();
+        while let Some(&(line, row)) = lines.peek() {
+            if let Some(text) = remark(row) {
+                head.remarks.push(text);
+            } else if is_count(row) && head.count.is_none() && head.headings.is_empty() {
+                head.count = integer(line, row.trim_ascii()).ok();
+            } else if is_heading(row) && head.headings.len() < MOST_HEADINGS {
+                head.headings.push(row);
+            } else {
+                break;
+            }
+            lines.next();
+        }
+        head
+    }
+
+    /// The columns of x, y and z that a heading names or, where there is none, the last remark that does.
+    pub(super) fn axes(&self, separator: Separator, columns: usize) -> Option<[usize; 3]> {
+        let headings = self.headings.iter();
+        let remarks = self.remarks.iter().rev();
+        let remarks = remarks.filter(|_| self.headings.is_empty());
+        let mut lines = headings.chain(remarks);
+        lines.find_map(|line| named_axes(line, separator, columns))
+    }
+
+    /// The first line of words that is no remark.
+    pub(super) fn heading(&self) -> Option<&'a [u8]> {
+        self.headings.first().copied()
+    }
+}
+
+/// The text of a remark or of an empty line; none of a row.
+pub(super) fn remark(line: &[u8]) -> Option<&[u8]> {
+    let line = line.trim_ascii();
+    if line.is_empty() || line.to_ascii_lowercase().starts_with(SEPARATOR_LINE) {
+        return Some(&[]);
+    }
+    let marks: [&[u8]; 3] = [b"#", b"//", b"%"];
+    let text = marks.iter().find_map(|mark| line.strip_prefix(*mark))?;
+    let text = text.trim_ascii_start();
+    Some(text.strip_prefix(b"#").unwrap_or(text).trim_ascii_start())
+}
+
+fn is_count(row: &[u8]) -> bool {
+    let row = row.trim_ascii();
+    !row.is_empty() && row.iter().all(u8::is_ascii_digit)
+}
+
+/// Whether no column of a line is a number.
+fn is_heading(row: &[u8]) -> bool {
+    let mut columns = Separator::of(row).split(row);
+    columns.all(|column| number(0, column).is_err()) && row.iter().any(u8::is_ascii_alphabetic)
+}

@@ -1,0 +1,293 @@
+//! Tables of numbers: XYZ, TXT, CSV, PTS and their like, three columns or more.
+//!
+//! Blanks, commas or semicolons separate the columns; which one, the first row decides, so that
+//! a decimal comma is an error and never a column more. Lines that start with `#`, `//` or `%`
+//! are remarks. A line of words before the rows names the columns, also behind the mark of a
+//! remark; a first line of one whole number counts the rows (PTS).
+
+mod head;
+mod names;
+mod separator;
+mod unnamed;
+
+use nalgebra::Point3;
+
+use super::Scan;
+use super::error::ParseError;
+use super::text::{Lines, number, quote, unexpected};
+use crate::digits::plural;
+use head::{Head, remark};
+use separator::Separator;
+
+pub(super) fn parse(bytes: &[u8]) -> Result<Scan, ParseError> {
+    let mut warnings = Vec::new();
+    match read(bytes, &mut warnings) {
+        Ok(points) => Ok(Scan {
+            points,
+            warnings,
+            ..Scan::default()
+        }),
+        Err(error) => Err(error.beside(&warnings)),
+    }
+}
+
+/// The points; what is odd goes to the warnings, also where an error follows.
+fn read(bytes: &[u8], warnings: &mut Vec<String>) -> Result<Vec<Point3<f64>>, ParseError> {
+    let mut lines = Lines::after(0, bytes).peekable();
+    let head = Head::take(&mut lines);
+    let Some(&(first_line, first)) = lines.peek() else {
+        return Ok(Vec::new());
+    };
+    let separator = Separator::of(first);
+    let columns = separator.split(first).count();
+    let named = head.axes(separator, columns);
+    if let (None, Some(heading)) = (named, head.heading()) {
+        warnings.push(format!(
+            "The heading {} does not name the columns x, y and z; the first three were read.",
+            quote(heading)
+        ));
+    }
+    if unnamed::have_decimal_commas(lines.clone(), separator, columns) {
+        let expected = "numbers with decimal points, but commas separate columns and decimals alike: write points, as in \
+                        `1.5,2.5,3.5`";
+        return Err(unexpected(first_line, expected, first));
+    }
+    let axes = named.unwrap_or([0, 1, 2]);
+    let mut points = Vec::new();
+    let mut skipped = 0;
+    for (line, row) in lines.filter(|(_, row)| remark(row).is_none()) {
+        let point = read_row(line, row, separator, columns, axes)?;
+        if point.iter().all(|c| c.is_finite()) {
+            points.push(point);
+        } else {
+            skipped += 1;
+        }
+    }
+    if skipped > 0 {
+        let rows = plural(skipped, "row");
+        warnings.push(format!(
+            "Dropped {rows} with a coordinate that is not finite."
+        ));
+    }
+    if named.is_none()
+        && let Some(expected) = unnamed::expected(&points, columns)
+    {
+        return Err(unexpected(first_line, expected, first));
+    }
+    let read = points.len() + skipped;
+    if let Some(count) = head.count
+        && count != read as i64
+    {
+        let rows = plural(read, "row");
+        warnings.push(format!(
+            "The first line counts {count}, but the file has {rows}."
+        ));
+    }
+    Ok(points)
+}
+
+fn read_row(
+    line: usize,
+    row: &[u8],
+    separator: Separator,
+    columns: usize,
+    axes: [usize; 3],
+) -> Result<Point3<f64>, ParseError> {
+    let mut point = [None; 3];
+    let mut found = 0;
+    for (index, word) in separator.split(row).enumerate() {
+        if let Some(axis) = axes.iter().position(|&axis| axis == index) {
+            point[axis] = Some(number(line, word)?);
+        }
+        found += 1;
+    }
+    match point {
+        [Some(x), Some(y), Some(z)] if found == columns => Ok(Point3::new(x, y, z)),
+        [Some(_), Some(_), Some(_)] => {
+            let expected = "as many columns as in the first row";
+            Err(unexpected(line, expected, row))
+        }
+        _ => {
+            let expected = "at least three numbers, x y z, with decimal points";
+            Err(unexpected(line, expected, row))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn first(text: &str) -> [f64; 3] {
+        parse(text.as_bytes()).unwrap().points[0].into()
+    }
+
+    #[test]
+    fn any_separator_and_extra_columns_are_read() {
+        for text in [
+            "1 2 3",
+            " 1\t2  3 9",
+            "1,2,3",
+            "1, 2, 3, 9",
+            "1;2;3;",
+            "1; 2; 3",
+        ] {
+            assert_eq!(first(text), [1.0, 2.0, 3.0], "{text}");
+        }
+    }
+
+    #[test]
+    fn headings_name_the_columns() {
+        assert_eq!(first("id,x,y,z\n7,1,2,3"), [1.0, 2.0, 3.0]);
+        assert_eq!(
+            first("\"Z (mm)\";\"Y (mm)\";\"X (mm)\"\n3;2;1"),
+            [1.0, 2.0, 3.0]
+        );
+        assert_eq!(first("x_normal,x,y,z\n7,1,2,3"), [1.0, 2.0, 3.0]);
+        assert_eq!(first("x,y,z\nmm,mm,mm\n1,2,3"), [1.0, 2.0, 3.0]);
+        assert_eq!(first("1\nz y x\n3 2 1"), [1.0, 2.0, 3.0]);
+        assert_eq!(first("sep=;\nz;y;x\n3;2;1"), [1.0, 2.0, 3.0]);
+        for heading in ["east north up", "X [mm] Y [mm] Z [mm]", "x,y,z"] {
+            let scan = parse(format!("{heading}\n1 2 3 4").as_bytes()).unwrap();
+            assert_eq!(scan.points[0], [1.0, 2.0, 3.0].into());
+            assert!(
+                scan.warnings[0].contains("first three"),
+                "{:?}",
+                scan.warnings
+            );
+        }
+    }
+
+    #[test]
+    fn remarks_name_the_columns_too() {
+        for heading in [
+            "# nx ny nz x y z",
+            "//Nx Ny Nz X Y Z",
+            "#nx\tny\tnz\tx\ty\tz",
+            "% saved by hand\n## r g b pos_x pos_y pos_z",
+            "# nx,ny,nz,x,y,z",
+            "# nx ny nz x y z\n# 1 row",
+        ] {
+            let scan = parse(format!("{heading}\n7 8 9 1 2 3").as_bytes()).unwrap();
+            assert_eq!(scan.points[0], [1.0, 2.0, 3.0].into(), "{heading}");
+            assert_eq!(scan.warnings, [""; 0], "{heading}");
+        }
+        assert_eq!(first("# z,y,x\n3,2,1"), [1.0, 2.0, 3.0]);
+        for remark in ["# x y z", "# z y x and more", "// east north up a b c"] {
+            let text = format!("{remark}\n1 2 3 7 8 9");
+            assert_eq!(first(&text), [1.0, 2.0, 3.0], "{remark}");
+        }
+        let heading = "# x y z w\nw x y z\n7 1 2 3";
+        assert_eq!(first(heading), [1.0, 2.0, 3.0]);
+    }
+
+    /// Rows of normals and what follows them.
+    fn normals(tail: &str) -> String {
+        let rows = (0..9).map(|row| {
+            let (sin, cos) = f64::from(row).sin_cos();
+            format!("{cos:.4} {sin:.4} 0 {tail}\n")
+        });
+        rows.collect()
+    }
+
+    #[test]
+    fn normals_are_no_coordinates_unless_they_are_named_so() {
+        let told = parse(normals("5 6 7").as_bytes()).unwrap_err().to_string();
+        assert!(
+            told.starts_with("line 1:") && told.contains("as normals have"),
+            "{told}"
+        );
+        let named = format!("# x y z r g b\n{}", normals("5 6 7"));
+        assert_eq!(first(&named), [1.0, 0.0, 0.0]);
+        let named = format!("nx ny nz x y z\n{}", normals("5 6 7"));
+        assert_eq!(first(&named), [5.0, 6.0, 7.0]);
+        assert_eq!(first(&normals("5 6")), [1.0, 0.0, 0.0]);
+        let sphere_and_a_point = format!("{}2 0 0 5 6 7", normals("5 6 7"));
+        assert_eq!(first(&sphere_and_a_point), [1.0, 0.0, 0.0]);
+    }
+
+    #[test]
+    fn an_error_after_an_unread_heading_tells_of_it() {
+        for rows in ["1 2 3\n1 2", "0 1 2 9\n1 3 2 9\n2 5 7 9\n3 1 0 9"] {
+            let error = parse(format!("east north up\n{rows}").as_bytes()).unwrap_err();
+            let told = error.to_string();
+            assert!(
+                told.starts_with("line ") && told.contains(". The heading `east north up` does"),
+                "{told}"
+            );
+        }
+    }
+
+    #[test]
+    fn numbers_may_be_quoted_and_have_the_exponents_of_fortran() {
+        assert_eq!(first("\"1.5\",\"2\",\"3\""), [1.5, 2.0, 3.0]);
+        assert_eq!(first("1.5D+00 -2d1 3.D-1"), [1.5, -20.0, 0.3]);
+        for text in ["\"1,5\",\"2,5\",\"3,5\"", "D 1 2", "1D 2 3"] {
+            assert!(parse(text.as_bytes()).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn commas_that_separate_columns_and_decimals_are_refused() {
+        let text = "x,y,z\n2,8623,-2,4778,0,1\n3,34,-2,0957,-0,35";
+        let told = parse(text.as_bytes()).unwrap_err().to_string();
+        assert!(
+            told.starts_with("line 2: expected numbers with decimal points"),
+            "{told}"
+        );
+        assert_eq!(first("2,8,-2,4,0,10\n3,34,-2,0,1,35"), [2.0, 8.0, -2.0]);
+        assert_eq!(first("2,08,-2,4,0,1.5"), [2.0, 8.0, -2.0]);
+    }
+
+    #[test]
+    fn a_column_that_counts_the_rows_is_no_coordinate() {
+        for first in [0, 1] {
+            let rows = (0..9).map(|row| format!("{} 0.5 {row}.25 -1\n", first + row));
+            let error = parse(rows.collect::<String>().as_bytes()).unwrap_err();
+            let told = error.to_string();
+            assert!(
+                told.starts_with("line 1:") && told.contains("counts the rows"),
+                "{told}"
+            );
+        }
+        let rows = (0..9).map(|row| format!("{row} 0.5 {row}.25 -1\n"));
+        let named = format!("id x y z\n{}", rows.collect::<String>());
+        assert_eq!(first(&named), [0.5, 0.25, -1.0]);
+        let grid = (0..9).map(|row| format!("{row} 0.5 0\n"));
+        assert!(parse(grid.collect::<String>().as_bytes()).is_ok());
+    }
+
+    #[test]
+    fn decimal_commas_are_refused() {
+        for text in ["1,5;2,5;3,5", "1,5 2,5 3,5", "1,5\t2\t3"] {
+            let error = parse(text.as_bytes()).unwrap_err();
+            assert!(error.to_string().starts_with("line 1:"), "{text}: {error}");
+        }
+    }
+
+    #[test]
+    fn a_count_is_no_point() {
+        assert_eq!(parse(b"1\n1 2 3 9").unwrap().points.len(), 1);
+        let scan = parse(b"5\n1 2 3 9").unwrap();
+        assert!(scan.warnings[0].contains("counts 5"), "{:?}", scan.warnings);
+    }
+
+    #[test]
+    fn rows_that_are_not_finite_are_dropped_with_a_warning() {
+        let scan = parse(b"1 2 3\nNaN NaN nan\n4 5 6").unwrap();
+        assert_eq!(scan.points.len(), 2);
+        assert!(
+            scan.warnings[0].starts_with("Dropped 1 row "),
+            "{:?}",
+            scan.warnings
+        );
+    }
+
+    #[test]
+    fn uneven_rows_are_refused_with_their_line() {
+        for text in ["1 2 3\n\n1 2", "1 2 3\n# remark\n1 2 3 4"] {
+            let error = parse(text.as_bytes()).unwrap_err();
+            assert!(error.to_string().starts_with("line 3:"), "{error}");
+        }
+    }
+}

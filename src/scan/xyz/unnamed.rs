@@ -1,0 +1,77 @@
+//! What the first three columns may hold in place of coordinates, where nobody has named them.
+
+use nalgebra::Point3;
+
+use super::head::remark;
+use super::separator::Separator;
+use crate::scan::text::integer;
+
+/// Fewer rows may be numbered, or of length 1, by chance.
+const LEAST_ROWS: usize = 4;
+
+/// How far the lengths of normals may be from 1: they are often written with few digits.
+const NORMAL: f64 = 1e-3;
+
+/// Columns of normals and places.
+const WITH_NORMALS: usize = 6;
+
+/// Columns of three numbers that decimal commas have cut in two.
+const CUT: usize = 6;
+
+/// What should stand there instead, as an error says it; nothing where all is well.
+pub(super) fn expected(points: &[Point3<f64>], columns: usize) -> Option<&'static str> {
+    if columns > 3 && counts_rows(points) {
+        return Some(
+            "coordinates in the first three columns, but the first one counts the rows: take it out, or name the columns in \
+             a first line such as `id x y z`",
+        );
+    }
+    if columns >= WITH_NORMALS && are_normals(points) {
+        return Some(
+            "coordinates in the first three columns, but these have length 1 in every row, as normals have: put x, y and z \
+             first, or name the columns in a first line such as `nx ny nz x y z`",
+        );
+    }
+    None
+}
+
+/// Whether the first coordinate is the number of its row, from 0 or 1 on.
+fn counts_rows(points: &[Point3<f64>]) -> bool {
+    let first = points.first().map_or(f64::NAN, |point| point.x);
+    let mut rows = points.iter().enumerate();
+    points.len() >= LEAST_ROWS
+        && (first == 0.0 || first == 1.0)
+        && rows.all(|(row, point)| point.x == first + row as f64)
+}
+
+fn are_normals(points: &[Point3<f64>]) -> bool {
+    let is_normal = |point: &Point3<f64>| (point.coords.norm() - 1.0).abs() < NORMAL;
+    points.len() >= LEAST_ROWS && points.iter().all(is_normal)
+}
+
+/// Whether commas separate columns and decimals alike: all columns are whole numbers, every other one has no sign, and
+/// some of these begin with zeros, as decimals do.
+pub(super) fn have_decimal_commas<'a>(
+    rows: impl Iterator<Item = (usize, &'a [u8])>,
+    separator: Separator,
+    columns: usize,
+) -> bool {
+    if separator != Separator::Byte(b',') || columns < CUT || columns % 2 == 1 {
+        return false;
+    }
+    let mut begin_with_zeros = false;
+    for (line, row) in rows.filter(|(_, row)| remark(row).is_none()) {
+        for (column, word) in separator.split(row).enumerate() {
+            let is_decimals = column % 2 == 1;
+            let is_whole = match is_decimals {
+                true => !word.is_empty() && word.iter().all(u8::is_ascii_digit),
+                false => integer(line, word).is_ok(),
+            };
+            if !is_whole {
+                return false;
+            }
+            begin_with_zeros |= is_decimals && word.len() > 1 && word.starts_with(b"0");
+        }
+    }
+    begin_with_zeros
+}
