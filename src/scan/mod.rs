@@ -156,11 +156,15 @@ impl Scan {
         Ok(())
     }
 
-    /// The scan that a part of another scan's faces is.
-    pub(crate) fn from_part(mesh: Mesh) -> Self {
-        let mut scan = Self::of_mesh(mesh);
-        inspect::inspect(&mut scan);
-        scan
+    /// The scan that a part of its faces is: what is known of all points is true of the part's too.
+    pub(crate) fn part(&self, mesh: Mesh) -> Self {
+        let mut part = Self {
+            scatter: self.scatter,
+            miscount: self.miscount,
+            ..Self::of_mesh(mesh)
+        };
+        inspect::inspect(&mut part);
+        part
     }
 
     /// Whether all points lie in one plane, or do not span one: they enclose nothing.

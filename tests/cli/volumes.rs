@@ -163,6 +163,36 @@ fn the_steps_between_voxels_are_no_texture() {
 }
 
 #[test]
+fn the_largest_of_two_bodies_with_one_label_is_fitted_as_voxels() {
+    let folder = folder();
+    balls(&folder.path().join("ct.nrrd"));
+    let bytes = std::fs::read(folder.path().join("ct.nrrd")).unwrap();
+    for (name, label) in [("two.nrrd", 4), ("alone.nrrd", 0)] {
+        let bytes = bytes
+            .iter()
+            .map(|&byte| if byte == 9 { label } else { byte });
+        std::fs::write(folder.path().join(name), bytes.collect::<Vec<u8>>()).unwrap();
+    }
+    let largest = json(&folder, &["fit", "two.nrrd", "--largest"]);
+    let alone = json(&folder, &["fit", "alone.nrrd"]);
+    assert_eq!(largest["surface"], "position");
+    assert_eq!(largest["reference"]["kind"], "voxels");
+    let share = number(&largest, "volume") / number(&alone, "volume");
+    assert!((share - 1.0).abs() < 2e-3, "{share}");
+    let [of_largest, of_alone] =
+        [&largest, &alone].map(|report| number(&report["standard_errors"], "volume"));
+    assert!(
+        (of_largest / of_alone - 1.0).abs() < 0.2,
+        "{of_largest} {of_alone}"
+    );
+    let words = ["batch", "two.nrrd", "--largest", "-o", "r", "--quiet"];
+    succeed(&folder, &words);
+    let rows = super::batch::rows(&folder.path().join("r/results.csv"));
+    let volume: f64 = rows[0]["volume"].parse().unwrap();
+    assert_eq!(volume, number(&largest, "volume"));
+}
+
+#[test]
 fn a_speck_of_an_image_is_no_grain() {
     let folder = folder();
     let path = folder.path().join("ct.nrrd");
