@@ -50,6 +50,8 @@ pub struct Scan {
     /// Of voxels the standard deviation of their volume from that of the grain, over the root of the grain's area; else
     /// zero.
     pub(crate) miscount: f64,
+    /// See [`Self::unit`].
+    pub(crate) unit: Option<String>,
     pub(crate) warnings: Vec<String>,
 }
 
@@ -137,6 +139,11 @@ impl Scan {
         self.scatter
     }
 
+    /// The unit of lengths that the header of an image tells, such as `mm`; `None` where it tells none, as other files do.
+    pub fn unit(&self) -> Option<&str> {
+        self.unit.as_deref()
+    }
+
     /// What was odd, but did not stop the reader: whole sentences.
     pub fn warnings(&self) -> &[String] {
         &self.warnings
@@ -161,6 +168,7 @@ impl Scan {
         let mut part = Self {
             scatter: self.scatter,
             miscount: self.miscount,
+            unit: self.unit.clone(),
             ..Self::of_mesh(mesh)
         };
         inspect::inspect(&mut part);

@@ -1,6 +1,6 @@
 //! Segmented volumes from the command line.
 
-use super::{errors, folder, grainform, json, names, number, succeed};
+use super::{errors, folder, grainform, json, names, number, piped, succeed};
 use std::path::Path;
 
 /// A header of bytes in steps of .5, .5 and 1, as NRRD.
@@ -265,4 +265,23 @@ fn a_batch_sees_that_the_voxels_beside_a_header_changed() {
     assert_eq!(both.len(), 2);
     assert_eq!(volumes(&[4]), both[..1]);
     assert_eq!(volumes(&[9]), both[1..]);
+}
+
+#[test]
+fn a_metaimage_is_read_from_standard_input() {
+    let folder = folder();
+    balls(&folder.path().join("ct.nrrd"));
+    let bytes = std::fs::read(folder.path().join("ct.nrrd")).unwrap();
+    let mut meta =
+        b"ObjectType = Image\nNDims = 3\nDimSize = 80 40 20\nElementSpacing = 0.5 0.5 1\n\
+                     ElementType = MET_UCHAR\nElementDataFile = LOCAL\n"
+            .to_vec();
+    meta.extend(&bytes[header([80, 40, 20]).len()..]);
+    let words = ["measure", "-", "--label", "9", "--only", "volume", "--json"];
+    let output = piped(&folder, &words, &meta);
+    assert!(output.status.success(), "{}", errors(&output));
+    let words = ["measure", "ct.nrrd", "--label", "9", "--only", "volume"];
+    let expected = number(&json(&folder, &words), "volume");
+    let found: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(number(&found, "volume"), expected);
 }
