@@ -44,7 +44,7 @@ fn measure(args: &MeasureArgs) -> Result<MeasureReport> {
     if args.scheme.0 != Scheme::Exact {
         bail!("{input} is a scan: integration schemes are for models; leave --scheme out");
     }
-    let scan = inputs::parse_scan(path, &bytes, &args.input)?;
+    let scan = inputs::parse_scan(path, &bytes, &args.input, args.unit)?;
     if scan.is_flat() {
         bail!("cannot measure {input}: all points lie in one plane, they do not enclose a body");
     }

@@ -41,7 +41,7 @@ pub(super) fn read(path: &Path, input: &InputArgs, unit: Option<Unit>) -> Result
             grain: Some(grain),
         });
     }
-    let scan = inputs::parse_scan(path, &bytes, input)?;
+    let scan = inputs::parse_scan(path, &bytes, input, unit)?;
     if let Some(scanned) = scanned_body(&scan) {
         if scanned.bodies > 1 {
             bail!("{name} holds {} bodies; split it first", scanned.bodies);

@@ -50,7 +50,7 @@ pub(super) fn run(
 /// Reads and fits the scan.
 fn fitted(args: &FitArgs, form: SuperquadricArg) -> Result<(Grain, Scan, SuperquadricReport)> {
     let (name, unit) = (args.fitting.name(), args.fitting.unit);
-    let scan = inputs::scan(&args.fitting.scan, &args.fitting.input)?;
+    let scan = inputs::scan(&args.fitting.scan, &args.fitting.input, unit)?;
     let (scan, others_left_out) = whole_or_largest(scan, args.fitting.largest);
     let failed = || format!("cannot fit {name}");
     let prepared = PreparedScan::new(&scan, FitOptions::default().symmetry);
