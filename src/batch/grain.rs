@@ -106,6 +106,8 @@ pub(super) fn grain(
 }
 
 fn fit(scan: Scan, settings: &Settings) -> Result<(Fitted, Vec<String>), String> {
+    let unit = settings.unit.map_or(Ok(()), |unit| unit.check(scan.unit()));
+    unit.map_err(|error| told(&error))?;
     let (scan, left_out) = whole_or_largest(scan, settings.largest);
     let context = Context::default();
     let mut fitted =

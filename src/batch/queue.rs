@@ -2,7 +2,9 @@
 
 use super::grain::told;
 use super::inputs::is_image;
-use crate::scan::{Extent, Scan, Volume, parse_file, parse_volume, read_stream, voxel_file};
+use crate::scan::{
+    Extent, ReadError, Scan, Volume, parse_file, parse_volume, read_stream, voxel_file,
+};
 use std::collections::{BTreeMap, VecDeque};
 use std::fs::File;
 use std::io::{self, Read};
@@ -137,7 +139,7 @@ impl Content {
         match self {
             Self::Bytes(bytes) => {
                 let bytes = read_stream(&bytes[..], path, limit).map_err(|error| told(&error))?;
-                parse_file(path, &bytes, None).map_err(|error| told(&error))
+                scan(path, &bytes, limit).map_err(|error| told(&error))
             }
             Self::Label(image, label, extent) => {
                 let scan = image.volume.grain(*label, extent);
@@ -146,6 +148,17 @@ impl Content {
                 })
             }
         }
+    }
+}
+
+/// The scan in the bytes of a file, of whose voxels at most so many bytes are unpacked.
+fn scan(path: &Path, bytes: &[u8], limit: u64) -> Result<Scan, ReadError> {
+    match parse_volume(path, bytes, limit)? {
+        Some(volume) => volume.scan(None).map_err(|source| ReadError::Volume {
+            path: path.into(),
+            source,
+        }),
+        None => parse_file(path, bytes, None),
     }
 }
 

@@ -1,6 +1,6 @@
 //! `grainform bench`
 
-use super::args::{BenchArgs, InputArgs};
+use super::args::BenchArgs;
 use super::console::Console;
 use super::streams::put_json;
 use super::{inputs, outputs};
@@ -25,7 +25,7 @@ pub(super) fn run(args: BenchArgs, console: Console) -> Result<()> {
     }
     let mut subjects = match args.scans.as_slice() {
         [] => synthetic()?,
-        paths => read(paths, &args.input)?,
+        paths => read(paths, &args)?,
     };
     if args.rivals {
         subjects = subjects
@@ -67,9 +67,9 @@ pub(super) fn run(args: BenchArgs, console: Console) -> Result<()> {
 }
 
 /// The scans of these files, each of which can be fitted: better said now than after minutes.
-fn read(paths: &[PathBuf], input: &InputArgs) -> Result<Vec<Subject>> {
+fn read(paths: &[PathBuf], args: &BenchArgs) -> Result<Vec<Subject>> {
     let subject = |path: &PathBuf| {
-        let scan = inputs::scan(path, input)?;
+        let scan = inputs::scan(path, &args.input, args.unit)?;
         let name = inputs::name(path);
         let failed = || format!("cannot fit {name}");
         let prepared = PreparedScan::new(&scan, Symmetry::NONE).with_context(failed);

@@ -53,7 +53,7 @@ pub(super) fn fit_scan(
     let started = Instant::now();
     let name = args.name();
     progress.stage(format_args!("Reading {}", escaped(&name)));
-    let scan = inputs::scan(&args.scan, &args.input)?;
+    let scan = inputs::scan(&args.scan, &args.input, args.unit)?;
     let (scan, others_left_out) = whole_or_largest(scan, args.largest);
     let read = started.elapsed().as_secs_f64();
 

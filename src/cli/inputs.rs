@@ -3,6 +3,7 @@
 use super::args::{InputArgs, LimitArgs};
 use super::sentence;
 use crate::model::{Grain, grain_from_json};
+use crate::report::Unit;
 use crate::scan::{ReadError, Scan, Volume, parse_file, parse_volume, read_bytes, read_stream};
 use anyhow::{Context, Result, anyhow, bail};
 use std::io;
@@ -38,19 +39,40 @@ pub(super) fn read(path: &Path, limit: &LimitArgs) -> Result<Vec<u8>> {
     })
 }
 
-/// The scan in a file or in standard input.
-pub(super) fn scan(path: &Path, input: &InputArgs) -> Result<Scan> {
-    parse_scan(path, &read(path, &input.limit)?, input)
+/// The scan in a file or in standard input, its lengths in this unit.
+pub(super) fn scan(path: &Path, input: &InputArgs, unit: Option<Unit>) -> Result<Scan> {
+    parse_scan(path, &read(path, &input.limit)?, input, unit)
 }
 
-/// The segmented volume in the bytes of a file, if it is one.
-pub(super) fn parse_labels(path: &Path, bytes: &[u8], input: &InputArgs) -> Result<Option<Volume>> {
-    Ok(parse_volume(called(path), bytes, input.limit.max_bytes)?)
+/// The segmented volume in the bytes of a file, if it is one; refused where its header says another unit.
+pub(super) fn parse_labels(
+    path: &Path,
+    bytes: &[u8],
+    input: &InputArgs,
+    unit: Option<Unit>,
+) -> Result<Option<Volume>> {
+    let volume = parse_volume(called(path), bytes, input.limit.max_bytes)?;
+    if let Some(volume) = &volume {
+        check_unit(path, volume.unit(), unit)?;
+    }
+    Ok(volume)
 }
 
-/// The scan in the bytes of a file.
-pub(super) fn parse_scan(path: &Path, bytes: &[u8], input: &InputArgs) -> Result<Scan> {
-    if let Some(volume) = parse_labels(path, bytes, input)? {
+/// Refuses a unit beside a header that says another.
+pub(super) fn check_unit(path: &Path, header: Option<&str>, unit: Option<Unit>) -> Result<()> {
+    let failed = || format!("cannot use {}", name(path));
+    unit.map_or(Ok(()), |unit| unit.check(header))
+        .with_context(failed)
+}
+
+/// The scan in the bytes of a file, its lengths in this unit.
+pub(super) fn parse_scan(
+    path: &Path,
+    bytes: &[u8],
+    input: &InputArgs,
+    unit: Option<Unit>,
+) -> Result<Scan> {
+    if let Some(volume) = parse_labels(path, bytes, input, unit)? {
         let failed = || format!("cannot read a grain from {}", name(path));
         return volume.scan(input.label).with_context(failed);
     }

@@ -45,7 +45,7 @@ fn measure(args: &MeasureArgs) -> Result<MeasureReport> {
     if args.scheme.0 != Scheme::Exact {
         bail!("{input} is a scan: integration schemes are for models; leave --scheme out");
     }
-    let scan = inputs::parse_scan(path, &bytes, &args.input)?;
+    let scan = inputs::parse_scan(path, &bytes, &args.input, args.unit)?;
     inputs::explained(measure_scan(args, input, only, &scan), &scan)
 }
 

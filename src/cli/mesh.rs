@@ -93,7 +93,7 @@ fn annotated(args: &MeshArgs, grain: &Grain) -> Result<Annotated> {
             max_bytes: args.limit.max_bytes,
         },
     };
-    let scan = inputs::scan(path, &input)?;
+    let scan = inputs::scan(path, &input, None)?;
     Ok(surface.with_deviation(&ScanDeviation::new(grain, &scan)))
 }
 

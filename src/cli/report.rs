@@ -122,7 +122,7 @@ fn grain_part(path: &Path, args: &ReportArgs) -> Result<GrainPart> {
             bench: None,
         }));
     }
-    let scan = inputs::parse_scan(path, &bytes, &args.input)?;
+    let scan = inputs::parse_scan(path, &bytes, &args.input, args.unit)?;
     let (scan, left_out) = whole_or_largest(scan, args.largest);
     let options = FitOptions::default();
     let failed = || format!("cannot fit {name}");

@@ -42,7 +42,7 @@ pub(super) fn read(path: &Path, input: &InputArgs, unit: Option<Unit>) -> Result
             grain: Some(grain),
         });
     }
-    let scan = inputs::parse_scan(path, &bytes, input)?;
+    let scan = inputs::parse_scan(path, &bytes, input, unit)?;
     inputs::explained(of_scan(&scan, &name, unit), &scan)
 }
 

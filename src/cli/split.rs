@@ -18,13 +18,13 @@ pub(super) fn run(args: SplitArgs, console: Console) -> Result<()> {
     progress.stage("Reading");
     let bytes = inputs::read(&args.scan, &args.input.limit)?;
     let failed = || format!("cannot split {name}");
-    let found = match inputs::parse_labels(&args.scan, &bytes, &args.input)? {
+    let found = match inputs::parse_labels(&args.scan, &bytes, &args.input, args.unit)? {
         Some(volume) if args.input.label.is_none() => {
             progress.stage("Telling the grains apart");
             split_labels(&volume).with_context(failed)?
         }
         _ => {
-            let scan = inputs::parse_scan(&args.scan, &bytes, &args.input)?;
+            let scan = inputs::parse_scan(&args.scan, &bytes, &args.input, args.unit)?;
             progress.stage("Telling the grains apart");
             inputs::explained(split(&scan).with_context(failed), &scan)?
         }

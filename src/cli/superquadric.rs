@@ -49,7 +49,7 @@ pub(super) fn run(
 
 /// Reads and fits the scan.
 fn fitted(args: &FitArgs, form: SuperquadricArg) -> Result<(Grain, Scan, SuperquadricReport)> {
-    let scan = inputs::scan(&args.fitting.scan, &args.fitting.input)?;
+    let scan = inputs::scan(&args.fitting.scan, &args.fitting.input, args.fitting.unit)?;
     let (scan, others_left_out) = whole_or_largest(scan, args.fitting.largest);
     let fitted = fitted_to(args, form, &scan, others_left_out);
     let (grain, report) = inputs::explained(fitted, &scan)?;

@@ -56,6 +56,6 @@ pub use superquadric::{FittedScan, SuperquadricRecord, SuperquadricReport};
 pub use synth::SynthReport;
 pub use tray::TrayReport;
 pub use truth::TruthRecord;
-pub use unit::Unit;
+pub use unit::{Unit, UnitContradicted};
 #[cfg(feature = "cli")]
 pub(crate) use warning::sentences;

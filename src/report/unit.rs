@@ -31,6 +31,44 @@ impl Unit {
             Self::Metre => 1.0,
         }
     }
+
+    /// Whether lengths may be in this unit for all that the header of an image says. A word that is no unit known here says
+    /// nothing.
+    ///
+    /// # Errors
+    /// [`UnitContradicted`] where the header says that they are in another.
+    pub fn check(self, header: Option<&str>) -> Result<(), UnitContradicted> {
+        let is_known = |told: &&str| told.parse::<Self>().is_ok() || NOT_OFFERED.contains(told);
+        match header.filter(is_known) {
+            Some(told) if told.parse() != Ok(self) => Err(UnitContradicted {
+                header: told.into(),
+                asked: self,
+            }),
+            _ => Ok(()),
+        }
+    }
+}
+
+/// Units of headers in which no lengths are told here.
+const NOT_OFFERED: [&str; 2] = ["nm", "inch"];
+
+/// Lengths are said to be in one unit, and the header of an image says another.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("its header says that lengths are in {header}, and --unit that they are in {asked}: {}", self.advice())]
+pub struct UnitContradicted {
+    /// The unit of the header.
+    pub header: String,
+    /// The other.
+    pub asked: Unit,
+}
+
+impl UnitContradicted {
+    fn advice(&self) -> String {
+        match NOT_OFFERED.contains(&&*self.header) {
+            true => "leave --unit out, or convert the image".into(),
+            false => format!("give --unit {}, or correct the header", self.header),
+        }
+    }
 }
 
 impl fmt::Display for Unit {
@@ -132,5 +170,18 @@ mod tests {
             [" mm", " mm²", " mm³"]
         );
         assert_eq!(Labels(None).area(), "");
+    }
+
+    #[test]
+    fn a_header_may_say_nothing_or_the_same_unit() {
+        let um = Unit::Micrometre;
+        for header in [None, Some("um"), Some("furlong")] {
+            assert_eq!(um.check(header), Ok(()), "{header:?}");
+        }
+        let told = |header| um.check(Some(header)).unwrap_err().to_string();
+        assert!(told("mm").ends_with(
+            "in mm, and --unit that they are in um: give --unit mm, or correct the header"
+        ));
+        assert!(told("nm").ends_with("leave --unit out, or convert the image"));
     }
 }

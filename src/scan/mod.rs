@@ -53,6 +53,8 @@ pub struct Scan {
     /// Of voxels the standard deviation of their volume from that of the grain, over the root of the grain's area; else
     /// zero.
     pub(crate) miscount: f64,
+    /// See [`Self::unit`].
+    pub(crate) unit: Option<String>,
     pub(crate) warnings: Vec<String>,
 }
 
@@ -140,6 +142,11 @@ impl Scan {
         self.scatter
     }
 
+    /// The unit of lengths that the header of an image tells, such as `mm`; `None` where it tells none, as other files do.
+    pub fn unit(&self) -> Option<&str> {
+        self.unit.as_deref()
+    }
+
     /// What was odd, but did not stop the reader: whole sentences.
     pub fn warnings(&self) -> &[String] {
         &self.warnings
@@ -169,11 +176,16 @@ impl Scan {
         Ok(())
     }
 
-    /// The scan that a part of another scan's faces is.
-    pub(crate) fn from_part(mesh: Mesh) -> Self {
-        let mut scan = Self::of_mesh(mesh);
-        inspect::inspect(&mut scan);
-        scan
+    /// The scan that a part of its faces is: what is known of all points is true of the part's too.
+    pub(crate) fn part(&self, mesh: Mesh) -> Self {
+        let mut part = Self {
+            scatter: self.scatter,
+            miscount: self.miscount,
+            unit: self.unit.clone(),
+            ..Self::of_mesh(mesh)
+        };
+        inspect::inspect(&mut part);
+        part
     }
 
     /// Whether all points lie in one plane, or do not span one: they enclose nothing.

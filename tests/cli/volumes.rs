@@ -1,6 +1,7 @@
 //! Segmented volumes from the command line.
 
-use super::{errors, folder, grainform, json, names, number, succeed};
+use super::{errors, folder, grainform, json, names, number, piped, succeed};
+use std::io::Write;
 use std::path::Path;
 
 /// A header of bytes in steps of .5, .5 and 1, as NRRD.
@@ -163,6 +164,36 @@ fn the_steps_between_voxels_are_no_texture() {
 }
 
 #[test]
+fn the_largest_of_two_bodies_with_one_label_is_fitted_as_voxels() {
+    let folder = folder();
+    balls(&folder.path().join("ct.nrrd"));
+    let bytes = std::fs::read(folder.path().join("ct.nrrd")).unwrap();
+    for (name, label) in [("two.nrrd", 4), ("alone.nrrd", 0)] {
+        let bytes = bytes
+            .iter()
+            .map(|&byte| if byte == 9 { label } else { byte });
+        std::fs::write(folder.path().join(name), bytes.collect::<Vec<u8>>()).unwrap();
+    }
+    let largest = json(&folder, &["fit", "two.nrrd", "--largest"]);
+    let alone = json(&folder, &["fit", "alone.nrrd"]);
+    assert_eq!(largest["surface"], "position");
+    assert_eq!(largest["reference"]["kind"], "voxels");
+    let share = number(&largest, "volume") / number(&alone, "volume");
+    assert!((share - 1.0).abs() < 2e-3, "{share}");
+    let [of_largest, of_alone] =
+        [&largest, &alone].map(|report| number(&report["standard_errors"], "volume"));
+    assert!(
+        (of_largest / of_alone - 1.0).abs() < 0.2,
+        "{of_largest} {of_alone}"
+    );
+    let words = ["batch", "two.nrrd", "--largest", "-o", "r", "--quiet"];
+    succeed(&folder, &words);
+    let rows = super::batch::rows(&folder.path().join("r/results.csv"));
+    let volume: f64 = rows[0]["volume"].parse().unwrap();
+    assert_eq!(volume, number(&largest, "volume"));
+}
+
+#[test]
 fn a_speck_of_an_image_is_no_grain() {
     let folder = folder();
     let path = folder.path().join("ct.nrrd");
@@ -235,4 +266,99 @@ fn a_batch_sees_that_the_voxels_beside_a_header_changed() {
     assert_eq!(both.len(), 2);
     assert_eq!(volumes(&[4]), both[..1]);
     assert_eq!(volumes(&[9]), both[1..]);
+}
+
+#[test]
+fn a_unit_that_the_header_contradicts_is_refused() {
+    let folder = folder();
+    balls(&folder.path().join("ct.nrrd"));
+    let bytes = std::fs::read(folder.path().join("ct.nrrd")).unwrap();
+    let head = header([80, 40, 20]);
+    let mut in_um = head[..head.len() - 1].to_vec();
+    in_um.extend(b"space units: \"um\" \"um\" \"um\"\n\n");
+    in_um.extend(&bytes[head.len()..]);
+    std::fs::write(folder.path().join("um.nrrd"), in_um).unwrap();
+    let one = ["--label", "4"];
+    for words in [
+        &["measure", "um.nrrd"][..],
+        &["fit", "um.nrrd"],
+        &["fit", "um.nrrd", "--surface", "superquadric"],
+        &["search", "um.nrrd"],
+        &["clump", "um.nrrd"],
+        &["report", "um.nrrd", "-o", "r.html"],
+    ] {
+        let output = grainform(&folder, &[words, &one, &["--unit", "mm"]].concat());
+        let told = errors(&output);
+        assert!(!output.status.success(), "{words:?}");
+        assert!(
+            told.contains("lengths are in um, and --unit that they are in mm: give --unit um"),
+            "{words:?}: {told}"
+        );
+        assert!(output.stdout.is_empty(), "{words:?}");
+    }
+    let split = ["split", "um.nrrd", "-o", "grains", "--unit", "mm"];
+    assert!(errors(&grainform(&folder, &split)).contains("give --unit um"));
+    let batch = ["batch", "um.nrrd", "-o", "r", "--unit", "mm", "--quiet"];
+    assert!(!grainform(&folder, &batch).status.success());
+    for row in super::batch::rows(&folder.path().join("r/results.csv")) {
+        assert!(row["reason"].contains("give --unit um"), "{row:?}");
+        assert_eq!(row["volume"], "");
+    }
+    let measure = ["measure", "um.nrrd", "--label", "4", "--only", "volume"];
+    let report = json(&folder, &[&measure[..], &["--unit", "um"]].concat());
+    assert_eq!(report["unit"], "um");
+    assert!(
+        json(&folder, &measure)["warnings"]
+            .to_string()
+            .contains("in um")
+    );
+}
+
+#[test]
+fn a_metaimage_is_read_from_standard_input() {
+    let folder = folder();
+    balls(&folder.path().join("ct.nrrd"));
+    let bytes = std::fs::read(folder.path().join("ct.nrrd")).unwrap();
+    let mut meta =
+        b"ObjectType = Image\nNDims = 3\nDimSize = 80 40 20\nElementSpacing = 0.5 0.5 1\n\
+                     ElementType = MET_UCHAR\nElementDataFile = LOCAL\n"
+            .to_vec();
+    meta.extend(&bytes[header([80, 40, 20]).len()..]);
+    let words = ["measure", "-", "--label", "9", "--only", "volume", "--json"];
+    let output = piped(&folder, &words, &meta);
+    assert!(output.status.success(), "{}", errors(&output));
+    let words = ["measure", "ct.nrrd", "--label", "9", "--only", "volume"];
+    let expected = number(&json(&folder, &words), "volume");
+    let found: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(number(&found, "volume"), expected);
+}
+
+#[test]
+fn the_limit_of_voxels_is_that_of_the_command() {
+    let folder = folder();
+    balls(&folder.path().join("ct.nrrd"));
+    let bytes = std::fs::read(folder.path().join("ct.nrrd")).unwrap();
+    let head = header([80, 40, 20]);
+    let text = String::from_utf8(head.clone()).unwrap();
+    let voxels = bytes[head.len()..]
+        .iter()
+        .map(|&byte| if byte == 9 { 4 } else { byte });
+    let mut packed = flate2::write::GzEncoder::new(
+        text.replace("raw", "gzip").into_bytes(),
+        flate2::Compression::best(),
+    );
+    packed.write_all(&voxels.collect::<Vec<u8>>()).unwrap();
+    std::fs::write(folder.path().join("one.nrrd"), packed.finish().unwrap()).unwrap();
+    let told = "more than the 20000 bytes that may be read; allow more with --max-bytes";
+    let refused = errors(&grainform(
+        &folder,
+        &["fit", "one.nrrd", "--max-bytes", "20k"],
+    ));
+    assert!(refused.contains(told), "{refused}");
+    let words = ["batch", "one.nrrd", "-o", "r", "--max-bytes", "20k"];
+    assert!(!grainform(&folder, &words).status.success());
+    let rows = super::batch::rows(&folder.path().join("r/results.csv"));
+    assert!(rows[0]["reason"].contains(told), "{rows:?}");
+    let words = ["measure", "one.nrrd", "--max-bytes", "64k"];
+    succeed(&folder, &words);
 }

@@ -133,6 +133,7 @@ fn in_unit(error: BedError, unit: Unit) -> anyhow::Error {
 fn walls(path: &Path, args: &BedArgs, metres: f64) -> Result<Mesh> {
     let bytes = inputs::read(path, &args.input.limit)?;
     let scan = crate::scan::parse_file(path, &bytes, None)?;
+    inputs::check_unit(path, scan.unit(), Some(args.unit))?;
     if scan.triangles().is_empty() {
         return Err(anyhow!(
             "{} has no faces: walls need them",

@@ -46,7 +46,7 @@ pub(crate) fn without_dust(scan: &Scan) -> Option<(Scan, usize)> {
     (dust > 0).then(|| {
         let mut kept: Vec<usize> = sizes.into_iter().flat_map(|size| size.triangles).collect();
         kept.sort_unstable();
-        (Scan::from_part(part(&mesh, &kept)), dust)
+        (scan.part(part(&mesh, &kept)), dust)
     })
 }
 
@@ -60,5 +60,5 @@ pub(crate) fn largest_part(scan: &Scan) -> Option<(Scan, usize)> {
     };
     let largest = sizes.iter().max_by(order)?;
     let others = sizes.len() - 1;
-    (others > 0).then(|| (Scan::from_part(part(&mesh, &largest.triangles)), others))
+    (others > 0).then(|| (scan.part(part(&mesh, &largest.triangles)), others))
 }

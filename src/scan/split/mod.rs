@@ -117,7 +117,7 @@ pub fn split_labels(volume: &Volume) -> Result<Split, VolumeError> {
 
 fn split_faces(scan: &Scan) -> Split {
     let bodies = bodies(&scan.welded()).into_iter();
-    without_small(bodies.map(|body| (None, Scan::from_part(body))))
+    without_small(bodies.map(|body| (None, scan.part(body))))
 }
 
 /// The bodies but for those whose area is that of dust.

@@ -55,6 +55,47 @@ pub enum VolumeError {
         /// Voxels there.
         found: usize,
     },
+    /// The voxels would take more room than is allowed.
+    #[error(
+        "its voxels take more than the {limit} bytes that may be read; allow more with --max-bytes"
+    )]
+    TooLarge {
+        /// The most bytes that may be read.
+        limit: u64,
+    },
+    /// There are channels or times beside the three axes.
+    #[error(
+        "the image has {channels} and {times} beside its slices, and one of each can be read: save the slices that have \
+         the labels as a stack of their own",
+        channels = plural(*channels, "channel"), times = plural(*times, "time")
+    )]
+    Hyperstack {
+        /// Numbers per voxel, each in an image of its own.
+        channels: usize,
+        /// Times at which all was seen.
+        times: usize,
+    },
+    /// The description of a TIFF counts other slices than the file has.
+    #[error(
+        "the description promises {}, and {found} can be found; save the stack again, with all its slices in one file and \
+         a header for each",
+        plural(*promised, "slice")
+    )]
+    Slices {
+        /// Slices promised.
+        promised: usize,
+        /// Slices found.
+        found: usize,
+    },
+    /// The axes have lengths in several units.
+    #[error(
+        "the header tells lengths along the axes in several units ({}); export the image again with one for all",
+        units.join(", ")
+    )]
+    SeveralUnits {
+        /// They, each once.
+        units: Vec<String>,
+    },
     /// The axes of the image lie in a plane, or are not finite.
     #[error("the spacing and directions in the header are not those of a lattice in space")]
     NoLattice,

@@ -2,21 +2,29 @@
 //! their own (.mhd).
 
 use super::samples::{Kind, Order, Samples};
-use super::{Beside, Volume, VolumeError, source};
+use super::{Beside, Volume, VolumeError, source, unit};
 use nalgebra::{Matrix3, Point3, Vector3};
 use std::collections::HashMap;
 use std::io::Read;
 use std::path::Path;
 
-/// Whether a file is called as one.
-pub(super) fn is_it(path: &Path) -> bool {
+/// Whether a file begins as one, or is called as one.
+pub(super) fn is_it(path: &Path, bytes: &[u8]) -> bool {
+    let begins = |key: &[u8]| {
+        let rest = bytes.strip_prefix(key).map(<[u8]>::trim_ascii_start);
+        rest.is_some_and(|rest| rest.starts_with(b"="))
+    };
     let extension = source::extension(path).map(str::to_ascii_lowercase);
-    matches!(extension.as_deref(), Some("mhd" | "mha"))
+    matches!(extension.as_deref(), Some("mhd" | "mha")) || begins(b"ObjectType") || begins(b"NDims")
 }
 
 pub(super) fn parse(bytes: &[u8], beside: &Beside<'_>) -> Result<Volume, VolumeError> {
     let (fields, rest) = header(bytes)?;
     let field = |name: &str| fields.get(name).map(String::as_str);
+    if field("ObjectType").is_some_and(|kind| kind != "Image") {
+        let what = "a MetaIO object that is no image".into();
+        return Err(VolumeError::Unsupported { what });
+    }
     let three = |names: &[&str]| names.iter().find_map(|name| numbers::<3>(field(name)));
     let size = three(&["DimSize"]).filter(|size| size.iter().all(|n| *n >= 1.0));
     let size = size.ok_or(VolumeError::Header { what: "DimSize" })?;
@@ -24,6 +32,10 @@ pub(super) fn parse(bytes: &[u8], beside: &Beside<'_>) -> Result<Volume, VolumeE
     let kind = kind.ok_or(VolumeError::Header {
         what: "ElementType",
     })?;
+    if field("BinaryData").is_some_and(|value| value.eq_ignore_ascii_case("false")) {
+        let what = "a MetaImage with its voxels as text (BinaryData = False)".into();
+        return Err(VolumeError::Unsupported { what });
+    }
     let is_true = |name: &str| field(name).is_some_and(|value| value.eq_ignore_ascii_case("true"));
     if field("HeaderSize").is_some_and(|size| size != "0") {
         let what = "a MetaImage whose voxels begin somewhere in a file".into();
@@ -59,7 +71,7 @@ pub(super) fn parse(bytes: &[u8], beside: &Beside<'_>) -> Result<Volume, VolumeE
         directions * Matrix3::from_diagonal(&steps),
     )?;
     Ok(match spacing {
-        Some(_) => volume,
+        Some(_) => volume.in_unit(field("DistanceUnits").and_then(unit::of)),
         None => volume.with_warning("The MetaImage has no spacing: lengths are in voxels."),
     })
 }
@@ -97,9 +109,10 @@ fn header(bytes: &[u8]) -> Result<(HashMap<String, String>, &[u8]), VolumeError>
 fn inflate(packed: &[u8], limit: u64) -> Result<Vec<u8>, VolumeError> {
     let mut bytes = Vec::new();
     let read = flate2::read::ZlibDecoder::new(packed)
-        .take(limit)
+        .take(limit.saturating_add(1))
         .read_to_end(&mut bytes);
     match read {
+        Ok(_) if bytes.len() as u64 > limit => Err(VolumeError::TooLarge { limit }),
         Ok(_) => Ok(bytes),
         Err(error) => Err(VolumeError::Voxels {
             name: "it".into(),

@@ -15,6 +15,7 @@ mod nrrd;
 mod samples;
 mod scatter;
 mod tiff;
+mod unit;
 
 pub use error::VolumeError;
 pub(super) use lattice::filled as filled_lattice;
@@ -46,6 +47,8 @@ pub struct Volume {
     origin: Point3<f64>,
     /// From one voxel to the next along each axis of the image, in columns.
     steps: Matrix3<f64>,
+    /// The unit of lengths that the header tells.
+    unit: Option<String>,
     /// What the file does not tell.
     warnings: Vec<String>,
 }
@@ -64,11 +67,11 @@ pub fn parse_volume(path: &Path, bytes: &[u8], limit: u64) -> Result<Option<Volu
         nrrd::parse(bytes, &beside)
     } else if bytes.starts_with(b"\x93NUMPY") {
         npy::parse(bytes)
-    } else if bytes.starts_with(b"II*\0") || bytes.starts_with(b"MM\0*") {
+    } else if tiff::is_it(bytes) {
         tiff::parse(bytes, limit)
     } else if nifti::is_it(bytes) {
         nifti::parse(bytes)
-    } else if metaimage::is_it(path) {
+    } else if metaimage::is_it(path, bytes) {
         metaimage::parse(bytes, &beside)
     } else {
         return Ok(None);
@@ -84,7 +87,7 @@ pub fn parse_volume(path: &Path, bytes: &[u8], limit: u64) -> Result<Option<Volu
 pub fn voxel_file(path: &Path, bytes: &[u8]) -> Option<PathBuf> {
     let name = if nrrd::is_it(bytes) {
         nrrd::voxel_file(bytes)
-    } else if metaimage::is_it(path) {
+    } else if metaimage::is_it(path, bytes) {
         metaimage::voxel_file(bytes)
     } else {
         None
@@ -109,20 +112,24 @@ impl Beside<'_> {
     fn read(&self, name: &str) -> Result<Vec<u8>, VolumeError> {
         let path = beside(self.header, name);
         let path = path.ok_or_else(|| VolumeError::Elsewhere { name: name.into() })?;
-        source::read_bytes(&path, self.limit).map_err(|error| VolumeError::Voxels {
-            name: name.into(),
-            reason: error.to_string(),
-        })
+        source::read_bytes(&path, self.limit).map_err(|error| told(name, &error))
     }
 
     /// What is packed with gzip within a file.
     fn unpack(&self, packed: &[u8]) -> Result<Vec<u8>, VolumeError> {
-        source::read_stream(packed, Path::new("its voxels"), self.limit).map_err(|error| {
-            VolumeError::Voxels {
-                name: "it".into(),
-                reason: error.to_string(),
-            }
-        })
+        source::read_stream(packed, Path::new("its voxels"), self.limit)
+            .map_err(|error| told("it", &error))
+    }
+}
+
+/// Why the voxels of a file cannot be read.
+fn told(name: &str, error: &ReadError) -> VolumeError {
+    match *error {
+        ReadError::TooLarge { limit, .. } => VolumeError::TooLarge { limit },
+        _ => VolumeError::Voxels {
+            name: name.into(),
+            reason: error.to_string(),
+        },
     }
 }
 
@@ -150,6 +157,7 @@ impl Volume {
             let found = samples.count();
             return Err(VolumeError::CutShort { voxels, found });
         }
+        let surplus = samples.surplus(voxels);
         let lengths: f64 = steps.column_iter().map(|step| step.norm()).product();
         let is_lattice = steps.determinant().abs() > 1e-6 * lengths;
         if !is_lattice || !steps.iter().chain(origin.iter()).all(|x| x.is_finite()) {
@@ -160,7 +168,8 @@ impl Volume {
             samples,
             origin,
             steps,
-            warnings: Vec::new(),
+            unit: None,
+            warnings: surplus.into_iter().collect(),
         })
     }
 
@@ -169,13 +178,20 @@ impl Volume {
         self
     }
 
-    /// Warns where the file tells lengths in another unit than millimetres, which most are in: none is converted.
-    fn in_unit(self, unit: &str) -> Self {
-        let warning = format!("The image's lengths are in {unit}, as its header says.");
-        match unit == "mm" || self.warnings.contains(&warning) {
-            true => self,
-            false => self.with_warning(&warning),
+    /// Keeps the unit that the header tells, see [`unit::common`], and warns where it is not millimetres, which most are
+    /// in: none is converted.
+    fn in_unit(mut self, unit: Option<String>) -> Self {
+        if let Some(unit) = unit.as_deref().filter(|unit| *unit != "mm") {
+            let warning = format!("The image's lengths are in {unit}, as its header says.");
+            self.warnings.push(warning);
         }
+        self.unit = unit;
+        self
+    }
+
+    /// The unit of lengths that the header tells, such as `mm`; `None` where it tells none.
+    pub fn unit(&self) -> Option<&str> {
+        self.unit.as_deref()
     }
 
     /// The labels but zero, and their numbers of voxels.
@@ -295,6 +311,7 @@ impl Volume {
         let mut scan = voxel_scan(&grid, first, &self.steps)?;
         let warnings = self.warnings.iter().cloned().chain(touching);
         scan.warnings.splice(0..0, warnings);
+        scan.unit.clone_from(&self.unit);
         Ok(scan)
     }
 }

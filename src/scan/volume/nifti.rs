@@ -1,7 +1,7 @@
 //! NIfTI-1 in one file: 348 bytes of header, and the voxels.
 
 use super::samples::{Kind, Order, Samples};
-use super::{Volume, VolumeError};
+use super::{Volume, VolumeError, unit};
 use nalgebra::{Matrix3, Point3, Quaternion, UnitQuaternion, Vector3};
 
 /// Bytes of the header.
@@ -52,11 +52,8 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Volume, VolumeError> {
     let (origin, steps) = header.lattice();
     let bytes = voxels.to_vec();
     let volume = Volume::new(size, Samples { bytes, kind, order }, origin, steps)?;
-    let unit = ["", "m", "mm", "um"].get(usize::from(header.bytes[123] & 7));
-    let unit = unit.filter(|unit| !unit.is_empty());
-    Ok(unit
-        .into_iter()
-        .fold(volume, |volume, unit| volume.in_unit(unit)))
+    let name = ["", "m", "mm", "um"].get(usize::from(header.bytes[123] & 7));
+    Ok(volume.in_unit(name.and_then(|name| unit::of(name))))
 }
 
 struct Header<'a> {

@@ -1,6 +1,7 @@
 //! The numbers of an image, as they are in the file.
 
 use super::VolumeError;
+use crate::digits::plural;
 
 /// A type of numbers.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -58,6 +59,24 @@ macro_rules! number {
 impl Samples {
     pub(super) fn count(&self) -> usize {
         self.bytes.len() / self.kind.bytes()
+    }
+
+    /// What to say where there are more bytes than so many numbers have.
+    pub(super) fn surplus(&self, numbers: usize) -> Option<String> {
+        let promised = numbers.checked_mul(self.kind.bytes())?;
+        let left = self.bytes.len().checked_sub(promised).filter(|n| *n > 0)?;
+        let bytes = plural(left, "byte");
+        let warning = format!("Left {bytes} unread after the voxels that the header counts.");
+        let times = [(2, "twice"), (4, "four times"), (8, "eight times")];
+        let times = times
+            .iter()
+            .find(|(times, _)| promised.checked_mul(*times) == Some(self.bytes.len()));
+        Some(match times {
+            Some((_, times)) => format!(
+                "{warning} There are exactly {times} as many bytes as it promises: its type of numbers may be wrong."
+            ),
+            None => warning,
+        })
     }
 
     /// A sample as a label.

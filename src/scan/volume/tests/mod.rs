@@ -1,3 +1,5 @@
+mod headers;
+
 use super::*;
 use crate::measure::mesh_properties;
 use approx::assert_relative_eq;

@@ -1,9 +1,15 @@
 //! NRRD: lines of text, an empty one, and the voxels, or the name of the file that has them.
 
+mod axes;
+
 use super::samples::{Kind, Order, Samples};
 use super::{Beside, Volume, VolumeError};
-use nalgebra::{Matrix3, Point3, Vector3};
+use axes::Axes;
+use nalgebra::Vector3;
 use std::collections::HashMap;
+
+/// What a header tells, by name.
+type Fields = HashMap<String, String>;
 
 pub(super) fn is_it(bytes: &[u8]) -> bool {
     bytes.starts_with(b"NRRD")
@@ -12,11 +18,13 @@ pub(super) fn is_it(bytes: &[u8]) -> bool {
 pub(super) fn parse(bytes: &[u8], beside: &Beside<'_>) -> Result<Volume, VolumeError> {
     let (fields, voxels) = header(bytes)?;
     let field = |name: &str| fields.get(name).map(String::as_str);
-    let size: Vec<usize> = numbers(field("sizes")).ok_or(VolumeError::Header { what: "sizes" })?;
-    let Ok(size) = <[usize; 3]>::try_from(size) else {
-        let what = "an NRRD image that has not three axes".into();
-        return Err(VolumeError::Unsupported { what });
-    };
+    let Axes {
+        size,
+        origin,
+        steps,
+        unit,
+        warning,
+    } = Axes::of(&fields)?;
     if ["line skip", "lineskip", "byte skip", "byteskip"]
         .iter()
         .any(|name| field(name).is_some_and(|skip| skip != "0"))
@@ -27,54 +35,25 @@ pub(super) fn parse(bytes: &[u8], beside: &Beside<'_>) -> Result<Volume, VolumeE
     let kind = field("type").and_then(kind);
     let kind = kind.ok_or(VolumeError::Header { what: "type" })?;
     let order = match field("endian") {
-        Some("big") => Order::Big,
+        Some(name) if name.eq_ignore_ascii_case("big") => Order::Big,
         _ => Order::Little,
     };
     let named = named(&fields).map(|name| beside.read(name)).transpose()?;
     let voxels = named.as_deref().unwrap_or(voxels);
-    let bytes = match field("encoding") {
-        Some("raw") => voxels.to_vec(),
-        Some("gzip" | "gz") => beside.unpack(voxels)?,
-        other => {
-            let what = format!("the NRRD encoding {}", other.unwrap_or("of no name"));
+    let encoding = field("encoding").unwrap_or("of no name");
+    let bytes = match encoding.to_ascii_lowercase().as_str() {
+        "raw" => voxels.to_vec(),
+        "gzip" | "gz" => beside.unpack(voxels)?,
+        _ => {
+            let what = format!("the NRRD encoding {encoding}");
             return Err(VolumeError::Unsupported { what });
         }
     };
-    let steps = match (field("space directions"), field("spacings")) {
-        (Some(text), _) => {
-            let columns: Option<Vec<_>> = text.split_whitespace().map(vector).collect();
-            let columns = columns.filter(|columns| columns.len() == 3);
-            Matrix3::from_columns(&columns.ok_or(VolumeError::Header {
-                what: "space directions",
-            })?)
-        }
-        (None, Some(text)) => {
-            let spacings: Option<Vec<f64>> = numbers(Some(text));
-            let spacings = spacings.filter(|spacings| spacings.len() == 3);
-            let spacings = spacings.ok_or(VolumeError::Header { what: "spacings" })?;
-            Matrix3::from_diagonal(&Vector3::from_column_slice(&spacings))
-        }
-        (None, None) => Matrix3::identity(),
-    };
-    let origin = match field("space origin") {
-        Some(text) => vector(text).ok_or(VolumeError::Header {
-            what: "space origin",
-        })?,
-        None => Vector3::zeros(),
-    };
-    let samples = Samples { bytes, kind, order };
-    let volume = Volume::new(size, samples, Point3::from(origin), steps)?;
-    let is_spaced = field("space directions").or(field("spacings")).is_some();
-    let volume = match is_spaced {
-        true => volume,
-        false => volume.with_warning("The NRRD image has no spacing: lengths are in voxels."),
-    };
-    let units = field("space units").or(field("units")).unwrap_or_default();
-    Ok(units
-        .split('"')
-        .map(str::trim)
-        .filter(|unit| !unit.is_empty() && unit.chars().all(char::is_alphabetic))
-        .fold(volume, |volume, unit| volume.in_unit(unit)))
+    let volume = Volume::new(size, Samples { bytes, kind, order }, origin, steps)?.in_unit(unit);
+    Ok(match warning {
+        Some(warning) => volume.with_warning(warning),
+        None => volume,
+    })
 }
 
 /// The file that has the voxels, where they are not in that of the header.
@@ -82,13 +61,13 @@ pub(super) fn voxel_file(bytes: &[u8]) -> Option<String> {
     named(&header(bytes).ok()?.0).map(str::to_owned)
 }
 
-fn named(fields: &HashMap<String, String>) -> Option<&str> {
+fn named(fields: &Fields) -> Option<&str> {
     let name = fields.get("data file").or_else(|| fields.get("datafile"));
     name.map(String::as_str)
 }
 
 /// The fields, and what follows them.
-fn header(bytes: &[u8]) -> Result<(HashMap<String, String>, &[u8]), VolumeError> {
+fn header(bytes: &[u8]) -> Result<(Fields, &[u8]), VolumeError> {
     let mut fields = HashMap::new();
     let mut rest = bytes;
     loop {
