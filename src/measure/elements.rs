@@ -11,8 +11,8 @@ const NODES: usize = 40_000;
 /// Longest side of a part of a triangle, over its distance: of a ball they have some 25 000 nodes.
 const LARGEST: f64 = 0.08;
 
-/// A triangle is cut in four so often at most: one that the origin lies on looks large however small it is.
-const MOST_CUTS: usize = 12;
+/// A triangle is cut in two so often at most: one that the origin lies on looks large however small it is.
+const MOST_CUTS: usize = 24;
 
 /// A node of a quadrature over a surface.
 #[derive(Debug, Clone, Copy)]
@@ -72,22 +72,22 @@ pub(crate) fn mesh_elements(mesh: &Mesh, from: &Point3<f64>) -> Vec<Element> {
     elements
 }
 
-/// Cuts a triangle in four, so many times at most, until its parts look small from the origin.
-fn cut(corners: [Vector3<f64>; 3], cuts: usize, part: &mut impl FnMut([Vector3<f64>; 3])) {
-    let [a, b, c] = corners;
-    let longest = (b - a).norm().max((c - b).norm()).max((a - c).norm());
-    let nearest = ((a + b + c) / 3.0)
-        .norm()
-        .min(a.norm())
-        .min(b.norm())
-        .min(c.norm());
+/// Cuts a triangle across its longest side, so many times at most, until its parts look small from the origin.
+fn cut([a, b, c]: [Vector3<f64>; 3], cuts: usize, part: &mut impl FnMut([Vector3<f64>; 3])) {
+    let sides = [(a, b, c), (b, c, a), (c, a, b)].map(|(p, q, r)| ((q - p).norm(), [p, q, r]));
+    let [first, second, third] = sides;
+    let longer = |one: (f64, [Vector3<f64>; 3]), other: (f64, [Vector3<f64>; 3])| {
+        if other.0 > one.0 { other } else { one }
+    };
+    let (longest, [p, q, r]) = longer(longer(first, second), third);
+    let nearest = [a, b, c, (a + b + c) / 3.0].map(|place| place.norm());
+    let nearest = nearest.into_iter().fold(f64::INFINITY, f64::min);
     if cuts == 0 || longest <= LARGEST * nearest {
-        return part(corners);
+        return part([a, b, c]);
     }
-    let [ab, bc, ca] = [(a + b) / 2.0, (b + c) / 2.0, (c + a) / 2.0];
-    for quarter in [[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]] {
-        cut(quarter, cuts - 1, part);
-    }
+    let middle = (p + q) / 2.0;
+    cut([p, middle, r], cuts - 1, part);
+    cut([middle, q, r], cuts - 1, part);
 }
 
 #[cfg(test)]

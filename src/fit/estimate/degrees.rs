@@ -7,7 +7,6 @@ use super::outcome::{LAST_DEGREES, last_power};
 use super::outliers::{ROUNDS, alone};
 use super::patches::Patches;
 use super::posterior::{Posterior, is_small};
-use super::residuals;
 use super::spectrum_fit::{Count, SpectrumFit, fit_spectrum};
 use super::tilt::most_likely;
 use crate::fit::context::{Cancelled, Context};
@@ -128,7 +127,7 @@ impl Degrees {
         let alone = alone(&posterior, &self.fit);
         let left_out = match &mut self.patches {
             Some(patches) => {
-                patches.leave_out(&alone, |places| residuals(places, &self.cloud, &self.fit))
+                patches.leave_out(&alone, |places| self.fit.residuals(places, &self.cloud))
             }
             None => alone.len(),
         };

@@ -53,7 +53,6 @@ pub(crate) use outcome::Estimate;
 use crate::fit::context::{Cancelled, Context};
 use crate::fit::prepare::Sample;
 use crate::fit::without::without;
-use crate::sphere::ScatteredHarmonics;
 use cloud::Cloud;
 use degrees::{Degrees, first_degree};
 use map::rounder;
@@ -126,20 +125,9 @@ fn by_degrees(
     })
 }
 
-/// Measured less fitted radii of samples, in the cloud's stretched space and unit.
-fn residuals(samples: &[Sample], cloud: &Cloud, fit: &SpectrumFit) -> Vec<f64> {
-    let mapped = Cloud::mapped(samples, cloud.stretch, cloud.mean);
-    let (directions, measured): (Vec<_>, Vec<_>) = mapped.into_iter().unzip();
-    let mut fitted = vec![0.0; directions.len()];
-    let harmonics = ScatteredHarmonics::new(fit.sums.degree(), &directions);
-    harmonics.synthesis(&fit.coefficients, &mut fitted);
-    let pairs = measured.iter().zip(fitted);
-    pairs.map(|(measured, fitted)| measured - fitted).collect()
-}
-
 /// Adds the patch means of the residuals, and solves again.
 fn correct(cloud: &mut Cloud, patches: &Patches, fit: &mut SpectrumFit) -> Dense {
-    let residuals = residuals(patches.places(), cloud, fit);
+    let residuals = fit.residuals(patches.places(), cloud);
     let within = patches.spread_of(&residuals);
     let residuals = patches.means_of(&residuals);
     let posterior = Posterior::with(cloud, Arc::clone(&fit.sums));

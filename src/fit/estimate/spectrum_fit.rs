@@ -13,6 +13,8 @@ use super::posterior::{Conditioned, Posterior, Solved};
 use super::spectrum::{HIGHEST, PARAMETERS, Spectrum};
 use super::stopping::{ROUGHLY_SETTLED, SETTLED};
 use super::sums::Sums;
+use crate::fit::prepare::Sample;
+use crate::sphere::ScatteredHarmonics;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
@@ -76,6 +78,17 @@ impl SpectrumFit {
         let posterior = Posterior::with(cloud, Arc::clone(&self.sums));
         let left = posterior.mean_square(&self.coefficients).sqrt();
         left / (1.0 - learnt(&self.unlearnt) / cloud.len() as f64)
+    }
+
+    /// Measured less fitted radii of samples, in the cloud's stretched space and unit.
+    pub(super) fn residuals(&self, samples: &[Sample], cloud: &Cloud) -> Vec<f64> {
+        let mapped = Cloud::mapped(samples, cloud.stretch, cloud.mean);
+        let (directions, measured): (Vec<_>, Vec<_>) = mapped.into_iter().unzip();
+        let mut fitted = vec![0.0; directions.len()];
+        let harmonics = ScatteredHarmonics::new(self.sums.degree(), &directions);
+        harmonics.synthesis(&self.coefficients, &mut fitted);
+        let pairs = measured.iter().zip(fitted);
+        pairs.map(|(measured, fitted)| measured - fitted).collect()
     }
 
     /// Whether the prior expects nothing to speak of beyond its degree.

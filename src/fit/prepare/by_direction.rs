@@ -99,6 +99,7 @@ fn mesh_of_directions(points: Vec<Point3<f64>>, centre: &Point3<f64>) -> Result<
 mod tests {
     use super::*;
     use crate::shapes::Sampling;
+    use std::f64::consts::TAU;
 
     fn points(count: usize, place: impl Fn(&Vector3<f64>) -> Vector3<f64>) -> Vec<Point3<f64>> {
         let directions = Sampling::Fibonacci.directions(count, 0).unwrap();
@@ -120,15 +121,22 @@ mod tests {
     }
 
     #[test]
-    fn the_tips_of_a_needle_are_no_strays() {
-        let radius = |n: &Vector3<f64>| 1.0 / n.component_div(&Vector3::new(10.0, 1.0, 1.0)).norm();
-        let mut needle = points(6146, |n| n * radius(n));
-        let centre = Point3::origin();
-        let (_, plain) = seen(needle.clone(), &centre).unwrap();
-        assert!(!plain.indices.is_empty() && plain.scatter < LARGEST_SCATTER);
-        assert!(one_surface(&needle, &centre).unwrap().1.is_empty());
-        needle[3000] *= 1.5;
-        assert_eq!(one_surface(&needle, &centre).unwrap().1, [3000]);
+    fn points_of_a_flat_body_in_rings_are_no_strays() {
+        let rings = (0..30).flat_map(|ring| {
+            let height = (2.0 * f64::from(ring) + 1.0) / 30.0 - 1.0;
+            (0..400).map(move |at| {
+                let (sin, cos) = (TAU * f64::from(at) / 400.0).sin_cos();
+                let across = (1.0 - height * height).sqrt();
+                Point3::new(1.3333 * height, 2.6667 * across * cos, 4.0 * across * sin)
+            })
+        });
+        let mut rings: Vec<Point3<f64>> = rings.collect();
+        let centre = middle(&rings);
+        let (_, plain) = seen(rings.clone(), &centre).unwrap();
+        assert!(!plain.indices.is_empty());
+        assert!(one_surface(&rings, &centre).unwrap().1.is_empty());
+        rings[6000] *= 1.5;
+        assert_eq!(one_surface(&rings, &centre).unwrap().1, [6000]);
     }
 
     #[test]

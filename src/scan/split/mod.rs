@@ -89,12 +89,10 @@ pub(crate) fn has_neck(points: &[Point3<f64>]) -> bool {
     let Some(links) = Links::new(&drawn) else {
         return false;
     };
-    // Between rows of points thin slabs hold few of them; a neck is one in thick slabs too.
     let distance = covering(&drawn, links.distance);
-    [1.0, 2.0].into_iter().all(|times| {
-        let neck = Neck::find(&drawn, times * distance);
-        neck.is_some_and(|neck| neck.is_narrow())
-    })
+    let neck = |times: f64| Neck::find(&drawn, times * distance);
+    // Between rows of points thin slabs hold few of them; a neck is a waist in thick slabs too.
+    neck(1.0).is_some_and(|neck| neck.is_narrow()) && neck(2.0).is_some_and(|neck| neck.is_waist())
 }
 
 /// The grains of a segmented volume, one for each label, in the order of the labels.
