@@ -154,8 +154,8 @@ impl Best {
             covariance += added * added.transpose();
         }
         if let Some(hole) = hole {
-            let added = jacobian * (list(&hole.moments(&surface)) - list(&moments));
-            covariance += added * added.transpose();
+            let hidden = jacobian * (list(&hole.moments(&surface)) - list(&moments));
+            covariance += hidden * hidden.transpose();
         }
 
         let nodes = surface.nodes.iter().zip(&surface.radii);
