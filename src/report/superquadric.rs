@@ -281,13 +281,7 @@ impl fmt::Display for SuperquadricReport {
         let volume = told(self.volume, self.volume_error);
         writeln!(f, "volume        {volume}{}", labels.volume())?;
         if let Some(reference) = &self.reference {
-            let area = format!("{}{}", short(reference.area), labels.area());
-            let volume = format!("{}{}", short(reference.volume), labels.volume());
-            let description = reference.description();
-            writeln!(
-                f,
-                "polyhedron    {description}: area {area}, volume {volume}"
-            )?;
+            reference.write(f, &labels)?;
         }
         for part in &self.parts {
             part.write(f, &length)?;

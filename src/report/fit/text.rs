@@ -12,7 +12,7 @@ use std::fmt;
 
 impl ReferenceRecord {
     /// What it is, in words.
-    pub(in crate::report) fn description(&self) -> &'static str {
+    fn description(&self) -> &'static str {
         let is_of = |kind: ReferenceKind| self.kind == kind.name();
         if is_of(ReferenceKind::Faces) {
             "the scan's own faces"
@@ -23,6 +23,21 @@ impl ReferenceRecord {
         } else {
             "the points, triangulated by direction"
         }
+    }
+
+    /// The line that tells it.
+    pub(in crate::report) fn write(
+        &self,
+        f: &mut fmt::Formatter<'_>,
+        labels: &Labels,
+    ) -> fmt::Result {
+        let area = format!("{}{}", short(self.area), labels.area());
+        let volume = format!("{}{}", short(self.volume), labels.volume());
+        let description = self.description();
+        writeln!(
+            f,
+            "polyhedron    {description}: area {area}, volume {volume}"
+        )
     }
 }
 
@@ -170,14 +185,7 @@ impl fmt::Display for FitReport {
 impl FitReport {
     /// Area and volume beside those of a polyhedron, which are themselves off.
     fn compare(&self, reference: &ReferenceRecord, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let description = reference.description();
-        let labels = Labels(self.unit);
-        let area = format!("{}{}", short(reference.area), labels.area());
-        let volume = format!("{}{}", short(reference.volume), labels.volume());
-        writeln!(
-            f,
-            "polyhedron    {description}: area {area}, volume {volume}"
-        )?;
+        reference.write(f, &Labels(self.unit))?;
         let (Some(area), Some(volume)) = (self.area_error, self.volume_error) else {
             return Ok(());
         };

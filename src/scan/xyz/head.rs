@@ -59,7 +59,8 @@ impl<'a> Head<'a> {
 /// The text of a remark or of an empty line; none of a row.
 pub(super) fn remark(line: &[u8]) -> Option<&[u8]> {
     let line = line.trim_ascii();
-    if line.is_empty() || line.to_ascii_lowercase().starts_with(SEPARATOR_LINE) {
+    let start = &line[..line.len().min(SEPARATOR_LINE.len())];
+    if line.is_empty() || start.eq_ignore_ascii_case(SEPARATOR_LINE) {
         return Some(&[]);
     }
     let marks: [&[u8]; 3] = [b"#", b"//", b"%"];
