@@ -11,6 +11,31 @@ pub(crate) fn robust_deviation(values: impl Iterator<Item = f64>) -> f64 {
     PER_MEDIAN * median(&mut sizes).unwrap_or(0.0)
 }
 
+/// Standard deviations from the middle beyond which a value does not count.
+const COUNTS: f64 = 3.5;
+
+/// Rounds in which the middle settles: each takes it nearer by a factor of four or so.
+const MIDDLE_ROUNDS: usize = 20;
+
+/// The middle of values near zero that those far off do not move, and their standard deviation about zero, told by the
+/// median: Tukey's biweight.
+pub(crate) fn biweight(values: &[f64]) -> (f64, f64) {
+    let deviation = robust_deviation(values.iter().copied());
+    let limit = (COUNTS * deviation).max(f64::MIN_POSITIVE);
+    let mut middle = 0.0;
+    for _ in 0..MIDDLE_ROUNDS {
+        let (mut sum, mut weights) = (0.0, f64::MIN_POSITIVE);
+        for value in values {
+            let share = (value - middle) / limit;
+            let weight = (1.0 - share * share).max(0.0).powi(2);
+            sum += weight * value;
+            weights += weight;
+        }
+        middle = sum / weights;
+    }
+    (middle, deviation)
+}
+
 /// The mean of points, and their covariance about it.
 pub(crate) fn covariance(
     points: impl ExactSizeIterator<Item = Vector3<f64>> + Clone,

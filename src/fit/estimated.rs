@@ -133,19 +133,28 @@ pub(super) fn estimated(
     };
 
     let residuals = residuals(&grain, samples.rows());
-    let outliers = estimate.outliers;
-    let mut fitted = prepared.fitted(grain, search, residuals, samples.rows().len() - outliers);
+    let (outliers, one_sided) = (estimate.outliers, estimate.one_sided);
+    let mut fitted = prepared.fitted(
+        grain,
+        search,
+        residuals,
+        samples.rows().len() - outliers - one_sided,
+    );
     fitted.whole = whole;
     fitted.warnings.extend(not_met);
     if outliers > 0 {
         fitted.warnings.push(FitWarning::Outliers { outliers });
+    }
+    if one_sided > 0 {
+        let points = one_sided;
+        fitted.warnings.push(FitWarning::OneSided { points });
     }
     fitted.estimate = Some(EstimateSummary {
         degree: estimate.degree,
         deviation: estimate.deviation(),
         noise: estimate.noise(),
         slope: estimate.spectrum.slope(),
-        outliers,
+        outliers: outliers + one_sided,
         largest_difference,
     });
     fitted.posterior = Some(Box::new(estimate));

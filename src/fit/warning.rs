@@ -46,6 +46,11 @@ pub enum FitWarning {
         /// Their number.
         outliers: usize,
     },
+    /// Many points lay off the surface to one side, farther than noise puts them; all that are so far off were left out.
+    OneSided {
+        /// Their number.
+        points: usize,
+    },
     /// No point lies within an angle of some direction: the surface there is a guess.
     Gap {
         /// The angle, in radians.

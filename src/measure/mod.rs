@@ -33,6 +33,7 @@ mod projection;
 mod rings;
 mod roundness;
 mod scanned;
+mod seen;
 mod self_crossing;
 #[cfg(feature = "cli")]
 mod smoothed;

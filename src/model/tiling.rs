@@ -67,13 +67,7 @@ impl Tiling {
 
     /// Of a surface that is analytic within the octants.
     pub fn octants() -> Self {
-        Self::smooth((0..8).map(|i| {
-            let (polar, azimuth) = ((i / 4) as f64 * FRAC_PI_2, (i % 4) as f64 * FRAC_PI_2);
-            AngleRectangle {
-                theta: [polar, polar + FRAC_PI_2],
-                phi: [azimuth, azimuth + FRAC_PI_2],
-            }
-        }))
+        Self::smooth(Piece::octants())
     }
 
     /// Of a surface with creases anywhere, as unions have: pieces so small that two rules differ little even across a
@@ -108,8 +102,10 @@ impl Tiling {
     /// Of a surface that is analytic within the segments.
     pub(crate) fn segments(partition: AngularPartition) -> Self {
         match partition.per_angle() {
-            1 => Self::smooth(partition.rectangle(0).quarters()),
-            _ => Self::smooth((0..partition.segments()).map(|i| partition.rectangle(i))),
+            1 => Self::smooth(Piece::Angles(partition.rectangle(0)).quarters()),
+            _ => Self::smooth(
+                (0..partition.segments()).map(|i| Piece::Angles(partition.rectangle(i))),
+            ),
         }
     }
 
@@ -126,10 +122,10 @@ impl Tiling {
         }
     }
 
-    fn smooth(rectangles: impl IntoIterator<Item = AngleRectangle>) -> Self {
+    fn smooth(pieces: impl IntoIterator<Item = Piece>) -> Self {
         Self {
             parts: Parts::Pieces {
-                pieces: rectangles.into_iter().map(Piece::Angles).collect(),
+                pieces: pieces.into_iter().collect(),
                 orders: SMOOTH_ORDERS,
                 cuts: 1,
             },
@@ -140,6 +136,17 @@ impl Tiling {
 }
 
 impl Piece {
+    /// The octants between the planes of coordinates.
+    pub(crate) fn octants() -> [Self; 8] {
+        std::array::from_fn(|i| {
+            let (polar, azimuth) = ((i / 4) as f64 * FRAC_PI_2, (i % 4) as f64 * FRAC_PI_2);
+            Self::Angles(AngleRectangle {
+                theta: [polar, polar + FRAC_PI_2],
+                phi: [azimuth, azimuth + FRAC_PI_2],
+            })
+        })
+    }
+
     /// The nodes of a product of two Gauss rules.
     pub(crate) fn nodes(&self, rule: &GaussLegendre) -> Vec<Node> {
         match self {

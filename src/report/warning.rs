@@ -118,6 +118,11 @@ impl FitWarning {
                 f,
                 "{outliers} points stand alone, far from the surface, and were left out."
             ),
+            Self::OneSided { points } => write!(
+                f,
+                "{points} points lie farther off the surface than noise puts them, most of them on one side, \
+                 and were left out as dust or glare; figures do not hold them if they are hairs or spines of the grain."
+            ),
             Self::Gap {
                 half_angle,
                 direction,

@@ -23,6 +23,7 @@ use super::dimensions::Reach;
 use super::functionals::{RingSurface, combined};
 use super::hole::Hole;
 use super::left_out::LeftOut;
+use super::one_sided::off;
 use super::outcome::Estimate;
 use super::posterior::Posterior;
 use super::rims::Rim;
@@ -79,6 +80,8 @@ impl Estimate {
         }
         let left_out = LeftOut::new(self, &posterior, &residuals, is_rough);
         let left_out = (is_rough || left_out.stand_out).then_some(left_out);
+        // Points on one side of it.
+        let off = off(&of_mean_weight).unwrap_or(0.0);
         // Of a rough surface the points left out tell.
         let blur = Blur::new(self, &residuals);
         let hidden = if is_rough { 0.0 } else { hidden_slopes(self) };
@@ -86,7 +89,8 @@ impl Estimate {
         let beside = (left_out.as_ref(), hole);
         let best = Best::new(self, &posterior, &residuals, beside, slopes);
         let best = best.ok_or(NoInterval::NotFinite)?;
-        Ok(blur.with_swelling(best.errors(told), told))
+        let errors = best.errors(told).with_scale(off, told);
+        Ok(blur.with_swelling(errors, told))
     }
 }
 

@@ -5,7 +5,7 @@
 //! 2. Coefficients have a prior variance per degree, a power law; its parameters and the noise are those
 //!    under which the points are most likely. No degree has to be chosen: it is high enough when the last
 //!    degrees carry nothing.
-//! 3. Points that stand alone are left out, and the estimate is made again.
+//! 3. Points that stand alone are left out, and those that lie off the surface to one side, and the estimate is made again.
 //! 4. Clouds of more than 30 000 points, and uneven ones of more than 3000, are reduced to patch means, with one correction.
 //!
 //! The posterior covariance says how well every functional of the radius is known.
@@ -30,6 +30,7 @@ mod likelihood;
 mod local;
 mod map;
 mod newton;
+mod one_sided;
 mod outcome;
 mod outliers;
 mod patches;
@@ -57,17 +58,51 @@ use cloud::Cloud;
 use degrees::{Degrees, first_degree};
 use map::rounder;
 use nalgebra::Vector3;
+use one_sided::one_sided;
 use outcome::Dense;
 use outliers::strays;
 use patches::{Patches, patches_per_edge};
 use posterior::Posterior;
 use spectrum_fit::SpectrumFit;
+use std::borrow::Cow;
 use std::sync::{Arc, OnceLock};
 use stopping::SETTLED;
 
+/// Estimates the radius, and makes the estimate again without points that lie off it to [one side](one_sided). `axes`: semi-axes of
+/// the ellipsoid of equal second moments, along the grain's own axes; `may_stand_alone`: whether a point may lie off the
+/// surface, as none does that was taken from a face.
+pub(crate) fn estimate(
+    samples: &[Sample],
+    axes: Vector3<f64>,
+    may_stand_alone: bool,
+    context: &Context<'_>,
+) -> Result<Estimate, Cancelled> {
+    let whole = with_neighbours(samples, axes, may_stand_alone, context)?;
+    if !may_stand_alone {
+        return Ok(whole);
+    }
+    let fewest = ((1.0 - one_sided::MOST) * samples.len() as f64) as usize;
+    let mut kept = Cow::Borrowed(samples);
+    let mut found: Option<Estimate> = None;
+    for _ in 0..one_sided::ROUNDS {
+        let left_out = one_sided(&kept, found.as_ref().unwrap_or(&whole));
+        if left_out.is_empty() {
+            break;
+        }
+        kept = without(&kept, left_out).into();
+        if kept.len() < fewest {
+            return Ok(whole);
+        }
+        let one_sided = samples.len() - kept.len();
+        let again = with_neighbours(&kept, axes, may_stand_alone, context)?;
+        found = Some(Estimate { one_sided, ..again });
+    }
+    Ok(found.unwrap_or(whole))
+}
+
 /// Estimates the radius, as [`by_degrees`] does. Where points that were left out are neighbours, on one side of the surface, they
 /// are no strays but a part of the grain that was taken off point by point: they are put back, and all are held.
-pub(crate) fn estimate(
+fn with_neighbours(
     samples: &[Sample],
     axes: Vector3<f64>,
     may_stand_alone: bool,
@@ -85,9 +120,7 @@ pub(crate) fn estimate(
     Ok(Estimate { outliers, ..found })
 }
 
-/// Estimates the radius from samples in the grain's own frame; `axes`: semi-axes of the ellipsoid of equal second moments,
-/// along the grain's own axes; `may_stand_alone`: whether a point may lie off the surface, as none does that was
-/// taken from a face.
+/// Estimates the radius from samples in the grain's own frame, without points that stand alone.
 fn by_degrees(
     samples: &[Sample],
     axes: Vector3<f64>,
@@ -118,6 +151,7 @@ fn by_degrees(
         spectrum: fit.spectrum,
         unlearnt: fit.unlearnt,
         outliers,
+        one_sided: 0,
         sums: fit.sums,
         factor: fit.factor,
         dense,

@@ -22,6 +22,8 @@ pub(crate) struct Estimate {
     pub(crate) unlearnt: Vec<f64>,
     /// Points left out because they stand alone.
     pub(crate) outliers: usize,
+    /// Points left out because many lay off the surface to one side.
+    pub(crate) one_sided: usize,
     /// Sums over the harmonics in the directions of the cloud.
     pub(super) sums: Arc<Sums>,
     /// The factored matrix of the problem, where it is small enough: 15 MB at degree 36.

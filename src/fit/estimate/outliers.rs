@@ -14,7 +14,7 @@ use std::collections::HashMap;
 pub(super) const ROUNDS: usize = 5;
 
 /// Neighbours that a point is compared with.
-const NEIGHBOURS: usize = 8;
+pub(super) const NEIGHBOURS: usize = 8;
 
 /// A point is an outlier when its residual differs from the median of its neighbours' by more than this many
 /// standard deviations of such differences, of all points and of the [`VICINITY`] nearest (told by their medians, so
@@ -28,7 +28,7 @@ const VICINITY: usize = 32;
 const LEAST: f64 = 0.01;
 
 /// ... unless so many neighbours stand off on the same side: that is an edge.
-const COMPANY: usize = 2;
+pub(super) const COMPANY: usize = 2;
 
 /// Positions of the points of a cloud that stand alone, ascending.
 pub(super) fn alone(posterior: &Posterior<'_>, fit: &SpectrumFit) -> Vec<usize> {

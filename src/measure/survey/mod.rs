@@ -8,7 +8,7 @@ use super::angularity::angularity;
 use super::bounds::ratio;
 use super::elements::Element;
 use super::extents::Extents;
-use super::nodes::{Integrand, nodes};
+use super::nodes::nodes;
 use super::unit::Unit;
 use super::{
     Ball, Convexity, CurvatureStatistics, EquivalentEllipsoid, Form, MassProperties, OrientedBox,
@@ -259,7 +259,7 @@ impl<'a> Survey<'a> {
     pub fn curvature(&self) -> Result<&CurvatureStatistics, SurveyError> {
         let surface = self.body.surface()?;
         Ok(self.curvature.get_or_init(|| {
-            let nodes = nodes(surface, Integrand::Curvature);
+            let nodes = nodes(surface);
             CurvatureStatistics::new(surface, &nodes).in_unit(self.unit.length)
         }))
     }
@@ -341,7 +341,7 @@ impl<'a> Survey<'a> {
     ///
     /// As [`Self::spectrum`].
     pub fn expansion(&self, degree: usize) -> Result<RadialExpansion, SurveyError> {
-        let found = RadialExpansion::new(self.star_shaped()?, degree);
+        let found = RadialExpansion::new(&self.resolved(degree)?, degree);
         Ok(self.unit.expansion(found))
     }
 

@@ -4,15 +4,17 @@ use super::Survey;
 use super::body::Body;
 use super::error::SurveyError;
 use crate::Mesh;
-use crate::measure::elements::{Element, mesh_elements, surface_elements};
+use crate::measure::elements::{Element, mesh_elements};
 use crate::measure::extents::{Extents, RESOLUTION, Reach};
-use crate::measure::nodes::{Integrand, nodes};
+use crate::measure::seen::seen_elements;
+use crate::measure::spectrum::SPECTRUM_DEGREE;
 use crate::measure::{
     Ball, EquivalentEllipsoid, MassProperties, OrientedBox, PrincipalInertia, SolidProperties,
     convex_hull, enclosing_ball, extents, inscribed_ball, minimum_box,
 };
 use crate::model::Surface;
 use nalgebra::{Matrix3, Vector3};
+use std::borrow::Cow;
 use std::f64::consts::PI;
 
 /// Share of the directions from the centroid that may meet the surface more than once where the radius
@@ -156,7 +158,7 @@ impl Survey<'_> {
         let elements = self.elements.get_or_init(|| match self.body.surface() {
             Ok(surface) => {
                 let shift = surface.frame().centre - centroid;
-                surface_elements(surface, &nodes(surface, Integrand::Slopes), &shift)
+                seen_elements(surface, &shift, SPECTRUM_DEGREE)
             }
             Err(_) => mesh_elements(self.mesh(), &centroid),
         });
@@ -174,6 +176,18 @@ impl Survey<'_> {
         match share <= LARGEST_OVERHANG {
             true => Ok(elements),
             false => Err(SurveyError::NotStarShaped { share }),
+        }
+    }
+
+    /// The same, so small that harmonics of a degree are resolved.
+    pub(super) fn resolved(&self, degree: usize) -> Result<Cow<'_, [Element]>, SurveyError> {
+        let elements = self.star_shaped()?;
+        match self.body.surface() {
+            Ok(surface) if degree > SPECTRUM_DEGREE => {
+                let shift = surface.frame().centre - self.unit_properties()?.centroid;
+                Ok(seen_elements(surface, &shift, degree).into())
+            }
+            _ => Ok(elements.into()),
         }
     }
 }

@@ -44,6 +44,7 @@ fn rough(degree: usize, stretch: [f64; 3]) -> Estimate {
             .map(|l| if l < 3 { 0.0 } else { 0.1 })
             .collect(),
         outliers: 0,
+        one_sided: 0,
         sums: std::sync::Arc::new(crate::fit::estimate::sums::Sums::new(degree)),
         factor: None,
         dense: None,
