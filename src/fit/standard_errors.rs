@@ -57,6 +57,22 @@ impl StandardErrors {
         }
     }
 
+    /// With shares of area and of volume beside them that a surface may lack.
+    pub(super) fn with_lack(self, [area, volume]: [f64; 2], figures: &Figures) -> Self {
+        let of_moments = volume * 5.0 / 3.0;
+        Self {
+            area: self.area.hypot(area * figures.area),
+            volume: self.volume.hypot(volume * figures.volume),
+            inertia: self.inertia.zip_map(&figures.inertia, |error, figure| {
+                error.hypot(of_moments * figure)
+            }),
+            moments: self.moments.zip_map(&figures.moments, |error, figure| {
+                error.hypot(of_moments * figure)
+            }),
+            ..self
+        }
+    }
+
     /// Those of a grain so many times as large.
     pub(crate) fn times(self, factor: f64) -> Self {
         let [square, cube, fifth] = [2, 3, 5].map(|power| factor.powi(power));

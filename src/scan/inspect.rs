@@ -1,7 +1,8 @@
-//! Looks over the triangles of a scan: drops degenerate and repeated ones, turns the mesh right side out, and
-//! warns of what a closed surface of one body would not have.
+//! Looks over the triangles of a scan: drops degenerate and repeated ones, mends what a few wrong ones break, turns the mesh right
+//! side out, and warns of what a closed surface of one body would not have.
 
 use super::Scan;
+use super::mend::{flaps, wound_against};
 use super::topology::Topology;
 use super::weld::first_at_same_place;
 use crate::digits::plural;
@@ -21,6 +22,12 @@ pub(super) fn inspect(scan: &mut Scan) {
             topology = Topology::new(&scan.points, &scan.triangles, &own);
         }
         if !topology.closed {
+            topology = Topology::new(&scan.points, &scan.triangles, &same);
+        }
+        if topology.branching_edges > 0 {
+            topology = without_flaps(scan, &same, topology);
+        }
+        if topology.twisted_edges > 0 && turn(scan, &same) {
             topology = Topology::new(&scan.points, &scan.triangles, &same);
         }
     }
@@ -66,6 +73,49 @@ fn drop_repeated(scan: &mut Scan, same: &[u32]) -> bool {
         scan.warnings.push(warning);
     }
     dropped > 0
+}
+
+/// Drops flaps if that closes the surface.
+fn without_flaps(scan: &mut Scan, same: &[u32], before: Topology) -> Topology {
+    let flaps = flaps(scan.points.len(), &joined(&scan.triangles, same));
+    let triangles = scan.triangles.iter().enumerate();
+    let kept = triangles.filter(|(at, _)| flaps.binary_search(at).is_err());
+    let kept: Vec<_> = kept.map(|(_, corners)| *corners).collect();
+    let after = Topology::new(&scan.points, &kept, same);
+    if flaps.is_empty() || after.boundary_edges + after.branching_edges > 0 {
+        return before;
+    }
+    scan.triangles = kept;
+    let triangles = plural(flaps.len(), "triangle");
+    scan.warnings.push(format!(
+        "Dropped {triangles} that hung on a closed surface by an edge."
+    ));
+    after
+}
+
+/// Turns triangles that are wound against their neighbours.
+fn turn(scan: &mut Scan, same: &[u32]) -> bool {
+    let found = wound_against(scan.points.len(), &joined(&scan.triangles, same));
+    let Some(turned) = found else {
+        return false;
+    };
+    for &at in &turned {
+        let [_, b, c] = &mut scan.triangles[at];
+        std::mem::swap(b, c);
+    }
+    scan.warnings.push(match turned.len() {
+        1 => "Turned 1 triangle that was wound against its neighbours.".into(),
+        count => format!("Turned {count} triangles that were wound against their neighbours."),
+    });
+    true
+}
+
+/// Triangles between the points that stand for those at the same place.
+fn joined(triangles: &[[u32; 3]], same: &[u32]) -> Vec<[u32; 3]> {
+    let joined = triangles.iter();
+    joined
+        .map(|corners| corners.map(|corner| same[corner as usize]))
+        .collect()
 }
 
 fn warnings(topology: &Topology) -> impl Iterator<Item = String> {
@@ -136,6 +186,38 @@ mod tests {
         inspect(&mut scan);
         assert!(scan.topology.unwrap().volume > 0.0);
         assert!(scan.warnings[0].contains("inwards"));
+    }
+
+    #[test]
+    fn a_triangle_wound_against_its_neighbours_is_turned() {
+        for turned in 0..4 {
+            let mut scan = tetrahedron();
+            scan.triangles[turned].swap(0, 1);
+            inspect(&mut scan);
+            assert!(scan.topology.as_ref().unwrap().closed);
+            assert!((scan.topology.unwrap().volume - 1.0 / 6.0).abs() < 1e-15);
+            let expected = "Turned 1 triangle that was wound against its neighbours.";
+            assert_eq!(scan.warnings, [expected]);
+        }
+    }
+
+    #[test]
+    fn a_flap_is_dropped_unless_the_surface_is_open_all_the_same() {
+        let with_flap = || {
+            let mut scan = tetrahedron();
+            scan.points.push(point![2.0, 2.0, 2.0]);
+            scan.triangles.push([1, 2, 4]);
+            scan
+        };
+        let mut scan = with_flap();
+        inspect(&mut scan);
+        assert_eq!(scan.triangles, tetrahedron().triangles);
+        assert!(scan.topology.unwrap().closed);
+        assert!(scan.warnings[0].starts_with("Dropped 1 triangle that hung"));
+        let mut scan = with_flap();
+        scan.triangles.remove(0);
+        inspect(&mut scan);
+        assert_eq!(scan.triangles.len(), 4);
     }
 
     #[test]

@@ -8,6 +8,7 @@ mod drawn;
 mod error;
 mod format;
 mod inspect;
+mod mend;
 mod obj;
 mod ply;
 mod polygon;

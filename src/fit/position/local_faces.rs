@@ -80,6 +80,7 @@ impl LocalFaces {
                 kind,
                 area: unit.area(properties.area),
                 volume: unit.volume(properties.volume),
+                bulge: 0.0,
             },
             warnings,
             mesh: Mesh {

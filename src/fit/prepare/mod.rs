@@ -2,6 +2,7 @@
 
 mod axes;
 mod bin;
+mod bulge;
 mod by_direction;
 mod centre;
 mod facets;
@@ -32,6 +33,7 @@ use crate::mesh::{Mesh, relaxed};
 use crate::model::{Frame, Unseen};
 use crate::scan::Scan;
 use crate::sphere::Symmetry;
+use bulge::bulge;
 use centre::{deepest_centre, facing_away_share};
 use facets::on_large_faces;
 use nalgebra::{Matrix3, Point3, Vector3};
@@ -99,19 +101,21 @@ impl<'a> PreparedScan<'a> {
             },
         };
         let semi_axes = semi_axes(&properties, &frame) * unit.length;
-        let reference = Reference {
-            kind: surface.kind,
-            area: unit.area(properties.area),
-            volume: unit.volume(properties.volume),
-        };
-        if !(reference.volume.is_normal() && reference.area.is_normal()) {
-            return Err(FitError::Scale { size: unit.length });
-        }
         let on_faces = surface
             .seen_faces()
             .map(|faces| on_large_faces(faces, &frame, &semi_axes));
         let on_faces = on_faces.unwrap_or_default();
         let has_large_faces = !on_faces.is_empty();
+        let bulge = if has_large_faces { bulge(&mesh) } else { 0.0 };
+        let reference = Reference {
+            kind: surface.kind,
+            area: unit.area(properties.area),
+            volume: unit.volume(properties.volume),
+            bulge: unit.volume(bulge),
+        };
+        if !(reference.volume.is_normal() && reference.area.is_normal()) {
+            return Err(FitError::Scale { size: unit.length });
+        }
         if has_large_faces {
             surface.points.to_mut().extend(&on_faces);
             if let Some(representatives) = &mut surface.representatives {

@@ -11,6 +11,9 @@ pub struct Reference {
     pub area: f64,
     /// Volume, in the cube of the scan's unit.
     pub volume: f64,
+    /// Volume that a smooth surface through the corners of large faces holds beyond them, likewise; zero where faces are
+    /// small, for then the fit is such a surface.
+    pub bulge: f64,
 }
 
 /// Where a reference surface comes from.

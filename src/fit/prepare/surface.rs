@@ -118,17 +118,29 @@ pub(crate) fn usable(scan: &Scan) -> Result<(), FitError> {
 
 /// Of faces that are closed and of one piece.
 fn from_faces<'a>(scan: &'a Scan, unreferenced: &[u32]) -> Result<ScannedSurface<'a>, FitError> {
-    let crossing = fitted_over(self_crossing(&scan.welded()))?;
-    let mesh = Mesh {
-        vertices: scan.points.clone(),
-        triangles: scan.triangles.clone(),
-    };
-    let points = match unreferenced.is_empty() {
-        true => Cow::Borrowed(scan.points.as_slice()),
-        false => Cow::Owned(without(
-            &scan.points,
-            unreferenced.iter().map(|&index| index as usize),
-        )),
+    let welded = scan.welded();
+    let crossing = fitted_over(self_crossing(&welded))?;
+    let used = scan.points.len() - unreferenced.len();
+    let (mesh, points) = match welded.vertices.len() < used {
+        // Every triangle has corners of its own.
+        true => {
+            let points = Cow::Owned(welded.vertices.clone());
+            (welded, points)
+        }
+        false => {
+            let mesh = Mesh {
+                vertices: scan.points.clone(),
+                triangles: scan.triangles.clone(),
+            };
+            let points = match unreferenced.is_empty() {
+                true => Cow::Borrowed(scan.points.as_slice()),
+                false => Cow::Owned(without(
+                    &scan.points,
+                    unreferenced.iter().map(|&index| index as usize),
+                )),
+            };
+            (mesh, points)
+        }
     };
     Ok(ScannedSurface {
         warnings: crossing.into_iter().collect(),

@@ -1,0 +1,89 @@
+//! What a smooth surface through the corners of a mesh holds beyond its faces.
+
+use crate::mesh::Mesh;
+use crate::scan::each_edge;
+use nalgebra::Vector3;
+use std::f64::consts::FRAC_PI_4;
+
+/// Bend at an edge, in radians, from which on the body has an edge there.
+const SHARPEST: f64 = FRAC_PI_4;
+
+/// Volume between the faces and a smooth surface through their corners. Where faces of heights h and k bend by an angle a along an
+/// edge of length e it is a e (h² + k²) / 24, less where they bend inwards: so much lies beyond the faces of
+/// a cylinder, and beyond even triangles of a ball, to first order in a. Sharp bends are edges of the body.
+pub(super) fn bulge(mesh: &Mesh) -> f64 {
+    let corner = |at: u32| mesh.vertices[at as usize].coords;
+    // Its length is twice the area.
+    let normal = |triangle: usize| -> Vector3<f64> {
+        let [a, b, c] = mesh.triangles[triangle].map(corner);
+        (b - a).cross(&(c - a))
+    };
+    let middle = |triangle: usize| {
+        mesh.triangles[triangle]
+            .map(corner)
+            .iter()
+            .sum::<Vector3<f64>>()
+            / 3.0
+    };
+    let mut sum = 0.0;
+    each_edge(mesh.vertices.len(), &mesh.triangles, |edge| {
+        let mut along = edge.triangles();
+        let (Some(one), Some(other), None) = (along.next(), along.next(), along.next()) else {
+            return;
+        };
+        let [from, to] = edge.ends.map(corner);
+        let length = (to - from).norm();
+        let (n, m) = (normal(one), normal(other));
+        let bend = n.angle(&m);
+        if bend < SHARPEST {
+            let is_inwards = n.dot(&(middle(other) - middle(one))) > 0.0;
+            let heights = (n.norm_squared() + m.norm_squared()) / length;
+            sum += if is_inwards { -bend } else { bend } * heights / 24.0;
+        }
+    });
+    sum
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::measure::mesh_properties;
+    use approx::assert_relative_eq;
+    use nalgebra::Point3;
+    use std::f64::consts::PI;
+
+    #[test]
+    fn a_ball_bulges_beyond_its_faces() {
+        for resolution in [6, 12] {
+            let ball = Mesh::radial(resolution, |_| 2.0);
+            let exact = 4.0 / 3.0 * PI * 8.0 - mesh_properties(&ball).unwrap().volume;
+            assert_relative_eq!(bulge(&ball), exact, max_relative = 0.03);
+            let mut hollow = ball;
+            for corners in &mut hollow.triangles {
+                corners.reverse();
+            }
+            assert_relative_eq!(bulge(&hollow), -exact, max_relative = 0.03);
+        }
+    }
+
+    #[test]
+    fn a_tube_bulges_and_a_box_does_not() {
+        let ring =
+            |sides: u32| (0..sides).map(move |at| 2.0 * PI * f64::from(at) / f64::from(sides));
+        let tube = |sides: u32| Mesh {
+            vertices: ring(sides)
+                .flat_map(|a| [0.0, 5.0].map(|z| Point3::new(a.cos(), a.sin(), z)))
+                .collect(),
+            triangles: (0..sides)
+                .flat_map(|at| {
+                    let (a, b) = (2 * at, 2 * ((at + 1) % sides));
+                    [[a, b, a + 1], [b, b + 1, a + 1]]
+                })
+                .collect(),
+        };
+        let sides = 16.0;
+        let polygon = 0.5 * sides * (2.0 * PI / sides).sin();
+        assert_relative_eq!(bulge(&tube(16)), 5.0 * (PI - polygon), max_relative = 0.02);
+        assert!(bulge(&tube(4)).abs() < 1e-6);
+    }
+}
