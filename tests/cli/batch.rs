@@ -97,7 +97,7 @@ fn rows_are_the_same_bytes_with_any_number_of_threads_and_bad_files_are_told() {
     let [csv, parquet] = ["one/results.csv", "three"]
         .map(|lot| json(&folder, &["compare", lot, "one/results.parquet"]));
     assert_eq!(csv, parquet);
-    let area = &csv[0];
+    let area = &csv["measures"][0];
     assert_eq!(
         (area["measure"].as_str(), area["difference"].as_f64()),
         (Some("area"), Some(0.0))
@@ -328,41 +328,4 @@ fn a_second_batch_on_the_same_folder_refuses() {
     assert_eq!(names(&folder.path().join("r")), [".lock"]);
     drop(lock);
     succeed(&folder, &batch(&["lot", "-o", "r"]));
-}
-
-#[test]
-fn a_table_of_something_else_is_not_compared() {
-    let folder = folder();
-    std::fs::write(folder.path().join("t.csv"), "OFF\n1\n2\n3\n").unwrap();
-    let output = grainform(&folder, &["compare", "t.csv", "t.csv"]);
-    assert_eq!(output.status.code(), Some(2));
-    assert!(
-        errors(&output).contains("no table of grains"),
-        "{}",
-        errors(&output)
-    );
-}
-
-#[test]
-fn lots_in_different_units_are_not_compared() {
-    let folder = folder();
-    let lot = |name: &str, unit: &str| {
-        let rows = format!("a.ply,done,{unit},1.5\nb.ply,done,{unit},1.7\n");
-        let table = format!("path,status,unit,volume\n{rows}");
-        std::fs::write(folder.path().join(name), table).unwrap();
-    };
-    lot("mm.csv", "mm");
-    lot("um.csv", "um");
-    lot("none.csv", "");
-    let compared = |other: &str| grainform(&folder, &["compare", "mm.csv", other]);
-    for other in ["mm.csv", "none.csv"] {
-        assert!(compared(other).status.success(), "{other}");
-    }
-    let told = errors(&compared("none.csv"));
-    assert!(told.contains("none.csv tells no unit"), "{told}");
-    assert_eq!(errors(&compared("mm.csv")), "");
-    let refused = compared("um.csv");
-    assert_eq!(refused.status.code(), Some(2));
-    let message = errors(&refused);
-    assert!(message.contains("lots in mm and um"), "{message}");
 }

@@ -104,7 +104,7 @@ pub(in crate::cli) struct CompareArgs {
     #[arg(value_name = "OTHER")]
     pub(in crate::cli) second: PathBuf,
 
-    /// Print a JSON list, an object for each measure
+    /// Print one JSON object, warnings included
     #[arg(long)]
     pub(in crate::cli) json: bool,
 }
