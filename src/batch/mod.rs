@@ -16,11 +16,13 @@ mod grain;
 mod inputs;
 mod interval;
 mod journal;
+mod left_over;
 mod names;
 mod population;
 mod queue;
 mod results;
 mod run;
+mod shown;
 mod table;
 
 pub(crate) use alike::doubts;

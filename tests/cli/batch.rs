@@ -191,6 +191,67 @@ fn files_that_are_left_out_are_told() {
     assert!(!told("lot/00.xyz").contains("left"));
 }
 
+#[cfg(unix)]
+#[test]
+fn a_pipe_in_a_folder_is_told_and_not_waited_for() {
+    let folder = lot(1);
+    let pipe = folder.path().join("lot/p.ply");
+    assert!(Command::new("mkfifo").arg(pipe).status().unwrap().success());
+    let output = grainform(&folder, &["batch", "lot", "-o", "r", "--only", "volume"]);
+    let told = errors(&output);
+    let note = "note: left out lot/p.ply, which is no file";
+    assert!(output.status.success() && told.starts_with(note), "{told}");
+}
+
+#[test]
+fn so_many_jobs_are_lowered_with_a_note() {
+    let folder = lot(1);
+    let words = [
+        "batch", "lot", "-o", "r", "--only", "volume", "--jobs", "30000",
+    ];
+    let output = grainform(&folder, &words);
+    let told = errors(&output);
+    let note = "note: --jobs asks for 30000 threads; ";
+    assert!(output.status.success() && told.starts_with(note), "{told}");
+}
+
+#[cfg(unix)]
+#[test]
+fn scans_whose_names_are_not_utf_8_have_rows_of_their_own() {
+    use std::os::unix::ffi::OsStrExt;
+    let folder = lot(2);
+    let path = |name: &[u8]| {
+        folder
+            .path()
+            .join("lot")
+            .join(std::ffi::OsStr::from_bytes(name))
+    };
+    std::fs::rename(path(b"00.xyz"), path(b"\xfe.xyz")).unwrap();
+    std::fs::rename(path(b"01.xyz"), path(b"\xff.xyz")).unwrap();
+    succeed(&folder, &batch(&["lot", "-o", "r", "--models"]));
+    let rows = rows(&folder.path().join("r/results.csv"));
+    let paths: Vec<&str> = rows.iter().map(|row| row["path"].as_str()).collect();
+    assert_eq!(paths, [r"lot/\xfe.xyz", r"lot/\xff.xyz"]);
+    let models = names(&folder.path().join("r/models"));
+    assert_eq!(models, [r"\xfe.json", r"\xff.json"]);
+}
+
+#[test]
+fn models_that_earlier_runs_left_are_told() {
+    let folder = lot(3);
+    let told = |words: &[&str]| {
+        let words = [&["batch"], words, &["-o", "r", "--only", "volume"]].concat();
+        errors(&grainform(&folder, &words))
+    };
+    assert_eq!(told(&["lot", "--models", "--meshes"]), "");
+    let left = told(&["lot/00.xyz", "--models"]);
+    let note = "note: no row is of 4 files that earlier runs left, such as r/meshes/01.ply: ";
+    assert!(left.contains(note), "{left}");
+    // Of the same scan by other settings.
+    let left = told(&["lot/00.xyz", "--segments", "1"]);
+    assert!(left.contains("no row is of 6 files"), "{left}");
+}
+
 #[test]
 fn a_batch_that_cannot_do_anything_writes_nothing() {
     let folder = lot(2);

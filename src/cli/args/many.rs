@@ -85,7 +85,8 @@ pub(in crate::cli) struct BatchArgs {
     #[arg(long, value_name = "UNIT", help_heading = OUTPUT)]
     pub(in crate::cli) unit: Option<Unit>,
 
-    /// Grains that are worked on at the same time, 0 for one per core; the results do not depend on it
+    /// Grains that are worked on at the same time, 0 for one per core; at most 4 per core are, and the results do not
+    /// depend on it
     #[arg(long, value_name = "N", value_parser = count::<usize>, default_value_t = 0, help_heading = RUN)]
     pub(in crate::cli) jobs: usize,
 
