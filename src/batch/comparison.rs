@@ -1,15 +1,9 @@
 //! Two lots of grains beside each other.
 
+use super::interval::{Sample, intervals};
 use super::population::moments;
 use super::table::Lot;
 use serde::Serialize;
-use statrs::distribution::{ContinuousCDF, StudentsT};
-
-/// Share of intervals that hold the truth.
-const CONFIDENCE: f64 = 0.95;
-
-/// Two-sided quantile of the normal distribution at that share.
-const NORMAL: f64 = 1.959_963_984_540_054;
 
 /// One measure of two lots.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -25,12 +19,14 @@ pub(crate) struct Comparison {
     pub deviations: [f64; 2],
     /// Mean of the second lot less that of the first.
     pub difference: f64,
-    /// Its interval at 95 %, that of Welch 1947: the lots may vary by different amounts. `null` where neither varies.
+    /// Its interval at 95 %, that of Behrens and Fisher: the lots may vary by different amounts. `null` where a lot does
+    /// not vary.
     pub difference_interval: Option<[f64; 2]>,
-    /// Effect size g of Hedges 1981: the difference over the pooled standard deviation, without the bias of small lots.
-    /// `null` likewise.
+    /// Effect size d of Cohen 1988 for lots that vary by different amounts: the difference over the root of the mean of
+    /// both variances, whatever the sizes of the lots. `null` where neither varies.
     pub effect: Option<f64>,
-    /// Its interval at 95 %, by the normal approximation of Hedges and Olkin 1985.
+    /// Its interval at 95 %, by the same law as that of the difference: both hold zero or neither does. `null` where a
+    /// lot does not vary.
     pub effect_interval: Option<[f64; 2]>,
 }
 
@@ -40,46 +36,35 @@ pub(crate) fn compare(first: &Lot, second: &Lot) -> Vec<Comparison> {
     columns
         .filter_map(|(name, values)| {
             let at = second.names.iter().position(|other| other == name)?;
-            of_measure(name, values, &second.values[at])
+            of_measure(name, [values, &second.values[at]])
         })
         .collect()
 }
 
-fn of_measure(name: &str, first: &[f64], second: &[f64]) -> Option<Comparison> {
-    let ((mean, deviation), (other_mean, other_deviation)) = (moments(first), moments(second));
-    let (deviation, other_deviation) = (deviation?, other_deviation?);
-    let [count, other_count] = [first, second].map(|values| values.len() as f64);
-    let difference = other_mean - mean;
-
-    let [part, other_part] = [(deviation, count), (other_deviation, other_count)]
-        .map(|(deviation, count)| deviation * deviation / count);
-    let freedom = (part + other_part).powi(2)
-        / (part * part / (count - 1.0) + other_part * other_part / (other_count - 1.0));
-    let difference_interval = StudentsT::new(0.0, 1.0, freedom).ok().map(|student| {
-        let half = student.inverse_cdf(0.5 + CONFIDENCE / 2.0) * (part + other_part).sqrt();
-        [difference - half, difference + half]
-    });
-
-    let pooled_freedom = count + other_count - 2.0;
-    let squares = (count - 1.0) * deviation.powi(2) + (other_count - 1.0) * other_deviation.powi(2);
-    let pooled = (squares / pooled_freedom).sqrt();
-    let unbiased = 1.0 - 3.0 / (4.0 * pooled_freedom - 1.0);
-    let effect = (pooled > 0.0).then_some(unbiased * difference / pooled);
-    let effect_interval = effect.map(|effect| {
-        let both = count + other_count;
-        let variance = both / (count * other_count) + effect * effect / (2.0 * both);
-        let half = NORMAL * variance.sqrt();
-        [effect - half, effect + half]
-    });
+fn of_measure(name: &str, values: [&[f64]; 2]) -> Option<Comparison> {
+    let lots = [sample(values[0])?, sample(values[1])?];
+    let deviations = lots.map(|lot| lot.deviation);
+    let difference = lots[1].mean - lots[0].mean;
+    let scale = (0.5 * (deviations[0].powi(2) + deviations[1].powi(2))).sqrt();
+    let found = intervals(lots);
     Some(Comparison {
         measure: name.into(),
-        counts: [first.len(), second.len()],
-        means: [mean, other_mean],
-        deviations: [deviation, other_deviation],
+        counts: lots.map(|lot| lot.count),
+        means: lots.map(|lot| lot.mean),
+        deviations,
         difference,
-        difference_interval,
-        effect,
-        effect_interval,
+        difference_interval: found.map(|found| found.difference),
+        effect: (scale > 0.0).then_some(difference / scale),
+        effect_interval: found.map(|found| found.effect),
+    })
+}
+
+fn sample(values: &[f64]) -> Option<Sample> {
+    let (mean, deviation) = moments(values);
+    Some(Sample {
+        count: values.len(),
+        mean,
+        deviation: deviation?,
     })
 }
 
@@ -98,29 +83,37 @@ mod tests {
 
     #[test]
     fn two_lots_differ_as_worked_out_by_hand() {
-        // Means 3 and 6; variances 2.5 and 10; five each.
+        // Means 3 and 6; variances 2.5 and 10.
         let found = compare(
             &lot(&[1.0, 2.0, 3.0, 4.0, 5.0]),
-            &lot(&[2.0, 4.0, 6.0, 8.0, 10.0]),
+            &lot(&[2.0, 4.0, 6.0, 8.0, 10.0, 6.0]),
         );
         let [area] = found.as_slice() else {
             panic!("{found:?}");
         };
-        assert_eq!((area.difference, area.counts), (3.0, [5, 5]));
-        // Welch: 2.5² / (0.5² / 4 + 2² / 4) = 5.88 degrees of freedom, of which t is 2.4593; times sqrt(2.5).
-        let [low, high] = area.difference_interval.unwrap();
-        assert_relative_eq!(high - 3.0, 2.4593 * 2.5_f64.sqrt(), max_relative = 1e-3);
-        assert_relative_eq!(low + high, 6.0, epsilon = 1e-9);
-        // Pooled deviation 2.5; the correction is 1 - 3 / 31.
-        let effect = area.effect.unwrap();
-        assert_relative_eq!(effect, 1.2 * 28.0 / 31.0, max_relative = 1e-12);
-        let half = 1.959_964 * (0.4 + effect * effect / 20.0_f64).sqrt();
-        let [low, high] = area.effect_interval.unwrap();
-        assert_relative_eq!(high - low, 2.0 * half, max_relative = 1e-6);
+        assert_eq!((area.difference, area.counts), (3.0, [5, 6]));
+        // The variances are 2.5 and 8, of the mean 5.25.
+        assert_relative_eq!(
+            area.effect.unwrap(),
+            3.0 / 5.25_f64.sqrt(),
+            max_relative = 1e-12
+        );
+        let back = compare(
+            &lot(&[2.0, 4.0, 6.0, 8.0, 10.0, 6.0]),
+            &lot(&[1.0, 2.0, 3.0, 4.0, 5.0]),
+        );
+        for (there, back) in [
+            (area.difference_interval, back[0].difference_interval),
+            (area.effect_interval, back[0].effect_interval),
+        ] {
+            let ([low, high], [other_low, other_high]) = (there.unwrap(), back.unwrap());
+            assert_relative_eq!(low, -other_high, max_relative = 1e-6);
+            assert_relative_eq!(high, -other_low, max_relative = 1e-6);
+        }
     }
 
     #[test]
-    fn lots_that_do_not_vary_have_a_difference_and_no_effect() {
+    fn where_a_lot_does_not_vary_no_interval_is_told() {
         let found = compare(&lot(&[1.0, 1.0]), &lot(&[2.0, 2.0]));
         assert_eq!((found[0].difference, found[0].effect), (1.0, None));
         assert!(compare(&lot(&[1.0]), &lot(&[2.0, 3.0])).is_empty());
@@ -128,5 +121,9 @@ mod tests {
         let found = compare(&lot(&[0.1; 3]), &lot(&[0.1; 7]));
         assert_eq!((found[0].difference, found[0].effect), (0.0, None));
         assert_eq!(found[0].deviations, [0.0, 0.0]);
+        let found = compare(&lot(&[1.0, 1.0]), &lot(&[2.0, 4.0]));
+        assert_eq!(found[0].effect, Some(2.0));
+        let intervals = (found[0].difference_interval, found[0].effect_interval);
+        assert_eq!(intervals, (None, None));
     }
 }

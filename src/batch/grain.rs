@@ -69,7 +69,7 @@ impl Outputs {
 }
 
 /// The hash of a file that can be read.
-fn hash(path: &PathBuf) -> Option<String> {
+pub(super) fn hash(path: &PathBuf) -> Option<String> {
     let bytes = std::fs::read(path).ok()?;
     Some(blake3::hash(&bytes).to_hex().to_string())
 }

@@ -19,7 +19,7 @@ pub(super) const JOURNAL: &str = "journal.jsonl";
 pub(crate) struct Inputs {
     /// Each scan once, by its first name.
     pub scans: Vec<PathBuf>,
-    /// Files in folders that are not named as scans are.
+    /// What is in folders and not named as a scan is, or no file: a pipe, a device.
     pub left_out: Vec<PathBuf>,
 }
 
@@ -93,14 +93,19 @@ fn named(path: &Path, left_out: &mut Vec<PathBuf>) -> Result<Vec<PathBuf>, Batch
                 folder: path.into(),
             });
         }
-        let files = files_in(path)?.into_iter();
-        let (scans, others): (Vec<_>, Vec<_>) = files.partition(|path| is_scan(path));
+        let (scans, others): (Vec<_>, Vec<_>) = files_in(path)?
+            .into_iter()
+            .partition(|path| is_scan(path) && !is_endless(path));
         left_out.extend(others);
         scans
     } else if path.exists() || !text.contains(['*', '?', '[']) {
         vec![path.to_path_buf()]
     } else {
-        matching(&text)?
+        let (others, found): (Vec<_>, Vec<_>) = matching(&text)?
+            .into_iter()
+            .partition(|path| is_endless(path));
+        left_out.extend(others);
+        found
     };
     match found.is_empty() {
         true => Err(BatchError::Empty {
@@ -109,6 +114,11 @@ fn named(path: &Path, left_out: &mut Vec<PathBuf>) -> Result<Vec<PathBuf>, Batch
         }),
         false => Ok(found),
     }
+}
+
+/// Whether something is there that is no file, and may never end, such as a pipe.
+fn is_endless(path: &Path) -> bool {
+    path.exists() && !path.is_file()
 }
 
 /// The files that match a pattern.
@@ -314,5 +324,20 @@ mod tests {
         assert_eq!(of(folder.path(), &[folder.path().into()]), all);
         assert_eq!(of(folder.path(), &[path("**/*.ply")]), all);
         assert_eq!(of(folder.path(), &[path("*.ply")]), all[..2]);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn what_is_no_file_is_left_out() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = |name: &str| folder.path().join(name);
+        write(folder.path(), &["a.ply"]);
+        let _socket = std::os::unix::net::UnixListener::bind(path("b.ply")).unwrap();
+        std::os::unix::fs::symlink("b.ply", path("c.ply")).unwrap();
+        for named in ["", "*.ply", "**/*.ply"] {
+            let found = inputs(&[path(named)]).unwrap();
+            assert_eq!(found.scans, [path("a.ply")], "{named}");
+            assert_eq!(found.left_out, [path("b.ply")], "{named}");
+        }
     }
 }

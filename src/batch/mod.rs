@@ -8,21 +8,26 @@
 //! written from the journal in the order of the inputs: so they do not depend on the number of threads, nor on how
 //! often a run was stopped and started again.
 
+mod alike;
 mod columns;
 mod comparison;
 mod error;
 mod grain;
 mod inputs;
+mod interval;
 mod journal;
+mod left_over;
 mod names;
 mod population;
 mod queue;
 mod results;
 mod run;
+mod shown;
 mod table;
 
+pub(crate) use alike::doubts;
 pub(crate) use columns::measures;
-pub(crate) use comparison::compare;
+pub(crate) use comparison::{Comparison, compare};
 pub(crate) use grain::Settings;
 pub(crate) use inputs::{Inputs, check_folder, inputs};
 pub(crate) use names::names;

@@ -1,6 +1,7 @@
 //! What models and meshes of a batch are called.
 
 use super::queue::{with_label, without_label};
+use super::shown::shown;
 use std::collections::{HashMap, HashSet};
 use std::iter::once;
 use std::path::{Path, PathBuf};
@@ -47,12 +48,11 @@ pub(crate) fn names(rows: &[String]) -> Vec<String> {
 /// A path in one word; `./` at its beginning would hide the file.
 fn plain(path: &Path) -> String {
     let path = path.strip_prefix(".").unwrap_or(path);
-    path.to_string_lossy().replace(['/', '\\', ':'], "_")
+    shown(path).replace(['/', '\\', ':'], "_")
 }
 
 fn stem(path: &Path) -> String {
-    let stem = path.file_stem().unwrap_or_default();
-    stem.to_string_lossy().into_owned()
+    shown(Path::new(path.file_stem().unwrap_or_default()))
 }
 
 #[cfg(test)]
@@ -71,5 +71,21 @@ mod tests {
         let rows = ["./lot/x/1.ply", "lot_x/1.ply", "lot_x_1.ply.ply"].map(String::from);
         let expected = ["lot_x_1.ply", "lot_x_1.ply_2", "lot_x_1.ply_3"];
         assert_eq!(names(&rows), expected);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn names_that_are_not_utf_8_are_told_apart() {
+        use std::ffi::OsStr;
+        use std::os::unix::ffi::OsStrExt;
+        let path = |bytes: &[u8]| PathBuf::from(OsStr::from_bytes(bytes));
+        let scans = [path(b"lot/\xff\xc3\xa4.ply"), path(b"lot/\xfe\xc3\xa4.ply")];
+        assert_eq!(
+            scans.each_ref().map(|scan| shown(scan)),
+            [r"lot/\xffä.ply", r"lot/\xfeä.ply"]
+        );
+        let rows = scans.each_ref().map(|scan| shown(scan));
+        assert_eq!(of_scans(&scans), [r"\xffä", r"\xfeä"]);
+        assert_eq!(names(&rows), of_scans(&scans));
     }
 }

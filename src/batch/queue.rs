@@ -2,6 +2,7 @@
 
 use super::grain::told;
 use super::inputs::is_image;
+use super::shown::shown;
 use crate::scan::{
     Extent, ReadError, Scan, Volume, parse_file, parse_volume, read_stream, voxel_file,
 };
@@ -111,7 +112,7 @@ impl<'a> Queue<'a> {
 impl Task<'_> {
     /// What the grain is called: its path and, where it is one of several, its label.
     pub(super) fn name(&self) -> String {
-        with_label(&self.path.display().to_string(), self.label)
+        with_label(&shown(self.path), self.label)
     }
 
     /// What it is read from, of at most so many bytes.

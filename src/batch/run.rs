@@ -5,6 +5,7 @@ use super::error::BatchError;
 use super::grain::{Outputs, Settings, grain};
 use super::inputs::JOURNAL;
 use super::journal::{Journal, Place, Row, key};
+use super::left_over::{MESHES, MODELS, left_over, mesh, model};
 use super::names::of_scans;
 use super::population::Population;
 use super::queue::{Queue, Task, with_label};
@@ -56,6 +57,8 @@ pub(crate) struct Done {
     pub population: Population,
     /// The files written.
     pub files: Vec<PathBuf>,
+    /// Models and meshes of earlier runs, which no row is of.
+    pub left_over: Vec<PathBuf>,
 }
 
 /// Runs a batch, or goes on with one that was stopped.
@@ -98,8 +101,8 @@ fn work(batch: &Batch, progress: &(dyn Fn(Progress) + Sync)) -> Result<Done, Bat
     let _lock = lock(folder)?;
     sweep(folder);
     for (is_asked, name) in [
-        (batch.settings.models, "models"),
-        (batch.settings.meshes.is_some(), "meshes"),
+        (batch.settings.models, MODELS),
+        (batch.settings.meshes.is_some(), MESHES),
     ] {
         if is_asked {
             let path = folder.join(name);
@@ -147,9 +150,12 @@ fn work(batch: &Batch, progress: &(dyn Fn(Progress) + Sync)) -> Result<Done, Bat
     let rows = || places.values().map(|place| journal.read(*place));
     let columns = columns(&batch.settings.measures);
     let mut failures = Vec::new();
+    let (mut paths, mut hashes) = (Vec::new(), Vec::new());
     let mut population = Population::new(&columns);
     for row in rows() {
         let row = row.map_err(failed)?;
+        paths.push(row.path.clone());
+        hashes.push([row.model_hash.clone(), row.mesh_hash.clone()]);
         match row.reason {
             Some(reason) => failures.push((row.path, reason)),
             None => population.add(&row),
@@ -163,6 +169,7 @@ fn work(batch: &Batch, progress: &(dyn Fn(Progress) + Sync)) -> Result<Done, Bat
         failed: failures,
         population,
         files,
+        left_over: left_over(folder, &paths, hashes).map_err(failed)?,
     })
 }
 
@@ -307,13 +314,10 @@ impl Work<'_> {
     fn outputs(&self, task: &Task) -> Outputs {
         let settings = &self.batch.settings;
         let name = with_label(&self.names[task.number.0], task.label);
-        let named = |folder: &str, extension: &str| {
-            let file = format!("{name}.{extension}");
-            self.batch.folder.join(folder).join(file)
-        };
+        let folder = &self.batch.folder;
         Outputs {
-            model: settings.models.then(|| named("models", "json")),
-            mesh: settings.meshes.map(|_| named("meshes", "ply")),
+            model: settings.models.then(|| model(folder, &name)),
+            mesh: settings.meshes.map(|_| mesh(folder, &name)),
         }
     }
 }

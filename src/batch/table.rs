@@ -2,9 +2,10 @@
 
 use super::columns::FIRST;
 use super::error::TableError;
+use super::queue::without_label;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::Field;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::fs::File;
 use std::path::{Path, PathBuf};
 
@@ -18,10 +19,11 @@ pub(crate) struct Lot {
     pub values: Vec<Vec<f64>>,
     /// The units of length that are told of them; none where none is.
     pub units: BTreeSet<String>,
+    /// How its grains were fitted: the values of each setting, and the versions that fitted them.
+    pub settings: BTreeMap<String, BTreeSet<String>>,
+    /// Its scans: the hash of each, and the label of a grain in an image.
+    pub scans: BTreeSet<(String, Option<i64>)>,
 }
-
-/// The column of the unit of length.
-const UNIT: &str = "unit";
 
 /// Reads the figures in a folder of results, or in any table, as Parquet if it is so named, else as CSV.
 ///
@@ -74,31 +76,44 @@ impl Lot {
         Self {
             names,
             values,
-            units: BTreeSet::new(),
+            ..Self::default()
         }
     }
 
-    /// Hears a cell of text.
-    fn hear(&mut self, column: usize, cell: &str) {
-        if self.names.get(column).is_some_and(|name| name == UNIT) && !cell.is_empty() {
-            self.units.insert(cell.into());
+    /// Hears the texts of a row, by the names of their columns.
+    fn hear(&mut self, row: &HashMap<&str, &str>) {
+        let cell = |name: &str| row.get(name).copied().filter(|cell| !cell.is_empty());
+        if cell("status") == Some("failed") {
+            return;
+        }
+        self.units.extend(cell("unit").map(str::to_owned));
+        let settings = cell("settings").unwrap_or_default().split(' ');
+        let settings = settings.filter_map(|setting| setting.split_once('='));
+        let version = cell("version").map(|version| ("version", version));
+        for (name, value) in settings.chain(version) {
+            let values = self.settings.entry(name.into()).or_default();
+            values.insert(value.into());
+        }
+        if let Some(hash) = cell("hash") {
+            let (_, label) = without_label(cell("path").unwrap_or_default());
+            self.scans.insert((hash.into(), label));
         }
     }
 
     /// Leaves out what is no figure of a grain.
-    fn figures(self) -> Self {
+    fn figures(mut self) -> Self {
         let is_figure = |name: &str| {
             let described = FIRST.iter().any(|(first, _)| *first == name);
             !described && !name.ends_with("_se")
         };
-        let columns = self.names.into_iter().zip(self.values);
+        let columns = self.names.drain(..).zip(self.values.drain(..));
         let (names, values) = columns
             .filter(|(name, values)| is_figure(name) && !values.is_empty())
             .unzip();
         Self {
             names,
             values,
-            units: self.units,
+            ..self
         }
     }
 }
@@ -109,13 +124,13 @@ fn of_csv(path: &Path) -> Result<Lot, TableError> {
         source,
     };
     let mut reader = csv::Reader::from_path(path).map_err(failed)?;
-    let mut lot = Lot::of_columns(reader.headers().map_err(failed)?.iter());
+    let names = reader.headers().map_err(failed)?.clone();
+    let mut lot = Lot::of_columns(names.iter());
     for record in reader.records() {
         let record = record.map_err(failed)?;
-        for (column, cell) in record.iter().enumerate().take(lot.names.len()) {
-            lot.hear(column, cell);
-            let value = cell.parse::<f64>().ok().filter(|value| value.is_finite());
-            lot.values[column].extend(value);
+        lot.hear(&names.iter().zip(&record).collect());
+        for (values, cell) in lot.values.iter_mut().zip(&record) {
+            values.extend(cell.parse::<f64>().ok().filter(|value| value.is_finite()));
         }
     }
     Ok(lot)
@@ -135,11 +150,14 @@ fn of_parquet(path: &Path) -> Result<Lot, TableError> {
     let mut lot = Lot::of_columns(fields.iter().map(|field| field.name()));
     for row in reader.get_row_iter(None).map_err(failed)? {
         let row = row.map_err(failed)?;
-        for (column, (_, cell)) in row.get_column_iter().enumerate() {
-            match cell {
-                Field::Str(text) => lot.hear(column, text),
-                Field::Double(value) if value.is_finite() => lot.values[column].push(*value),
-                _ => {}
+        let texts = row.get_column_iter().filter_map(|(name, cell)| match cell {
+            Field::Str(text) => Some((name.as_str(), text.as_str())),
+            _ => None,
+        });
+        lot.hear(&texts.collect());
+        for (values, (_, cell)) in lot.values.iter_mut().zip(row.get_column_iter()) {
+            if let Field::Double(value) = cell {
+                values.extend(Some(*value).filter(|value| value.is_finite()));
             }
         }
     }

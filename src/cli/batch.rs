@@ -3,7 +3,7 @@
 use super::args::BatchArgs;
 use super::console::Console;
 use super::count::Count;
-use super::signals;
+use super::{signals, threads};
 use crate::batch::{Batch, Inputs, Population, Settings, check_folder, inputs, run as run_batch};
 use crate::digits::plural;
 use crate::fit::FitOptions;
@@ -53,7 +53,7 @@ pub(super) fn run(args: BatchArgs, console: Console) -> Result<()> {
         },
         jobs: match args.jobs {
             0 => available_parallelism().map_or(1, usize::from),
-            jobs => jobs,
+            jobs => threads::bounded(jobs, "--jobs", console),
         },
     };
     let count = Count::new(batch.inputs.len(), console);
@@ -74,6 +74,14 @@ pub(super) fn run(args: BatchArgs, console: Console) -> Result<()> {
     for path in &done.files {
         console.wrote(&path.display().to_string())?;
     }
+    if let Some(first) = done.left_over.first() {
+        let note = format!(
+            "no row is of {} that earlier runs left, such as {}: remove what is not needed, or write into another folder",
+            plural(done.left_over.len(), "file"),
+            first.display()
+        );
+        console.note("note", &note);
+    }
     for (path, reason) in done.failed.iter().take(MOST_TOLD) {
         console.note("failed", &format!("{path}: {reason}"));
     }
@@ -87,12 +95,24 @@ pub(super) fn run(args: BatchArgs, console: Console) -> Result<()> {
     }
 }
 
-/// Tells of files in folders that are not named as scans are: tables of points may be among them.
-fn tell_left_out(files: &[PathBuf], console: Console) {
+/// Tells of what is left out in folders: pipes and devices, and files that are not named as scans are, for tables of
+/// points may be among them.
+fn tell_left_out(paths: &[PathBuf], console: Console) {
+    let (files, others): (Vec<_>, Vec<_>) = paths.iter().partition(|path| path.is_file());
+    if let Some(first) = others.first() {
+        let note = match others.len() {
+            1 => format!("left out {}, which is no file", first.display()),
+            count => format!(
+                "left out {count} that are no files, such as {}",
+                first.display()
+            ),
+        };
+        console.note("note", &note);
+    }
     let Some(first) = files.first() else {
         return;
     };
-    let ending = |path: &PathBuf| match path.extension() {
+    let ending = |path: &&PathBuf| match path.extension() {
         Some(extension) => format!(".{}", extension.to_string_lossy()),
         None => "none".into(),
     };

@@ -3,11 +3,19 @@
 use super::args::CompareArgs;
 use super::console::Console;
 use super::streams::put_json;
-use crate::batch::{compare, read_results};
+use crate::batch::{Comparison, compare, doubts, read_results};
 use crate::report::short;
 use anyhow::{Result, bail};
 use comfy_table::{CellAlignment, Table, presets::NOTHING};
+use serde::Serialize;
 use std::collections::BTreeSet;
+
+/// What is told of two lots.
+#[derive(Serialize)]
+struct Compared {
+    measures: Vec<Comparison>,
+    warnings: Vec<String>,
+}
 
 pub(super) fn run(args: CompareArgs, console: Console) -> Result<()> {
     let lots = [read_results(&args.first)?, read_results(&args.second)?];
@@ -30,9 +38,12 @@ pub(super) fn run(args: CompareArgs, console: Console) -> Result<()> {
             format!("{path} tells no unit: its lengths are taken to be in {unit}, as those of the other lot.")
         })
     });
-    console.warn(&taken.into_iter().flatten().collect::<Vec<_>>());
-    let comparisons = compare(first, second);
-    if comparisons.is_empty() {
+    let warnings = taken.into_iter().flatten().chain(doubts(first, second));
+    let compared = Compared {
+        warnings: warnings.collect(),
+        measures: compare(first, second),
+    };
+    if compared.measures.is_empty() {
         bail!(
             "there is nothing to compare: {} and {} share no measure that two grains of each have",
             args.first.display(),
@@ -40,7 +51,7 @@ pub(super) fn run(args: CompareArgs, console: Console) -> Result<()> {
         );
     }
     if args.json {
-        return put_json(&comparisons);
+        return put_json(&compared);
     }
     let mut table = Table::new();
     table.load_style(NOTHING).set_header([
@@ -50,7 +61,7 @@ pub(super) fn run(args: CompareArgs, console: Console) -> Result<()> {
         "other mean",
         "difference",
         "95 % interval",
-        "effect g",
+        "effect d",
         "95 % interval",
     ]);
     let interval = |interval: Option<[f64; 2]>, text: fn(f64) -> String| match interval {
@@ -58,7 +69,7 @@ pub(super) fn run(args: CompareArgs, console: Console) -> Result<()> {
         None => "-".into(),
     };
     let hundredths = |value: f64| format!("{value:.2}");
-    for comparison in &comparisons {
+    for comparison in &compared.measures {
         let [count, other_count] = comparison.counts;
         let [mean, other_mean] = comparison.means.map(short);
         table.add_row([
@@ -76,7 +87,10 @@ pub(super) fn run(args: CompareArgs, console: Console) -> Result<()> {
         column.set_cell_alignment(CellAlignment::Right);
     }
     console.print(format_args!(
-        "{}\n\nDifferences are of the other lot less the first; effect sizes are differences over the deviation of a lot.",
+        "{}\n\nDifferences are of the other lot less the first; effect sizes are differences over the root of the mean of \
+         both variances. Intervals take the lots as normal, and are told where both vary.",
         table.trim_fmt()
-    ))
+    ))?;
+    console.warn(&compared.warnings);
+    Ok(())
 }

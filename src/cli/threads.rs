@@ -17,6 +17,14 @@ pub(super) fn start(asked: usize, console: Console) -> Result<()> {
         0 => (named().unwrap_or(0), VARIABLE),
         asked => (asked, "--threads"),
     };
+    rayon::ThreadPoolBuilder::new()
+        .num_threads(bounded(asked, source, console))
+        .build_global()
+        .context("cannot start the threads; ask for fewer with --threads")
+}
+
+/// The number of threads that `source` asks for, or the most that are of use, with a note.
+pub(super) fn bounded(asked: usize, source: &str, console: Console) -> usize {
     let cores = available_parallelism().map_or(1, usize::from);
     let most = PER_CORE * cores;
     if asked > most {
@@ -27,8 +35,5 @@ pub(super) fn start(asked: usize, console: Console) -> Result<()> {
             ),
         );
     }
-    rayon::ThreadPoolBuilder::new()
-        .num_threads(asked.min(most))
-        .build_global()
-        .context("cannot start the threads; ask for fewer with --threads")
+    asked.min(most)
 }

@@ -97,7 +97,7 @@ fn rows_are_the_same_bytes_with_any_number_of_threads_and_bad_files_are_told() {
     let [csv, parquet] = ["one/results.csv", "three"]
         .map(|lot| json(&folder, &["compare", lot, "one/results.parquet"]));
     assert_eq!(csv, parquet);
-    let area = &csv[0];
+    let area = &csv["measures"][0];
     assert_eq!(
         (area["measure"].as_str(), area["difference"].as_f64()),
         (Some("area"), Some(0.0))
@@ -189,6 +189,67 @@ fn files_that_are_left_out_are_told() {
                 such as lot/";
     assert!(told("lot").starts_with(note), "{}", told("lot"));
     assert!(!told("lot/00.xyz").contains("left"));
+}
+
+#[cfg(unix)]
+#[test]
+fn a_pipe_in_a_folder_is_told_and_not_waited_for() {
+    let folder = lot(1);
+    let pipe = folder.path().join("lot/p.ply");
+    assert!(Command::new("mkfifo").arg(pipe).status().unwrap().success());
+    let output = grainform(&folder, &["batch", "lot", "-o", "r", "--only", "volume"]);
+    let told = errors(&output);
+    let note = "note: left out lot/p.ply, which is no file";
+    assert!(output.status.success() && told.starts_with(note), "{told}");
+}
+
+#[test]
+fn so_many_jobs_are_lowered_with_a_note() {
+    let folder = lot(1);
+    let words = [
+        "batch", "lot", "-o", "r", "--only", "volume", "--jobs", "30000",
+    ];
+    let output = grainform(&folder, &words);
+    let told = errors(&output);
+    let note = "note: --jobs asks for 30000 threads; ";
+    assert!(output.status.success() && told.starts_with(note), "{told}");
+}
+
+#[cfg(unix)]
+#[test]
+fn scans_whose_names_are_not_utf_8_have_rows_of_their_own() {
+    use std::os::unix::ffi::OsStrExt;
+    let folder = lot(2);
+    let path = |name: &[u8]| {
+        folder
+            .path()
+            .join("lot")
+            .join(std::ffi::OsStr::from_bytes(name))
+    };
+    std::fs::rename(path(b"00.xyz"), path(b"\xfe.xyz")).unwrap();
+    std::fs::rename(path(b"01.xyz"), path(b"\xff.xyz")).unwrap();
+    succeed(&folder, &batch(&["lot", "-o", "r", "--models"]));
+    let rows = rows(&folder.path().join("r/results.csv"));
+    let paths: Vec<&str> = rows.iter().map(|row| row["path"].as_str()).collect();
+    assert_eq!(paths, [r"lot/\xfe.xyz", r"lot/\xff.xyz"]);
+    let models = names(&folder.path().join("r/models"));
+    assert_eq!(models, [r"\xfe.json", r"\xff.json"]);
+}
+
+#[test]
+fn models_that_earlier_runs_left_are_told() {
+    let folder = lot(3);
+    let told = |words: &[&str]| {
+        let words = [&["batch"], words, &["-o", "r", "--only", "volume"]].concat();
+        errors(&grainform(&folder, &words))
+    };
+    assert_eq!(told(&["lot", "--models", "--meshes"]), "");
+    let left = told(&["lot/00.xyz", "--models"]);
+    let note = "note: no row is of 4 files that earlier runs left, such as r/meshes/01.ply: ";
+    assert!(left.contains(note), "{left}");
+    // Of the same scan by other settings.
+    let left = told(&["lot/00.xyz", "--segments", "1"]);
+    assert!(left.contains("no row is of 6 files"), "{left}");
 }
 
 #[test]
@@ -328,41 +389,4 @@ fn a_second_batch_on_the_same_folder_refuses() {
     assert_eq!(names(&folder.path().join("r")), [".lock"]);
     drop(lock);
     succeed(&folder, &batch(&["lot", "-o", "r"]));
-}
-
-#[test]
-fn a_table_of_something_else_is_not_compared() {
-    let folder = folder();
-    std::fs::write(folder.path().join("t.csv"), "OFF\n1\n2\n3\n").unwrap();
-    let output = grainform(&folder, &["compare", "t.csv", "t.csv"]);
-    assert_eq!(output.status.code(), Some(2));
-    assert!(
-        errors(&output).contains("no table of grains"),
-        "{}",
-        errors(&output)
-    );
-}
-
-#[test]
-fn lots_in_different_units_are_not_compared() {
-    let folder = folder();
-    let lot = |name: &str, unit: &str| {
-        let rows = format!("a.ply,done,{unit},1.5\nb.ply,done,{unit},1.7\n");
-        let table = format!("path,status,unit,volume\n{rows}");
-        std::fs::write(folder.path().join(name), table).unwrap();
-    };
-    lot("mm.csv", "mm");
-    lot("um.csv", "um");
-    lot("none.csv", "");
-    let compared = |other: &str| grainform(&folder, &["compare", "mm.csv", other]);
-    for other in ["mm.csv", "none.csv"] {
-        assert!(compared(other).status.success(), "{other}");
-    }
-    let told = errors(&compared("none.csv"));
-    assert!(told.contains("none.csv tells no unit"), "{told}");
-    assert_eq!(errors(&compared("mm.csv")), "");
-    let refused = compared("um.csv");
-    assert_eq!(refused.status.code(), Some(2));
-    let message = errors(&refused);
-    assert!(message.contains("lots in mm and um"), "{message}");
 }

@@ -5,6 +5,7 @@ mod bed;
 mod bed_folder;
 mod bench;
 mod clump;
+mod compare;
 mod contact;
 mod errors;
 mod export_dem;

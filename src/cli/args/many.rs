@@ -85,7 +85,8 @@ pub(in crate::cli) struct BatchArgs {
     #[arg(long, value_name = "UNIT", help_heading = OUTPUT)]
     pub(in crate::cli) unit: Option<Unit>,
 
-    /// Grains that are worked on at the same time, 0 for one per core; the results do not depend on it
+    /// Grains that are worked on at the same time, 0 for one per core; at most 4 per core are, and the results do not
+    /// depend on it
     #[arg(long, value_name = "N", value_parser = count::<usize>, default_value_t = 0, help_heading = RUN)]
     pub(in crate::cli) jobs: usize,
 
@@ -104,7 +105,7 @@ pub(in crate::cli) struct CompareArgs {
     #[arg(value_name = "OTHER")]
     pub(in crate::cli) second: PathBuf,
 
-    /// Print a JSON list, an object for each measure
+    /// Print one JSON object, warnings included
     #[arg(long)]
     pub(in crate::cli) json: bool,
 }

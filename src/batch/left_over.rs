@@ -1,0 +1,55 @@
+//! Models and meshes that earlier runs left.
+
+use super::grain::hash;
+use super::names::names;
+use std::collections::HashSet;
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// The folder of models, and ...
+pub(super) const MODELS: &str = "models";
+
+/// ... that of meshes.
+pub(super) const MESHES: &str = "meshes";
+
+/// The file of the model that is called so, in the folder of results.
+pub(super) fn model(folder: &Path, name: &str) -> PathBuf {
+    folder.join(MODELS).join(format!("{name}.json"))
+}
+
+/// The file of the mesh that is called so, in the folder of results.
+pub(super) fn mesh(folder: &Path, name: &str) -> PathBuf {
+    folder.join(MESHES).join(format!("{name}.ply"))
+}
+
+/// The files of models and meshes in the folder of results that were not saved with a row: of other scans, or of other
+/// settings. Of all rows, `paths` are the names, and `hashes` those of their model and their mesh, where they have one.
+///
+/// # Errors
+/// Where a folder that is there cannot be read.
+pub(super) fn left_over(
+    folder: &Path,
+    paths: &[String],
+    hashes: Vec<[Option<String>; 2]>,
+) -> io::Result<Vec<PathBuf>> {
+    let mut saved = HashSet::new();
+    for (name, [of_model, of_mesh]) in names(paths).iter().zip(hashes) {
+        saved.extend(of_model.map(|hash| (model(folder, name), hash)));
+        saved.extend(of_mesh.map(|hash| (mesh(folder, name), hash)));
+    }
+    let mut left = Vec::new();
+    for files in [MODELS, MESHES].map(|name| folder.join(name)) {
+        if !files.is_dir() {
+            continue;
+        }
+        for entry in files.read_dir()? {
+            let path = entry?.path();
+            let file = hash(&path).map(|hash| (path.clone(), hash));
+            if !file.is_some_and(|file| saved.contains(&file)) {
+                left.push(path);
+            }
+        }
+    }
+    left.sort();
+    Ok(left)
+}

@@ -1,0 +1,81 @@
+//! Two lots beside each other.
+
+use super::{errors, folder, grainform, json};
+
+#[test]
+fn a_table_of_something_else_is_not_compared() {
+    let folder = folder();
+    std::fs::write(folder.path().join("t.csv"), "OFF\n1\n2\n3\n").unwrap();
+    let output = grainform(&folder, &["compare", "t.csv", "t.csv"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(
+        errors(&output).contains("no table of grains"),
+        "{}",
+        errors(&output)
+    );
+}
+
+#[test]
+fn lots_in_different_units_are_not_compared() {
+    let folder = folder();
+    let lot = |name: &str, unit: &str| {
+        let rows = format!("a.ply,done,{unit},1.5\nb.ply,done,{unit},1.7\n");
+        let table = format!("path,status,unit,volume\n{rows}");
+        std::fs::write(folder.path().join(name), table).unwrap();
+    };
+    lot("mm.csv", "mm");
+    lot("um.csv", "um");
+    lot("none.csv", "");
+    let compared = |other: &str| grainform(&folder, &["compare", "mm.csv", other]);
+    for other in ["mm.csv", "none.csv"] {
+        assert!(compared(other).status.success(), "{other}");
+    }
+    let told = errors(&compared("none.csv"));
+    assert!(told.contains("none.csv tells no unit"), "{told}");
+    assert_eq!(errors(&compared("mm.csv")), "");
+    let report = json(&folder, &["compare", "mm.csv", "none.csv"]);
+    assert!(report["warnings"][0].as_str().unwrap().contains("no unit"));
+    let refused = compared("um.csv");
+    assert_eq!(refused.status.code(), Some(2));
+    let message = errors(&refused);
+    assert!(message.contains("lots in mm and um"), "{message}");
+}
+
+#[test]
+fn lots_that_were_fitted_otherwise_or_share_grains_are_told_to_be() {
+    let folder = folder();
+    let lot = |name: &str, settings: &str, hashes: [&str; 3]| {
+        let rows = hashes.map(|hash| {
+            let volume = 1.0 + 0.1 * hash.len() as f64;
+            format!("{hash}.ply,ok,{hash},0.1.0,{settings} only=volume,{volume}\n")
+        });
+        // A scan without a result counts for nothing.
+        let failed = "bad.ply,failed,bad,0.1.0,tolerance=Auto segments=7 only=volume,\n";
+        let table = format!(
+            "path,status,hash,version,settings,volume\n{}{failed}",
+            rows.concat()
+        );
+        std::fs::write(folder.path().join(name), table).unwrap();
+    };
+    lot("a.csv", "tolerance=Auto segments=1", ["a", "bb", "ccc"]);
+    lot("b.csv", "tolerance=Auto segments=6", ["ccc", "dddd", "a"]);
+    lot("c.csv", "tolerance=Auto segments=1", ["dd", "eee", "ffff"]);
+    let output = grainform(&folder, &["compare", "a.csv", "b.csv"]);
+    let told = errors(&output);
+    let lines: Vec<&str> = told.lines().collect();
+    assert!(
+        lines[0].contains("(segments 1, in the other lot 6)"),
+        "{told}"
+    );
+    assert!(
+        lines[1].starts_with("warning: The lots share 2 grains,"),
+        "{told}"
+    );
+    let report = json(&folder, &["compare", "a.csv", "b.csv"]);
+    assert_eq!(report["warnings"].as_array().unwrap().len(), 2);
+    assert_eq!(report["measures"][0]["measure"], "volume");
+    assert_eq!(
+        errors(&grainform(&folder, &["compare", "a.csv", "c.csv"])),
+        ""
+    );
+}
