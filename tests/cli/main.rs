@@ -13,6 +13,7 @@ mod harmonics;
 mod idle;
 mod measure;
 mod mesh;
+mod model_errors;
 mod positions;
 mod report;
 mod search;
