@@ -73,9 +73,9 @@ fn stages(points: usize, runs: usize, rate: f64) {
     let fitting = median(runs, || fit(&cells));
     let fitted = fit(&cells);
     let measuring = median(runs, || grain_properties(&fitted.grain));
-    let told = grain_properties(&fitted.grain).properties;
-    let sizes = nalgebra::Vector3::repeat(fitted.mean_radius);
-    let drawing = median(runs, || fitted.standard_errors(&told, &sizes));
+    let survey = fitted.survey();
+    survey.dimensions().expect("a finite grain");
+    let drawing = median(runs, || fitted.standard_errors(&survey));
     let directions = Sampling::Random
         .directions(1_000_000, 0)
         .expect("enough directions");

@@ -113,8 +113,7 @@ fn of_fit(stage: &str, fitted: &Fitted) -> Result<(), Box<dyn Error>> {
     let survey = Survey::of_grain(&fitted.grain, Scheme::Exact);
     match stage {
         "errors" => {
-            let told = survey.properties()?;
-            black_box(fitted.standard_errors(&told, &survey.dimensions()?).ok());
+            black_box(fitted.standard_errors(&survey).ok());
         }
         "1e5 radii" => {
             let directions = Sampling::Random.directions(100_000, 0)?;

@@ -28,9 +28,9 @@ pub(crate) struct Column {
 pub(super) struct Figure {
     /// Name of its column.
     pub(super) name: String,
-    /// JSON pointer into the record of measures.
+    /// JSON pointer into the report of measures.
     pub(super) measured: String,
-    /// JSON pointer to its standard error, in the record of a fit.
+    /// JSON pointer to its standard error, likewise.
     pub(super) error: Option<String>,
 }
 
@@ -57,6 +57,9 @@ pub(super) const FIRST: [(&str, Kind); 20] = [
     ("not_measured", Kind::Text),
     ("warnings", Kind::Text),
 ];
+
+/// Where the standard errors stand in the report of measures.
+const ERRORS: &str = "/standard_errors";
 
 /// Outlines, and what is measured of each.
 const ALONG: [&str; 3] = ["length", "width", "thickness"];
@@ -123,7 +126,7 @@ fn of_measure(measure: Measure) -> Vec<Figure> {
     };
     match measure {
         Measure::Area | Measure::Volume => {
-            vec![with_error(figure(name, "", ""), format!("/{name}"))]
+            vec![with_error(figure(name, "", ""), format!("{ERRORS}/{name}"))]
         }
         Measure::Centroid => numbered(name, ["x", "y", "z"], ""),
         Measure::Inertia => [
@@ -139,11 +142,14 @@ fn of_measure(measure: Measure) -> Vec<Figure> {
         Measure::Principal => (0..3)
             .map(|i| {
                 let moment = figure(name, &format!("moment_{}", i + 1), &format!("moments/{i}"));
-                with_error(moment, format!("/moments/{i}"))
+                with_error(moment, format!("{ERRORS}/moments/{i}"))
             })
             .collect(),
         Measure::Dimensions => ALONG
-            .map(|side| with_error(figure(name, side, side), format!("/dimensions/{side}")))
+            .map(|side| {
+                let error = format!("{ERRORS}/dimensions/{side}");
+                with_error(figure(name, side, side), error)
+            })
             .into(),
         Measure::MinimumBox => plain(&["length", "width", "thickness", "volume"]),
         Measure::Ratios => plain(&[
@@ -178,11 +184,17 @@ fn of_measure(measure: Measure) -> Vec<Figure> {
             .collect(),
         Measure::Curvature => {
             let kinds = ["mean", "gaussian", "larger", "smaller"].into_iter();
+            let of_kind = |kind, part| {
+                let found = figure(name, &format!("{kind}.{part}"), &format!("{kind}/{part}"));
+                match (kind, part) {
+                    ("larger", "largest") => with_error(found, format!("/{name}/largest_error")),
+                    _ => found,
+                }
+            };
             let mut all: Vec<Figure> = kinds
                 .flat_map(|kind| {
-                    ["mean", "standard_deviation", "least", "largest"].map(|part| {
-                        figure(name, &format!("{kind}.{part}"), &format!("{kind}/{part}"))
-                    })
+                    ["mean", "standard_deviation", "least", "largest"]
+                        .map(|part| of_kind(kind, part))
                 })
                 .collect();
             all.extend(plain(&["convex_share", "gauss_bonnet_error"]));

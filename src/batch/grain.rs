@@ -83,7 +83,7 @@ pub(super) fn grain(
     settings: &Settings,
     outputs: &Outputs,
 ) -> Result<Row, SaveError> {
-    let (fitted, warnings) = match scan.and_then(|scan| fit(scan, settings)) {
+    let (mut fitted, warnings) = match scan.and_then(|scan| fit(scan, settings)) {
         Ok(found) => found,
         Err(reason) => {
             return Ok(Row {
@@ -92,8 +92,9 @@ pub(super) fn grain(
             });
         }
     };
+    fitted.grain = fitted.grain_with_errors();
     if let Some(path) = &outputs.model {
-        save_grain(path, &fitted.grain_with_errors())?;
+        save_grain(path, &fitted.grain)?;
     }
     if let (Some(path), Some(cells)) = (&outputs.mesh, settings.meshes) {
         save_mesh(path, &fitted.grain.mesh(cells))?;
@@ -130,11 +131,11 @@ fn row(fitted: &Fitted, warnings: &[String], settings: &Settings) -> Row {
     let fit = FitReport::with_survey(name, None, fitted, &survey, options, warnings);
     let withheld = Withheld::of(&fitted.grain, options.extrapolate);
     let measured = MeasureReport::of_model(String::new(), &survey, &settings.measures, &withheld);
-    let values = value(&measured.measures);
-    let errors = value(&fit.standard_errors);
+    // A number that JSON has not is null.
+    let told = serde_json::to_value(&measured).unwrap_or(Value::Null);
     let figures = figures(&settings.measures)
         .into_iter()
-        .flat_map(|figure| cells(&figure, &values, &errors))
+        .flat_map(|figure| cells(&figure, &told))
         .collect();
     Row {
         unit: settings.unit.map(|unit| unit.to_string()),
@@ -159,17 +160,10 @@ fn row(fitted: &Fitted, warnings: &[String], settings: &Settings) -> Row {
     }
 }
 
-/// A record as JSON; a number that JSON has not is null.
-fn value(record: &impl serde::Serialize) -> Value {
-    serde_json::to_value(record).unwrap_or(Value::Null)
-}
-
 /// The figure, and its standard error where it can have one.
-fn cells(figure: &Figure, values: &Value, errors: &Value) -> Vec<Option<f64>> {
-    let at = |record: &Value, at: &str| record.pointer(at).and_then(Value::as_f64);
-    let own = at(values, &figure.measured);
-    let error = |of: &String| at(errors, of);
-    std::iter::once(own)
-        .chain(figure.error.as_ref().map(error))
+fn cells(figure: &Figure, told: &Value) -> Vec<Option<f64>> {
+    let at = |at: &String| told.pointer(at).and_then(Value::as_f64);
+    std::iter::once(at(&figure.measured))
+        .chain(figure.error.as_ref().map(at))
         .collect()
 }

@@ -1,6 +1,6 @@
 //! Running a batch: threads that take one scan after the other, and final files when all are done.
 
-use super::columns::columns;
+use super::columns::{FIRST, columns};
 use super::error::BatchError;
 use super::grain::{Outputs, Settings, grain};
 use super::inputs::JOURNAL;
@@ -278,7 +278,9 @@ impl Work<'_> {
     /// Whether a row that is known is all that is asked for.
     fn is_whole(&self, place: Place, outputs: &Outputs) -> bool {
         let row = self.state().journal.read(place);
-        row.is_ok_and(|row| row.reason.is_some() || outputs.are_of(&row))
+        let figures = columns(&self.batch.settings.measures).len() - FIRST.len();
+        let has_all = |row: &Row| row.figures.len() == figures && outputs.are_of(row);
+        row.is_ok_and(|row| row.reason.is_some() || has_all(&row))
     }
 
     /// Notes where the row of a grain stands; tells whether to go on.

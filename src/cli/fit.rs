@@ -40,13 +40,16 @@ pub(super) fn run(args: FitArgs, console: Console) -> Result<()> {
 
     let progress = console.progress();
     let ScanFit {
-        fitted,
+        mut fitted,
         scan,
         scan_warnings,
         mut seconds,
     } = fit_scan(fitting, &options, &progress)?;
     let is_told = fitting.json || !console.is_quiet();
     progress.stage("Measuring");
+    if args.output.is_some() {
+        fitted.grain = fitted.grain_with_errors();
+    }
     let mut report = is_told.then(|| {
         FitReport::new(
             fitting.name(),
@@ -104,7 +107,7 @@ pub(super) fn run(args: FitArgs, console: Console) -> Result<()> {
 /// Writes the files asked for; gives what the conversion to published coefficients loses.
 fn write_files(args: &FitArgs, fitted: &Fitted) -> Result<Option<f64>> {
     let grain = &fitted.grain;
-    outputs::write_grain(args, grain, || fitted.grain_with_errors())?;
+    outputs::write_grain(args, grain)?;
     let Some(path) = &args.harmonics else {
         return Ok(None);
     };

@@ -97,19 +97,15 @@ pub(super) fn write(
     Ok(stream.flush()?)
 }
 
-/// Writes the mesh of a grain and its model, `saved`, where they are asked for.
-pub(super) fn write_grain(
-    args: &FitArgs,
-    grain: &Grain,
-    saved: impl FnOnce() -> Grain,
-) -> Result<()> {
+/// Writes the mesh of a grain and its model, where they are asked for.
+pub(super) fn write_grain(args: &FitArgs, grain: &Grain) -> Result<()> {
     if let Some(path) = &args.mesh {
         let format = MeshFormat::of(path).unwrap_or(MeshFormat::Ply);
         let mesh = grain.mesh(args.meshing.resolution.into());
         write(path, |file| format.write(&mesh, file))?;
     }
     if let Some(path) = &args.output {
-        let text = grain_to_json(&saved());
+        let text = grain_to_json(grain);
         write(path, |file| Ok(writeln!(file, "{text}")?))?;
     }
     Ok(())

@@ -14,8 +14,7 @@ use crate::page::{
     BenchPart, GrainPart, LotPart, MeasureRow, Page, SearchPart, Subject, write_page,
 };
 use crate::report::{
-    FitReport, Measure, MeasureReport, Measures, SearchReport, Withheld, by_reason, escaped,
-    sentences, short,
+    FitReport, Measure, MeasureReport, SearchReport, Withheld, by_reason, escaped, sentences, short,
 };
 use crate::scan::Scan;
 use anyhow::{Context, Result, bail};
@@ -105,18 +104,19 @@ fn grain_part(path: &Path, args: &ReportArgs) -> Result<GrainPart> {
             "no page shows it; measure it, or write its mesh",
         )?;
         let survey = Survey::of_grain(&grain, Scheme::Exact);
-        let (measures, warnings) = measured(&survey, &grain, args);
+        let (told, warnings) = measured(&survey, &grain, args);
+        let measures = MeasureRow::of(&told.measures, told.standard_errors.as_ref(), args.unit);
         draw(args, &name, &grain, None)?;
+        let mut facts = vec![("model", plural(grain.coefficient_count(), "coefficient"))];
+        facts.extend(no_errors(told.no_standard_errors));
+        facts.push(hash);
         return Ok(GrainPart::new(Subject {
             name,
             grain: &grain,
             scan: None,
             unit: args.unit,
-            facts: vec![
-                ("model", plural(grain.coefficient_count(), "coefficient")),
-                hash,
-            ],
-            measures: MeasureRow::of(&measures, None, args.unit),
+            facts,
+            measures,
             warnings,
             search: None,
             bench: None,
@@ -129,6 +129,7 @@ fn grain_part(path: &Path, args: &ReportArgs) -> Result<GrainPart> {
     let fitted = fit_scan(&scan, &options, &FitContext::default()).with_context(failed);
     let mut fitted = inputs::explained(fitted, &scan)?;
     fitted.warnings.extend(left_out);
+    fitted.grain = fitted.grain_with_errors();
     let search = match args.search {
         true => Some(search(&scan, &name).with_context(failed)?),
         false => None,
@@ -140,9 +141,10 @@ fn grain_part(path: &Path, args: &ReportArgs) -> Result<GrainPart> {
     let survey = fitted.survey();
     let told = FitReport::with_survey(name.clone(), args.unit, &fitted, &survey, &options, &[]);
     let mut warnings = sentences(scan.warnings(), &fitted.warnings, args.unit);
-    let (measures, missing) = measured(&survey, &fitted.grain, args);
+    let (measured, missing) = measured(&survey, &fitted.grain, args);
     warnings.extend(missing);
-    let measures = MeasureRow::of(&measures, told.standard_errors.as_ref(), args.unit);
+    let errors = measured.standard_errors.as_ref();
+    let measures = MeasureRow::of(&measured.measures, errors, args.unit);
     draw(args, &name, &fitted.grain, Some(&scan))?;
     let mut facts = facts(&told, &fitted);
     facts.push(hash);
@@ -160,13 +162,14 @@ fn grain_part(path: &Path, args: &ReportArgs) -> Result<GrainPart> {
 }
 
 /// All measures of a grain, and those that cannot be had or are withheld, as sentences.
-fn measured(survey: &Survey, grain: &Grain, args: &ReportArgs) -> (Measures, Vec<String>) {
+fn measured(survey: &Survey, grain: &Grain, args: &ReportArgs) -> (MeasureReport, Vec<String>) {
     let withheld = Withheld::of(grain, false);
     let report = MeasureReport::of_model(String::new(), survey, &Measure::ALL, &withheld);
     let report = report.in_unit(args.unit);
     let missing = by_reason(&report.not_measured).into_iter();
     let sentences = missing.map(|(names, reason)| format!("Not measured: {names}; {reason}."));
-    (report.measures, sentences.collect())
+    let sentences = sentences.collect();
+    (report, sentences)
 }
 
 /// Fits all independent segments, as the source does.
@@ -238,11 +241,11 @@ fn facts(report: &FitReport, fitted: &Fitted) -> Vec<(&'static str, String)> {
     facts.extend(report.heldout_rms.map(|rms| ("held-out RMS", length(rms))));
     facts.extend(report.noise.map(|noise| ("noise", length(noise))));
     facts.push((radius, format!("{}{unit}", short(fitted.mean_radius))));
-    facts.extend(
-        report
-            .no_standard_errors
-            .clone()
-            .map(|reason| ("no standard errors", reason)),
-    );
+    facts.extend(no_errors(report.no_standard_errors.clone()));
     facts
+}
+
+/// Why there are no standard errors, if so.
+fn no_errors(reason: Option<String>) -> Option<(&'static str, String)> {
+    reason.map(|reason| ("no standard errors", reason))
 }

@@ -36,7 +36,7 @@ pub(super) fn run(
         )?;
     }
     progress.stage("Writing");
-    outputs::write_grain(args, &grain, || grain.clone())?;
+    outputs::write_grain(args, &grain)?;
     if let Some(path) = &args.png {
         let title = format!("{}: {} points", args.fitting.name(), scan.points().len());
         outputs::write_picture(path, &grain, Some(&scan), title, args.fitting.unit)?;

@@ -2,8 +2,7 @@
 
 use super::outcome::Fitted;
 use super::prepare::ReferenceKind;
-use super::standard_errors::NoInterval;
-use crate::model::Contradicted;
+use crate::model::{Contradicted, NoInterval};
 
 /// By how much area or volume may differ from those of the polyhedron through the points that a surface was fitted to. With
 /// standard errors, of 28 scans of grains and stones it is 1.8 % and 2.6 % at most; without, of cones, boxes and the like
@@ -73,9 +72,9 @@ impl Fitted {
 
 #[cfg(test)]
 mod tests {
-    use crate::fit::standard_errors::NoInterval;
     use crate::fit::{FitOptions, fit};
     use crate::mesh::Mesh;
+    use crate::model::NoInterval;
     use crate::scan::Scan;
     use approx::assert_relative_eq;
 

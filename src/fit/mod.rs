@@ -58,7 +58,6 @@ pub(crate) use prepare::whole_or_largest;
 pub use prepare::{
     PreparedScan, Reference, ReferenceKind, ScannedSurface, largest_body, scanned_surface,
 };
-pub use standard_errors::{NoInterval, StandardErrors};
 pub use superquadric::{
     AtBound, Form, MAX_UNION_PARTS, MultiFit, ParameterErrors, SuperquadricFit,
     SuperquadricFitError, fit_multi_superquadric, fit_superquadric,

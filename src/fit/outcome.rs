@@ -5,10 +5,9 @@ use super::estimate::{Estimate, RadiusError};
 use super::figures::Figures;
 use super::prepare::{Reference, ReferenceKind};
 use super::samples::Samples;
-use super::standard_errors::{NoInterval, StandardErrors};
 use super::warning::FitWarning;
 use crate::measure::{MassProperties, Scheme, Survey};
-use crate::model::{Grain, StarGrain, Surface};
+use crate::model::{Grain, NoInterval, StandardErrors, StarGrain, Surface};
 use nalgebra::Vector3;
 
 /// A fitted grain and what is known of it.
@@ -147,23 +146,27 @@ impl Fitted {
         }
     }
 
-    /// Standard errors of figures that are told of the grain: its mass properties and its length, width and
-    /// thickness, all in the scan's frame. Where much of the surface was not seen, they allow for what holes are known
+    /// Standard errors of the grain's mass properties and of its length, width and thickness, as a survey of it tells these,
+    /// all in the scan's frame. Where much of the surface was not seen, they allow for what holes are known
     /// to hide, and of a scan with faces for what lies between these and a surface through their corners. Computed when
-    /// asked for.
+    /// asked for, unless the grain tells them.
     ///
     /// # Errors
     /// [`NoInterval`] where none could be trusted.
-    pub fn standard_errors(
-        &self,
-        told: &MassProperties,
-        dimensions: &Vector3<f64>,
-    ) -> Result<StandardErrors, NoInterval> {
-        let errors = self.errors_of_points(told, dimensions)?;
-        let figures = self.figures(told, dimensions)?;
+    pub fn standard_errors(&self, survey: &Survey<'_>) -> Result<StandardErrors, NoInterval> {
+        let known = self.grain.standard_errors();
+        if known != Err(NoInterval::NotTold) {
+            return known;
+        }
+        let figures = (survey.properties(), survey.dimensions(), survey.principal());
+        let (Ok(told), Ok(dimensions), Ok(_)) = figures else {
+            return Err(NoInterval::OutOfRange);
+        };
+        let errors = self.errors_of_points(&told, &dimensions)?;
+        let figures = self.figures(&told, &dimensions)?;
         Ok(errors
-            .with_scale(self.beside_faces(told), &figures)
-            .with_lack(self.smoothed_over(told), &figures))
+            .with_scale(self.beside_faces(&told), &figures)
+            .with_lack(self.smoothed_over(&told), &figures))
     }
 
     /// Shares of area and volume by which they differ from those of the scan's own closed faces, where part of these faces
@@ -248,8 +251,8 @@ impl Fitted {
         })
     }
 
-    /// The grain with the [errors of its curvature](crate::model::CurvatureErrors), which a file of it keeps for its contacts. Without,
-    /// if it was fitted to the points themselves.
+    /// The grain with its [standard errors](Self::standard_errors) and the [errors of its
+    /// curvature](crate::model::CurvatureErrors), which a file of it keeps, or why there are none.
     pub fn grain_with_errors(&self) -> Grain {
         let of_estimate = || {
             let posterior = self.posterior.as_ref()?;
@@ -260,7 +263,8 @@ impl Fitted {
             samples.curvature_errors(self.grain.position()?)
         };
         let errors = of_estimate().or_else(of_samples);
-        self.grain.clone().with_curvature_errors(errors)
+        let grain = self.grain.clone().with_curvature_errors(errors);
+        grain.with_standard_errors(self.standard_errors(&self.survey()))
     }
 
     /// Standard deviations of the radius in directions of the scan's frame (unit vectors), in the scan's unit: of the
@@ -296,7 +300,7 @@ mod tests {
             let fitted = fit(scan, &FitOptions::default()).unwrap();
             let survey = fitted.survey();
             let (told, dimensions) = (survey.properties().unwrap(), survey.dimensions().unwrap());
-            let errors = fitted.standard_errors(&told, &dimensions).unwrap();
+            let errors = fitted.standard_errors(&survey).unwrap();
             (told, dimensions, errors)
         };
         let cloud = Scan::from_points(mesh.vertices.clone());

@@ -19,14 +19,10 @@ impl Fitted {
 
     fn is_sure(&self) -> bool {
         let survey = self.survey();
-        let (Ok(told), Ok(dimensions)) = (survey.properties(), survey.dimensions()) else {
+        let (Ok(told), Ok(errors)) = (survey.properties(), self.standard_errors(&survey)) else {
             return false;
         };
-        self.standard_errors(&told, &dimensions)
-            .is_ok_and(|errors| {
-                errors.area <= LARGEST_ERROR * told.area
-                    && errors.volume <= LARGEST_ERROR * told.volume
-            })
+        errors.area <= LARGEST_ERROR * told.area && errors.volume <= LARGEST_ERROR * told.volume
     }
 }
 

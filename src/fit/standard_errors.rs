@@ -1,41 +1,9 @@
-//! Standard errors of what is told of a grain, or why there are none.
+//! Standard errors of a grain whose size is not known exactly.
 
 use super::figures::Figures;
-use nalgebra::{Matrix3, Vector3};
-
-/// Standard errors (one standard deviation) of a grain's measures, in the powers of the scan's unit
-/// of these.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct StandardErrors {
-    /// Of the area.
-    pub area: f64,
-    /// Of the volume.
-    pub volume: f64,
-    /// Of the centroid's coordinates along the grain's axes.
-    pub centroid: Vector3<f64>,
-    /// Of the entries of the inertia tensor about the centroid, along the grain's axes.
-    pub inertia: Matrix3<f64>,
-    /// Of the principal moments of inertia, ascending.
-    pub moments: Vector3<f64>,
-    /// Of the length, width and thickness: extents along the principal axes.
-    pub dimensions: Vector3<f64>,
-    /// By what the extents of the scanned grain exceed these in the mean: the fitted surface lacks the ripples that
-    /// the points do not tell, and a largest value is larger with them. Zero of positions, which keep their ripples.
-    pub dimensions_excess: Vector3<f64>,
-}
+use crate::model::StandardErrors;
 
 impl StandardErrors {
-    /// Of figures that are exact.
-    pub(crate) const NONE: Self = Self {
-        area: 0.0,
-        volume: 0.0,
-        centroid: Vector3::new(0.0, 0.0, 0.0),
-        inertia: Matrix3::new(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0),
-        moments: Vector3::new(0.0, 0.0, 0.0),
-        dimensions: Vector3::new(0.0, 0.0, 0.0),
-        dimensions_excess: Vector3::new(0.0, 0.0, 0.0),
-    };
-
     /// With all lengths of a grain of these figures known to such a share only, all together.
     pub(super) fn with_scale(self, share: f64, figures: &Figures) -> Self {
         let with = |error: f64, power: f64, figure: f64| error.hypot(power * share * figure);
@@ -72,47 +40,4 @@ impl StandardErrors {
             ..self
         }
     }
-
-    /// Those of a grain so many times as large.
-    pub(crate) fn times(self, factor: f64) -> Self {
-        let [square, cube, fifth] = [2, 3, 5].map(|power| factor.powi(power));
-        Self {
-            area: self.area * square,
-            volume: self.volume * cube,
-            centroid: self.centroid * factor,
-            inertia: self.inertia * fifth,
-            moments: self.moments * fifth,
-            dimensions: self.dimensions * factor,
-            dimensions_excess: self.dimensions_excess * factor,
-        }
-    }
-}
-
-/// Why there are no standard errors that could be trusted.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[non_exhaustive]
-pub enum NoInterval {
-    /// No point lies in a cap of directions of this half-angle, in radians.
-    Hole {
-        /// Half-angle in radians, in the stretched space.
-        half_angle: f64,
-    },
-    /// Residuals are not those of noise, but of edges, and the body is alike on both sides of its centre or has flat
-    /// sides: what they hide may be all of one sign.
-    Unresolved {
-        /// Kurtosis of the residuals: 3 of normal noise.
-        kurtosis: f64,
-    },
-    /// The points have a neck: if these are two grains that touch, a radius rounds off what lies between them.
-    Neck,
-    /// The figures are not finite.
-    NotFinite,
-    /// Squares of the figures are beyond the range of numbers.
-    OutOfRange,
-    /// Area or volume are more off those of the polyhedron through the points than any error allows.
-    Contradicted,
-    /// The surface turns over or crosses itself.
-    Crossing,
-    /// The model is fitted to the points themselves, not to an estimate.
-    NotEstimated,
 }

@@ -2,8 +2,7 @@
 
 use super::figures::Figures;
 use super::gaps::random_gap;
-use super::standard_errors::StandardErrors;
-use crate::model::Unseen;
+use crate::model::{StandardErrors, Unseen};
 use std::f64::consts::PI;
 
 /// Half-angle, in radians, of the largest hole that is told of as if it were seen. In holes of 20 degrees the radius is

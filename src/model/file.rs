@@ -2,25 +2,28 @@
 //!
 //! A file holds one surface: a radius (`cells` and `margin`; `parts_per_angle` and `segments`; `symmetry` and
 //! `coefficients`; or `harmonics`; with `stretch`, if the grain is stretched), a `position`, or `superquadrics`. It may
-//! hold `curvature_errors` (of a radius or a position), `unseen`, if the scan did not see much of the grain, and
-//! `contradicted`, if the polyhedron through its points has another area or volume.
+//! hold `standard_errors` of its figures or, as `no_standard_errors`, why there are none; `curvature_errors` (of a radius
+//! or a position); `unseen`, if the scan did not see much of the grain; and `contradicted`, if the polyhedron through its
+//! points has another area or volume.
 //!
-//! Version 5 is written. Version 4 had no `unseen` and no `contradicted`; version 3 no `position` and no `superquadrics`
-//! either; version 2 no `harmonics`, `stretch`, `margin` and `curvature_errors` either; version 1 had segments alone. All
-//! are read.
+//! Version 6 is written. Version 5 had no standard errors but those of the curvature; version 4 no `unseen` and no
+//! `contradicted` either; version 3 no `position` and no `superquadrics` either; version 2 no `harmonics`, `stretch`,
+//! `margin` and `curvature_errors` either; version 1 had segments alone. All are read.
 
+use super::errors_record::ErrorsRecord;
 use super::grain::Kind;
 use super::superquadric::PartRecord;
 use super::{
-    Blended, Contradicted, CurvatureErrors, Family, Frame, Grain, InvalidGrain, Mirrored, Position,
-    PositionGrain, Segmented, StarGrain, Stretch, SuperquadricGrain, Surface, Unseen, Whole,
+    Blended, Contradicted, CurvatureErrors, Family, Frame, Grain, InvalidGrain, Mirrored,
+    NoInterval, Position, PositionGrain, Segmented, StandardErrors, StarGrain, Stretch,
+    SuperquadricGrain, Surface, Unseen, Whole,
 };
 use crate::sphere::{AngularPartition, Cover, CoverError, CubeCell, MARGIN, Symmetry};
 use nalgebra::{Matrix3, Point3, Vector3};
 use serde::{Deserialize, Serialize};
 
 /// The version of the file format that this library writes.
-const VERSION: u32 = 5;
+const VERSION: u32 = 6;
 
 /// The text that tells a model file from any other JSON.
 const FORMAT: &str = "grainform model";
@@ -63,6 +66,12 @@ struct GrainFile {
     /// Of the whole sphere: a_l^m of the real orthonormal harmonics at index l(l+1) + m.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     harmonics: Option<Vec<f64>>,
+    /// Standard errors of area, volume and so on.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    standard_errors: Option<ErrorsRecord>,
+    /// Why there are none, in their place.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    no_standard_errors: Option<NoInterval>,
     /// Standard errors of the curvature in 864 cells of directions, where they are known.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     curvature_errors: Option<Vec<f64>>,
@@ -139,6 +148,12 @@ pub enum ModelError {
     /// The errors of the curvature are none.
     #[error("the model is not sound: `curvature_errors` must hold 864 numbers, none below zero")]
     CurvatureErrors,
+    /// The standard errors are none.
+    #[error(
+        "the model is not sound: it must hold either `standard_errors`, finite numbers, none below zero, or \
+         `no_standard_errors`, the reason why there are none, or neither"
+    )]
+    StandardErrors,
     /// What was not seen is none.
     #[error(
         "the model is not sound: `unseen` must hold a `hole` with a half-angle of 0 to pi, or what is `open`, with a share"
@@ -167,6 +182,9 @@ pub fn grain_to_json(grain: &Grain) -> String {
         axes: [0, 1, 2].map(|i| axes.column(i).into_owned().into()),
         unseen: grain.unseen(),
         contradicted: grain.contradicted(),
+        standard_errors: grain.standard_errors().ok().map(Into::into),
+        no_standard_errors: (grain.standard_errors().err())
+            .filter(|why| *why != NoInterval::NotTold),
         curvature_errors: grain.curvature_errors().map(|e| e.of_cells().to_vec()),
         ..GrainFile::default()
     };
@@ -266,7 +284,7 @@ fn to_cover(
 /// is not above zero everywhere, which is proved ([`StarGrain::least_radius`]), or its surface is folded
 /// ([`PositionGrain::check`]).
 pub fn grain_from_json(text: &str) -> Result<Grain, ModelError> {
-    let file: GrainFile = serde_json::from_str(text)?;
+    let mut file: GrainFile = serde_json::from_str(text)?;
     if file.format != FORMAT {
         return Err(ModelError::Format { found: file.format });
     }
@@ -282,6 +300,7 @@ pub fn grain_from_json(text: &str) -> Result<Grain, ModelError> {
     if contradicted.is_some_and(|contradicted| !contradicted.is_sound()) {
         return Err(ModelError::Contradicted);
     }
+    let standard_errors = file.standard_errors()?;
     let errors = file.curvature_errors.clone();
     let errors =
         errors.map(|errors| CurvatureErrors::new(errors).ok_or(ModelError::CurvatureErrors));
@@ -289,10 +308,25 @@ pub fn grain_from_json(text: &str) -> Result<Grain, ModelError> {
     Ok(grain
         .with_unseen(unseen)
         .with_contradicted(contradicted)
+        .with_standard_errors(standard_errors)
         .with_curvature_errors(errors.transpose()?))
 }
 
 impl GrainFile {
+    /// The standard errors, or why there are none.
+    fn standard_errors(&mut self) -> Result<Result<StandardErrors, NoInterval>, ModelError> {
+        let told = match (self.standard_errors.take(), self.no_standard_errors) {
+            (Some(errors), None) => Ok(StandardErrors::from(errors)),
+            (None, why) => Err(why.unwrap_or(NoInterval::NotTold)),
+            (Some(_), Some(_)) => return Err(ModelError::StandardErrors),
+        };
+        let is_sound = match &told {
+            Ok(errors) => errors.is_sound(),
+            Err(why) => why.is_sound(),
+        };
+        is_sound.then_some(told).ok_or(ModelError::StandardErrors)
+    }
+
     /// The grain, but for what is not to be relied on of it.
     fn grain(self) -> Result<Grain, ModelError> {
         let frame = Frame {

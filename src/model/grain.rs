@@ -1,8 +1,8 @@
 //! The fitted grain, of whichever kind.
 
 use super::{
-    Contradicted, CurvatureErrors, Frame, Node, PositionGrain, StarGrain, SuperquadricGrain,
-    Surface, SurfaceElement, SurfaceJet, Tiling, Unseen,
+    Contradicted, CurvatureErrors, Frame, NoInterval, Node, PositionGrain, StandardErrors,
+    StarGrain, SuperquadricGrain, Surface, SurfaceElement, SurfaceJet, Tiling, Unseen,
 };
 use crate::mesh::Mesh;
 use crate::sphere::Symmetry;
@@ -16,6 +16,7 @@ pub struct Grain {
     kind: Kind,
     unseen: Option<Unseen>,
     contradicted: Option<Contradicted>,
+    standard_errors: Result<StandardErrors, NoInterval>,
     curvature_errors: Option<CurvatureErrors>,
 }
 
@@ -81,6 +82,7 @@ impl Grain {
         let curvature_errors = self.curvature_errors.as_ref();
         Self {
             kind,
+            standard_errors: self.standard_errors.map(|errors| errors.times(factor)),
             curvature_errors: curvature_errors.map(|errors| errors.over(factor)),
             ..*self
         }
@@ -107,6 +109,27 @@ impl Grain {
     /// What the polyhedron through the points contradicts that it was fitted to: these figures of it are not to be relied on.
     pub fn contradicted(&self) -> Option<Contradicted> {
         self.contradicted
+    }
+
+    /// The same with standard errors of its figures, or why there are none. Of errors that are not finite or below zero
+    /// there are none.
+    pub fn with_standard_errors(self, found: Result<StandardErrors, NoInterval>) -> Self {
+        let standard_errors = match found {
+            Ok(errors) if !errors.is_sound() => Err(NoInterval::NotFinite),
+            found => found,
+        };
+        Self {
+            standard_errors,
+            ..self
+        }
+    }
+
+    /// Standard errors of its figures.
+    ///
+    /// # Errors
+    /// [`NoInterval`] where there are none: [`NoInterval::NotTold`] where nobody has told them.
+    pub fn standard_errors(&self) -> Result<StandardErrors, NoInterval> {
+        self.standard_errors
     }
 
     /// The same with standard errors of its curvature, where they are known.
@@ -167,6 +190,7 @@ impl From<Kind> for Grain {
             kind,
             unseen: None,
             contradicted: None,
+            standard_errors: Err(NoInterval::NotTold),
             curvature_errors: None,
         }
     }

@@ -20,6 +20,9 @@ pub(crate) struct MeasureRow {
     pub definition: String,
 }
 
+/// The error of the largest curvature, which stands beside that and is no row of its own.
+const LARGEST_ERROR: &str = "curvature.largest_error";
+
 /// Entries of a list that are shown.
 const MOST_ENTRIES: usize = 12;
 
@@ -34,18 +37,16 @@ impl MeasureRow {
         let measures = record(serde_json::to_value(measures));
         let errors = record(serde_json::to_value(errors));
         let mut rows = Vec::new();
-        collect("", &measures, &errors, unit, &mut rows);
+        collect("", &measures, unit, &mut rows);
+        for row in &mut rows {
+            row.error = error(&row.name, &measures, &errors);
+        }
+        rows.retain(|row| row.name != LARGEST_ERROR);
         rows
     }
 }
 
-fn collect(
-    name: &str,
-    value: &Value,
-    errors: &Value,
-    unit: Option<Unit>,
-    rows: &mut Vec<MeasureRow>,
-) {
+fn collect(name: &str, value: &Value, unit: Option<Unit>, rows: &mut Vec<MeasureRow>) {
     let below = |part: &str| match name {
         "" => part.to_owned(),
         name => format!("{name}.{part}"),
@@ -53,20 +54,20 @@ fn collect(
     match value {
         Value::Object(parts) => {
             for (part, value) in parts {
-                collect(&below(part), value, errors, unit, rows);
+                collect(&below(part), value, unit, rows);
             }
         }
         Value::Array(parts) if parts.iter().any(Value::is_object) => {
             for (at, part) in parts.iter().enumerate() {
                 let along = part.get("along").and_then(Value::as_str);
                 let part_name = along.map_or(at.to_string(), str::to_owned);
-                collect(&below(&part_name), part, errors, unit, rows);
+                collect(&below(&part_name), part, unit, rows);
             }
         }
         _ => rows.extend(text(value).map(|text| MeasureRow {
             name: name.to_owned(),
             value: text,
-            error: error(name, errors),
+            error: None,
             unit: unit_of(name, unit),
             definition: definition(&plain(name)).unwrap_or_default(),
         })),
@@ -111,16 +112,18 @@ fn text(value: &Value) -> Option<String> {
     }
 }
 
-fn error(name: &str, errors: &Value) -> Option<String> {
-    let at = match name {
-        "principal.moments" => "/moments".into(),
-        name => format!("/{}", name.replace('.', "/")),
+/// The standard error of a measure, where it is known.
+fn error(name: &str, measures: &Value, errors: &Value) -> Option<String> {
+    let at = |name: &str| format!("/{}", name.replace('.', "/"));
+    let found = match name {
+        "curvature.larger.largest" => measures.pointer(&at(LARGEST_ERROR)),
+        "principal.moments" => errors.pointer("/moments"),
+        "area" | "volume" => errors.pointer(&at(name)),
+        name if name.starts_with("dimensions.") => errors.pointer(&at(name)),
+        // Those of centroid and inertia are along the grain's axes, not the scan's.
+        _ => None,
     };
-    let is_told = ["area", "volume", "principal.moments", "centroid"].contains(&name);
-    let is_told = is_told || name.starts_with("dimensions.");
-    // Those of the centroid are along the grain's axes, not the scan's.
-    let is_told = is_told && name != "centroid";
-    errors.pointer(&at).filter(|_| is_told).and_then(text)
+    found.and_then(text)
 }
 
 /// The unit of a measure, by the power of length that it is.
@@ -169,7 +172,41 @@ fn raised(power: i32) -> &'static str {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::model::StandardErrors;
+    use nalgebra::Vector3;
     use serde_json::json;
+
+    #[test]
+    fn errors_stand_beside_what_they_are_of() {
+        let record = json!({
+            "area": 2.5,
+            "curvature": {"larger": {"largest": 7.0, "mean": 1.0}, "largest_error": 0.5},
+            "dimensions": {"length": 3.0},
+            "principal": {"moments": [1.0, 2.0, 3.0]},
+            "roundness": 0.5,
+        });
+        let errors = StandardErrorsRecord::from(StandardErrors {
+            area: 0.25,
+            dimensions: Vector3::new(0.75, 0.0, 0.0),
+            ..StandardErrors::NONE
+        });
+        let rows = MeasureRow::of(&record, Some(&errors), None);
+        let told: Vec<_> = rows
+            .iter()
+            .map(|row| (&*row.name, row.error.as_deref()))
+            .collect();
+        assert_eq!(
+            told,
+            [
+                ("area", Some("0.250000")),
+                ("curvature.larger.largest", Some("0.500000")),
+                ("curvature.larger.mean", None),
+                ("dimensions.length", Some("0.750000")),
+                ("principal.moments", Some("0, 0, 0")),
+                ("roundness", None),
+            ]
+        );
+    }
 
     #[test]
     fn rows_have_names_units_and_definitions() {

@@ -22,6 +22,7 @@ mod regions;
 mod rule;
 mod search;
 mod split;
+mod standard_errors;
 mod superquadric;
 mod synth;
 mod tray;
@@ -37,7 +38,7 @@ pub use curled::CurledReport;
 #[cfg(feature = "cli")]
 pub(crate) use escape::escaped;
 pub use estimate::{EstimateRecord, EvaluationRecord};
-pub use fit::{FitReport, ReferenceRecord, Seconds, Skipped, StandardErrorsRecord};
+pub use fit::{FitReport, ReferenceRecord, Seconds, Skipped};
 pub use harmonics::{largest_loss, write_harmonics};
 pub use hertz::HertzLaw;
 pub use measure::{
@@ -52,6 +53,7 @@ pub use placed::{PlacedReport, PlacedTouch};
 pub use regions::{NormalLaw, RegionRecord, RegionsReport};
 pub use search::{CandidateRecord, SearchReport};
 pub use split::{PlaneRecord, SplitGrainRecord, SplitReport};
+pub use standard_errors::StandardErrorsRecord;
 pub use superquadric::{FittedScan, SuperquadricRecord, SuperquadricReport};
 pub use synth::SynthReport;
 pub use tray::TrayReport;

@@ -89,7 +89,7 @@ pub struct SuperquadricRecord {
     pub n2_at_bound: [[bool; 2]; 2],
     /// Standard errors of rotations about its axes, in radians, likewise.
     pub rotation_errors_rad: [Option<f64>; 3],
-    /// Standard errors of the centre along its axes, likewise.
+    /// Standard errors of the centre's coordinates along the scan's axes, likewise.
     pub centre_errors: [Option<f64>; 3],
 }
 

@@ -3,9 +3,9 @@
 use super::number::{percent, short};
 use super::unit::{Labels, Unit};
 use crate::digits::plural;
-use crate::fit::{FitWarning, NoInterval, Rejection};
+use crate::fit::{FitWarning, Rejection};
 use crate::measure::{FacesDefect, Fill};
-use crate::model::{Contradicted, Unseen};
+use crate::model::{Contradicted, NoInterval, Unseen};
 use std::fmt;
 
 impl fmt::Display for Rejection {
@@ -229,6 +229,15 @@ impl fmt::Display for NoInterval {
             ),
             Self::Crossing => write!(f, "the surface crosses itself or turns over"),
             Self::NotEstimated => write!(f, "the model is fitted to the points themselves"),
+            Self::NotTold => write!(f, "the model tells none"),
+            Self::Polyhedron => write!(
+                f,
+                "the figures are those of the polyhedron itself; fit the scan, and measure the model"
+            ),
+            Self::Scheme => write!(
+                f,
+                "the figures have the errors of their scheme too; leave --scheme out"
+            ),
         }
     }
 }

@@ -1,4 +1,5 @@
 use super::{errors, folder, grainform, json, names, succeed};
+use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
@@ -84,6 +85,11 @@ fn rows_are_the_same_bytes_with_any_number_of_threads_and_bad_files_are_told() {
     let fit = json(&folder, &["fit", &row["path"]]);
     for (column, value) in [
         ("area", &fit["area"]),
+        ("area_se", &fit["standard_errors"]["area"]),
+        (
+            "dimensions.width_se",
+            &fit["standard_errors"]["dimensions"]["width"],
+        ),
         ("volume_se", &fit["standard_errors"]["volume"]),
         ("dimensions.length", &fit["dimensions"]["length"]),
         ("heldout_rms", &fit["heldout_rms"]),
@@ -103,6 +109,34 @@ fn rows_are_the_same_bytes_with_any_number_of_threads_and_bad_files_are_told() {
         (Some("area"), Some(0.0))
     );
     assert_eq!(area["counts"], serde_json::json!([3, 3]));
+}
+
+/// A row with fewer figures, as of a table that had fewer columns, is made again.
+#[test]
+fn a_row_is_taken_over_only_with_all_its_figures() {
+    let folder = folder();
+    let synth = "synth ellipsoid --points 386 --noise 0.002 -o s.ply";
+    succeed(&folder, &synth.split(' ').collect::<Vec<_>>());
+    let words = ["batch", "s.ply", "-o", "lot", "--only", "area,curvature"];
+    succeed(&folder, &words);
+    let table = folder.path().join("lot/results.csv");
+    let row = &rows(&table)[0];
+    let [largest, error] = ["", "_se"].map(|end| {
+        let cell = &row[&format!("curvature.larger.largest{end}")];
+        cell.parse::<f64>().expect("a number")
+    });
+    assert!(error > 0.0 && error < largest, "{largest} ± {error}");
+    let whole = std::fs::read(&table).unwrap();
+    let journal = folder.path().join("lot/journal.jsonl");
+    let text = std::fs::read_to_string(&journal).unwrap();
+    let (_, json) = text.trim_end().split_once(' ').unwrap();
+    let mut older: Value = serde_json::from_str(json).unwrap();
+    older["figures"].as_array_mut().unwrap().remove(1);
+    let json = older.to_string();
+    let sum = blake3::hash(json.as_bytes()).to_hex();
+    std::fs::write(&journal, format!("{} {json}\n", &sum[..16])).unwrap();
+    succeed(&folder, &words);
+    assert_eq!(std::fs::read(&table).unwrap(), whole);
 }
 
 /// A command that is begun, and not waited for.

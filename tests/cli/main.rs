@@ -14,6 +14,7 @@ mod harmonics;
 mod idle;
 mod measure;
 mod mesh;
+mod model_errors;
 mod positions;
 mod report;
 mod search;

@@ -191,12 +191,12 @@ fn only_what_is_asked_for_is_told() {
             &["measure", input, "--only", "volume,form,spheres"],
         );
         let keys: Vec<&String> = some.as_object().unwrap().keys().collect();
-        assert_eq!(keys.len(), 7, "{keys:?}");
+        assert_eq!(keys.len(), 9, "{keys:?}");
         for key in ["volume", "form", "spheres"] {
             assert_eq!(some[key], all[key]);
         }
         let text = succeed(&folder, &["measure", input, "--only", "area"]);
-        assert_eq!(text.lines().count(), 4, "{text}");
+        assert_eq!(text.lines().count(), 5, "{text}");
     }
 }
 

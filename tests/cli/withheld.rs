@@ -93,6 +93,11 @@ fn what_is_not_to_be_relied_on_must_be_sound_itself() {
     for (key, known, told) in [
         ("unseen", json!({"hole": {"half_angle": 4.0}}), "half-angle"),
         ("contradicted", json!({"area": -1.5}), "above -1"),
+        (
+            "no_standard_errors",
+            json!({"hole": {"half_angle": -1.0}}),
+            "the reason why there are none",
+        ),
     ] {
         save(&folder, key, &known);
         let output = grainform(&folder, &["measure", "m.json"]);

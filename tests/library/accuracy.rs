@@ -1,7 +1,7 @@
 //! The fit against the exact truth of closed-form grains.
 
 use grainform::fit::FitWarning;
-use grainform::measure::{Scheme, Survey, grain_properties};
+use grainform::measure::grain_properties;
 use grainform::scan::Scan;
 use grainform::shapes::{Body, Sampling, SynthOptions, SyntheticScan, synthesize};
 use grainform::sphere::cube_grid;
@@ -276,10 +276,8 @@ fn errors_of_length_and_width_go_by_size_and_not_by_moments() {
     let directions = Sampling::Fibonacci.directions(3000, 0).expect("enough");
     let points = directions.iter().map(|n| Point3::from(n * radius(n)));
     let fitted = fit(&Scan::from_points(points.collect()), &FitOptions::default()).expect("a fit");
-    let told = grain_properties(&fitted.grain).properties;
-    let dimensions = Survey::of_grain(&fitted.grain, Scheme::Exact)
-        .dimensions()
-        .expect("sizes");
+    let survey = fitted.survey();
+    let dimensions = survey.dimensions().expect("sizes");
     let truth = Vector3::new(2.26, 2.2, 2.0);
     assert!((dimensions - truth).amax() < 2e-3, "{dimensions}");
     let longest = fitted.grain.frame().axes.column(1).y.abs();
@@ -287,6 +285,6 @@ fn errors_of_length_and_width_go_by_size_and_not_by_moments() {
         longest > 0.99,
         "the length lies along the second axis: {longest}"
     );
-    let errors = fitted.standard_errors(&told, &dimensions).expect("errors");
+    let errors = fitted.standard_errors(&survey).expect("errors");
     assert!(errors.dimensions.amax() < 5e-3, "{}", errors.dimensions);
 }

@@ -13,7 +13,7 @@
 
 use super::outcome::Estimate;
 use crate::fit::figures::Figures;
-use crate::fit::standard_errors::StandardErrors;
+use crate::model::StandardErrors;
 use std::f64::consts::PI;
 
 /// Points whose residuals are compared, at most.

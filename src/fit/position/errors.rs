@@ -33,8 +33,7 @@ use super::least_squares::values;
 use crate::fit::figures::{INERTIA, INTEGRALS, derivatives, form, mass, unlist};
 use crate::fit::linear::BlockFactor;
 use crate::fit::neighbours::Neighbours;
-use crate::fit::standard_errors::{NoInterval, StandardErrors};
-use crate::model::Position;
+use crate::model::{NoInterval, Position, StandardErrors};
 use nalgebra::{SMatrix, SVector, Vector3};
 use std::f64::consts::PI;
 

@@ -11,10 +11,9 @@ use super::functions::{Functions, Rows};
 use super::least_squares::{Equations, Roughness, Term};
 use crate::fit::context::{Cancelled, Context};
 use crate::fit::linear::BlockFactor;
-use crate::fit::standard_errors::{NoInterval, StandardErrors};
 use crate::measure::crossings;
 use crate::mesh::Mesh;
-use crate::model::{Frame, Position, PositionGrain};
+use crate::model::{Frame, NoInterval, Position, PositionGrain, StandardErrors};
 use crate::sphere::cube_grid;
 use nalgebra::{Matrix3, Point3, Vector3};
 

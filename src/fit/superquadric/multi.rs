@@ -11,7 +11,9 @@ use super::standard_errors::{ParameterErrors, standard_errors};
 use super::weighing::Weighing;
 use crate::fit::Residuals;
 use crate::fit::context::Context;
-use crate::model::{Frame, Grain, InvalidGrain, MultiSuperquadric, Part, SuperquadricGrain};
+use crate::model::{
+    Frame, Grain, InvalidGrain, MultiSuperquadric, NoInterval, Part, SuperquadricGrain,
+};
 use nalgebra::{Point3, Vector3};
 
 /// The most parts that can be asked for.
@@ -55,12 +57,13 @@ pub struct MultiFit {
 }
 
 impl MultiFit {
-    /// The union as a grain.
+    /// The union as a grain, without standard errors of its area, volume and so on.
     ///
     /// # Errors
     /// [`InvalidGrain`] if the frame was changed and is none.
     pub fn grain(&self) -> Result<Grain, InvalidGrain> {
-        Ok(SuperquadricGrain::multi(self.frame, self.union.clone())?.into())
+        let grain: Grain = SuperquadricGrain::multi(self.frame, self.union.clone())?.into();
+        Ok(grain.with_standard_errors(Err(NoInterval::NotEstimated)))
     }
 }
 

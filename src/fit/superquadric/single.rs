@@ -8,7 +8,7 @@ use super::search::best;
 use super::standard_errors::{ParameterErrors, standard_errors};
 use crate::fit::Residuals;
 use crate::fit::context::Context;
-use crate::model::{Frame, Grain, InvalidGrain, Superquadric, SuperquadricGrain};
+use crate::model::{Frame, Grain, InvalidGrain, NoInterval, Superquadric, SuperquadricGrain};
 use nalgebra::Point3;
 
 /// A superquadric fitted to points.
@@ -30,12 +30,13 @@ pub struct SuperquadricFit {
 }
 
 impl SuperquadricFit {
-    /// The body as a grain.
+    /// The body as a grain, without standard errors of its area, volume and so on.
     ///
     /// # Errors
     /// [`InvalidGrain`] if the frame was changed and is none.
     pub fn grain(&self) -> Result<Grain, InvalidGrain> {
-        Ok(SuperquadricGrain::single(self.frame, self.shape)?.into())
+        let grain: Grain = SuperquadricGrain::single(self.frame, self.shape)?.into();
+        Ok(grain.with_standard_errors(Err(NoInterval::NotEstimated)))
     }
 }
 

@@ -13,7 +13,7 @@ use super::least_squares::Minimum;
 use super::loss::LossSum;
 use super::normal_equations::NormalEquations;
 use super::soft_minimum::SoftMinimum;
-use nalgebra::{Cholesky, DMatrix, DVector};
+use nalgebra::{Cholesky, DMatrix, DMatrixView, DVector};
 use std::collections::BTreeMap;
 
 /// Regions along an edge of the cube of directions: 96 in all.
@@ -31,7 +31,7 @@ pub struct ParameterErrors {
     pub n2: [[Option<f64>; 2]; 2],
     /// Of rotations about the body's axes, in radians.
     pub rotation_rad: [Option<f64>; 3],
-    /// Of the centre along the body's axes, in the scan's unit.
+    /// Of the centre along the scan's axes, in the scan's unit.
     pub centre: [Option<f64>; 3],
     /// Which numbers are at a bound of the fit, beyond which the points would have them.
     pub at_bound: AtBound,
@@ -58,24 +58,25 @@ pub(super) fn standard_errors(cloud: &Cloud, found: &Minimum) -> Vec<ParameterEr
     let bodies = found.bodies.iter().enumerate();
     bodies
         .map(|(index, body)| {
-            let deviation = |place: usize| -> Option<f64> {
-                let place = index * form.parameters() + place;
-                let variance = covariance.as_ref()?[(place, place)];
-                (variance.is_finite() && variance >= 0.0).then(|| variance.sqrt())
-            };
-            told(body, form, cloud.size, deviation)
+            let from = index * form.parameters();
+            let own = covariance
+                .as_ref()
+                .map(|all| all.view((from, from), (form.parameters(), form.parameters())));
+            told(body, form, cloud.size, own)
         })
         .collect()
 }
 
-/// The errors of a body from the standard deviations of its parameters.
+/// The errors of a body from the covariance of its parameters.
 fn told(
     body: &Body,
     form: Form,
     size: f64,
-    deviation: impl Fn(usize) -> Option<f64>,
+    covariance: Option<DMatrixView<'_, f64>>,
 ) -> ParameterErrors {
     let ties = form.ties();
+    let root = |variance: f64| (variance.is_finite() && variance >= 0.0).then(|| variance.sqrt());
+    let deviation = |place: usize| root(covariance?[(place, place)]);
     let number = |number: usize| -> Option<f64> {
         let unit = if number < EXPONENTS_FROM { size } else { 1.0 };
         let is_free = !body.is_at_bound(number);
@@ -84,6 +85,12 @@ fn told(
     };
     let pair = |from: usize| [number(from), number(from + 1)];
     let pose = |i: usize| deviation(form.numbers() + i);
+    let centre = |i: usize| {
+        let from = form.numbers() + 3;
+        let along_body = covariance?.fixed_view::<3, 3>(from, from).into_owned();
+        let axis = body.axes.row(i);
+        root((axis * along_body * axis.transpose()).x)
+    };
     let bounds = |from: usize| [from, from + 1].map(|number| body.is_at_bound(number));
     ParameterErrors {
         at_bound: AtBound {
@@ -95,7 +102,7 @@ fn told(
         n1: pair(6),
         n2: [pair(8), pair(10)],
         rotation_rad: [0, 1, 2].map(|i| pose(i).filter(|angle| *angle < LARGEST_ROTATION)),
-        centre: [3, 4, 5].map(|i| pose(i).map(|length| length * size)),
+        centre: [0, 1, 2].map(|i| centre(i).map(|length| length * size)),
     }
 }
 

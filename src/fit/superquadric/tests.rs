@@ -110,6 +110,32 @@ fn a_fit_moves_turns_and_grows_with_the_scan_and_forgets_the_order_of_points() {
     }
 }
 
+/// The scan turned by a quarter about z: what was along x is along y. The body's own axes are neither.
+#[test]
+fn errors_of_the_centre_are_along_the_axes_of_the_scan() {
+    let random = &mut ChaCha8Rng::seed_from_u64(7);
+    let (_, points, _) = random_cloud(random);
+    let noisy = points
+        .iter()
+        .map(|p| p + normal(random).component_mul(&Vector3::new(0.05, 0.01, 0.01)));
+    let noisy: Vec<_> = noisy.collect();
+    let turned: Vec<_> = noisy.iter().map(|p| Point3::new(-p.y, p.x, p.z)).collect();
+    let [here, there] = [noisy, turned].map(|points| {
+        fitted(&points, Form::Single)
+            .errors
+            .centre
+            .map(Option::unwrap)
+    });
+    for (one, other) in [
+        (here[0], there[1]),
+        (here[1], there[0]),
+        (here[2], there[2]),
+    ] {
+        assert_relative_eq!(one, other, max_relative = 1e-4);
+    }
+    assert!(here[0] > 1.5 * here[1].max(here[2]), "{here:?}");
+}
+
 #[test]
 fn of_a_grain_with_several_minima_the_same_is_found_wherever_it_lies() {
     let points = grain(Body::Maize);

@@ -16,7 +16,7 @@ use super::{
     Sphericity, project,
 };
 use crate::Mesh;
-use crate::model::{Grain, Radial, StarSurface};
+use crate::model::{Grain, NoInterval, Radial, StandardErrors, StarSurface};
 use body::{Body, Inside};
 pub use error::SurveyError;
 use nalgebra::{Matrix3, Vector3};
@@ -50,6 +50,7 @@ use std::cell::OnceCell;
 pub struct Survey<'a> {
     body: Body<'a>,
     unit: Unit,
+    standard_errors: Result<StandardErrors, NoInterval>,
     union: OnceCell<Option<SolidProperties>>,
     properties: OnceCell<Result<MassProperties, SurveyError>>,
     extents: OnceCell<Result<Extents, SurveyError>>,
@@ -76,7 +77,11 @@ pub enum Scheme {
 impl<'a> Survey<'a> {
     /// Of a fitted grain.
     pub fn of_grain(grain: &'a Grain, scheme: Scheme) -> Self {
-        Self::new(Body::grain(grain, scheme))
+        let standard_errors = match scheme {
+            Scheme::Exact => grain.standard_errors(),
+            Scheme::FourTriangles => Err(NoInterval::Scheme),
+        };
+        Self::new(Body::grain(grain, scheme), standard_errors)
     }
 
     /// The same of a grain whose [`Self::unit_properties`] are known.
@@ -89,7 +94,8 @@ impl<'a> Survey<'a> {
 
     /// Of a surface whose area, volume and moments are known, in its own frame.
     pub fn of_surface(surface: &'a (dyn StarSurface + Sync), properties: MassProperties) -> Self {
-        Self::new((Body::Known(Radial(surface), properties), Unit::OWN))
+        let body = Body::Known(Radial(surface), properties);
+        Self::new((body, Unit::OWN), Err(NoInterval::NotTold))
     }
 
     /// Of a closed mesh of one body, wound counter-clockwise from outside.
@@ -98,20 +104,25 @@ impl<'a> Survey<'a> {
     ///
     /// When it is broken or encloses no volume.
     pub fn of_mesh(mesh: &Mesh) -> Result<Self, SurveyError> {
-        let survey = Self::new(Body::mesh(mesh, Inside::Bodies(1)));
+        let body = Body::mesh(mesh, Inside::Bodies(1));
+        let survey = Self::new(body, Err(NoInterval::Polyhedron));
         survey.properties()?;
         Ok(survey)
     }
 
     /// Of what the faces of a scan enclose.
     pub fn of_scanned(scanned: &ScannedBody) -> Self {
-        Self::new(Body::scanned(scanned))
+        Self::new(Body::scanned(scanned), Err(NoInterval::Polyhedron))
     }
 
-    fn new((body, unit): (Body<'a>, Unit)) -> Self {
+    fn new(
+        (body, unit): (Body<'a>, Unit),
+        standard_errors: Result<StandardErrors, NoInterval>,
+    ) -> Self {
         Self {
             body,
             unit,
+            standard_errors,
             union: OnceCell::new(),
             properties: OnceCell::new(),
             extents: OnceCell::new(),
@@ -153,6 +164,15 @@ impl<'a> Survey<'a> {
     pub fn volume(&self) -> Result<f64, SurveyError> {
         let volume = self.properties()?.volume;
         in_range(volume, &[volume])
+    }
+
+    /// Standard errors of area, volume, moments and dimensions, as the grain tells them.
+    ///
+    /// # Errors
+    ///
+    /// [`NoInterval`] where it tells none, and of all but grains.
+    pub fn standard_errors(&self) -> Result<StandardErrors, NoInterval> {
+        self.standard_errors
     }
 
     /// Errors by quadrature of area and volume, as shares of them: of unions of superquadrics, whose moments are as well

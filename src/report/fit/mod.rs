@@ -3,15 +3,14 @@
 mod text;
 
 use super::estimate::{EstimateRecord, EvaluationRecord};
-use super::measure::{
-    Dimensions, Measure, MeasureReport, Measures, NotMeasured, Principal, Withheld, rows,
-};
+use super::measure::{Dimensions, Measure, MeasureReport, NotMeasured, Principal, Withheld};
 use super::rule::{kind_rule, rule};
+use super::standard_errors::{StandardErrorsRecord, recorded};
 use super::unit::Unit;
 use super::warning::sentences;
-use crate::fit::{FitOptions, Fitted, NoInterval, Reference, StandardErrors, Tolerance};
+use crate::fit::{FitOptions, Fitted, Reference, Tolerance};
 use crate::measure::Survey;
-use crate::model::StarGrain;
+use crate::model::{NoInterval, StarGrain};
 use crate::sphere::Symmetry;
 use serde::Serialize;
 
@@ -119,26 +118,6 @@ pub struct FitReport {
     pub warnings: Vec<String>,
 }
 
-/// Standard errors (one standard deviation) of a fitted grain's figures.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[non_exhaustive]
-pub struct StandardErrorsRecord {
-    /// Of the area.
-    pub area: f64,
-    /// Of the volume.
-    pub volume: f64,
-    /// Of the principal moments.
-    pub moments: [f64; 3],
-    /// Of the dimensions.
-    pub dimensions: Dimensions,
-    /// What noise adds to the dimensions, as a mean: an extent is between the points farthest out.
-    pub dimensions_excess: Dimensions,
-    /// Of the centroid's coordinates along the grain's axes.
-    pub centroid: [f64; 3],
-    /// Of the inertia tensor about the centroid, along the grain's axes.
-    pub inertia: [[f64; 3]; 3],
-}
-
 /// The surface that a fit is compared with.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
@@ -209,13 +188,9 @@ impl FitReport {
         let withheld = Withheld::of(&fitted.grain, options.extrapolate);
         let told = MeasureReport::of_model(String::new(), survey, &FIGURES, &withheld);
         let figures = told.measures;
-        let standard_errors =
-            (figures != Measures::default()).then(|| standard_errors(fitted, survey));
-        let no_standard_errors = match &standard_errors {
-            Some(errors) => errors.as_ref().err().map(NoInterval::to_string),
-            None => Some("there are no figures for them".into()),
-        };
-        let is_noise = !matches!(standard_errors, Some(Err(NoInterval::Unresolved { .. })));
+        let errors = (figures.may_have_errors()).then(|| fitted.standard_errors(survey));
+        let (standard_errors, no_standard_errors) = recorded(errors);
+        let is_noise = !matches!(errors, Some(Err(NoInterval::Unresolved { .. })));
         let evaluation = EvaluationRecord::new(&fitted.grain);
         let reference = fitted.grain.unseen().is_none().then_some(fitted.reference);
         let beside = |found: Option<f64>, of: fn(&Reference) -> f64| {
@@ -237,8 +212,8 @@ impl FitReport {
             principal: figures.principal,
             dimensions: figures.dimensions,
             not_measured: told.not_measured,
+            standard_errors,
             no_standard_errors,
-            standard_errors: standard_errors.and_then(Result::ok).map(Into::into),
             coefficients_touched: evaluation.touched,
             area_error: beside(survey.area().ok(), |reference| reference.area),
             volume_error: beside(survey.volume().ok(), |reference| reference.volume),
@@ -268,28 +243,6 @@ impl FitReport {
                 segments: search.work.segments_skipped,
             },
             warnings: sentences(scan_warnings, &fitted.warnings, unit),
-        }
-    }
-}
-
-fn standard_errors(fitted: &Fitted, survey: &Survey) -> Result<StandardErrors, NoInterval> {
-    let figures = (survey.properties(), survey.dimensions(), survey.principal());
-    match figures {
-        (Ok(properties), Ok(dimensions), Ok(_)) => fitted.standard_errors(&properties, &dimensions),
-        _ => Err(NoInterval::OutOfRange),
-    }
-}
-
-impl From<StandardErrors> for StandardErrorsRecord {
-    fn from(errors: StandardErrors) -> Self {
-        Self {
-            area: errors.area,
-            volume: errors.volume,
-            moments: errors.moments.into(),
-            dimensions: Dimensions::new(errors.dimensions),
-            dimensions_excess: Dimensions::new(errors.dimensions_excess),
-            centroid: errors.centroid.into(),
-            inertia: rows(&errors.inertia),
         }
     }
 }

@@ -15,6 +15,7 @@ pub use records::{
 };
 pub(crate) use withheld::{Withheld, by_reason};
 
+use super::standard_errors::{StandardErrorsRecord, recorded};
 use super::unit::{Labels, Unit};
 use crate::fit::{ReferenceKind, ScannedSurface};
 use crate::measure::{
@@ -70,6 +71,10 @@ pub struct MeasureReport {
     nulls: BTreeMap<&'static str, ()>,
     /// Measures that were asked for and cannot be had.
     pub not_measured: Vec<NotMeasured>,
+    /// Standard errors of the figures that have such; `null` where none can be trusted or none is known.
+    pub standard_errors: Option<StandardErrorsRecord>,
+    /// Why there are none: half a sentence.
+    pub no_standard_errors: Option<String>,
     /// What is odd about the input: whole sentences.
     pub warnings: Vec<String>,
 }
@@ -246,6 +251,8 @@ impl MeasureReport {
         {
             not_measured.push(NotMeasured::new("spheres.inscribed", &error));
         }
+        let errors = measures.may_have_errors().then(|| survey.standard_errors());
+        let (standard_errors, no_standard_errors) = recorded(errors);
         Self {
             input,
             unit: None,
@@ -254,6 +261,8 @@ impl MeasureReport {
             faces: None,
             nulls,
             not_measured,
+            standard_errors,
+            no_standard_errors,
             warnings,
         }
     }
@@ -286,6 +295,13 @@ impl NotMeasured {
 }
 
 impl Measures {
+    /// Whether figures are among them that have standard errors, where these are known.
+    pub(super) fn may_have_errors(&self) -> bool {
+        let sums = self.area.is_some() || self.volume.is_some() || self.centroid.is_some();
+        let moments = self.inertia.is_some() || self.principal.is_some();
+        sums || moments || self.dimensions.is_some()
+    }
+
     fn take(&mut self, measure: Measure, survey: &Survey<'_>) -> Result<(), SurveyError> {
         match measure {
             Measure::Area => {

@@ -35,24 +35,51 @@ impl fmt::Display for MeasureReport {
         for (names, reason) in by_reason(&self.not_measured) {
             writeln!(f, "{names:<13} not measured: {reason}")?;
         }
+        self.errors(f)?;
         write!(f, "Lengths are in {}, the density is 1.", labels.name())
     }
 }
 
 impl MeasureReport {
+    /// What stands after ±, or why nothing does.
+    fn errors(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let measures = &self.measures;
+        if !measures.may_have_errors() {
+            return Ok(());
+        }
+        if measures.area_error.or(measures.volume_error).is_some() {
+            writeln!(
+                f,
+                "Figures after ± tell how well area and volume are integrated, not how well superquadrics suit the grain."
+            )?;
+        }
+        if let Some(reason) = &self.no_standard_errors {
+            return writeln!(f, "No standard errors: {reason}.");
+        }
+        writeln!(f, "Figures after ± are standard errors.")?;
+        if measures.centroid.is_some() || measures.inertia.is_some() {
+            writeln!(
+                f,
+                "Those of centroid and inertia, along the grain's own axes, are told with --json."
+            )?;
+        }
+        Ok(())
+    }
+
     fn mass(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let labels = Labels(self.unit);
         let measures = &self.measures;
-        let told = |value: f64, share: Option<f64>| match share {
-            Some(share) => with_error(value, Some(value * share)),
-            None => short(value),
-        };
+        let errors = self.standard_errors.as_ref();
         if let Some(area) = measures.area {
-            let area = told(area, measures.area_error);
+            let of_integration = measures.area_error.map(|share| area * share);
+            let error = errors.map(|errors| errors.area).or(of_integration);
+            let area = with_error(area, error);
             writeln!(f, "area          {area}{}", labels.area())?;
         }
         if let Some(volume) = measures.volume {
-            let volume = told(volume, measures.volume_error);
+            let of_integration = measures.volume_error.map(|share| volume * share);
+            let error = errors.map(|errors| errors.volume).or(of_integration);
+            let volume = with_error(volume, error);
             writeln!(f, "volume        {volume}{}", labels.volume())?;
         }
         if let Some(centroid) = measures.centroid {
@@ -70,7 +97,7 @@ impl MeasureReport {
                 writeln!(
                     f,
                     "{name:<13} {}{}  along  {}",
-                    short(moment),
+                    with_error(moment, errors.map(|errors| errors.moments[i])),
                     labels.moment(),
                     triple(axis)
                 )?;
@@ -83,16 +110,17 @@ impl MeasureReport {
         let labels = Labels(self.unit);
         let mm = labels.length();
         let measures = &self.measures;
-        if let Some(Dimensions {
-            length,
-            width,
-            thickness,
-        }) = measures.dimensions
-        {
-            let [length, width, thickness] = [length, width, thickness].map(short);
+        if let Some(dimensions) = measures.dimensions {
+            let errors = self.standard_errors.as_ref();
+            let told = |of: fn(&Dimensions) -> f64| {
+                with_error(of(&dimensions), errors.map(|errors| of(&errors.dimensions)))
+            };
             writeln!(
                 f,
-                "dimensions    length {length}{mm}, width {width}{mm}, thickness {thickness}{mm}"
+                "dimensions    length {}{mm}, width {}{mm}, thickness {}{mm}",
+                told(|dimensions| dimensions.length),
+                told(|dimensions| dimensions.width),
+                told(|dimensions| dimensions.thickness)
             )?;
         }
         if let Some(BoxRecord {

@@ -1,10 +1,12 @@
 //! Blended grains as JSON.
 
 use super::grains::{all, blended, blended_within, plain, ragged, segmented, turned, whole};
-use grainform::model::{ModelError, Stretch, grain_from_json, grain_to_json};
+use grainform::model::{
+    ModelError, NoInterval, StandardErrors, Stretch, grain_from_json, grain_to_json,
+};
 use grainform::sphere::CubeCell;
 use grainform::{StarGrain, StarSurface, Surface};
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 use serde_json::{Value, json};
 
 fn to_json(grain: &StarGrain) -> String {
@@ -36,7 +38,7 @@ fn grains_of_all_kinds_are_the_same_to_the_last_bit_once_saved() {
     }
     for grain in grains {
         let text = to_json(&grain);
-        assert!(text.contains("\"version\": 5"));
+        assert!(text.contains("\"version\": 6"));
         let loaded = from_json(&text).expect("a model");
         assert_eq!(loaded.frame(), grain.frame());
         assert_eq!(loaded.stretch(), grain.stretch());
@@ -65,7 +67,7 @@ fn a_file_of_the_first_version_is_still_read() {
     let n = Vector3::new(0.0, 0.6, 0.8);
     assert!((grain.radius(&n) - 5.0).abs() < 1e-15);
     let again = to_json(&grain);
-    assert!(again.contains("\"version\": 5"));
+    assert!(again.contains("\"version\": 6"));
     assert_eq!(
         from_json(&again).expect("a model").coefficients(),
         grain.coefficients()
@@ -223,7 +225,7 @@ fn a_file_with_both_kinds_of_surface_or_none_is_refused() {
 #[test]
 fn other_versions_and_unknown_fields_are_refused() {
     let grain = blended(CubeCell::uniform(1), plain());
-    for version in [0, 6, 99] {
+    for version in [0, 7, 99] {
         let found = spoilt(&grain, |value| value["version"] = json!(version));
         assert!(
             matches!(found, Err(ModelError::Version { .. })),
@@ -253,4 +255,87 @@ fn margins_are_kept_checked_and_left_out_where_they_are_the_usual() {
     assert!(matches!(found, Err(ModelError::Form(_))), "{found:?}");
     let found = spoilt(&segmented(2, plain()), |value| value["margin"] = json!(0.4));
     assert!(matches!(found, Err(ModelError::Surface)), "{found:?}");
+}
+
+#[test]
+fn standard_errors_are_kept_to_the_last_bit_or_why_there_are_none() {
+    let known = StandardErrors {
+        area: 0.1 + 0.2,
+        volume: 1.0 / 3.0,
+        centroid: Vector3::new(0.1, 0.2, 0.3),
+        inertia: Matrix3::from_fn(|i, j| 0.1 * (i + 4 * j) as f64),
+        moments: Vector3::new(4.0, 5.0, 6.0),
+        dimensions: Vector3::new(7.0, 8.0, 9.0),
+        dimensions_excess: Vector3::new(0.7, 0.8, 0.0),
+    };
+    let grain = || grain_from_json(&to_json(&whole(2, turned()))).expect("a model");
+    let half_angle = 0.1 + 0.2;
+    for found in [
+        Ok(known),
+        Err(NoInterval::Neck),
+        Err(NoInterval::NotEstimated),
+        Err(NoInterval::Hole { half_angle }),
+        Err(NoInterval::NotTold),
+    ] {
+        let text = grain_to_json(&grain().with_standard_errors(found));
+        let loaded = grain_from_json(&text).expect("a model");
+        assert_eq!(loaded.standard_errors(), found);
+        assert_eq!(grain_to_json(&loaded), text);
+    }
+    assert_eq!(grain().standard_errors(), Err(NoInterval::NotTold));
+    for area in [f64::NAN, f64::INFINITY, -1.0] {
+        let spoilt = grain().with_standard_errors(Ok(StandardErrors { area, ..known }));
+        assert_eq!(spoilt.standard_errors(), Err(NoInterval::NotFinite));
+    }
+}
+
+#[test]
+fn standard_errors_that_are_none_are_refused() {
+    let errors = json!({
+        "area": 1.0, "volume": 1.0, "centroid": [1.0, 1.0, 1.0],
+        "inertia": [[1.0, 1.0, 1.0], [1.0, 1.0, 1.0], [1.0, 1.0, 1.0]],
+        "moments": [1.0, 1.0, 1.0], "dimensions": [1.0, 1.0, 1.0],
+        "dimensions_excess": [0.0, 0.0, 0.0],
+    });
+    let told = |errors: Value, why: Value| {
+        spoilt(&whole(2, plain()), |file| {
+            file["standard_errors"] = errors.clone();
+            file["no_standard_errors"] = why.clone();
+        })
+    };
+    assert!(told(errors.clone(), Value::Null).is_ok());
+    assert!(told(Value::Null, json!("neck")).is_ok());
+    let spoil = |at: &str, number: Value| {
+        let mut errors = errors.clone();
+        *errors.pointer_mut(at).expect("a number") = number;
+        told(errors, Value::Null)
+    };
+    for found in [
+        told(errors.clone(), json!("neck")),
+        told(Value::Null, json!({"hole": {"half_angle": 4.0}})),
+        told(Value::Null, json!({"unresolved": {"kurtosis": -1.0}})),
+        spoil("/area", json!(-1.0)),
+        spoil("/volume", json!(-1.0)),
+        spoil("/centroid/2", json!(-1.0)),
+        spoil("/inertia/1/2", json!(-1.0)),
+        spoil("/moments/0", json!(-1.0)),
+        spoil("/dimensions/1", json!(-1e-300)),
+        spoil("/dimensions_excess/1", json!(-1.0)),
+    ] {
+        assert!(
+            matches!(found, Err(ModelError::StandardErrors)),
+            "{found:?}"
+        );
+    }
+    for found in [
+        told(json!({}), Value::Null),
+        told(json!(1.0), Value::Null),
+        told(Value::Null, json!("not_told")),
+        told(Value::Null, json!("bad weather")),
+        spoil("/area", Value::Null),
+        spoil("/moments", json!([1.0, 1.0])),
+        spoil("/inertia", json!([1.0])),
+    ] {
+        assert!(matches!(found, Err(ModelError::Form(_))), "{found:?}");
+    }
 }
