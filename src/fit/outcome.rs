@@ -340,4 +340,17 @@ mod tests {
         fitted.reference.kind = ReferenceKind::Directions;
         assert_eq!(fitted.smoothed_over(&told), [0.0; 2]);
     }
+
+    #[test]
+    fn errors_hold_what_a_smooth_body_bulges_beyond_large_faces() {
+        let mesh = Mesh::radial(12, |n| 1.0 + 0.2 * n.z);
+        let mut fitted = fit(&Scan::from_mesh(mesh).unwrap(), &FitOptions::default()).unwrap();
+        let told = fitted.survey().properties().unwrap();
+        fitted.reference.volume = told.volume;
+        assert_eq!(fitted.beside_faces(&told), 0.0);
+        fitted.reference.bulge = 0.06 * told.volume;
+        // The true volume is anywhere between, and lengths go with its third root.
+        let expected = 0.02 / 3.0_f64.sqrt();
+        assert_relative_eq!(fitted.beside_faces(&told), expected, max_relative = 1e-12);
+    }
 }

@@ -265,8 +265,10 @@ impl ExtremePoints {
         self.points.dedup();
     }
 
-    /// The least box with one axis in this direction, which is a unit vector.
+    /// The least box with one axis in this direction. Axes of boxes are given again and again: what they lack of unit length
+    /// would add up, for a box along shorter ones seems smaller.
     fn least_box(&self, direction: &Vector3<f64>) -> Option<Candidate> {
+        let direction = direction.normalize();
         let u = direction
             .cross(&Vector3::ith(direction.iamin(), 1.0))
             .normalize();
@@ -282,7 +284,7 @@ impl ExtremePoints {
         let side = u * rectangle.axis.x + v * rectangle.axis.y;
         Some(Candidate {
             volume: (high - low) * rectangle.area,
-            axes: Matrix3::from_columns(&[side, direction.cross(&side), *direction]),
+            axes: Matrix3::from_columns(&[side, direction.cross(&side), direction]),
         })
     }
 

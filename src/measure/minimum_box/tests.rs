@@ -27,6 +27,23 @@ fn assert_holds(found: &OrientedBox, hull: &Mesh) {
     }
 }
 
+/// Of this cuboid a search that goes on from its own axes made them shorter by 3e-13.
+#[test]
+fn axes_keep_their_length() {
+    let [x, y, z] = [1.0021161929016356, 0.5475422343506823, 1.3864477429514295];
+    let corners: Vec<_> = (0..8)
+        .map(|i| [i & 1, i >> 1 & 1, i >> 2].map(f64::from))
+        .map(|c| [c[0] * x, c[1] * y, c[2] * z])
+        .collect();
+    let angles = [
+        -0.22966835761953744,
+        0.01898615905840388,
+        -0.5402010273548933,
+    ];
+    let axes = minimum_box(&hull(&corners, angles)).unwrap().axes;
+    assert_relative_eq!(axes.tr_mul(&axes), Matrix3::identity(), epsilon = 1e-14);
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(24))]
     #[test]
