@@ -30,6 +30,7 @@ pub(crate) fn box_along(points: &[Point3<f64>], axes: &Matrix3<f64>) -> Oriented
 }
 
 /// Length, width and thickness, and their axes.
+#[derive(Clone)]
 pub(super) struct Extents {
     pub(super) dimensions: Vector3<f64>,
     /// In the columns.
@@ -50,7 +51,7 @@ impl Extents {
 
 /// A surface with places all over it.
 pub(super) struct Reach<'a> {
-    pub(super) surface: &'a (dyn Surface + Sync),
+    pub(super) surface: &'a dyn Surface,
     /// Its mesh of the resolution [`RESOLUTION`], seen from its centre.
     pub(super) mesh: &'a Mesh,
 }

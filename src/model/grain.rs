@@ -63,7 +63,7 @@ impl Grain {
         &self.kind
     }
 
-    fn surface(&self) -> &(dyn Surface + Sync) {
+    fn surface(&self) -> &dyn Surface {
         match &self.kind {
             Kind::Star(grain) => grain,
             Kind::Position(grain) => grain,

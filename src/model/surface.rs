@@ -16,8 +16,8 @@ pub type Node = (Vector3<f64>, f64);
 /// axes of the scan; places are seen from the [centre](Frame::centre) of the surface, so that they keep their
 /// digits far from the scan's origin.
 ///
-/// On an edge derivatives are those of one of its sides.
-pub trait Surface {
+/// On an edge derivatives are those of one of its sides. Threads share a surface.
+pub trait Surface: Sync {
     /// Where the surface lies. Grids of directions are laid along its axes.
     fn frame(&self) -> Frame {
         Frame::SCAN
