@@ -4,7 +4,8 @@ use super::{Surface, SurfaceJet};
 use crate::sphere::Jet;
 use nalgebra::{Matrix3, Vector3};
 
-/// A closed surface that every ray from the origin meets once: r = r(n), n a unit vector.
+/// A closed surface that every ray from the origin meets once: r = r(n), n a unit vector; of a
+/// [`StarGrain`](super::StarGrain) a vector of any length but zero.
 ///
 /// Everything is said in terms of the direction `n`, never of angles, so nothing is singular at the
 /// poles. With the surface gradient g (the tangential derivative of r on the unit sphere, a vector

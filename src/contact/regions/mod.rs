@@ -147,6 +147,9 @@ pub enum RegionError {
 /// Volumes shared by smooth bodies are known to 1e-6 of themselves or closer where they are lenses, less well of cells
 /// that meet there and of deep overlaps, as the error of each tells. A depth below 1e-7 of the bodies' size may pass unseen.
 ///
+/// Takes 4 to 20 ms of bodies that touch, and the longer the deeper they lie in each other: .05 to .12 s of smooth ones where
+/// they share a tenth and more, up to 1 s of rough ones. Moving bodies are followed faster by a [`ContactPair`].
+///
 /// # Errors
 ///
 /// [`RegionError`]

@@ -177,8 +177,7 @@ impl<'a> ContactPair<'a> {
     fn follow(&mut self) -> Option<()> {
         let (from, reach) = self.searched?;
         let motion = self.bodies[1].motion(&from, &self.pose);
-        // Written so that what is not a number is searched.
-        if !(motion < reach) {
+        if motion.is_nan() || motion >= reach {
             return None;
         }
         let common = Common::new(self.bodies, &self.pose);

@@ -16,7 +16,7 @@ use super::{
     Sphericity, project,
 };
 use crate::Mesh;
-use crate::model::{Grain, Radial, StarSurface};
+use crate::model::{Grain, Radial, StarSurface, Whole};
 use body::{Body, Inside};
 pub use error::SurveyError;
 use nalgebra::{Matrix3, Vector3};
@@ -344,8 +344,11 @@ impl<'a> Survey<'a> {
     ///
     /// # Errors
     ///
-    /// As [`Self::spectrum`].
+    /// As [`Self::spectrum`], and [`SurveyError::Degree`] above [`Whole::MAX_DEGREE`].
     pub fn expansion(&self, degree: usize) -> Result<RadialExpansion, SurveyError> {
+        if degree > Whole::MAX_DEGREE {
+            return Err(SurveyError::Degree { found: degree });
+        }
         let found = RadialExpansion::new(self.star_shaped()?, degree);
         Ok(self.unit.expansion(found))
     }
