@@ -37,6 +37,12 @@ pub enum MeshDefect {
         /// Index of the triangle.
         triangle: usize,
     },
+    /// A coordinate is NaN or infinite.
+    #[error("a coordinate of vertex {vertex} is not finite")]
+    NotFinite {
+        /// Index of the vertex.
+        vertex: usize,
+    },
     /// An edge is walked twice in the same direction: not manifold, or wound inconsistently.
     #[error("edge {from}-{to} is used twice in the same direction")]
     EdgeUsedTwice {
@@ -64,7 +70,7 @@ pub enum MeshDefect {
 impl Mesh {
     /// A closed mesh of a star-shaped surface about the origin, given by its radius in the direction of a
     /// unit vector: the directions of a cube with `resolution` cells per edge, 6 N² + 2 vertices and
-    /// 12 N² triangles ([`cube_grid`]).
+    /// 12 N² triangles ([`cube_grid`], which tells the range of N).
     pub fn radial(resolution: usize, radius: impl Fn(&Vector3<f64>) -> f64) -> Self {
         let (directions, triangles) = cube_grid(resolution);
         let vertices = directions.iter().map(|n| Point3::from(n * radius(n)));
@@ -88,11 +94,15 @@ impl Mesh {
     }
 
     /// Checks that the mesh is one closed, consistently oriented, manifold surface of the topology
-    /// of a sphere, with every vertex in use.
+    /// of a sphere, with every vertex in use and finite.
     ///
     /// # Errors
     /// The first [`MeshDefect`] met.
     pub fn check_closed(&self) -> Result<(), MeshDefect> {
+        let is_nowhere = |vertex: &Point3<f64>| !vertex.iter().all(|x| x.is_finite());
+        if let Some(vertex) = self.vertices.iter().position(is_nowhere) {
+            return Err(MeshDefect::NotFinite { vertex });
+        }
         let mut directed = HashMap::with_capacity(3 * self.triangles.len());
         for (triangle, corners) in self.triangles.iter().enumerate() {
             if corners.iter().any(|&c| c as usize >= self.vertices.len()) {

@@ -11,7 +11,7 @@ use std::error::Error;
 
 /// A body and its figures.
 pub(crate) struct Truth {
-    surface: Box<dyn StarSurface + Sync>,
+    surface: Box<dyn StarSurface>,
     pub(crate) mean_radius: f64,
     pub(crate) figures: Figures,
 }

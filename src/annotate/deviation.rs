@@ -40,7 +40,7 @@ pub struct ScanDeviation {
 impl ScanDeviation {
     /// Of the points of a scan, and of points all over its faces where these are large. Of more than 100 000 points
     /// every second, every third ... is taken.
-    pub fn new(grain: &(impl Surface + Sync + ?Sized), scan: &Scan) -> Self {
+    pub fn new(grain: &(impl Surface + ?Sized), scan: &Scan) -> Self {
         let (size, centre) = (size(scan.points()), grain.frame().centre);
         let all = scan.points().len() + scan.triangles().len();
         let stride = all.div_ceil(MOST_POINTS).max(1);

@@ -123,6 +123,17 @@ pub enum BedError {
     /// No shapes, or none that has a share.
     #[error("a bed needs a grain whose share is above zero")]
     NoKinds,
+    /// Shapes without a share, or shares without a shape.
+    #[error("a bed takes one share per shape, and there are {shares} for {kinds}")]
+    Shares {
+        /// Shapes given.
+        kinds: usize,
+        /// Shares given.
+        shares: usize,
+    },
+    /// Grains of another bed.
+    #[error("the grains that were moved are not those of the bed")]
+    OtherGrains,
     /// A grain.
     #[error(transparent)]
     Grain(#[from] GrainError),

@@ -101,10 +101,17 @@ impl Bed {
         Self::with_state(settings, kinds, walls, state)
     }
 
-    /// The bed with its grains where another engine left them.
-    pub fn moved(mut self, bodies: Vec<Body>) -> Self {
+    /// The bed with its grains, in their order, where another engine left them.
+    ///
+    /// # Errors
+    /// [`BedError::OtherGrains`] unless they are as many and each of its kind.
+    pub fn moved(mut self, bodies: Vec<Body>) -> Result<Self, BedError> {
+        let own = self.state.bodies.iter().map(|body| body.kind);
+        if !own.eq(bodies.iter().map(|body| body.kind)) {
+            return Err(BedError::OtherGrains);
+        }
         self.state.bodies = bodies;
-        self
+        Ok(self)
     }
 
     /// A bed that goes on from a state.

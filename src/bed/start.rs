@@ -24,6 +24,12 @@ pub(super) fn loose_column(
     shares: &[f64],
     floor: f64,
 ) -> Result<Vec<Body>, BedError> {
+    if kinds.len() != shares.len() {
+        return Err(BedError::Shares {
+            kinds: kinds.len(),
+            shares: shares.len(),
+        });
+    }
     let mut random = ChaCha8Rng::seed_from_u64(settings.seed);
     let order = in_any_order(counts(settings.grains, shares)?, &mut random);
     let reach = kinds.iter().map(|kind| kind.reach).fold(0.0, f64::max);

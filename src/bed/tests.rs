@@ -346,3 +346,23 @@ fn the_packing_fraction_of_a_lattice_is_known() {
         );
     }
 }
+
+#[test]
+fn shares_and_moved_grains_that_are_not_those_of_the_bed_are_refused() {
+    let bed = few_at(0, 1);
+    let found = Bed::new(bed.settings().clone(), vec![ball()], &[1.0, 1.0], None);
+    let expected = BedError::Shares {
+        kinds: 1,
+        shares: 2,
+    };
+    assert_eq!(found.unwrap_err(), expected);
+    let mut bodies = bed.bodies().to_vec();
+    bodies[0].position.z += 1.0;
+    let moved = bed.clone().moved(bodies.clone()).unwrap();
+    assert_eq!(moved.bodies(), bodies);
+    bodies[0].kind = 99;
+    let refused = bed.clone().moved(bodies.clone()).unwrap_err();
+    assert_eq!(refused, BedError::OtherGrains);
+    bodies.remove(0);
+    assert_eq!(bed.moved(bodies).unwrap_err(), BedError::OtherGrains);
+}

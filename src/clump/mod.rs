@@ -27,7 +27,7 @@ const MOST_EXCESS: f64 = 0.01;
 /// What ends the search.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ClumpTarget {
-    /// A number of spheres. Fewer are taken where more bring nothing: a ball takes one.
+    /// A number of spheres. Fewer are taken where some lie in others, or no more come nearer to the surface.
     Spheres(usize),
     /// The fewest spheres found whose [`Clump::rms`] is at most this share of the [`Clump::equivalent_radius`].
     Error(f64),

@@ -3,11 +3,17 @@
 use crate::measure::Ball;
 use rayon::prelude::*;
 
-/// The volume of a union of balls, by rows: each row along z of a grid of `rows` x `rows` is cut exactly, and what
-/// several balls hold counts once.
+/// The volume of a union of balls, by rows: each row along z of a grid of `rows` x `rows`, one at least, is cut exactly, and what
+/// several balls hold counts once. Zero of no balls; those of no radius, or one below zero, hold nothing.
 ///
 /// Error, relative to the volume: that of a sum over the rims of the balls, below 1e-4 from 300 rows on.
 pub fn union_volume(balls: &[Ball], rows: usize) -> f64 {
+    let balls = balls.iter().filter(|ball| ball.radius > 0.0);
+    let balls: Vec<&Ball> = balls.collect();
+    if balls.is_empty() {
+        return 0.0;
+    }
+    let rows = rows.max(1);
     let grid = |axis: usize| {
         let low = balls.iter().map(|ball| ball.centre[axis] - ball.radius);
         let high = balls.iter().map(|ball| ball.centre[axis] + ball.radius);
@@ -91,5 +97,15 @@ mod tests {
         .map(|(centre, radius)| Ball { centre, radius });
         assert_relative_eq!(union_volume(&balls, 300), expected, max_relative = 1e-4);
         assert_relative_eq!(union_volume(&balls, 1200), expected, max_relative = 1.5e-5);
+        let hollow = Ball {
+            centre: Point3::new(50.0, 0.0, 0.0),
+            radius: -2.0,
+        };
+        let with_hollow = [balls[0], balls[1], balls[2], hollow];
+        assert_eq!(union_volume(&with_hollow, 300), union_volume(&balls, 300));
+        assert_eq!(
+            [union_volume(&[hollow], 300), union_volume(&[], 300)],
+            [0.0; 2]
+        );
     }
 }

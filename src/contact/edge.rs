@@ -31,7 +31,13 @@ pub enum EdgeError {
         /// The radius given.
         radius: f64,
     },
-    /// The normals are not unit vectors, or point in opposite directions: a blade.
+    /// A normal is no unit vector.
+    #[error("the normal of a side has the length {length}, not 1")]
+    NotUnit {
+        /// Its length.
+        length: f64,
+    },
+    /// The normals point in opposite directions: a blade.
     #[error("the sides of the edge meet at an angle of {turn_rad} between their normals")]
     Blade {
         /// Angle between the normals.
@@ -41,6 +47,9 @@ pub enum EdgeError {
 
 /// Largest angle between the normals of two sides.
 const LARGEST_TURN: f64 = 0.999 * PI;
+
+/// How far the length of a normal may be from one.
+const UNIT_TOLERANCE: f64 = 1e-6;
 
 impl TangentCap {
     /// The cap of this radius on the edge between two sides with these outward unit normals.
@@ -53,9 +62,15 @@ impl TangentCap {
         if !(radius > 0.0 && radius < f64::INFINITY) {
             return Err(EdgeError::Radius { radius });
         }
+        for length in normals.map(Vector3::norm) {
+            let off = (length - 1.0).abs();
+            if off.is_nan() || off > UNIT_TOLERANCE {
+                return Err(EdgeError::NotUnit { length });
+            }
+        }
         let [one, other] = normals;
         let turn_rad = 2.0 * (one - other).norm().atan2((one + other).norm());
-        if turn_rad.is_nan() || turn_rad >= LARGEST_TURN {
+        if turn_rad >= LARGEST_TURN {
             return Err(EdgeError::Blade { turn_rad });
         }
         let half = 0.5 * turn_rad;
@@ -79,6 +94,14 @@ mod tests {
     use super::*;
     use approx::assert_relative_eq;
     use proptest::prelude::*;
+
+    #[test]
+    fn normals_that_are_no_unit_vectors_are_refused() {
+        for normal in [0.0, 2.0, f64::NAN].map(|length| Vector3::x() * length) {
+            let refused = TangentCap::new([&Vector3::y(), &normal], 0.5);
+            assert!(matches!(refused, Err(EdgeError::NotUnit { .. })));
+        }
+    }
 
     #[test]
     fn a_right_angle_is_rounded_as_one_does_with_compasses() {

@@ -150,7 +150,7 @@ impl RelativeCurvature {
     ///
     /// [`ContactError::Flat`] if not.
     pub fn reach(&self, indentation: f64, body: f64) -> Result<f64, ContactError> {
-        let reach = (indentation.max(0.0) / self.smaller).sqrt();
+        let reach = (pressed(indentation) / self.smaller).sqrt();
         match reach < body {
             true => Ok(reach),
             false => Err(ContactError::Flat { reach, body }),
@@ -175,7 +175,7 @@ impl RelativeCurvature {
     /// units of any length R (all three in the same unit). Of a negative indentation, zero.
     pub fn force_factor(&self, by: Correction, indentation: f64, unit: f64) -> f64 {
         let rho = self.effective_radius() / unit;
-        4.0 / 3.0 * self.correction(by) * rho.sqrt() * (indentation.max(0.0) / unit).powf(1.5)
+        4.0 / 3.0 * self.correction(by) * rho.sqrt() * (pressed(indentation) / unit).powf(1.5)
     }
 
     /// The normal force in newtons that this indentation takes, of surfaces whose lengths are in units
@@ -198,8 +198,16 @@ impl RelativeCurvature {
         effective_modulus_pa: f64,
     ) -> f64 {
         let radius_m = self.effective_radius() * metres_per_unit;
-        let root = (radius_m * indentation_m.max(0.0)).sqrt();
+        let root = (radius_m * pressed(indentation_m)).sqrt();
         2.0 * self.correction(Correction::Elliptic) * effective_modulus_pa * root
+    }
+}
+
+/// The indentation of bodies that touch: zero of those that are apart. NaN stays what it is.
+fn pressed(indentation: f64) -> f64 {
+    match indentation < 0.0 {
+        true => 0.0,
+        false => indentation,
     }
 }
 
@@ -327,6 +335,13 @@ mod tests {
         let pair = RelativeCurvature::new([0.5; 2], [0.25; 2], 1.0).unwrap();
         assert_relative_eq!(pair.effective_radius(), 4.0 / 3.0, max_relative = 1e-15);
         assert_relative_eq!(pair.correction(Correction::Elliptic), 1.0);
+        for law in [
+            RelativeCurvature::normal_force_n,
+            RelativeCurvature::normal_stiffness_n_per_m,
+        ] {
+            assert_eq!(law(&pair, 1e-3, -1e-5, 1e8), 0.0);
+            assert!(law(&pair, 1e-3, f64::NAN, 1e8).is_nan());
+        }
         // F = 4/3 E* sqrt(R) u^1.5, in millimetres and megapascals.
         let force = pair.normal_force_n(1e-3, 1e-5, 1e8);
         let expected = 4.0 / 3.0 * 1e8 * (4e-3 / 3.0_f64).sqrt() * 1e-5_f64.powf(1.5);

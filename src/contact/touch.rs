@@ -2,9 +2,9 @@
 
 use super::{EdgeError, TangentCap};
 use crate::Mesh;
-use crate::measure::{Curvature, Support, crossings, support};
+use crate::measure::{Curvature, Support, sound_crossings, support};
 use crate::model::Surface;
-use crate::sphere::{cube_grid, tangents};
+use crate::sphere::{cube_grid, tangents, unit};
 use nalgebra::Vector3;
 use std::f64::consts::TAU;
 use thiserror::Error;
@@ -53,6 +53,12 @@ pub enum TouchError {
     /// More than two sides meet: no cap is tangent to all of them.
     #[error("the surface has a corner there, which has no curvature")]
     Corner,
+    /// A direction has a length, and is finite.
+    #[error("there is no direction along ({}, {}, {})", towards[0], towards[1], towards[2])]
+    Direction {
+        /// The vector given.
+        towards: [f64; 3],
+    },
     /// The surface is not that of a body.
     #[error(
         "the surface goes through itself near ({:.4}, {:.4}, {:.4})",
@@ -67,8 +73,8 @@ pub enum TouchError {
     Cap(#[from] EdgeError),
 }
 
-/// Where a surface touches a plane whose normal, pointing away from the surface, is the unit vector
-/// `towards`. Of a surface that may cross itself a mesh is looked at first. An edge there, as expansions of an octant have where they meet their images, is rounded by
+/// Where a surface touches a plane whose normal, pointing away from the surface, is along
+/// `towards`, of any length but zero. Of a surface that may cross itself a mesh is looked at first. An edge there, as expansions of an octant have where they meet their images, is rounded by
 /// a cap of the given radius.
 ///
 /// # Errors
@@ -79,6 +85,12 @@ pub fn touch(
     towards: &Vector3<f64>,
     edge_radius: Option<f64>,
 ) -> Result<Touch, TouchError> {
+    let along = unit(towards);
+    if !along.iter().all(|x| x.is_finite()) {
+        let towards = (*towards).into();
+        return Err(TouchError::Direction { towards });
+    }
+    let towards = &along;
     if surface.may_cross() {
         refuse_crossings(&surface.mesh(CROSSING))?;
     }
@@ -109,7 +121,7 @@ pub fn reach(surface: &(impl Surface + ?Sized)) -> f64 {
 
 /// Refuses a mesh that goes through itself.
 fn refuse_crossings(mesh: &Mesh) -> Result<(), TouchError> {
-    match crossings(mesh).first() {
+    match sound_crossings(mesh).first() {
         None => Ok(()),
         Some([one, _]) => {
             let [corner, ..] = mesh.triangles[*one];
@@ -191,6 +203,15 @@ mod tests {
         let side = touch(&Radial(&ellipsoid), &Vector3::x(), None).unwrap();
         assert_relative_eq!(side.principal[0], 2.0, max_relative = 1e-12);
         assert_relative_eq!(side.principal[1], 0.5, max_relative = 1e-12);
+        let long = touch(&Radial(&ellipsoid), &(Vector3::x() * 1e200), None);
+        assert_eq!(long, Ok(side));
+        for none in [0.0, f64::NAN, f64::INFINITY] {
+            let refused = touch(&Radial(&ellipsoid), &Vector3::new(0.0, none, 0.0), None);
+            assert!(
+                matches!(refused, Err(TouchError::Direction { .. })),
+                "{none}"
+            );
+        }
         let top = touch(&Radial(&ellipsoid), &Vector3::z(), None).unwrap();
         assert_relative_eq!(top.principal[0], 0.25, max_relative = 1e-12);
         assert!(top.cap.is_none());

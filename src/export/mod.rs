@@ -32,7 +32,9 @@ pub use format::MeshFormat;
 pub use grain::save_grain;
 pub use mesh::{write_obj, write_ply, write_stl};
 pub use points::{write_points_ply, write_points_xyz};
-pub use temporary::{remove_temporaries, sweep};
+#[cfg(feature = "cli")]
+pub(crate) use temporary::remove_temporaries;
+pub use temporary::sweep;
 
 /// Saves a mesh in the format that the path's extension names: `stl`, `ply`, `obj`, `vtp` or `glb`.
 ///

@@ -96,7 +96,8 @@ fn nameless(error: io::Error) -> io::Error {
 
 /// Removes all temporary files of this process, whose threads can then create no others and finish none: for a
 /// process that is about to end.
-pub fn remove_temporaries() {
+#[cfg(feature = "cli")]
+pub(crate) fn remove_temporaries() {
     let living = living();
     for path in living.iter() {
         let _ = std::fs::remove_file(path);

@@ -36,7 +36,8 @@ pub struct FitOptions {
     pub max_segments: Option<usize>,
     /// Error that is good enough.
     pub tolerance: Tolerance,
-    /// Tell figures of the whole surface where much of it was not seen, with the errors of a guess.
+    /// Tell figures of the whole surface where much of it was not seen, with the errors of a guess. The fit is the same:
+    /// what is told of it ([`FitReport`](crate::report::FitReport)) differs.
     pub extrapolate: bool,
     /// Fit every candidate, also those that cannot win any more. The choice is the same.
     pub exhaustive: bool,
@@ -188,6 +189,14 @@ impl FitOptions {
     /// The same with another [`tolerance`](Self::tolerance).
     pub fn with_tolerance(self, tolerance: Tolerance) -> Self {
         Self { tolerance, ..self }
+    }
+
+    /// The same, [telling guesses](Self::extrapolate) or not.
+    pub fn with_extrapolate(self, extrapolate: bool) -> Self {
+        Self {
+            extrapolate,
+            ..self
+        }
     }
 
     /// The same, fitting [every candidate](Self::exhaustive) or not.

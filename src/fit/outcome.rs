@@ -8,6 +8,7 @@ use super::samples::Samples;
 use super::warning::FitWarning;
 use crate::measure::{MassProperties, Scheme, Survey};
 use crate::model::{Grain, NoInterval, StandardErrors, StarGrain, Surface};
+use crate::sphere::unit;
 use nalgebra::Vector3;
 
 /// A fitted grain and what is known of it.
@@ -267,11 +268,13 @@ impl Fitted {
         grain.with_standard_errors(self.standard_errors(&self.survey()))
     }
 
-    /// Standard deviations of the radius in directions of the scan's frame (unit vectors), in the scan's unit: of the
-    /// surface, and of a new point of the same scan. `None` of fits to the points themselves.
+    /// Standard deviations of the radius in directions of the scan's frame (vectors of any length but zero), in the scan's
+    /// unit: of the surface, and of a new point of the same scan. `None` of fits to the points themselves.
+    ///
+    /// A call takes some 30 ms, of one direction as of a hundred, and 60 ms of ten thousand: ask for all at once.
     pub fn radius_errors(&self, directions: &[Vector3<f64>]) -> Option<Vec<RadiusError>> {
         let axes = self.grain.frame().axes;
-        let local: Vec<Vector3<f64>> = directions.iter().map(|n| axes.tr_mul(n)).collect();
+        let local: Vec<Vector3<f64>> = directions.iter().map(|n| axes.tr_mul(&unit(n))).collect();
         let (posterior, grain) = (self.posterior.as_ref()?, self.grain.star()?);
         Some(posterior.radius_errors(grain, &local))
     }

@@ -4,6 +4,7 @@ use crate::Mesh;
 use crate::mesh::{Bounds, BoundsTree};
 use crate::predicates::orient3d;
 use nalgebra::Point3;
+use thiserror::Error;
 
 /// The side of a plane on which a point lies, 1 or -1; 0 is no side.
 type Side = fn([Point3<f64>; 3], Point3<f64>) -> i8;
@@ -11,13 +12,37 @@ type Side = fn([Point3<f64>; 3], Point3<f64>) -> i8;
 /// The corners of a triangle.
 type Corners = [Point3<f64>; 3];
 
+/// A triangle names a vertex that does not exist.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+#[error("triangle {triangle} names a vertex that does not exist")]
+pub struct MissingVertex {
+    /// Position of the triangle in the mesh.
+    pub triangle: usize,
+}
+
 /// The pairs of triangles of a mesh, by their indices, that go through one another and share no vertex. An edge that goes
-/// exactly through another edge counts; so may what only touches. All triangles must name vertices that exist.
-pub fn crossings(mesh: &Mesh) -> Vec<[usize; 2]> {
+/// exactly through another edge counts; so may what only touches.
+///
+/// # Errors
+///
+/// [`MissingVertex`] if a triangle names a vertex that does not exist.
+pub fn crossings(mesh: &Mesh) -> Result<Vec<[usize; 2]>, MissingVertex> {
+    let is_broken = |corners: &[u32; 3]| {
+        let mut corners = corners.iter();
+        corners.any(|&corner| corner as usize >= mesh.vertices.len())
+    };
+    match mesh.triangles.iter().position(is_broken) {
+        Some(triangle) => Err(MissingVertex { triangle }),
+        None => Ok(sound_crossings(mesh)),
+    }
+}
+
+/// The same of a mesh whose vertices all exist.
+pub(crate) fn sound_crossings(mesh: &Mesh) -> Vec<[usize; 2]> {
     pairs(mesh, any_side, |_, _| false)
 }
 
-/// The same without what touches, and without edges that go exactly through an edge.
+/// The same without what touches, and without edges that go exactly through an edge; all vertices must exist.
 pub(super) fn clear_crossings(mesh: &Mesh) -> Vec<[usize; 2]> {
     pairs(mesh, clear_side, |_, _| false)
 }
@@ -129,9 +154,9 @@ mod tests {
 
     #[test]
     fn a_bent_tube_crosses_itself_where_its_ends_meet() {
-        assert!(crossings(&tube(5.0, 0.0)).is_empty());
+        assert!(crossings(&tube(5.0, 0.0)).unwrap().is_empty());
         let met = tube(7.5, 0.0);
-        let pairs = crossings(&met);
+        let pairs = crossings(&met).unwrap();
         assert!(!pairs.is_empty());
         for triangle in pairs.into_iter().flatten() {
             // Opposite of its middle, which lies along +x.
@@ -139,7 +164,7 @@ mod tests {
             assert!(corner.x < -0.5, "{corner}");
         }
         // A helix passes over itself.
-        assert!(crossings(&tube(7.5, 0.5)).is_empty());
+        assert!(crossings(&tube(7.5, 0.5)).unwrap().is_empty());
     }
 
     /// A large triangle in the plane z = 0 and a small one, whose lowest corner is at this height.
@@ -162,7 +187,7 @@ mod tests {
     fn a_triangle_that_pierces_another_crosses_it_whichever_is_first() {
         let mut mesh = two_triangles(-1.0);
         for _ in 0..2 {
-            assert_eq!(crossings(&mesh), [[0, 1]]);
+            assert_eq!(crossings(&mesh), Ok(vec![[0, 1]]));
             assert_eq!(clear_crossings(&mesh), [[0, 1]]);
             mesh.triangles.reverse();
         }
@@ -175,7 +200,17 @@ mod tests {
 
     #[test]
     fn what_does_not_cross_is_clean_and_nothing_crosses_nothing() {
-        assert!(crossings(&Mesh::radial(16, |n| 1.0 + 0.5 * n.x)).is_empty());
-        assert!(crossings(&Mesh::default()).is_empty());
+        assert_eq!(
+            crossings(&Mesh::radial(16, |n| 1.0 + 0.5 * n.x)),
+            Ok(vec![])
+        );
+        assert_eq!(crossings(&Mesh::default()), Ok(vec![]));
+    }
+
+    #[test]
+    fn a_vertex_that_does_not_exist_is_named_by_its_triangle() {
+        let mut mesh = two_triangles(-1.0);
+        mesh.triangles.push([0, 6, 1]);
+        assert_eq!(crossings(&mesh), Err(MissingVertex { triangle: 2 }));
     }
 }

@@ -47,7 +47,7 @@ impl Distribution {
 
 impl CurvatureStatistics {
     /// That of a surface at the nodes of a quadrature over its [tiling](Surface::tiling).
-    pub fn new(surface: &(impl Surface + Sync + ?Sized), nodes: &[Node]) -> Self {
+    pub fn new(surface: &(impl Surface + ?Sized), nodes: &[Node]) -> Self {
         let of_chunk = |nodes: &[Node]| {
             let nodes: Vec<Node> = nodes.iter().map(|node| surface.node(*node)).collect();
             let directions: Vec<_> = nodes.iter().map(|(n, _)| *n).collect();
@@ -169,7 +169,7 @@ mod tests {
     use approx::assert_relative_eq;
     use std::f64::consts::TAU;
 
-    fn statistics(surface: &(impl StarSurface + Sync + ?Sized)) -> CurvatureStatistics {
+    fn statistics(surface: &(impl StarSurface + ?Sized)) -> CurvatureStatistics {
         let sphere = AngleRectangle {
             theta: [0.0, PI],
             phi: [0.0, TAU],

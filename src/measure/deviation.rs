@@ -34,7 +34,7 @@ pub struct Deviation {
 
 impl Deviation {
     /// The norms of pairs (deviation, weight). Weights are not negative. Without any weight the means
-    /// are not numbers.
+    /// are not numbers; of a deviation that is none, all but the weight.
     pub fn of(deviations: impl IntoIterator<Item = (f64, f64)>) -> Self {
         let mut norms = Self {
             weight: 0.0,
@@ -51,6 +51,10 @@ impl Deviation {
             norms.least = norms.least.min(deviation);
         }
         norms.mean_absolute /= norms.weight;
+        // The larger of NaN and a number is the number.
+        if norms.sum_of_squares.is_nan() {
+            (norms.largest, norms.least) = (f64::NAN, f64::NAN);
+        }
         norms
     }
 
@@ -120,6 +124,8 @@ mod tests {
         assert_abs_diff_eq!(norms.mean_absolute, 1.25, epsilon = 1e-15);
         assert_eq!((norms.largest, norms.least), (3.0, -4.0));
         assert_eq!(norms.greatest_absolute(), 4.0);
+        let unknown = Deviation::of([(3.0, 1.0), (f64::NAN, 1.0), (-4.0, 0.5)]);
+        assert!(unknown.largest.is_nan() && unknown.least.is_nan() && unknown.rms().is_nan());
     }
 
     #[test]

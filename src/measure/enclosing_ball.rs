@@ -44,14 +44,13 @@ const INSIDE: f64 = 1e-14;
 /// See [`EnclosingBallError`].
 pub fn enclosing_ball(points: &[Point3<f64>]) -> Result<Ball, EnclosingBallError> {
     let origin = *points.first().ok_or(EnclosingBallError::NoPoints)?;
-    let size = points.iter().fold(0.0, |size, p| {
-        let distance = (p - origin).amax();
-        if distance > size || distance.is_nan() {
-            distance
-        } else {
-            size
-        }
-    });
+    // A largest coordinate may pass over NaN.
+    let mut coordinates = points.iter().flat_map(|point| point.iter());
+    if !coordinates.all(|x| x.is_finite()) {
+        return Err(EnclosingBallError::NotFinite);
+    }
+    let distances = points.iter().map(|point| (point - origin).amax());
+    let size = distances.fold(0.0, f64::max);
     if !size.is_finite() {
         return Err(EnclosingBallError::NotFinite);
     }
@@ -226,11 +225,16 @@ mod tests {
         assert_eq!(enclosing_ball(&[]), Err(EnclosingBallError::NoPoints));
         for bad in [f64::NAN, f64::INFINITY] {
             for place in 0..3 {
-                let mut points = vec![Point3::new(1.0, 2.0, 3.0); 3];
-                points[place].z = bad;
-                assert_eq!(enclosing_ball(&points), Err(EnclosingBallError::NotFinite));
+                let points = vec![Point3::new(1.0, 2.0, 3.0); 3];
+                for axis in 0..3 {
+                    let mut points = points.clone();
+                    points[place][axis] = bad;
+                    assert_eq!(enclosing_ball(&points), Err(EnclosingBallError::NotFinite));
+                }
             }
         }
+        let apart = [f64::MAX, -f64::MAX].map(|x| Point3::new(0.0, x, 0.0));
+        assert_eq!(enclosing_ball(&apart), Err(EnclosingBallError::NotFinite));
     }
 
     proptest! {

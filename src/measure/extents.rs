@@ -7,8 +7,11 @@ use crate::model::Surface;
 use nalgebra::{Matrix3, Point3, Vector3};
 
 /// Extents of a mesh along three unit axes (columns of `axes`): the sides of the smallest box with
-/// these axes that holds all vertices.
+/// these axes that holds all vertices, which must be finite. Zero of a mesh without vertices.
 pub fn extents(mesh: &Mesh, axes: &Matrix3<f64>) -> Vector3<f64> {
+    if mesh.vertices.is_empty() {
+        return Vector3::zeros();
+    }
     let [low, high] = bounds(&mesh.vertices, axes);
     high - low
 }
@@ -30,6 +33,7 @@ pub(crate) fn box_along(points: &[Point3<f64>], axes: &Matrix3<f64>) -> Oriented
 }
 
 /// Length, width and thickness, and their axes.
+#[derive(Clone)]
 pub(super) struct Extents {
     pub(super) dimensions: Vector3<f64>,
     /// In the columns.
@@ -50,7 +54,7 @@ impl Extents {
 
 /// A surface with places all over it.
 pub(super) struct Reach<'a> {
-    pub(super) surface: &'a (dyn Surface + Sync),
+    pub(super) surface: &'a dyn Surface,
     /// Its mesh of the resolution [`RESOLUTION`], seen from its centre.
     pub(super) mesh: &'a Mesh,
 }

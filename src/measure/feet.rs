@@ -32,7 +32,7 @@ pub struct Foot {
 ///
 /// The nearest of a grid of places are refined by Newton's iteration on the distance. Error: rounding where the
 /// surface is smooth; a hollow narrower than the grid, of a hundredth of the size, may be passed over.
-pub fn feet(surface: &(impl Surface + Sync + ?Sized), points: &[Point3<f64>]) -> Vec<Foot> {
+pub fn feet(surface: &(impl Surface + ?Sized), points: &[Point3<f64>]) -> Vec<Foot> {
     let centre = surface.frame().centre;
     let (directions, _) = surface.grid(STARTS);
     let places = surface.places(&directions).into_iter();

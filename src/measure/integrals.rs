@@ -12,11 +12,16 @@ use crate::model::{Node, Parts, Piece, Radial, StarSurface, Surface, Tiling};
 use crate::sphere::{GaussLegendre, Symmetry};
 use std::f64::consts::PI;
 
+/// What rounding lets be reached.
+const LEAST_TOLERANCE: f64 = 1e-14;
+
 /// Integrates a star-shaped surface, in its own frame, to a relative tolerance, see [`Integrals::relative_error`].
 ///
-/// Rounding limits what can be reached to some 1e-14. A surface that is not smooth within the octants costs more and
+/// Rounding limits what can be reached to some 1e-14, which is taken for all below it and for NaN. A surface that is not smooth within the octants costs more and
 /// may end above the tolerance; the result says so.
 pub fn integrate(surface: &(impl StarSurface + ?Sized), tolerance: f64) -> Integrals {
+    // The larger of NaN and a number is the number.
+    let tolerance = tolerance.max(LEAST_TOLERANCE);
     integrals(&Radial(surface), &Tiling::octants(), tolerance)
 }
 
@@ -145,6 +150,15 @@ mod tests {
     fn ellipsoid(a: f64, b: f64, c: f64) -> Ellipsoid {
         Ellipsoid {
             semi_axes: Vector3::new(a, b, c),
+        }
+    }
+
+    #[test]
+    fn no_tolerance_is_the_least_that_can_be_reached() {
+        let body = ellipsoid(3.0, 2.0, 1.0);
+        let least = integrate(&body, LEAST_TOLERANCE);
+        for none in [0.0, -1.0, f64::NAN] {
+            assert_eq!(integrate(&body, none), least);
         }
     }
 

@@ -48,7 +48,8 @@ mod unit;
 
 pub use bounds::OutOfBounds;
 pub use convexity::Convexity;
-pub use crossings::crossings;
+pub(crate) use crossings::sound_crossings;
+pub use crossings::{MissingVertex, crossings};
 pub use curvature::Curvature;
 pub use curvature_statistics::{CurvatureStatistics, Distribution};
 pub use deviation::Deviation;

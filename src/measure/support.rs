@@ -2,7 +2,7 @@
 
 use super::Curvature;
 use crate::model::Surface;
-use crate::sphere::compass;
+use crate::sphere::{compass, unit};
 use nalgebra::{Matrix3, Vector3};
 
 /// Cells along a cube's edge of the directions that the search starts from: 6146 directions, 3 degrees
@@ -45,7 +45,7 @@ pub struct Support {
 /// does not climb (on an edge or an apex) by a compass search. Error: rounding at a smooth point, 1e-12
 /// of the radius on an edge.
 pub fn support(surface: &(impl Surface + ?Sized), towards: &Vector3<f64>) -> Support {
-    let towards = &towards.normalize();
+    let towards = &unit(towards);
     let (directions, triangles) = surface.grid(START);
     let places = surface.places(&directions).into_iter();
     let heights: Vec<f64> = places.map(|place| place.dot(towards)).collect();

@@ -133,8 +133,8 @@ pub enum ModelError {
         /// The version named in the file.
         found: u32,
     },
-    /// More segments than any fit makes.
-    #[error("{found} parts per angle; at most {LARGEST_PARTITION} are read")]
+    /// No segments, or more than any fit makes.
+    #[error("{found} parts per angle; from 1 to {LARGEST_PARTITION} are read")]
     Partition {
         /// Parts per angle named in the file.
         found: usize,
@@ -357,7 +357,7 @@ impl GrainFile {
                 Family::Blended(Blended::new(cover, coefficients)?)
             }
             ((None, None), (Some(found), Some(segments)), (None, None), None, (None, None)) => {
-                if found > LARGEST_PARTITION {
+                if !(1..=LARGEST_PARTITION).contains(&found) {
                     return Err(ModelError::Partition { found });
                 }
                 Family::Segmented(Segmented::new(AngularPartition::new(found), segments)?)

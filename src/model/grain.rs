@@ -5,7 +5,7 @@ use super::{
     StarGrain, SuperquadricGrain, Surface, SurfaceElement, SurfaceJet, Tiling, Unseen,
 };
 use crate::mesh::Mesh;
-use crate::sphere::Symmetry;
+use crate::sphere::{Symmetry, unit};
 use nalgebra::{Matrix3, Vector3};
 
 /// A fitted grain: a [`Surface`] in the scan's frame and unit. Its directions may have any length but zero.
@@ -64,7 +64,7 @@ impl Grain {
         &self.kind
     }
 
-    fn surface(&self) -> &(dyn Surface + Sync) {
+    fn surface(&self) -> &dyn Surface {
         match &self.kind {
             Kind::Star(grain) => grain,
             Kind::Position(grain) => grain,
@@ -180,7 +180,7 @@ impl Grain {
     /// Standard error of the curvature in a direction of the scan's frame, in one over the scan's unit, where it is known.
     pub fn curvature_error(&self, n: &Vector3<f64>) -> Option<f64> {
         let errors = self.curvature_errors.as_ref()?;
-        Some(errors.at(&self.frame().axes.tr_mul(n)))
+        Some(errors.at(&self.frame().axes.tr_mul(&unit(n))))
     }
 }
 
@@ -220,25 +220,23 @@ impl Surface for Grain {
     }
 
     fn place(&self, n: &Vector3<f64>) -> Vector3<f64> {
-        self.surface().place(&n.normalize())
+        self.surface().place(n)
     }
 
     fn place_and_slopes(&self, n: &Vector3<f64>) -> (Vector3<f64>, Matrix3<f64>) {
-        self.surface().place_and_slopes(&n.normalize())
+        self.surface().place_and_slopes(n)
     }
 
     fn jet(&self, n: &Vector3<f64>) -> SurfaceJet {
-        self.surface().jet(&n.normalize())
+        self.surface().jet(n)
     }
 
     fn jets(&self, directions: &[Vector3<f64>]) -> Vec<SurfaceJet> {
-        let directions: Vec<_> = directions.iter().map(Vector3::normalize).collect();
-        self.surface().jets(&directions)
+        self.surface().jets(directions)
     }
 
     fn places(&self, directions: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
-        let directions: Vec<_> = directions.iter().map(Vector3::normalize).collect();
-        self.surface().places(&directions)
+        self.surface().places(directions)
     }
 
     fn tiling(&self) -> Tiling {

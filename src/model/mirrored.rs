@@ -18,7 +18,8 @@ pub struct Mirrored {
 }
 
 impl Mirrored {
-    /// The expansion with the given coefficients of the basis on [`Symmetry::cap`].
+    /// The expansion with the given coefficients of the cap basis on the least cap round the region that the mirrors
+    /// leave.
     ///
     /// # Errors
     /// [`InvalidGrain`] if the coefficients are not (L+1)^2 finite numbers.

@@ -2,10 +2,11 @@
 
 use super::position::area_normal;
 use super::{Frame, InvalidGrain, Node, Position, Surface, SurfaceElement, SurfaceJet, Tiling};
-use crate::sphere::cube_grid;
+use crate::sphere::{cube_grid, unit};
 use nalgebra::{Matrix3, Point3, Vector3};
 
-/// A closed surface X(n) = (x, y, z)(n) over the sphere, and where it lies in the scan.
+/// A closed surface X(n) = (x, y, z)(n) over the sphere, and where it lies in the scan. Directions may have any length but
+/// zero.
 #[derive(Debug, Clone)]
 pub struct PositionGrain {
     frame: Frame,
@@ -84,6 +85,11 @@ impl PositionGrain {
         }
     }
 
+    /// The unit vector in a direction of the scan, along the grain's own axes.
+    fn local(&self, n: &Vector3<f64>) -> Vector3<f64> {
+        self.frame.axes.tr_mul(&unit(n))
+    }
+
     fn turned(
         &self,
         (place, slopes): (Vector3<f64>, Matrix3<f64>),
@@ -99,13 +105,13 @@ impl Surface for PositionGrain {
     }
 
     fn place_and_slopes(&self, n: &Vector3<f64>) -> (Vector3<f64>, Matrix3<f64>) {
-        let local = self.frame.axes.tr_mul(n);
+        let local = self.local(n);
         self.turned(self.position.point_and_tangents(&local))
     }
 
     fn jet(&self, n: &Vector3<f64>) -> SurfaceJet {
         let axes = self.frame.axes;
-        let jet = self.position.derivatives(&axes.tr_mul(n));
+        let jet = self.position.derivatives(&self.local(n));
         let (place, slopes) = self.turned((jet.point, jet.tangents));
         let [x, y, z] = jet.hessians.map(|bend| axes * bend * axes.transpose());
         let along = |i: usize| x * axes[(i, 0)] + y * axes[(i, 1)] + z * axes[(i, 2)];
@@ -118,7 +124,7 @@ impl Surface for PositionGrain {
 
     fn places(&self, directions: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
         let axes = self.frame.axes;
-        let local: Vec<_> = directions.iter().map(|n| axes.tr_mul(n)).collect();
+        let local: Vec<_> = directions.iter().map(|n| self.local(n)).collect();
         let found = self.position.points_and_tangents(&local).into_iter();
         found.map(|(place, _)| axes * place).collect()
     }

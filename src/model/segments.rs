@@ -2,7 +2,7 @@
 
 use super::grain::Kind;
 use super::{Family, Grain, Surface};
-use crate::sphere::{AngularPartition, Cover};
+use crate::sphere::{AngularPartition, Cover, unit};
 use nalgebra::Vector3;
 
 /// Steps along each side of a segment.
@@ -15,10 +15,10 @@ enum Cuts<'a> {
 }
 
 impl Grain {
-    /// The number of the segment that the direction of the unit vector `n` lies in: of blended cells, without their
+    /// The number of the segment that the direction `n`, of any length but zero, lies in: of blended cells, without their
     /// margins. Zero where there is one only.
     pub fn segment(&self, n: &Vector3<f64>) -> usize {
-        let local = self.frame().axes.tr_mul(n);
+        let local = self.frame().axes.tr_mul(&unit(n));
         let cut = match self.star() {
             Some(star) => star.stretch().direction(&local).0,
             None => local,

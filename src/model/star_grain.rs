@@ -5,6 +5,7 @@ use super::{
     Derivatives, Family, Frame, InvalidGrain, Node, StarSurface, Stretch, Surface, SurfaceElement,
     SurfaceJet, Tiling, Whole,
 };
+use crate::sphere::unit;
 use nalgebra::{Matrix3, Point3, Vector3};
 use rayon::prelude::*;
 
@@ -14,8 +15,8 @@ const CHUNK: usize = 1 << 15;
 /// A star-shaped surface whose radius is made of expansions in spherical harmonics.
 ///
 /// Directions and positions are those of the scan. The radius is measured from [`Frame::centre`]. The
-/// expansions are those of the grain stretched along its own axes, see [`StarGrain::stretched`]. Directions of which a
-/// radius is asked for may have any length but zero.
+/// expansions are those of the grain stretched along its own axes, see [`StarGrain::stretched`]. Directions may have any
+/// length but zero.
 #[derive(Debug, Clone)]
 pub struct StarGrain {
     frame: Frame,
@@ -106,13 +107,13 @@ impl StarGrain {
 
     /// The unit vector in a direction of the scan, along the grain's own axes.
     fn local(&self, n: &Vector3<f64>) -> Vector3<f64> {
-        self.frame.axes.tr_mul(&n.normalize())
+        self.frame.axes.tr_mul(&unit(n))
     }
 
     /// The outward unit normal of the surface in the direction `n`, in the scan's frame.
     pub fn normal(&self, n: &Vector3<f64>) -> Vector3<f64> {
         let (radius, gradient) = self.radius_and_gradient(n);
-        (n.normalize() * radius - gradient).normalize()
+        (unit(n) * radius - gradient).normalize()
     }
 
     /// The radii in many directions of the scan's frame: as [`StarSurface::radius`], and faster.
@@ -166,16 +167,19 @@ impl Surface for StarGrain {
     }
 
     fn place(&self, n: &Vector3<f64>) -> Vector3<f64> {
-        n * self.radius(n)
+        let n = unit(n);
+        n * self.radius(&n)
     }
 
     fn place_and_slopes(&self, n: &Vector3<f64>) -> (Vector3<f64>, Matrix3<f64>) {
-        let found = self.radius_and_gradient(n);
-        (n * found.0, radial_slopes(n, found))
+        let n = unit(n);
+        let found = self.radius_and_gradient(&n);
+        (n * found.0, radial_slopes(&n, found))
     }
 
     fn jet(&self, n: &Vector3<f64>) -> SurfaceJet {
-        self.derivatives(n).radial(n)
+        let n = unit(n);
+        self.derivatives(&n).radial(&n)
     }
 
     fn jets(&self, directions: &[Vector3<f64>]) -> Vec<SurfaceJet> {
@@ -188,13 +192,14 @@ impl Surface for StarGrain {
         let turned = found.map(|found| found.turned(&self.frame.axes));
         turned
             .zip(directions)
-            .map(|(found, n)| found.radial(n))
+            .map(|(found, n)| found.radial(&unit(n)))
             .collect()
     }
 
     fn places(&self, directions: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
         let radii = self.radii(directions).into_iter();
-        directions.iter().zip(radii).map(|(n, r)| n * r).collect()
+        let directions = directions.iter().map(unit);
+        directions.zip(radii).map(|(n, r)| n * r).collect()
     }
 
     fn tiling(&self) -> Tiling {

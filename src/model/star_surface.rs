@@ -4,15 +4,16 @@ use super::{Surface, SurfaceJet};
 use crate::sphere::Jet;
 use nalgebra::{Matrix3, Vector3};
 
-/// A closed surface that every ray from the origin meets once: r = r(n), n a unit vector.
+/// A closed surface that every ray from the origin meets once: r = r(n), n a unit vector; of a
+/// [`StarGrain`](super::StarGrain) a vector of any length but zero.
 ///
 /// Everything is said in terms of the direction `n`, never of angles, so nothing is singular at the
 /// poles. With the surface gradient g (the tangential derivative of r on the unit sphere, a vector
 /// orthogonal to n), the outward normal is along `r n - g` and the element of area is
 /// `r sqrt(r^2 + |g|^2)` per unit solid angle.
 ///
-/// On an edge derivatives are those of one of its sides.
-pub trait StarSurface {
+/// On an edge derivatives are those of one of its sides. Threads share a surface.
+pub trait StarSurface: Sync {
     /// Radius in the direction of the unit vector `n`.
     fn radius(&self, n: &Vector3<f64>) -> f64;
 
@@ -87,8 +88,16 @@ pub(super) fn radial_slopes(
 }
 
 /// A star-shaped surface about the origin as one over the sphere: X(n) = r(n) n, with edges between octants at most.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug)]
 pub struct Radial<'a, S: ?Sized>(pub &'a S);
+
+impl<S: ?Sized> Clone for Radial<'_, S> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<S: ?Sized> Copy for Radial<'_, S> {}
 
 impl<S: StarSurface + ?Sized> Surface for Radial<'_, S> {
     fn place(&self, n: &Vector3<f64>) -> Vector3<f64> {

@@ -13,11 +13,12 @@ pub type Node = (Vector3<f64>, f64);
 ///
 /// A star-shaped surface is the special case X(n) = r(n) n ([`Radial`](super::Radial)). Everything is said
 /// in terms of `n`, never of angles, so nothing is singular at the poles. Directions and places are along the
-/// axes of the scan; places are seen from the [centre](Frame::centre) of the surface, so that they keep their
+/// axes of the scan, and unit vectors; those of a [`Grain`](super::Grain) and of its kinds may have any length but zero.
+/// Places are seen from the [centre](Frame::centre) of the surface, so that they keep their
 /// digits far from the scan's origin.
 ///
-/// On an edge derivatives are those of one of its sides.
-pub trait Surface {
+/// On an edge derivatives are those of one of its sides. Threads share a surface.
+pub trait Surface: Sync {
     /// Where the surface lies. Grids of directions are laid along its axes.
     fn frame(&self) -> Frame {
         Frame::SCAN
@@ -84,7 +85,8 @@ pub trait Surface {
     }
 
     /// Directions all over the surface, and the triangles between them, counter-clockwise from outside: `resolution` cells
-    /// along each edge of a cube make 6 N^2 + 2 directions and 12 N^2 triangles. Of a surface that is stretched they are even
+    /// along each edge of a cube, 1 to [`FINEST_GRID`](crate::sphere::FINEST_GRID) or the nearest of these, make 6 N^2 + 2
+    /// directions and 12 N^2 triangles. Of a surface that is stretched they are even
     /// where it is rounder.
     fn grid(&self, resolution: usize) -> (Vec<Vector3<f64>>, Vec<[u32; 3]>) {
         let (mut directions, triangles) = cube_grid(resolution);

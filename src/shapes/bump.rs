@@ -117,4 +117,4 @@ impl<B: StarSurface> StarSurface for Bumpy<B> {
     }
 }
 
-impl<B: StarSurface + Send + Sync> Solid for Bumpy<B> {}
+impl<B: StarSurface + Send> Solid for Bumpy<B> {}

@@ -12,7 +12,7 @@ const QUADRATURE_TOLERANCE: f64 = 1e-10;
 const ROUNDING: f64 = 1e-14;
 
 /// A body whose mean radius, area, volume and inertia are known, in its own frame.
-pub trait Solid: StarSurface + Send + Sync {
+pub trait Solid: StarSurface + Send {
     /// Those figures and their error: by adaptive quadrature to 1e-10, or, where there are closed
     /// forms, by them to 1e-14 and without a single evaluation of the surface.
     fn integrals(&self) -> Integrals {

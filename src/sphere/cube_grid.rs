@@ -2,10 +2,13 @@
 
 use nalgebra::Vector3;
 
-/// Directions and triangles of a cube whose edges are cut in `n` >= 1 equal angles: 6 n^2 + 2 unit
-/// vectors and 12 n^2 triangles, closed and counter-clockwise from outside.
+/// The finest grid of directions: 100 million of them.
+pub const FINEST_GRID: usize = 4096;
+
+/// Directions and triangles of a cube whose edges are cut in `n` equal angles: 6 n^2 + 2 unit vectors and 12 n^2
+/// triangles, closed and counter-clockwise from outside. Below 1 and above [`FINEST_GRID`] the nearest number is taken.
 pub fn cube_grid(n: usize) -> (Vec<Vector3<f64>>, Vec<[u32; 3]>) {
-    let lattice = Lattice { n: n.max(1) };
+    let lattice = Lattice::new(n);
     let n = lattice.n;
     let place: Vec<f64> = (0..=n)
         .map(|i| {
@@ -48,6 +51,12 @@ struct Lattice {
 }
 
 impl Lattice {
+    fn new(n: usize) -> Self {
+        Self {
+            n: n.clamp(1, FINEST_GRID),
+        }
+    }
+
     /// All points in the order of their numbers.
     fn points(self) -> impl Iterator<Item = [usize; 3]> {
         let n = self.n;
@@ -94,11 +103,17 @@ mod tests {
     #[test]
     fn points_are_numbered_in_their_order() {
         for n in [1, 2, 5] {
-            let lattice = Lattice { n };
+            let lattice = Lattice::new(n);
             for (number, point) in lattice.points().enumerate() {
                 assert_eq!(lattice.index(point), number);
             }
         }
+    }
+
+    #[test]
+    fn a_grid_is_never_too_fine_and_never_nothing() {
+        let cells = [0, 7, FINEST_GRID + 1, usize::MAX].map(|n| Lattice::new(n).n);
+        assert_eq!(cells, [1, 7, FINEST_GRID, FINEST_GRID]);
     }
 
     #[test]

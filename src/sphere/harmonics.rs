@@ -14,7 +14,8 @@ mod expansion;
 use nalgebra::Vector3;
 use std::f64::consts::PI;
 
-/// Index of the harmonic of degree l and order m in a list: j = l(l+1) + m.
+/// Index of the harmonic of degree l and order m, from -l to l, in a list: j = l(l+1) + m. Of other orders it is that of
+/// another degree, or of none.
 pub const fn harmonic_index(degree: usize, order: isize) -> usize {
     ((degree * (degree + 1)) as isize + order) as usize
 }
@@ -67,6 +68,10 @@ impl HarmonicBasis {
 
     /// Their values in the direction of the unit vector `n`, at their [`harmonic_index`]: `out` holds
     /// (degree + 1)² of them.
+    ///
+    /// # Panics
+    ///
+    /// If `out` is shorter than that.
     pub fn evaluate(&self, n: &Vector3<f64>, out: &mut [f64]) {
         let mut sectoral = 1.0;
         let (mut re, mut im) = (1.0, 0.0);

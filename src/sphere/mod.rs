@@ -23,6 +23,7 @@ mod symmetry;
 mod tangents;
 mod transform;
 mod triangulation;
+mod unit;
 
 pub(crate) use azimuth_fft::AzimuthFft;
 pub(crate) use cap::{Cap, Places};
@@ -33,7 +34,7 @@ pub use cell_weight::MARGIN;
 pub(crate) use compass::compass;
 pub use cover::{Cover, CoverError, MAX_FACE_PARTS};
 pub use cube_cell::CubeCell;
-pub use cube_grid::cube_grid;
+pub use cube_grid::{FINEST_GRID, cube_grid};
 pub(crate) use cube_place::{cube_place, part};
 pub(crate) use face_places::FacePlaces;
 pub(crate) use face_rectangle::FaceRectangle;
@@ -50,3 +51,4 @@ pub(crate) use transform::{
     AccurateHarmonics, HarmonicGram, Interpolant, LowerTriangle, ScatteredHarmonics,
 };
 pub use triangulation::{TriangulationError, triangulate_directions};
+pub(crate) use unit::unit;

@@ -47,7 +47,7 @@ impl AngularPartition {
         part(polar_fraction(n), k) * k + part(azimuth_fraction(n), k)
     }
 
-    /// The bounds of a segment.
+    /// The bounds of a segment, whose number is below [`Self::segments`]: beyond, they are no part of the sphere.
     pub fn rectangle(&self, segment: usize) -> AngleRectangle {
         let k = self.per_angle;
         let (row, column) = (segment / k, segment % k);
@@ -59,7 +59,7 @@ impl AngularPartition {
     }
 
     /// The cap of a segment: round the middle of its rectangle, as high as its farthest corner.
-    pub fn cap(&self, segment: usize) -> Cap {
+    pub(crate) fn cap(&self, segment: usize) -> Cap {
         self.rectangle(segment).cap()
     }
 }
@@ -122,7 +122,7 @@ impl AngleRectangle {
     }
 
     /// The cap round the middle of the rectangle that just holds it.
-    pub fn cap(&self) -> Cap {
+    pub(crate) fn cap(&self) -> Cap {
         let theta = 0.5 * (self.theta[0] + self.theta[1]);
         let phi = 0.5 * (self.phi[0] + self.phi[1]);
         let half_turn = (0.5 * (self.phi[1] - self.phi[0])).min(PI);

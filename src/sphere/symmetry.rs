@@ -88,7 +88,7 @@ impl Symmetry {
 
     /// The cap round the region into which directions are folded: its centre lies along the sum of
     /// the mirrored axes. The whole sphere where there is no mirror.
-    pub fn cap(&self) -> Cap {
+    pub(crate) fn cap(&self) -> Cap {
         let along = self.mirrors().map(|mirror| f64::from(u8::from(mirror)));
         let centre = match *self {
             Self::NONE => Vector3::z(),

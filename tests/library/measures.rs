@@ -2,11 +2,13 @@
 //! or scaled.
 
 use approx::assert_relative_eq;
-use grainform::measure::{Scheme, Survey, SurveyError, convex_hull};
+use grainform::measure::{Scheme, Survey, SurveyError, convex_hull, extents};
+use grainform::mesh::MeshDefect;
+use grainform::model::Whole;
 use grainform::scan::Scan;
 use grainform::shapes::{Body, Ellipsoid, SynthOptions, synthesize};
 use grainform::{FitOptions, Mesh, StarSurface, Tolerance, fit};
-use nalgebra::{Point3, Rotation3, Vector3};
+use nalgebra::{Matrix3, Point3, Rotation3, Vector3};
 use proptest::prelude::*;
 
 fn mesh(surface: &(impl StarSurface + ?Sized), resolution: usize) -> Mesh {
@@ -149,4 +151,39 @@ fn triangles_have_no_curvature_and_a_fitted_grain_has_that_of_its_body() {
     assert!((0.6..1.0).contains(&roundness), "{roundness}");
     let regularity = survey.regularity().unwrap();
     assert_relative_eq!(regularity, 0.5 * (roundness + c / a), max_relative = 1e-3);
+}
+
+#[test]
+fn a_radius_is_expanded_up_to_the_largest_degree_of_a_model() {
+    let ball = Mesh::radial(8, |_| 2.0);
+    let survey = Survey::of_mesh(&ball).unwrap();
+    assert_eq!(survey.expansion(2).unwrap().coefficients.len(), 9);
+    for found in [Whole::MAX_DEGREE + 1, usize::MAX] {
+        let refused = survey.expansion(found).unwrap_err();
+        assert_eq!(refused, SurveyError::Degree { found });
+    }
+}
+
+#[test]
+fn a_survey_is_sent_to_other_threads_and_cloned_with_what_it_knows() {
+    fn is_sent<T: Send + Clone + std::fmt::Debug>(_: &T) {}
+    let ball = Mesh::radial(8, |_| 2.0);
+    let survey = Survey::of_mesh(&ball).unwrap();
+    is_sent(&survey);
+    let clone = survey.clone();
+    assert_eq!(clone.enclosing().unwrap(), survey.enclosing().unwrap());
+}
+
+#[test]
+fn a_mesh_of_nothing_has_no_extents_and_one_that_is_nowhere_is_not_closed() {
+    let axes = Matrix3::identity();
+    assert_eq!(extents(&Mesh::default(), &axes), Vector3::zeros());
+    let mut ball = Mesh::radial(8, |_| 2.0);
+    assert_relative_eq!(extents(&ball, &axes), Vector3::repeat(4.0), epsilon = 1e-12);
+    ball.check_closed().unwrap();
+    ball.vertices[5].y = f64::NAN;
+    assert_eq!(
+        ball.check_closed(),
+        Err(MeshDefect::NotFinite { vertex: 5 })
+    );
 }

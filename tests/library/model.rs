@@ -3,8 +3,8 @@
 use gauss_quad::GaussLegendre;
 use grainform::measure::{Moments, grain_properties, integrate, mesh_properties};
 use grainform::model::{
-    Frame, Grain, ModelError, Region, Segmented, StarGrain, StarSurface, Superquadric,
-    SuperquadricGrain, Surface, grain_from_json, grain_to_json,
+    Frame, Grain, ModelError, Position, PositionGrain, Region, Segmented, StarGrain, StarSurface,
+    Superquadric, SuperquadricGrain, Surface, grain_from_json, grain_to_json,
 };
 use grainform::scan::Scan;
 use grainform::shapes::{Body, SynthOptions, synthesize};
@@ -132,16 +132,34 @@ fn directions_of_any_length_lead_to_the_same_places() {
     let star = grain(3, 4);
     let body = Superquadric::single([2.0, 1.5, 1.0], 4.0, 2.0).expect("a superquadric");
     let box_like = SuperquadricGrain::single(Frame::SCAN, body).expect("a grain");
+    // Harmonics of degree 1 are proportional to y, z, x.
+    let coefficients = [[0.1; 3], [0.0, 2.0, 0.0], [0.0, 0.0, 1.5], [3.0, 0.0, 0.0]];
+    let position = Position::whole(coefficients.concat()).expect("three expansions");
+    let position = PositionGrain::new(Frame::SCAN, position).expect("a grain");
     let n = Vector3::new(0.48, -0.6, 0.64);
-    assert!((star.radius(&(n * 3.0)) - star.radius(&n)).abs() < 1e-12);
-    assert!((star.normal(&(n * 3.0)) - star.normal(&n)).norm() < 1e-12);
-    for grain in [Grain::from(star), Grain::from(box_like)] {
-        let (place, slopes) = grain.place_and_slopes(&n);
-        let (long_place, long_slopes) = grain.place_and_slopes(&(n * 3.0));
-        assert!((long_place - place).norm() < 1e-12 && (long_slopes - slopes).norm() < 1e-12);
-        assert!((grain.point(&(n * 0.1)) - grain.point(&n)).norm() < 1e-12);
-        assert!((grain.places(&[n * 7.0])[0] - place).norm() < 1e-12);
-        assert!((grain.jet(&(n * 7.0)).bends[0] - grain.jet(&n).bends[0]).norm() < 1e-12);
+    for length in [1e-200, 0.1, 3.0, 1e200] {
+        let long = n * length;
+        assert!((star.radius(&long) - star.radius(&n)).abs() < 1e-12);
+        assert!((star.normal(&long) - star.normal(&n)).norm() < 1e-12);
+        let grains = [&star as &dyn Surface, &position, &box_like];
+        let wrapped: [Grain; 3] = [
+            star.clone().into(),
+            position.clone().into(),
+            box_like.clone().into(),
+        ];
+        let wrapped = wrapped.each_ref().map(|grain| grain as &dyn Surface);
+        for grain in grains.into_iter().chain(wrapped) {
+            let (place, slopes) = grain.place_and_slopes(&n);
+            let (long_place, long_slopes) = grain.place_and_slopes(&long);
+            assert!((long_place - place).norm() < 1e-12 && (long_slopes - slopes).norm() < 1e-12);
+            assert!((grain.place(&long) - place).norm() < 1e-12);
+            assert!((grain.point(&long) - grain.point(&n)).norm() < 1e-12);
+            assert!((grain.places(&[long])[0] - place).norm() < 1e-12);
+            for jet in [grain.jet(&long), grain.jets(&[long])[0]] {
+                assert!((jet.place - place).norm() < 1e-12);
+                assert!((jet.bends[0] - grain.jet(&n).bends[0]).norm() < 1e-12);
+            }
+        }
     }
 }
 
@@ -169,6 +187,12 @@ fn unsound_models_are_refused() {
     assert!(from_json(&text.replace("\"version\": 6", "\"version\": 7")).is_err());
     assert!(from_json(&text.replace("grainform model", "other model")).is_err());
     assert!(from_json(&text.replace("\"parts_per_angle\": 2", "\"parts_per_angle\": 3")).is_err());
+    let one = to_json(&grain(1, 1));
+    let none = one.replace("\"parts_per_angle\": 1", "\"parts_per_angle\": 0");
+    assert!(matches!(
+        from_json(&none),
+        Err(ModelError::Partition { found: 0 })
+    ));
     assert!(
         from_json(&text.replace("\"parts_per_angle\": 2", "\"parts_per_angle\": 4000000000"))
             .is_err()

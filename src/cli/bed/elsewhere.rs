@@ -33,7 +33,7 @@ impl Elsewhere<'_> {
             contacts,
             steps,
         } = Settled::read(self.path, &bed, &deck)?;
-        let bed = bed.moved(bodies);
+        let bed = bed.moved(bodies)?;
         outputs::write(&self.path.join("bed.vtk"), |file| {
             write_vtk(&bed, self.unit, file)
         })?;

@@ -29,11 +29,11 @@ pub enum ConvexStatus {
     Touching,
     /// No point lies in both, or none does by more than the gap.
     Apart,
-    /// The method came to no end.
+    /// The method came to no end, or a number of a frame is not finite.
     Unresolved,
 }
 
-/// What is known of a pair from an earlier contact: where to begin.
+/// What is known of a pair from an earlier contact: where to begin. With a number that is not finite it is as none.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Warm {
     /// A point near the contact, in the frame that the bodies are placed in.
@@ -61,6 +61,14 @@ pub struct ConvexContact {
     pub iterations: usize,
 }
 
+impl Warm {
+    #[inline]
+    fn is_finite(&self) -> bool {
+        let mut numbers = self.point.iter().chain(&self.normal);
+        numbers.all(|x| x.is_finite())
+    }
+}
+
 impl ConvexPair<'_> {
     /// The contact, from where an earlier one was if that is known. Of bodies that are apart no more is computed than
     /// the proof of that, which the last normal often is.
@@ -71,6 +79,7 @@ impl ConvexPair<'_> {
 
     /// The same by a method.
     pub fn contact_by(&self, method: Method, warm: Option<&Warm>) -> ConvexContact {
+        let warm = warm.filter(|warm| warm.is_finite());
         if let Some(warm) = warm
             && let Some(apart) = self.still_apart(warm)
         {
@@ -128,6 +137,9 @@ impl ConvexPair<'_> {
     }
 
     fn solve(&self, method: Method, start: Option<Vector3<f64>>, goal: &Goal) -> Found {
+        if !self.is_finite() {
+            return Found::start(self, self.offset);
+        }
         if self.offset == Vector3::zeros() {
             // The centres are one point, which is as deep as any.
             return Found {

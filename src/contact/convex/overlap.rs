@@ -11,7 +11,8 @@ const MAX_STEPS: usize = 50;
 const LAST_STEP: f64 = 1e-10;
 
 /// How far the first body reaches beyond where the second begins, along the line through `point`: of ellipsoids a closed
-/// form, otherwise Newton's iteration on both gauges, which are convex along the line, outwards from the point.
+/// form, otherwise Newton's iteration on both gauges, which are convex along the line, outwards from the point; or, where
+/// a gauge does not grow along the line there, as at the body's centre, from beyond the body.
 pub(super) fn overlap(pair: &ConvexPair<'_>, point: &Vector3<f64>, normal: &Vector3<f64>) -> f64 {
     let bodies = [pair.first, pair.second];
     let from = [*point, pair.seen_from_second(point)];
@@ -23,7 +24,13 @@ pub(super) fn overlap(pair: &ConvexPair<'_>, point: &Vector3<f64>, normal: &Vect
     for _ in 0..MAX_STEPS {
         let places = [0, 1].map(|i| from[i] + along[i] * ways[i]);
         let gauges = Superquadric::gauges_and_slopes(bodies, places.each_ref());
-        let steps = [0, 1].map(|i| (1.0 - gauges[i].0) / gauges[i].1.dot(&along[i]));
+        let steps = [0, 1].map(|i| {
+            let (gauge, slope) = (gauges[i].0, gauges[i].1.dot(&along[i]));
+            match slope > 0.0 || ways[i] != 0.0 {
+                true => (1.0 - gauge) / slope,
+                false => 2.0 * bodies[i].bounding_radius(),
+            }
+        });
         let is_long = |i: usize| steps[i].abs() > LAST_STEP * places[i].norm();
         ways = [0, 1].map(|i| ways[i] + steps[i]);
         // Written so that NaN ends.

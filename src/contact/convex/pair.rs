@@ -97,6 +97,13 @@ impl<'a> ConvexPair<'a> {
         }
     }
 
+    /// Whether it is known where both bodies are.
+    #[inline]
+    pub(super) fn is_finite(&self) -> bool {
+        let mut numbers = self.offset.iter().chain(&self.turn);
+        numbers.all(|x| x.is_finite())
+    }
+
     /// The point between the centres where both gauges are equal.
     pub(super) fn between_centres(&self) -> Vector3<f64> {
         let first = self.first.gauge(&self.offset);

@@ -155,3 +155,59 @@ fn ellipsoids_have_the_contact_that_portal_refinement_finds() {
         );
     }
 }
+
+#[test]
+fn the_overlap_of_bodies_with_one_centre_is_how_far_both_reach() {
+    let flat = Superquadric::single([3.0, 2.0, 1.0], 4.0, 6.0).unwrap();
+    let cube = Superquadric::single([1.0; 3], 100.0, 100.0).unwrap();
+    let ball = Superquadric::single([1.0; 3], 2.0, 2.0).unwrap();
+    for (body, expected) in [(&flat, 6.0), (&cube, 2.0), (&ball, 2.0)] {
+        for offset in [0.0, 1e-300, 1e-150] {
+            let (here, there) = (at(Vector3::zeros()), at(Vector3::new(offset, 0.0, 0.0)));
+            let pair = ConvexPair::new((body, &here), (body, &there));
+            let contact = pair.contact(None);
+            assert_eq!(contact.status, ConvexStatus::Touching);
+            assert_relative_eq!(pair.overlap(&contact), expected, max_relative = 1e-9);
+        }
+    }
+    // Of two kinds, the way out of both counts.
+    let here = at(Vector3::zeros());
+    let pair = ConvexPair::new((&flat, &here), (&cube, &here));
+    assert_relative_eq!(pair.overlap(&pair.contact(None)), 4.0, max_relative = 1e-9);
+}
+
+#[test]
+fn nothing_is_said_of_bodies_that_are_nowhere() {
+    let cube = Superquadric::single([1.0; 3], 8.0, 8.0).unwrap();
+    let ball = Superquadric::single([1.0; 3], 2.0, 2.0).unwrap();
+    let here = at(Vector3::zeros());
+    for bad in [f64::NAN, f64::INFINITY] {
+        let mut turned = at(Vector3::x());
+        turned.axes[(1, 2)] = bad;
+        for there in [at(Vector3::new(0.0, bad, 0.0)), turned] {
+            for body in [&cube, &ball] {
+                let pair = ConvexPair::new((body, &here), (body, &there));
+                for method in METHODS {
+                    let contact = pair.contact_by(method, None);
+                    assert_eq!(contact.status, ConvexStatus::Unresolved, "{method:?} {bad}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn what_is_known_from_before_proves_nothing_if_it_is_not_finite() {
+    let cube = Superquadric::single([1.0; 3], 8.0, 8.0).unwrap();
+    let (here, there) = (at(Vector3::zeros()), at(Vector3::new(1.9, 0.0, 0.0)));
+    let pair = ConvexPair::new((&cube, &here), (&cube, &there));
+    let cold = pair.contact(None);
+    assert_eq!(cold.status, ConvexStatus::Touching);
+    for bad in [f64::NAN, f64::INFINITY] {
+        let points = [Vector3::zeros(), Vector3::new(0.0, bad, 0.0)];
+        for (point, normal) in [(points[1], Vector3::x()), (points[0], points[1])] {
+            let point = Point3::from(point);
+            assert_eq!(pair.contact(Some(&Warm { point, normal })), cold, "{bad}");
+        }
+    }
+}

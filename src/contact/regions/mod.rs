@@ -26,12 +26,14 @@ use deepest::Placed;
 use nalgebra::{Isometry3, Point3, Translation3, Vector3};
 pub use pair::{ContactPair, ContactPlace};
 use patch::Patch;
+use std::fmt;
 use thiserror::Error;
 
 /// Share of the smaller body from which on two bodies are no bodies that touch.
 const LARGEST_SHARE: f64 = 0.9;
 
 /// A surface made ready for contacts: the work that does not depend on where it lies.
+#[derive(Clone)]
 pub struct ContactBody<'a> {
     surface: &'a dyn Surface,
     whole: Patch,
@@ -42,7 +44,7 @@ pub struct ContactBody<'a> {
 }
 
 impl<'a> ContactBody<'a> {
-    /// Triangulates a surface.
+    /// Triangulates a surface. One whose places are not finite is refused where its contacts are looked for.
     pub fn new(surface: &'a dyn Surface) -> Self {
         let whole = Patch::whole(surface);
         Self {
@@ -58,6 +60,16 @@ impl<'a> ContactBody<'a> {
         let centre = self.surface.frame().centre;
         let turn = from.rotation.rotation_to(&to.rotation).angle();
         (to * centre - from * centre).norm() + 2.0 * self.radius * (0.5 * turn).sin()
+    }
+}
+
+impl fmt::Debug for ContactBody<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("ContactBody")
+            .field("frame", &self.surface.frame())
+            .field("radius", &self.radius)
+            .field("volume", &self.volume)
+            .finish_non_exhaustive()
     }
 }
 
@@ -125,12 +137,18 @@ pub enum RegionError {
     /// Its triangles have no inside.
     #[error("the surfaces share no inside there: one goes through itself, or both coincide")]
     Crossing,
+    /// Where the bodies are is not known.
+    #[error("a number of the pose, or of a surface, is not finite")]
+    NotFinite,
 }
 
 /// Finds where two bodies overlap, of which the second is moved by `pose`.
 ///
 /// Volumes shared by smooth bodies are known to 1e-6 of themselves or closer where they are lenses, less well of cells
 /// that meet there and of deep overlaps, as the error of each tells. A depth below 1e-7 of the bodies' size may pass unseen.
+///
+/// Takes 4 to 20 ms of bodies that touch, and the longer the deeper they lie in each other: .05 to .12 s of smooth ones where
+/// they share a tenth and more, up to 1 s of rough ones. Moving bodies are followed faster by a [`ContactPair`].
 ///
 /// # Errors
 ///
@@ -140,6 +158,7 @@ pub fn contact_regions(
     second: &ContactBody<'_>,
     pose: &Isometry3<f64>,
 ) -> Result<ContactRegions, RegionError> {
+    check([first, second], pose)?;
     let common = Common::new([first, second], pose);
     let (found, work) = found_regions([first, second], &common)?;
     let shared: f64 = found.iter().map(|found| found.sums.volume).sum();
@@ -152,6 +171,20 @@ pub fn contact_regions(
         .collect();
     regions.sort_by(|one, other| other.volume.total_cmp(&one.volume));
     Ok(ContactRegions { regions, work })
+}
+
+/// Refuses what would be apart of everything, for nothing is near to NaN.
+fn check(bodies: [&ContactBody<'_>; 2], pose: &Isometry3<f64>) -> Result<(), RegionError> {
+    let [moved, turned] = [
+        pose.translation.vector.as_slice(),
+        pose.rotation.coords.as_slice(),
+    ];
+    let sizes = bodies.map(|body| body.volume);
+    let all = moved.iter().chain(turned).chain(&sizes);
+    match all.copied().all(f64::is_finite) {
+        true => Ok(()),
+        false => Err(RegionError::NotFinite),
+    }
 }
 
 /// The frame in which two bodies are compared: that of the first body's scan seen from its centre, so that digits are

@@ -10,12 +10,17 @@ use super::cluster::Found;
 use super::deepest::DeepestPair;
 use super::lens::lens;
 use super::near::near_places;
-use super::{Common, ContactBody, ContactRegion, RegionError, contact_regions, found_regions};
+use super::{
+    Common, ContactBody, ContactRegion, RegionError, check, contact_regions, found_regions,
+};
 use crate::measure::Curvature;
 use nalgebra::{Isometry3, Point3, Vector3};
 
 /// The margin, as a share of the smaller body's radius.
 const MARGIN: f64 = 0.02;
+
+/// Share of a distance by which rounding may make motions over it too short.
+const ROUNDING: f64 = 1e-12;
 
 /// How far a place may move on either sphere of directions from one pose to the next.
 const JUMP: f64 = 0.2;
@@ -40,6 +45,7 @@ const JUMP: f64 = 0.2;
 /// assert_eq!(pair.searches(), 1);
 /// # Ok::<(), grainform::contact::RegionError>(())
 /// ```
+#[derive(Debug, Clone)]
 pub struct ContactPair<'a> {
     bodies: [&'a ContactBody<'a>; 2],
     margin: f64,
@@ -52,6 +58,7 @@ pub struct ContactPair<'a> {
 }
 
 /// Two points that face each other.
+#[derive(Debug, Clone)]
 struct Followed {
     directions: [Vector3<f64>; 2],
     /// How far apart they were when the regions were looked for; below zero where they touched.
@@ -122,8 +129,9 @@ impl<'a> ContactPair<'a> {
     ///
     /// [`RegionError`]
     pub fn update(&mut self, pose: &Isometry3<f64>) -> Result<(), RegionError> {
-        self.pose = *pose;
         self.places.clear();
+        check(self.bodies, pose)?;
+        self.pose = *pose;
         match self.follow() {
             Some(()) => Ok(()),
             None => self.search(),
@@ -169,7 +177,7 @@ impl<'a> ContactPair<'a> {
     fn follow(&mut self) -> Option<()> {
         let (from, reach) = self.searched?;
         let motion = self.bodies[1].motion(&from, &self.pose);
-        if motion > reach {
+        if motion.is_nan() || motion >= reach {
             return None;
         }
         let common = Common::new(self.bodies, &self.pose);
@@ -199,7 +207,8 @@ impl<'a> ContactPair<'a> {
         let clearance = common.clearance(self.bodies);
         if clearance > self.margin {
             self.followed.clear();
-            self.searched = Some((self.pose, clearance));
+            let reach = clearance * (1.0 - ROUNDING);
+            self.searched = reach.is_finite().then_some((self.pose, reach));
             return Ok(());
         }
         let (regions, _) = found_regions(self.bodies, &common)?;

@@ -182,3 +182,58 @@ fn a_pair_is_followed_to_what_a_search_finds() {
     assert!(seen.iter().all(|&times| times > 3), "{seen:?}");
     assert!(pair.searches() < 40, "{}", pair.searches());
 }
+
+#[test]
+fn bodies_that_were_far_apart_are_found_where_they_touch() {
+    let ball = ball(1.0);
+    let ball = Radial(&ball);
+    let body = ContactBody::new(&ball);
+    let touching = Isometry3::translation(0.6, 0.7, 1.6);
+    for far in [1e3, 3e15, 1e17, 1e170, f64::MAX] {
+        for towards in [Vector3::z(), Vector3::new(0.3, -0.7, 0.2)] {
+            let mut pair = ContactPair::new(&body, &body);
+            let away = Isometry3::from_parts((towards * far).into(), UnitQuaternion::identity());
+            pair.update(&away).unwrap();
+            assert!(pair.places().is_empty());
+            pair.update(&touching).unwrap();
+            assert_eq!(pair.places().len(), 1, "{far}");
+        }
+    }
+}
+
+#[test]
+fn a_pose_or_a_surface_that_is_not_finite_is_refused_and_the_next_pose_is_not() {
+    let ball = ball(1.0);
+    let ball = Radial(&ball);
+    let body = ContactBody::new(&ball);
+    let mut pair = ContactPair::new(&body, &body);
+    let touching = Isometry3::translation(0.0, 0.0, 1.9);
+    pair.update(&touching).unwrap();
+    for bad in [f64::NAN, f64::INFINITY] {
+        let mut turned = touching;
+        turned.rotation.as_mut_unchecked().coords.x = bad;
+        for pose in [Isometry3::translation(bad, 0.0, 1.9), turned] {
+            let refused = contact_regions(&body, &body, &pose);
+            assert_eq!(refused, Err(RegionError::NotFinite));
+            assert_eq!(pair.update(&pose), Err(RegionError::NotFinite));
+            assert!(pair.places().is_empty());
+        }
+    }
+    pair.update(&touching).unwrap();
+    assert_eq!((pair.places().len(), pair.searches()), (1, 1));
+    let nowhere = Ellipsoid {
+        semi_axes: Vector3::new(1.0, f64::NAN, 1.0),
+    };
+    let nowhere = Radial(&nowhere);
+    let nowhere = ContactBody::new(&nowhere);
+    let refused = contact_regions(&nowhere, &body, &touching);
+    assert_eq!(refused, Err(RegionError::NotFinite));
+}
+
+#[test]
+fn pairs_are_followed_by_as_many_threads_as_there_are() {
+    fn is_shared<T: Send + Sync + Clone + std::fmt::Debug>() {}
+    is_shared::<ContactBody<'_>>();
+    is_shared::<ContactPair<'_>>();
+    is_shared::<ContactPlace>();
+}

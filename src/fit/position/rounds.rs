@@ -11,7 +11,7 @@ use super::functions::{Functions, Rows};
 use super::least_squares::{Equations, Roughness, Term};
 use crate::fit::context::{Cancelled, Context};
 use crate::fit::linear::BlockFactor;
-use crate::measure::crossings;
+use crate::measure::sound_crossings;
 use crate::mesh::Mesh;
 use crate::model::{Frame, NoInterval, Position, PositionGrain, StandardErrors};
 use crate::sphere::cube_grid;
@@ -261,5 +261,5 @@ pub(super) fn crossing_places(surface: &Position) -> Vec<Vector3<f64>> {
         let corners = mesh.triangles[first].map(|corner| mesh.vertices[corner as usize].coords);
         corners.iter().sum::<Vector3<f64>>() / 3.0
     };
-    crossings(&mesh).into_iter().map(middle).collect()
+    sound_crossings(&mesh).into_iter().map(middle).collect()
 }

@@ -14,14 +14,16 @@ use nalgebra::Vector3;
 /// Parts per angle of the source's grid.
 const PUBLISHED_GRID: usize = 128;
 
+#[derive(Clone)]
 pub(super) enum Body<'a> {
     Grain(Box<Grain>, Scheme),
     /// A surface whose area, volume and moments are known.
-    Known(Radial<'a, dyn StarSurface + Sync + 'a>, MassProperties),
+    Known(Radial<'a, dyn StarSurface + 'a>, MassProperties),
     Mesh(Mesh, Inside),
 }
 
 /// What a mesh encloses.
+#[derive(Clone)]
 pub(super) enum Inside {
     /// One body, or several.
     Bodies(usize),
@@ -106,7 +108,7 @@ impl<'a> Body<'a> {
     ///
     /// # Errors
     /// Of a mesh, and of a union that no centre sees whole.
-    pub(super) fn surface(&self) -> Result<&(dyn Surface + Sync), SurveyError> {
+    pub(super) fn surface(&self) -> Result<&dyn Surface, SurveyError> {
         match self {
             Self::Grain(grain, _) => match grain.hidden_share() {
                 0.0 => Ok(grain.as_ref()),

@@ -5,6 +5,7 @@ use crate::measure::{
     EnclosingBallError, HullError, InscribedBallError, MeshIntegralError, OutOfBounds,
     ProjectionError,
 };
+use crate::model::Whole;
 use thiserror::Error;
 
 /// Why something cannot be measured.
@@ -54,6 +55,12 @@ pub enum SurveyError {
     NotStarShaped {
         /// Share of the full solid angle.
         share: f64,
+    },
+    /// An expansion of so high a degree is not told.
+    #[error("degree {found}; at most {} is allowed", Whole::MAX_DEGREE)]
+    Degree {
+        /// The degree asked for.
+        found: usize,
     },
     /// It is made of radii, which the model does not have.
     #[error("it is made from radii, and this model is not one of a star-shaped body")]

@@ -16,11 +16,12 @@ use super::{
     Sphericity, project,
 };
 use crate::Mesh;
-use crate::model::{Grain, NoInterval, Radial, StandardErrors, StarSurface};
+use crate::model::{Grain, NoInterval, Radial, StandardErrors, StarSurface, Whole};
 use body::{Body, Inside};
 pub use error::SurveyError;
 use nalgebra::{Matrix3, Vector3};
 use std::cell::OnceCell;
+use std::fmt;
 
 /// A body, and what has been measured of it: each figure is computed when it is first asked for, and
 /// what others need is shared.
@@ -42,11 +43,15 @@ use std::cell::OnceCell;
 /// # Ok::<(), grainform::measure::SurveyError>(())
 /// ```
 ///
+/// Threads take a clone each: what is found when it is first asked for takes threads of its own, and others would wait
+/// for these.
+///
 /// Everything is computed at unit size, so any unit of length will do. A ratio that is outside of its range
 /// is an error, never a figure.
 ///
 /// [`grain_properties`]: super::grain_properties
 /// [`solid_properties`]: super::solid_properties
+#[derive(Clone)]
 pub struct Survey<'a> {
     body: Body<'a>,
     unit: Unit,
@@ -93,7 +98,7 @@ impl<'a> Survey<'a> {
     }
 
     /// Of a surface whose area, volume and moments are known, in its own frame.
-    pub fn of_surface(surface: &'a (dyn StarSurface + Sync), properties: MassProperties) -> Self {
+    pub fn of_surface(surface: &'a dyn StarSurface, properties: MassProperties) -> Self {
         let body = Body::Known(Radial(surface), properties);
         Self::new((body, Unit::OWN), Err(NoInterval::NotTold))
     }
@@ -359,8 +364,11 @@ impl<'a> Survey<'a> {
     ///
     /// # Errors
     ///
-    /// As [`Self::spectrum`].
+    /// As [`Self::spectrum`], and [`SurveyError::Degree`] above [`Whole::MAX_DEGREE`].
     pub fn expansion(&self, degree: usize) -> Result<RadialExpansion, SurveyError> {
+        if degree > Whole::MAX_DEGREE {
+            return Err(SurveyError::Degree { found: degree });
+        }
         let found = RadialExpansion::new(&self.resolved(degree)?, degree);
         Ok(self.unit.expansion(found))
     }
@@ -383,6 +391,15 @@ impl<'a> Survey<'a> {
         let seen = [along(0, "length"), along(1, "width"), along(2, "thickness")];
         let [length, width, thickness]: [Result<Outline, SurveyError>; 3] = seen;
         Ok([length?, width?, thickness?])
+    }
+}
+
+impl fmt::Debug for Survey<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Survey")
+            .field("unit", &self.unit)
+            .field("properties", &self.properties)
+            .finish_non_exhaustive()
     }
 }
 

@@ -7,9 +7,11 @@ use crate::model::surface::mesh_over_grid;
 use crate::model::{
     Frame, InvalidGrain, Node, Radial, StarSurface, Stretch, Surface, SurfaceJet, Tiling,
 };
+use crate::sphere::unit;
 use nalgebra::{Matrix3, Point3, Vector3};
 
 /// A union of superquadrics and where it lies in the scan, seen as the surface that rays from its centre leave last.
+/// Directions may have any length but zero.
 ///
 /// Where these meet it again, that is not its whole surface ([`Self::hidden_share`]); its [mesh](Surface::mesh) is.
 #[derive(Debug, Clone)]
@@ -107,19 +109,21 @@ impl Surface for SuperquadricGrain {
     }
 
     fn place(&self, n: &Vector3<f64>) -> Vector3<f64> {
-        n * self.body.radius(&self.frame.axes.tr_mul(n))
+        let n = unit(n);
+        n * self.body.radius(&self.frame.axes.tr_mul(&n))
     }
 
     fn place_and_slopes(&self, n: &Vector3<f64>) -> (Vector3<f64>, Matrix3<f64>) {
         let axes = self.frame.axes;
-        let (place, slopes) = Radial(&self.body).place_and_slopes(&axes.tr_mul(n));
+        let (place, slopes) = Radial(&self.body).place_and_slopes(&axes.tr_mul(&unit(n)));
         (axes * place, axes * slopes * axes.transpose())
     }
 
     fn jet(&self, n: &Vector3<f64>) -> SurfaceJet {
         let axes = self.frame.axes;
-        let local = self.body.derivatives(&axes.tr_mul(n));
-        local.turned(&axes).radial(n)
+        let n = unit(n);
+        let local = self.body.derivatives(&axes.tr_mul(&n));
+        local.turned(&axes).radial(&n)
     }
 
     fn tiling(&self) -> Tiling {

@@ -17,7 +17,7 @@ pub(super) fn outside(union: &MultiSuperquadric, resolution: usize) -> Mesh {
     let sides = high - low;
     let area = 2.0 * (sides.x * sides.y + sides.y * sides.z + sides.z * sides.x);
     // A cube of directions has a sixth of the box's area on each face.
-    let cell = (area / 6.0).sqrt() / resolution as f64;
+    let cell = (area / 6.0).sqrt() / resolution.max(1) as f64;
     let cell = cell.max(sides.max() / MOST_CELLS);
     let counts = sides.map(|side| (side / cell).ceil() as usize);
     let place = |at: Vector3<f64>| low + (at + Vector3::repeat(0.5)) * cell;

@@ -140,7 +140,7 @@ mod tests {
             let exact = surface.integrals();
             assert!(exact.relative_error < 1e-10, "{body}");
             let mesh = mesh(surface.as_ref(), 48);
-            assert!(crossings(&mesh).is_empty(), "{body}");
+            assert_eq!(crossings(&mesh), Ok(vec![]), "{body}");
             let found = mesh_properties(&mesh).unwrap();
             let exact = exact.properties;
             assert_relative_eq!(found.volume, exact.volume, max_relative = 8e-3);
