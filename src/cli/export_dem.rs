@@ -54,6 +54,13 @@ pub(super) fn run(args: ExportDemArgs, console: Console) -> Result<()> {
         console.warn(&subject.solid.warnings);
     }
     let folder = args.output.display();
+    let others = outputs::beside(&args.output, &files);
+    if !others.is_empty() {
+        console.warn(&[format!(
+            "{folder} also holds what this run did not write: {}.",
+            others.join(", ")
+        )]);
+    }
     console.wrote(&format!("{folder}: {} files", files.len()))
 }
 

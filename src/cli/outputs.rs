@@ -144,6 +144,23 @@ pub(super) fn write_inputs(folder: &Path, files: &[InputFile<'_>]) -> Result<()>
     Ok(())
 }
 
+/// Names, in order, of what a folder holds beside the files that were written to it: an engine would run them too.
+pub(super) fn beside(folder: &Path, files: &[InputFile<'_>]) -> Vec<String> {
+    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
+    let is_own = |path: &PathBuf| {
+        let mut own = files.iter().map(|file| folder.join(&file.path));
+        own.any(|own| own.starts_with(path))
+    };
+    let others = entries
+        .map(|entry| entry.path())
+        .filter(|path| !is_own(path));
+    let mut names: Vec<String> = others
+        .filter_map(|path| Some(path.file_name()?.to_string_lossy().into_owned()))
+        .collect();
+    names.sort();
+    names
+}
+
 /// What an output is called.
 pub(super) fn name(path: &Path) -> String {
     match is_stream(path) {

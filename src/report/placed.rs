@@ -10,6 +10,10 @@ use crate::measure::Curvature;
 use serde::Serialize;
 use std::fmt;
 
+/// Why figures of bodies that are placed beside each other have no standard errors.
+pub(super) const NO_ERRORS: &str = "No standard errors: depths are small beside the grains, whose surfaces may be as far off as \
+     their lengths are.";
+
 /// All touches of two bodies, the deepest first; lengths are in the unit of their scans.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
@@ -22,6 +26,8 @@ pub struct PlacedReport {
     pub unit: Option<Unit>,
     /// Where they touch; nothing if they are apart.
     pub touches: Vec<PlacedTouch>,
+    /// Why these figures have no standard errors.
+    pub no_standard_errors: &'static str,
     /// What to know of these figures.
     pub warnings: Vec<String>,
 }
@@ -68,6 +74,7 @@ impl PlacedReport {
             second,
             unit,
             touches: touches.collect(),
+            no_standard_errors: NO_ERRORS,
             warnings,
         }
     }
@@ -91,6 +98,9 @@ impl fmt::Display for PlacedReport {
                 write!(f, "\n  force       {} N", short(force))?;
             }
         }
-        Ok(())
+        match self.touches.as_slice() {
+            [] => Ok(()),
+            _ => write!(f, "\n{}", self.no_standard_errors),
+        }
     }
 }

@@ -3,7 +3,8 @@
 use super::contact::beyond_hertz;
 use super::escape::escaped;
 use super::hertz::HertzLaw;
-use super::number::{short, triple, with_error};
+use super::number::{short, triple};
+use super::placed::NO_ERRORS;
 use super::unit::{Labels, Unit};
 use crate::contact::{ContactRegion, ContactRegions, VolumeLaw};
 use crate::digits::plural;
@@ -38,6 +39,8 @@ pub struct RegionsReport {
     pub triangles_skipped: usize,
     /// Places of the surfaces that were evaluated beyond those of these triangles.
     pub places_evaluated: usize,
+    /// Why these figures have no standard errors.
+    pub no_standard_errors: &'static str,
     /// What to know of these figures.
     pub warnings: Vec<String>,
 }
@@ -54,7 +57,7 @@ pub struct RegionRecord {
     pub depth: f64,
     /// The volume they share.
     pub volume: f64,
-    /// By how much that may be off.
+    /// By how much its integration may be off.
     pub volume_error: f64,
     /// Principal curvatures of both bodies there, the larger first; `null` where the region has no deepest points.
     pub principal_curvatures: Option<[[f64; 2]; 2]>,
@@ -92,6 +95,7 @@ impl RegionsReport {
             triangles: found.work.triangles,
             triangles_skipped: found.work.skipped,
             places_evaluated: found.work.evaluated,
+            no_standard_errors: NO_ERRORS,
             warnings,
         }
     }
@@ -140,8 +144,13 @@ impl fmt::Display for RegionsReport {
                 short(region.depth),
                 labels.length()
             )?;
-            let volume = with_error(region.volume, Some(region.volume_error));
-            writeln!(f, "  volume      {volume}{}", labels.volume())?;
+            writeln!(
+                f,
+                "  volume      {}{}, integrated to {:.1e}",
+                short(region.volume),
+                labels.volume(),
+                region.volume_error
+            )?;
             if let Some(force) = region.normal_force_n {
                 writeln!(f, "  force       {} N", short(force))?;
             }
@@ -152,6 +161,10 @@ impl fmt::Display for RegionsReport {
             self.triangles - self.triangles_skipped,
             self.triangles,
             self.places_evaluated
-        )
+        )?;
+        match self.regions.as_slice() {
+            [] => Ok(()),
+            _ => write!(f, "\n{}", self.no_standard_errors),
+        }
     }
 }

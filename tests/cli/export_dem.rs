@@ -166,6 +166,29 @@ fn what_no_engine_can_run_is_refused_in_a_sentence() {
     }
 }
 
+#[test]
+fn files_of_an_earlier_run_are_told() {
+    let folder = folder();
+    let bean = grain("bean.ply");
+    let words = [
+        "export-dem",
+        &bean,
+        "--unit",
+        "mm",
+        "-o",
+        "dem",
+        "--spheres",
+        "2",
+    ];
+    let first = grainform(&folder, &[&words[..], &["--engine", "yade"]].concat());
+    assert!(!errors(&first).contains("also holds"), "{}", errors(&first));
+    std::fs::write(folder.path().join("dem/data.old"), "").unwrap();
+    let second = grainform(&folder, &[&words[..], &["--engine", "yade"]].concat());
+    assert!(second.status.success());
+    let told = "warning: dem also holds what this run did not write: data.old.";
+    assert!(errors(&second).contains(told), "{}", errors(&second));
+}
+
 /// Runs an engine in the folder `dem`; gives what it prints.
 fn printed(folder: &TempDir, program: &str, words: &[&str]) -> String {
     let output = Command::new(program)
