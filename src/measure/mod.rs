@@ -79,7 +79,7 @@ pub use self_crossing::SelfCrossing;
 pub(crate) use self_crossing::self_crossing;
 #[cfg(feature = "cli")]
 pub(crate) use smoothed::smoothed_area;
-pub use spectrum::{RadialExpansion, SPECTRUM_DEGREE, Spectrum};
+pub use spectrum::{EXPANSION_DEGREE, RadialExpansion, SPECTRUM_DEGREE, Spectrum};
 pub(crate) use sphericity::equivalent_radius;
 pub use sphericity::{Sphericity, wadell};
 pub use sums::{Integrals, MAX_EVALUATIONS};

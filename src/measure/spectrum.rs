@@ -9,6 +9,9 @@ use std::f64::consts::PI;
 /// Largest degree of a [`Spectrum`]: the largest that the source uses for whole grains.
 pub const SPECTRUM_DEGREE: usize = 20;
 
+/// Largest degree of a [`RadialExpansion`]: the largest that models of grains have.
+pub const EXPANSION_DEGREE: usize = 128;
+
 /// Elements added up by one task; the sums of tasks are added in order, so that the result does not
 /// depend on the number of threads.
 const PER_TASK: usize = 4096;

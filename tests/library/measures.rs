@@ -2,9 +2,8 @@
 //! or scaled.
 
 use approx::assert_relative_eq;
-use grainform::measure::{Scheme, Survey, SurveyError, convex_hull, extents};
+use grainform::measure::{EXPANSION_DEGREE, Scheme, Survey, SurveyError, convex_hull, extents};
 use grainform::mesh::MeshDefect;
-use grainform::model::Whole;
 use grainform::scan::Scan;
 use grainform::shapes::{Body, Ellipsoid, SynthOptions, synthesize};
 use grainform::{FitOptions, Mesh, StarSurface, Tolerance, fit};
@@ -158,7 +157,7 @@ fn a_radius_is_expanded_up_to_the_largest_degree_of_a_model() {
     let ball = Mesh::radial(8, |_| 2.0);
     let survey = Survey::of_mesh(&ball).unwrap();
     assert_eq!(survey.expansion(2).unwrap().coefficients.len(), 9);
-    for found in [Whole::MAX_DEGREE + 1, usize::MAX] {
+    for found in [EXPANSION_DEGREE + 1, usize::MAX] {
         let refused = survey.expansion(found).unwrap_err();
         assert_eq!(refused, SurveyError::Degree { found });
     }

@@ -2,10 +2,9 @@
 
 use crate::measure::scanned::FacesDefect;
 use crate::measure::{
-    EnclosingBallError, HullError, InscribedBallError, MeshIntegralError, OutOfBounds,
-    ProjectionError,
+    EXPANSION_DEGREE, EnclosingBallError, HullError, InscribedBallError, MeshIntegralError,
+    OutOfBounds, ProjectionError,
 };
-use crate::model::Whole;
 use thiserror::Error;
 
 /// Why something cannot be measured.
@@ -57,7 +56,7 @@ pub enum SurveyError {
         share: f64,
     },
     /// An expansion of so high a degree is not told.
-    #[error("degree {found}; at most {} is allowed", Whole::MAX_DEGREE)]
+    #[error("degree {found}; at most {EXPANSION_DEGREE} is allowed")]
     Degree {
         /// The degree asked for.
         found: usize,

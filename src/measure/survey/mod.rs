@@ -11,12 +11,12 @@ use super::extents::Extents;
 use super::nodes::nodes;
 use super::unit::Unit;
 use super::{
-    Ball, Convexity, CurvatureStatistics, EquivalentEllipsoid, Form, MassProperties, OrientedBox,
-    Outline, PrincipalInertia, RadialExpansion, ScannedBody, SideRatios, SolidProperties, Spectrum,
-    Sphericity, project,
+    Ball, Convexity, CurvatureStatistics, EXPANSION_DEGREE, EquivalentEllipsoid, Form,
+    MassProperties, OrientedBox, Outline, PrincipalInertia, RadialExpansion, ScannedBody,
+    SideRatios, SolidProperties, Spectrum, Sphericity, project,
 };
 use crate::Mesh;
-use crate::model::{Grain, NoInterval, Radial, StandardErrors, StarSurface, Whole};
+use crate::model::{Grain, NoInterval, Radial, StandardErrors, StarSurface};
 use body::{Body, Inside};
 pub use error::SurveyError;
 use nalgebra::{Matrix3, Vector3};
@@ -364,9 +364,9 @@ impl<'a> Survey<'a> {
     ///
     /// # Errors
     ///
-    /// As [`Self::spectrum`], and [`SurveyError::Degree`] above [`Whole::MAX_DEGREE`].
+    /// As [`Self::spectrum`], and [`SurveyError::Degree`] above [`EXPANSION_DEGREE`].
     pub fn expansion(&self, degree: usize) -> Result<RadialExpansion, SurveyError> {
-        if degree > Whole::MAX_DEGREE {
+        if degree > EXPANSION_DEGREE {
             return Err(SurveyError::Degree { found: degree });
         }
         let found = RadialExpansion::new(&self.resolved(degree)?, degree);
