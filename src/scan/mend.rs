@@ -8,8 +8,7 @@ use super::topology::each_edge;
 pub(super) fn wound_against(points: usize, triangles: &[[u32; 3]]) -> Option<Vec<usize>> {
     let mut beside: Vec<Vec<(usize, bool)>> = vec![Vec::new(); triangles.len()];
     each_edge(points, triangles, |edge| {
-        let mut along = edge.triangles();
-        if let (Some(one), Some(other), None) = (along.next(), along.next(), along.next()) {
+        if let Some([one, other]) = edge.pair() {
             let is_against = edge.forward != 1;
             beside[one].push((other, is_against));
             beside[other].push((one, is_against));

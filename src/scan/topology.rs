@@ -65,6 +65,14 @@ impl Edge<'_> {
     pub(crate) fn triangles(&self) -> impl ExactSizeIterator<Item = usize> {
         self.sides.iter().map(|side| side / 3)
     }
+
+    /// The two triangles along it, if they are two.
+    pub(crate) fn pair(&self) -> Option<[usize; 2]> {
+        match self.sides {
+            [one, other] => Some([one / 3, other / 3]),
+            _ => None,
+        }
+    }
 }
 
 /// Visits every edge once: sides of triangles are sorted into one bucket per lower end, then within it.

@@ -27,8 +27,7 @@ pub(super) fn bulge(mesh: &Mesh) -> f64 {
     };
     let mut sum = 0.0;
     each_edge(mesh.vertices.len(), &mesh.triangles, |edge| {
-        let mut along = edge.triangles();
-        let (Some(one), Some(other), None) = (along.next(), along.next(), along.next()) else {
+        let Some([one, other]) = edge.pair() else {
             return;
         };
         let [from, to] = edge.ends.map(corner);

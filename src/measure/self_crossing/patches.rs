@@ -205,9 +205,7 @@ fn joined(mesh: &Mesh, cut: &[[usize; 2]]) -> DisjointSets {
     }
     let mut sets = DisjointSets::new(mesh.triangles.len());
     each_edge(mesh.vertices.len(), &mesh.triangles, |edge| {
-        let mut triangles = edge.triangles();
-        if let (Some(one), Some(other), None) =
-            (triangles.next(), triangles.next(), triangles.next())
+        if let Some([one, other]) = edge.pair()
             && !is_cut[one]
             && !is_cut[other]
         {

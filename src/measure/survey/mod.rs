@@ -2,18 +2,17 @@
 
 mod body;
 mod error;
+mod from_centroid;
 mod unit_size;
 
-use super::angularity::angularity;
 use super::bounds::ratio;
 use super::elements::Element;
 use super::extents::Extents;
 use super::nodes::nodes;
 use super::unit::Unit;
 use super::{
-    Ball, Convexity, CurvatureStatistics, EXPANSION_DEGREE, EquivalentEllipsoid, Form,
-    MassProperties, OrientedBox, Outline, PrincipalInertia, RadialExpansion, ScannedBody,
-    SideRatios, SolidProperties, Spectrum, Sphericity, project,
+    Ball, Convexity, CurvatureStatistics, EquivalentEllipsoid, Form, MassProperties, OrientedBox,
+    Outline, PrincipalInertia, ScannedBody, SideRatios, SolidProperties, Sphericity, project,
 };
 use crate::Mesh;
 use crate::model::{Grain, NoInterval, Radial, StandardErrors, StarSurface};
@@ -339,38 +338,6 @@ impl<'a> Survey<'a> {
     /// As [`Self::dimensions`].
     pub fn ellipsoid(&self) -> Result<EquivalentEllipsoid, SurveyError> {
         Ok(self.unit.ellipsoid(self.unit_ellipsoid()?))
-    }
-
-    /// Angularity index: the mean over all directions from the centroid of |r - r_E| / r_E, with r_E
-    /// the radius of the ellipsoid of equal moments. Zero of an ellipsoid, without an upper bound.
-    ///
-    /// # Errors
-    ///
-    /// As [`Self::dimensions`], and [`SurveyError::NotStarShaped`].
-    pub fn angularity(&self) -> Result<f64, SurveyError> {
-        Ok(angularity(self.star_shaped()?, &self.unit_ellipsoid()?))
-    }
-
-    /// Power of the radius from the centroid per degree of spherical harmonics.
-    ///
-    /// # Errors
-    ///
-    /// As [`Self::angularity`].
-    pub fn spectrum(&self) -> Result<Spectrum, SurveyError> {
-        Ok(self.unit.spectrum(Spectrum::new(self.star_shaped()?)))
-    }
-
-    /// The radius seen from the centroid in harmonics up to a degree.
-    ///
-    /// # Errors
-    ///
-    /// As [`Self::spectrum`], and [`SurveyError::Degree`] above [`EXPANSION_DEGREE`].
-    pub fn expansion(&self, degree: usize) -> Result<RadialExpansion, SurveyError> {
-        if degree > EXPANSION_DEGREE {
-            return Err(SurveyError::Degree { found: degree });
-        }
-        let found = RadialExpansion::new(&self.resolved(degree)?, degree);
-        Ok(self.unit.expansion(found))
     }
 
     /// Outlines seen along the axes of the [dimensions](Self::dimensions): along the length, the width and the thickness. The

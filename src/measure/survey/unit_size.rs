@@ -4,22 +4,13 @@ use super::Survey;
 use super::body::Body;
 use super::error::SurveyError;
 use crate::Mesh;
-use crate::measure::elements::{Element, mesh_elements};
 use crate::measure::extents::{Extents, RESOLUTION, Reach};
-use crate::measure::seen::seen_elements;
-use crate::measure::spectrum::SPECTRUM_DEGREE;
 use crate::measure::{
     Ball, EquivalentEllipsoid, MassProperties, OrientedBox, PrincipalInertia, SolidProperties,
     convex_hull, enclosing_ball, extents, inscribed_ball, minimum_box,
 };
 use crate::model::Surface;
 use nalgebra::{Matrix3, Vector3};
-use std::borrow::Cow;
-use std::f64::consts::PI;
-
-/// Share of the directions from the centroid that may meet the surface more than once where the radius
-/// from there is expanded or compared.
-const LARGEST_OVERHANG: f64 = 0.01;
 
 /// Moments that differ by less than this share of the largest have axes by rounding alone.
 const EQUAL: f64 = 1e-6;
@@ -149,45 +140,5 @@ impl Survey<'_> {
     pub(super) fn hull(&self) -> Result<&Mesh, SurveyError> {
         let hull = || Ok(convex_hull(&self.mesh().vertices)?);
         self.hull.get_or_init(hull).as_ref().map_err(Clone::clone)
-    }
-
-    /// The elements of a surface that is seen once in each direction from the centroid.
-    pub(super) fn star_shaped(&self) -> Result<&[Element], SurveyError> {
-        self.one_body()?;
-        let centroid = self.unit_properties()?.centroid;
-        let elements = self.elements.get_or_init(|| match self.body.surface() {
-            Ok(surface) => {
-                let shift = surface.frame().centre - centroid;
-                seen_elements(surface, &shift, SPECTRUM_DEGREE)
-            }
-            Err(_) => mesh_elements(self.mesh(), &centroid),
-        });
-        let (mut front, mut back) = (0.0, 0.0);
-        for element in elements {
-            let (_, _, solid_angle) = element.seen();
-            *(if solid_angle > 0.0 {
-                &mut front
-            } else {
-                &mut back
-            }) += solid_angle.abs();
-        }
-        let share = ((front - 4.0 * PI).abs() + back) / (4.0 * PI);
-        // Written so that NaN fails.
-        match share <= LARGEST_OVERHANG {
-            true => Ok(elements),
-            false => Err(SurveyError::NotStarShaped { share }),
-        }
-    }
-
-    /// The same, so small that harmonics of a degree are resolved.
-    pub(super) fn resolved(&self, degree: usize) -> Result<Cow<'_, [Element]>, SurveyError> {
-        let elements = self.star_shaped()?;
-        match self.body.surface() {
-            Ok(surface) if degree > SPECTRUM_DEGREE => {
-                let shift = surface.frame().centre - self.unit_properties()?.centroid;
-                Ok(seen_elements(surface, &shift, degree).into())
-            }
-            _ => Ok(elements.into()),
-        }
     }
 }
