@@ -166,4 +166,27 @@ mod tests {
         let ring = off(&|_, n| (n.z.abs() - 0.5).abs() < 0.03);
         assert!(alone >= 150 && ring == 0, "{alone} {ring}");
     }
+
+    #[test]
+    fn far_points_are_more_than_chance_from_twenty_six_on() {
+        assert!(!is_more_than_chance(&[1; 25]) && is_more_than_chance(&[-1; 26]));
+        let both = [[1; 26].as_slice(), &[-1; 10], &[0; 1000]].concat();
+        assert!(!is_more_than_chance(&both));
+    }
+
+    #[test]
+    fn far_points_with_company_are_not_lone() {
+        let directions = fibonacci(3000);
+        let neighbours = Neighbours::new(&directions);
+        let pair = neighbours.nearest(&directions[1500], 2);
+        let middle = directions[pair[0]] + directions[pair[1]];
+        let near = neighbours.nearest(&middle.normalize(), 3);
+        let lone = |far: &[usize]| {
+            let mut sides = vec![0; directions.len()];
+            far.iter().for_each(|&at| sides[at] = -1);
+            of_lone(&directions, &sides)
+        };
+        assert_eq!(lone(&near), [0_i8; 0]);
+        assert_eq!(lone(&[near[0], near[1], 100]), [-1; 3]);
+    }
 }
