@@ -36,5 +36,18 @@ pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
         }
     }
     let rest: f64 = a_rest.iter().zip(b_rest).map(|(a, b)| a * b).sum();
-    sums.iter().sum::<f64>() + rest
+    total(sums) + rest
+}
+
+/// The sum of sums that were made side by side: two halves at a time, as registers add.
+#[inline(always)]
+fn total(mut sums: [f64; LANES]) -> f64 {
+    let mut half = LANES / 2;
+    while half > 0 {
+        for i in 0..half {
+            sums[i] += sums[half + i];
+        }
+        half /= 2;
+    }
+    sums[0]
 }

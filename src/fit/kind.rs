@@ -167,16 +167,11 @@ fn compared(
         }
         Ok(fitted) => fitted,
     };
-    let other = Rival {
+    let kept = Rival {
         coefficients: fitted.grain.coefficient_count(),
         rms: fitted.search.choice().heldout_rms.unwrap_or(f64::INFINITY),
     };
-    let is_star = weighed.is_better(&other, limit);
-    if is_star {
-        fitted = star;
-    }
-    let [kept, rival] = if is_star { [own, other] } else { [other, own] };
-    fitted.kind = KindChoice::Compared { kept, rival };
+    fitted.kind = KindChoice::Compared { kept, rival: own };
     Ok(fitted)
 }
 

@@ -66,18 +66,18 @@ pub enum KindChoice {
     NoRadius,
     /// The scan is of voxels, whose steps a radius would follow.
     Voxels,
-    /// It is better than the other kind, which was fitted too.
+    /// The position of points is better than a radius, which was fitted too.
     Compared {
-        /// The one that was kept.
+        /// The position.
         kept: Rival,
-        /// The other one.
+        /// The radius.
         rival: Rival,
     },
-    /// The position of points was given up, for it cannot be better.
+    /// A radius, for the position of points cannot be better.
     Outdoes {
         /// The radius.
         kept: Rival,
-        /// The coefficients of the positions, and the least distance that they may come to.
+        /// The coefficients of the positions, and the least distance that they come to.
         forecast: Rival,
     },
 }

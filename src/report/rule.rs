@@ -111,12 +111,10 @@ pub(super) fn kind_rule(fitted: &Fitted, unit: Option<Unit>) -> Option<String> {
         }
         KindChoice::NoRadius => Some("for no radius follows the points".into()),
         KindChoice::Compared { kept, rival } => {
-            let other = match fitted.grain.star() {
-                Some(_) => "the position of points takes",
-                None if rival.rms < kept.rms && kept.rms > fitted.search.limit => {
-                    "a radius, which does not see all of it, takes"
-                }
-                None => "a radius takes",
+            let is_nearer = rival.rms < kept.rms && kept.rms > fitted.search.limit;
+            let other = match is_nearer {
+                true => "a radius, which does not see all of it, takes",
+                false => "a radius takes",
             };
             Some(format!(
                 "for it takes {}, where {other} {}",

@@ -23,20 +23,27 @@ pub fn cube_grid(n: usize) -> (Vec<Vector3<f64>>, Vec<[u32; 3]>) {
     let mut triangles = Vec::with_capacity(12 * n * n);
     for axis in 0..3 {
         for side in [0, n] {
-            let corner = |u: usize, v: usize| {
-                let mut point = [side; 3];
-                point[(axis + 1) % 3] = u;
-                point[(axis + 2) % 3] = v;
-                lattice.index(point) as u32
+            let row = |u: usize| {
+                let corner = move |v: usize| {
+                    let mut point = [side; 3];
+                    point[(axis + 1) % 3] = u;
+                    point[(axis + 2) % 3] = v;
+                    lattice.index(point) as u32
+                };
+                (0..=n).map(corner)
             };
-            for (u, v) in (0..n).flat_map(|u| (0..n).map(move |v| (u, v))) {
-                let (a, b) = (corner(u, v), corner(u + 1, v));
-                let (c, d) = (corner(u + 1, v + 1), corner(u, v + 1));
-                if side == n {
-                    triangles.extend([[a, b, c], [a, c, d]]);
-                } else {
-                    triangles.extend([[a, c, b], [a, d, c]]);
+            let mut before: Vec<u32> = row(0).collect();
+            for u in 1..=n {
+                let next: Vec<u32> = row(u).collect();
+                for (along, beyond) in before.windows(2).zip(next.windows(2)) {
+                    let (a, d, b, c) = (along[0], along[1], beyond[0], beyond[1]);
+                    if side == n {
+                        triangles.extend([[a, b, c], [a, c, d]]);
+                    } else {
+                        triangles.extend([[a, c, b], [a, d, c]]);
+                    }
                 }
+                before = next;
             }
         }
     }

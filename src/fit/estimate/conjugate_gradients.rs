@@ -11,10 +11,8 @@ use std::f64::consts::PI;
 pub(crate) const MOST_STEPS: usize = 1000;
 
 impl Conditioned<'_> {
-    /// (Y'WY / s^2 + V^-1) x.
-    fn precision(&self, x: &[f64], out: &mut [f64]) {
-        let Posterior { sums, cloud, .. } = self.posterior;
-        sums.gram(cloud).apply(x, out);
+    /// From Y'WY x to (Y'WY / s^2 + V^-1) x.
+    fn add_prior(&self, x: &[f64], out: &mut [f64]) {
         vectorize(
             #[inline(always)]
             || {
@@ -83,11 +81,18 @@ impl Conditioned<'_> {
         precondition: impl Fn(&[f64], &mut [f64]),
     ) -> (Vec<f64>, usize) {
         let count = right.len();
+        let Posterior { sums, cloud, .. } = self.posterior;
+        let gram = sums.gram(cloud);
+        let mut workspace = gram.workspace();
+        let mut precision = |x: &[f64], out: &mut [f64]| {
+            gram.apply(x, &mut workspace, out);
+            self.add_prior(x, out);
+        };
         let (mut x, mut q) = (vec![0.0; count], vec![0.0; count]);
         let mut r = right.to_vec();
         if let Some(start) = start {
             x.copy_from_slice(start);
-            self.precision(&x, &mut q);
+            precision(&x, &mut q);
             r.iter_mut().zip(&q).for_each(|(r, q)| *r -= q);
         }
         let product = |a: &[f64], b: &[f64]| {
@@ -102,7 +107,7 @@ impl Conditioned<'_> {
         let mut rz = product(&r, &z);
         let mut energies: Vec<f64> = Vec::new();
         while energies.len() < MOST_STEPS && rz > 0.0 {
-            self.precision(&p, &mut q);
+            precision(&p, &mut q);
             let step = rz / product(&p, &q);
             vectorize(
                 #[inline(always)]

@@ -52,17 +52,6 @@ impl Rows {
     pub(super) fn per_cell(&self) -> usize {
         self.values.len() / (self.members.len() * self.cells.len())
     }
-
-    /// The values of every row times a weight of its member.
-    pub(super) fn times(&self, weight: impl Fn(u32) -> f64) -> Vec<f64> {
-        let weights: Vec<f64> = self.members.iter().map(|&member| weight(member)).collect();
-        let mut values = self.values.clone();
-        for column in values.chunks_exact_mut(weights.len()) {
-            let weighted = column.iter_mut().zip(&weights);
-            weighted.for_each(|(value, weight)| *value *= weight);
-        }
-        values
-    }
 }
 
 impl Functions {

@@ -11,6 +11,7 @@ use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, MatRef, Par, Scale};
 use nalgebra::{Matrix3, Vector3};
 use rayon::prelude::*;
+use std::collections::BTreeMap;
 
 /// Solutions of the equations, each for what the ones before have left.
 const PASSES: usize = 2;
@@ -28,60 +29,72 @@ pub(super) struct Term {
 /// What keeps functions smooth: rows whose squares add up to the roughness of a coordinate, and their products.
 pub(super) struct Roughness {
     rows: Vec<Rows>,
-    products: BlockMatrix,
+    products: Products,
 }
 
 impl Roughness {
     pub(super) fn new(functions: &Functions) -> Self {
         let rows = functions.roughness();
-        let mut products = BlockMatrix::new(vec![functions.per_cell(); functions.cell_count()]);
+        let mut products = Products::default();
         for rows in &rows {
-            add_products(&mut products, [0, 0], rows, &rows.values);
+            products.add(rows, |_| [1.0]);
         }
         Self { rows, products }
     }
 }
 
-/// Rows, what is asked of each of their members, and how much the roughness weighs beside it.
+/// Rows, and what is asked of each of their members. Their products are formed once, for any weight of the roughness.
 pub(super) struct Equations<'a> {
-    pub(super) rows: &'a [Rows],
+    functions: &'a Functions,
+    rows: &'a [Rows],
     /// By number of the member.
-    pub(super) terms: &'a [Term],
-    pub(super) roughness: (&'a Roughness, f64),
+    terms: Vec<Term>,
+    products: Products,
 }
 
-impl Equations<'_> {
-    /// The factored matrix; `None` if nothing determines the coefficients.
-    fn factored(&self, functions: &Functions) -> Option<BlockFactor> {
-        let size = functions.per_cell();
-        let mut matrix = BlockMatrix::new(vec![3 * size; functions.cell_count()]);
-        for rows in self.rows {
-            for [i, j] in PAIRS {
-                let weight = |member: u32| self.terms[member as usize].weight[(i, j)];
-                add_products(&mut matrix, [i, j], rows, &rows.times(weight));
+impl<'a> Equations<'a> {
+    pub(super) fn new(functions: &'a Functions, rows: &'a [Rows], terms: Vec<Term>) -> Self {
+        let mut products = Products::default();
+        for rows in rows {
+            products.add(rows, |member| {
+                PAIRS.map(|at| terms[member as usize].weight[at])
+            });
+        }
+        Self {
+            functions,
+            rows,
+            terms,
+            products,
+        }
+    }
+
+    /// The factored matrix, with the roughness at a weight; `None` if nothing determines the coefficients.
+    fn factored(&self, roughness: &Roughness, weight: f64) -> Option<BlockFactor> {
+        let size = self.functions.per_cell();
+        let cells = self.functions.cell_count() as u16;
+        let mut matrix = BlockMatrix::new(vec![3 * size; cells.into()]);
+        for (&(one, other), products) in &self.products.0 {
+            let block = matrix.block(one, other);
+            for (at, (i, j)) in PAIRS.into_iter().enumerate() {
+                let product = products.subcols(at * size, size);
+                for (i, j) in [(i, j), (j, i)] {
+                    let mut part = block.submatrix_mut(i * size, j * size, size, size);
+                    part.copy_from(product);
+                }
             }
         }
-        let (roughness, weight) = self.roughness;
-        for (&(one, other), product) in &roughness.products.blocks {
+        for (&(one, other), product) in &roughness.products.0 {
             let block = matrix.block(one, other);
             for start in [0, size, 2 * size] {
                 let mut part = block.submatrix_mut(start, start, size, size);
                 part += Scale(weight) * product;
             }
         }
-        for block in matrix.blocks.values_mut() {
-            for [i, j] in PAIRS.into_iter().filter(|[i, j]| i != j) {
-                let product = block.submatrix(i * size, j * size, size, size).to_owned();
-                block
-                    .submatrix_mut(j * size, i * size, size, size)
-                    .copy_from(product);
-            }
-        }
-        let trace: f64 = (0..functions.cell_count() as u16)
+        let trace: f64 = (0..cells)
             .map(|cell| matrix.block(cell, cell).diagonal().column_vector().sum())
             .sum();
-        let ridge = RIDGE * trace / (3 * functions.count()) as f64;
-        for cell in 0..functions.cell_count() as u16 {
+        let ridge = RIDGE * trace / (3 * self.functions.count()) as f64;
+        for cell in 0..cells {
             let block = matrix.block(cell, cell);
             for at in 0..block.nrows() {
                 block[(at, at)] += ridge;
@@ -90,9 +103,15 @@ impl Equations<'_> {
         matrix.factor()
     }
 
-    /// The coefficients of least squares, per cell, and the factored matrix; `None` if nothing determines them.
-    pub(super) fn solve(&self, functions: &Functions) -> Option<(Vec<Vec<f64>>, BlockFactor)> {
-        let factor = self.factored(functions)?;
+    /// The coefficients of least squares, per cell, with the roughness at a weight, and the factored matrix; `None` if
+    /// nothing determines them.
+    pub(super) fn solve(
+        &self,
+        roughness: &Roughness,
+        weight: f64,
+    ) -> Option<(Vec<Vec<f64>>, BlockFactor)> {
+        let functions = self.functions;
+        let factor = self.factored(roughness, weight)?;
         let mut coefficients = vec![vec![0.0; 3 * functions.per_cell()]; functions.cell_count()];
         for _ in 0..PASSES {
             let mut steps = no_sums(functions, 1);
@@ -109,7 +128,6 @@ impl Equations<'_> {
             for (rows, left) in self.rows.iter().zip(left) {
                 add_adjoint(&mut steps, 0, rows, &left);
             }
-            let (roughness, weight) = self.roughness;
             for rows in &roughness.rows {
                 let rough = values(rows, of_cell).into_iter();
                 let left: Vec<_> = rough.map(|value| value * -weight).collect();
@@ -133,27 +151,39 @@ pub(super) fn no_sums(functions: &Functions, columns: usize) -> Vec<Mat<f64>> {
 }
 
 /// The pairs of coordinates, each once.
-const PAIRS: [[usize; 2]; 6] = [[0, 0], [1, 1], [2, 2], [0, 1], [0, 2], [1, 2]];
+const PAIRS: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)];
 
-/// Adds B^T W B, with W B `weighted`, to the parts for two coordinates of the blocks of all pairs of cells.
-fn add_products(matrix: &mut BlockMatrix, [i, j]: [usize; 2], rows: &Rows, weighted: &[f64]) {
-    let (height, size) = (rows.members.len(), rows.per_cell());
-    let [of_cell, weighted] = [rows.values.as_slice(), weighted].map(|values| {
-        let cells = values.chunks_exact(height * size);
-        let columns = cells.map(|own| MatRef::from_column_major_slice(own, height, size));
-        columns.collect::<Vec<MatRef<'_, f64>>>()
-    });
-    for (at, &one) in rows.cells.iter().enumerate() {
-        for (other_at, &other) in rows.cells[..=at].iter().enumerate() {
-            let block = matrix.block(one, other);
-            matmul(
-                block.submatrix_mut(i * size, j * size, size, size),
-                Accum::Add,
-                of_cell[at].transpose(),
-                weighted[other_at],
-                1.0,
-                Par::Seq,
-            );
+/// Sums of B^T W B over rows, for all pairs of cells, the later one first: side by side those of several weights W.
+#[derive(Default)]
+struct Products(BTreeMap<(u16, u16), Mat<f64>>);
+
+impl Products {
+    /// Adds those of some rows, with the weights of each member.
+    fn add<const N: usize>(&mut self, rows: &Rows, weights: impl Fn(u32) -> [f64; N]) {
+        let (height, size) = (rows.members.len(), rows.per_cell());
+        let weights: Vec<[f64; N]> = rows.members.iter().map(|&member| weights(member)).collect();
+        let of_cells = || rows.values.chunks_exact(height * size);
+        let mut weighted = Vec::with_capacity(N * height * size);
+        for (at, (other, values)) in rows.cells.iter().zip(of_cells()).enumerate() {
+            weighted.clear();
+            for which in 0..N {
+                for column in values.chunks_exact(height) {
+                    let pairs = column.iter().zip(&weights);
+                    weighted.extend(pairs.map(|(value, weights)| value * weights[which]));
+                }
+            }
+            let right = MatRef::from_column_major_slice(&weighted, height, N * size);
+            for (one, values) in rows.cells.iter().zip(of_cells()).skip(at) {
+                let sums = self.0.entry((*one, *other));
+                matmul(
+                    sums.or_insert_with(|| Mat::zeros(size, N * size)),
+                    Accum::Add,
+                    MatRef::from_column_major_slice(values, height, size).transpose(),
+                    right,
+                    1.0,
+                    Par::Seq,
+                );
+            }
         }
     }
 }

@@ -99,19 +99,19 @@ impl<'a> Problem<'a> {
         roughness: f64,
         used: Used,
     ) -> Option<Position> {
-        let fitted = self.fit_factored(cloud, rows, weights, roughness, used);
+        let equations = self.equations(cloud, rows, weights, used);
+        let fitted = self.solve(&equations, roughness);
         fitted.map(|(surface, _)| surface)
     }
 
-    /// The same, and the factored matrix of the least squares.
-    fn fit_factored(
-        &self,
+    /// The equations of this surface, for any roughness.
+    fn equations<'b>(
+        &'b self,
         cloud: &Cloud<'_>,
-        rows: &[Rows],
+        rows: &'b [Rows],
         [normal, any]: [f64; 2],
-        roughness: f64,
         used: Used,
-    ) -> Option<(Position, BlockFactor)> {
+    ) -> Equations<'b> {
         let term = |at: usize| {
             let is_used = used == Used::All || !cloud.is_left_out[at];
             let weight = if is_used { cloud.weights[at] } else { 0.0 };
@@ -121,13 +121,13 @@ impl<'a> Problem<'a> {
                 weight: (n * n.transpose() * normal + Matrix3::identity() * any) * weight,
             }
         };
-        let terms: Vec<Term> = (0..cloud.points.len()).map(term).collect();
-        let equations = Equations {
-            rows,
-            terms: &terms,
-            roughness: (&self.roughness, roughness),
-        };
-        let (coefficients, factor) = equations.solve(self.functions)?;
+        let terms = (0..cloud.points.len()).map(term).collect();
+        Equations::new(self.functions, rows, terms)
+    }
+
+    /// The surface, and the factored matrix of the least squares.
+    fn solve(&self, equations: &Equations<'_>, roughness: f64) -> Option<(Position, BlockFactor)> {
+        let (coefficients, factor) = equations.solve(&self.roughness, roughness)?;
         Some((self.functions.surface(coefficients).ok()?, factor))
     }
 
@@ -137,10 +137,12 @@ impl<'a> Problem<'a> {
     }
 
     /// All rounds, with the roughness that held-out samples ask for, or as much more as it takes to leave a sound
-    /// surface. `None` if the samples do not determine one.
+    /// surface. `None` if the samples do not determine one, or if it `is_worth` nothing at its held-out distance: a
+    /// rougher one comes no nearer.
     pub(super) fn run(
         &self,
         cloud: &mut Cloud<'_>,
+        is_worth: &dyn Fn(f64) -> bool,
         context: &Context<'_>,
     ) -> Result<Option<Fitted>, Cancelled> {
         let rows = self.rows(cloud);
@@ -152,8 +154,8 @@ impl<'a> Problem<'a> {
         let mut roughness = self.best_roughness(cloud);
         let mut best: Option<Fitted> = None;
         for _ in 0..MOST_TRIES {
-            let Some(found) = self.all_rounds(cloud, roughness, context)? else {
-                break;
+            let Some(found) = self.all_rounds(cloud, roughness, is_worth, context)? else {
+                return Ok(None);
             };
             let is_sound = found.is_sound();
             if best
@@ -174,13 +176,13 @@ impl<'a> Problem<'a> {
     /// The weight with which held-out samples are met best; a greater one is tried where it has served so far.
     fn best_roughness(&self, cloud: &Cloud<'_>) -> f64 {
         let rows = self.rows(cloud);
+        let equations = self.equations(cloud, &rows, [1.0, ACROSS[0]], Used::NotLeftOut);
         let mut best = (f64::INFINITY, ROUGHNESS[0]);
         for roughness in ROUGHNESS {
-            let weights = [1.0, ACROSS[0]];
-            let Some(surface) = self.fit(cloud, &rows, weights, roughness, Used::NotLeftOut) else {
+            let Some((surface, _)) = self.solve(&equations, roughness) else {
                 continue;
             };
-            let (held_out, _) = cloud.distances(&surface, |at| cloud.is_held_out(at));
+            let held_out = cloud.distances(&surface, |at| cloud.is_held_out(at));
             if held_out.rms >= best.0 {
                 break;
             }
@@ -193,6 +195,7 @@ impl<'a> Problem<'a> {
         &self,
         cloud: &mut Cloud<'_>,
         roughness: f64,
+        is_worth: &dyn Fn(f64) -> bool,
         context: &Context<'_>,
     ) -> Result<Option<Fitted>, Cancelled> {
         for across in ACROSS {
@@ -206,13 +209,21 @@ impl<'a> Problem<'a> {
         }
         let rows = self.rows(cloud);
         let weights = [1.0, LAST_ACROSS];
-        let fit = |used: Used| self.fit_factored(cloud, &rows, weights, roughness, used);
-        let (Some((surface, factor)), Some((other, _))) = (fit(Used::All), fit(Used::NotLeftOut))
-        else {
+        let fit = |used: Used| {
+            let equations = self.equations(cloud, &rows, weights, used);
+            self.solve(&equations, roughness)
+        };
+        let Some((other, _)) = fit(Used::NotLeftOut) else {
             return Ok(None);
         };
-        let (distances, _) = cloud.distances(&surface, |at| cloud.is_scanned(at));
-        let (held_out, _) = cloud.distances(&other, |at| cloud.is_held_out(at));
+        let held_out = cloud.distances(&other, |at| cloud.is_held_out(at));
+        if !is_worth(held_out.rms) {
+            return Ok(None);
+        }
+        let Some((surface, factor)) = fit(Used::All) else {
+            return Ok(None);
+        };
+        let distances = cloud.distances(&surface, |at| cloud.is_scanned(at));
         let crossings = crossing_places(&surface);
         let faults = [cloud.turned_over(&surface), crossings.len()];
         let is_folded = is_folded(&surface);

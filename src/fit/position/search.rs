@@ -58,8 +58,8 @@ const ROUGHNESS: f64 = 1e-7;
 const ACROSS: f64 = 0.3;
 
 /// Fits what the options ask for to samples of a body of about radius 1, within a `limit` of held-out distance.
-/// `None` if the samples do not determine a surface, or if that of cells `is_worth` no more work, by the number of its
-/// coefficients and the least distance that it may come to.
+/// `None` if the samples do not determine a surface, or if none `is_worth` more work, by the number of its coefficients
+/// and the least distance that it may come to.
 pub(super) fn search(
     cloud: &mut Cloud<'_>,
     options: &FitOptions,
@@ -67,17 +67,23 @@ pub(super) fn search(
     is_worth: &(dyn Fn(usize, f64) -> bool + Sync),
     context: &Context<'_>,
 ) -> Result<Option<Fitted>, Cancelled> {
+    let run = |functions: &Functions, cloud: &mut Cloud<'_>| {
+        let is_worth = |rms: f64| is_worth(3 * functions.count(), rms);
+        Problem::new(functions).run(cloud, &is_worth, context)
+    };
     match options.segments {
         Some(1) => {
             let bound = options.max_degree.unwrap_or(usize::MAX);
             let degree = options.degree.unwrap_or(WHOLE_DEGREES[2].min(bound));
             let functions = Functions::whole(degree);
             settle(&functions, cloud);
-            return Problem::new(&functions).run(cloud, context);
+            return run(&functions, cloud);
         }
         Some(segments) => {
             let parts = (segments / 6).isqrt() as u16;
-            return fit(&on_cells(CubeCell::uniform(parts), options), cloud, context);
+            let functions = on_cells(CubeCell::uniform(parts), options);
+            restart(cloud, &functions);
+            return run(&functions, cloud);
         }
         None => {}
     }
@@ -91,17 +97,18 @@ pub(super) fn search(
             break;
         }
         if held_out <= GAIN_OF_ROUNDS * limit
-            && let Some(fitted) = Problem::new(&functions).run(cloud, context)?
+            && let Some(fitted) = run(&functions, cloud)?
             && is_enough(&fitted, limit)
         {
             return Ok(Some(fitted));
         }
     }
     let (functions, held_out) = split(cloud, options, limit, context)?;
-    match is_worth(3 * functions.count(), held_out / MOST_GAIN_OF_ROUNDS) {
-        true => fit(&functions, cloud, context),
-        false => Ok(None),
+    if !is_worth(3 * functions.count(), held_out / MOST_GAIN_OF_ROUNDS) {
+        return Ok(None);
     }
+    restart(cloud, &functions);
+    run(&functions, cloud)
 }
 
 /// Degrees of expansions of the whole sphere that the options leave.
@@ -126,15 +133,6 @@ fn on_cells(cells: Vec<CubeCell>, options: &FitOptions) -> Functions {
         .expect("cells that tile the sphere")
 }
 
-fn fit(
-    functions: &Functions,
-    cloud: &mut Cloud<'_>,
-    context: &Context<'_>,
-) -> Result<Option<Fitted>, Cancelled> {
-    restart(cloud, functions);
-    Problem::new(functions).run(cloud, context)
-}
-
 /// What one fit tells of functions.
 struct Once {
     /// Root of the mean squared distance of samples not used.
@@ -157,7 +155,7 @@ fn settle(functions: &Functions, cloud: &mut Cloud<'_>) -> Option<f64> {
         let rows = problem.rows(cloud);
         let weights = [1.0, ACROSS];
         let surface = problem.fit(cloud, &rows, weights, ROUGHNESS, Used::NotLeftOut)?;
-        let (found, _) = cloud.distances(&surface, |at| cloud.is_held_out(at));
+        let found = cloud.distances(&surface, |at| cloud.is_held_out(at));
         if round >= LEAST_ROUNDS_OF_WHOLE && found.rms > (1.0 - SETTLED) * held_out {
             break;
         }
@@ -174,7 +172,10 @@ fn try_once(functions: &Functions, cloud: &mut Cloud<'_>) -> Option<Once> {
     let rows = problem.rows(cloud);
     let weights = [1.0, ACROSS];
     let surface = problem.fit(cloud, &rows, weights, ROUGHNESS, Used::NotLeftOut)?;
-    let (held_out, squares) = cloud.distances(&surface, |at| cloud.is_held_out(at));
+    let all: Vec<usize> = (0..cloud.points.len()).collect();
+    let squares = cloud.squared_distances(&surface, &all);
+    let of_held_out = all.into_iter().filter(|&at| cloud.is_held_out(at));
+    let held_out = cloud.mean_of(of_held_out.map(|at| (at, squares[at])));
     let mut errors = vec![0.0; functions.cell_count()];
     for (at, squared) in squares.iter().enumerate() {
         errors[home(functions, &cloud.directions[at])] += cloud.weights[at] * squared;

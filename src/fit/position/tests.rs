@@ -100,6 +100,30 @@ fn a_banana_is_fitted_whole() {
     assert_relative_eq!(volume, BANANA_VOLUME, max_relative = 5e-3);
 }
 
+/// No more is done for a surface that its held-out distance makes no use of.
+#[test]
+fn a_fit_is_given_up_at_its_held_out_distance() {
+    let scan = Scan::from_mesh(mesh(12, banana)).unwrap();
+    let options = FitOptions::default().with_segments(6);
+    let context = Context::default();
+    let fit = fit_position(&scan, &options, &context).unwrap();
+    let of_fit = Rival {
+        coefficients: fit.surface.coefficient_count(),
+        rms: fit.held_out.rms,
+    };
+    for factor in [0.999, 1.001] {
+        let is_worth = |rival: Rival| {
+            assert_eq!(rival.coefficients, of_fit.coefficients);
+            rival.rms < factor * of_fit.rms
+        };
+        let found = fit_position_if(&scan, &options, &context, &is_worth);
+        match factor < 1.0 {
+            true => assert_eq!(found.unwrap_err(), FitError::NoEstimate),
+            false => assert_eq!(found.unwrap().held_out.rms, of_fit.rms),
+        }
+    }
+}
+
 #[test]
 fn motion_and_scale_change_nothing() {
     let body = mesh(12, banana);

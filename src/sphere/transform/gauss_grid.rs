@@ -1,6 +1,6 @@
 //! Values of an expansion at Gauss-Legendre rings of equispaced azimuths, and the transpose.
 
-use super::azimuth::{AzimuthSeries, IMAGES};
+use super::azimuth::{AzimuthSeries, AzimuthTerms, IMAGES};
 use super::kept::Kept;
 use super::polar::PolarTable;
 use crate::sphere::{GaussLegendre, HarmonicBasis, harmonic_index};
@@ -113,16 +113,30 @@ impl GaussGrid {
         })
     }
 
-    /// Values of an expansion at the nodes.
-    pub(super) fn synthesis(&self, coefficients: &[f64], values: &mut [f64]) {
-        let terms = self.polar.synthesis(coefficients);
-        self.series.synthesis(&terms, values);
+    /// Room for the terms of the azimuth.
+    pub(super) fn terms(&self) -> AzimuthTerms {
+        self.polar.terms()
     }
 
-    /// The transpose of [`Self::synthesis`]. Overwrites `values`.
-    pub(super) fn adjoint(&self, values: &mut [f64], coefficients: &mut [f64]) {
-        let mut terms = self.polar.terms();
-        self.series.adjoint(values, &mut terms);
-        self.polar.adjoint(&terms, coefficients);
+    /// Values of an expansion at the nodes; overwrites all of them and of `terms`.
+    pub(super) fn synthesis(
+        &self,
+        coefficients: &[f64],
+        terms: &mut AzimuthTerms,
+        values: &mut [f64],
+    ) {
+        self.polar.synthesis(coefficients, terms);
+        self.series.synthesis(terms, values);
+    }
+
+    /// The transpose of [`Self::synthesis`]. Overwrites `values` and all of `terms`.
+    pub(super) fn adjoint(
+        &self,
+        values: &mut [f64],
+        terms: &mut AzimuthTerms,
+        coefficients: &mut [f64],
+    ) {
+        self.series.adjoint(values, terms);
+        self.polar.adjoint(terms, coefficients);
     }
 }

@@ -15,6 +15,7 @@
 //! that an entry of the matrix is a sum over rings: with these L^4 / 2 (2L + 1) products instead of L^4 N / 2 the matrix
 //! of 1500 points and degree 36 is formed six times as fast.
 
+use super::azimuth::AzimuthTerms;
 use super::gauss_grid::GaussGrid;
 use super::polar::PolarTable;
 use crate::sphere::{coefficient_count, harmonic_index};
@@ -31,6 +32,12 @@ pub(crate) struct HarmonicGram {
     diagonal: Vec<f64>,
 }
 
+/// What a product with the matrix is made in.
+pub(crate) struct Workspace {
+    values: Vec<f64>,
+    terms: AzimuthTerms,
+}
+
 impl HarmonicGram {
     /// The matrix of the harmonics up to `degree`, from the coefficients w_j of degree <= 2 `degree`.
     ///
@@ -39,7 +46,7 @@ impl HarmonicGram {
     pub(crate) fn new(degree: usize, moments: &[f64]) -> Self {
         let wide = GaussGrid::wide(degree);
         let mut diagonal = vec![0.0; wide.len()];
-        wide.synthesis(moments, &mut diagonal);
+        wide.synthesis(moments, &mut wide.terms(), &mut diagonal);
         for (entry, weight) in diagonal.iter_mut().zip(wide.weights()) {
             *entry *= weight;
         }
@@ -50,17 +57,25 @@ impl HarmonicGram {
         }
     }
 
+    /// Room for [`Self::apply`].
+    pub(crate) fn workspace(&self) -> Workspace {
+        Workspace {
+            values: vec![0.0; self.grid.len()],
+            terms: self.grid.terms(),
+        }
+    }
+
     /// out = Y'WY x.
     ///
     /// # Panics
-    /// If there are fewer than (degree + 1)² numbers.
-    pub(crate) fn apply(&self, x: &[f64], out: &mut [f64]) {
-        let mut values = vec![0.0; self.grid.len()];
-        self.grid.synthesis(x, &mut values);
+    /// If there are fewer than (degree + 1)² numbers, or the workspace is that of another degree.
+    pub(crate) fn apply(&self, x: &[f64], workspace: &mut Workspace, out: &mut [f64]) {
+        let Workspace { values, terms } = workspace;
+        self.grid.synthesis(x, terms, values);
         for (value, weight) in values.iter_mut().zip(&self.diagonal) {
             *value *= weight;
         }
-        self.grid.adjoint(&mut values, out);
+        self.grid.adjoint(values, terms, out);
     }
 
     /// Y'WY itself, in single or double precision.

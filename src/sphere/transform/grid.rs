@@ -76,7 +76,8 @@ impl Grid {
 
     /// The expansion, each of its waves divided by the kernel's transform, on the grid and its halo.
     pub(super) fn synthesis(&self, coefficients: &[f64]) -> Vec<f64> {
-        let terms = self.polar.synthesis(coefficients);
+        let mut terms = self.polar.terms();
+        self.polar.synthesis(coefficients, &mut terms);
         let mut of_ring = vec![Complex::ZERO; self.orders];
         let mut points = vec![0.0; self.len()];
         let mut workspace = self.fft.workspace();

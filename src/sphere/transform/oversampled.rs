@@ -38,12 +38,14 @@ pub(super) fn oversampled(
         .collect();
     let filters = [(0, 0), (0, 1), (1, 0), (1, 1)]
         .map(|(m, l)| Filter::new(degree, around, rows, &transform, m, l));
+    let per_order: Vec<f64> = (0..=degree)
+        .map(|m| 1.0 / transform.at(m, azimuths))
+        .collect();
     PolarTable::new(degree, rings, |l, m, column| {
-        let per_order = 1.0 / transform.at(m, azimuths);
         let filter = &filters[2 * (m % 2) + l % 2];
         let values = at_midpoints
             .iter()
-            .map(|values| per_order * values[harmonic_index(l, m as isize)]);
+            .map(|values| per_order[m] * values[harmonic_index(l, m as isize)]);
         filter.apply(&values.collect::<Vec<_>>(), column);
     })
 }

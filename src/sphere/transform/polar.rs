@@ -85,37 +85,34 @@ impl PolarTable {
         AzimuthTerms::new(2 * self.rows, self.degree + 1)
     }
 
-    /// The terms of the azimuth on every ring.
-    pub(super) fn synthesis(&self, coefficients: &[f64]) -> AzimuthTerms {
-        let mut terms = self.terms();
+    /// The terms of the azimuth on every ring; overwrites all of `terms`.
+    pub(super) fn synthesis(&self, coefficients: &[f64], terms: &mut AzimuthTerms) {
         vectorize(
             #[inline(always)]
             || {
-                let mut halves = self.halves();
+                let mut pairs = Vec::with_capacity(self.degree + 1);
                 for m in 0..=self.degree {
-                    let columns = self.columns(m).chunks_exact(self.rows);
-                    let Halves { cosine, sine } = &mut halves;
-                    for half in cosine.iter_mut().chain(sine.iter_mut()) {
-                        half.fill(0.0);
-                    }
-                    for (l, column) in (m..).zip(columns) {
-                        let [a, b] = pair(coefficients, l, m);
-                        add(&mut cosine[(l - m) % 2], a, column);
-                        add(&mut sine[(l - m) % 2], b, column);
-                    }
-                    for (own, [even, odd]) in terms.of_order_mut(m).into_iter().zip([cosine, sine])
-                    {
-                        let (north, south) = own.split_at_mut(self.rows);
-                        let halves = even.iter().zip(odd.iter());
-                        for ((north, south), (even, odd)) in north.iter_mut().zip(south).zip(halves)
+                    pairs.clear();
+                    pairs.extend((m..=self.degree).map(|l| pair(coefficients, l, m)));
+                    let columns = self.columns(m);
+                    let [cosine, sine] = terms.of_order_mut(m);
+                    for from in (0..self.rows).step_by(LANES) {
+                        let [even, odd] = sums(&columns[from..], self.rows, &pairs);
+                        for (own, [even, odd]) in [&mut *cosine, &mut *sine]
+                            .into_iter()
+                            .zip([[even[0], odd[0]], [even[1], odd[1]]])
                         {
-                            (*north, *south) = (even + odd, even - odd);
+                            let (north, south) = own.split_at_mut(self.rows);
+                            let [north, south] =
+                                [north, south].map(|half| &mut half[from..][..LANES]);
+                            for i in 0..LANES {
+                                (north[i], south[i]) = (even[i] + odd[i], even[i] - odd[i]);
+                            }
                         }
                     }
                 }
             },
         );
-        terms
     }
 
     /// The transpose of [`Self::synthesis`]; the second row of an equator and those of padding hold zero.
@@ -158,6 +155,22 @@ impl PolarTable {
             sine: [zeros(), zeros()],
         }
     }
+}
+
+/// Sums over the degrees of an order, on some rings: of every other degree from the first on, and from the second on; of
+/// each that with the first numbers of the pairs, and that with the second. The columns begin `stride` apart.
+#[inline(always)]
+fn sums(columns: &[f64], stride: usize, pairs: &[[f64; 2]]) -> [[[f64; LANES]; 2]; 2] {
+    let mut sums = [[[0.0; LANES]; 2]; 2];
+    let columns = columns.chunks(stride).map(|column| &column[..LANES]);
+    for (at, (pair, column)) in pairs.iter().zip(columns).enumerate() {
+        for (sum, factor) in sums[at % 2].iter_mut().zip(pair) {
+            for i in 0..LANES {
+                sum[i] += factor * column[i];
+            }
+        }
+    }
+    sums
 }
 
 /// The coefficients of the cosine and the sine of degree l and order m.

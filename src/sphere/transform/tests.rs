@@ -119,7 +119,7 @@ fn the_gram_matrix_is_the_direct_sum() {
         let mut moments = vec![0.0; (2 * degree + 1).pow(2)];
         AccurateHarmonics::new(2 * degree, &directions).adjoint(&weights, &mut moments);
         let gram = HarmonicGram::new(degree, &moments);
-        gram.apply(&x, &mut found);
+        gram.apply(&x, &mut gram.workspace(), &mut found);
         let values = rows.iter().zip(&weights).map(|(row, w)| w * dot(row, &x));
         let values: Vec<f64> = values.collect();
         let error = |(j, have): (usize, &f64)| {

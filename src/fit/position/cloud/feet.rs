@@ -13,16 +13,9 @@ impl Cloud<'_> {
     /// Moves every direction towards the foot point of its sample on a surface, by a step of Gauss and Newton; steps
     /// by which a triangle would turn over are halved.
     pub(in crate::fit::position) fn project(&mut self, surface: &Position) {
-        let found = surface.points_and_tangents(&self.directions);
-        let steps: Vec<Vector3<f64>> = found
-            .iter()
-            .enumerate()
-            .map(|(at, (point, slopes))| {
-                foot_step(&self.directions[at], &(self.points[at] - point), slopes)
-            })
-            .collect();
         let vertices = self.vertices();
-        let before = self.directions.clone();
+        let before = self.directions[..vertices].to_vec();
+        let steps = foot_steps(surface, &before, &self.points[..vertices]);
         let moved = |at: usize, factor: f64| (before[at] + steps[at] * factor).normalize();
         for at in 0..vertices {
             self.directions[at] = moved(at, 1.0);
@@ -64,12 +57,17 @@ impl Cloud<'_> {
                 .filter(|&triangle| has_moved(&triangles[triangle]))
                 .collect();
         }
-        for at in vertices..self.points.len() {
-            let place = &self.inside[at - vertices];
-            let between = place.between(self.images(place.triangle)).normalize();
-            let (point, slopes) = surface.point_and_tangents(&between);
-            let step = foot_step(&between, &(self.points[at] - point), &slopes);
-            self.directions[at] = (between + step).normalize();
+        let inside = self.inside.iter();
+        let between: Vec<Vector3<f64>> = inside
+            .map(|place| place.between(self.images(place.triangle)).normalize())
+            .collect();
+        let steps = foot_steps(surface, &between, &self.points[vertices..]);
+        for ((direction, between), step) in self.directions[vertices..]
+            .iter_mut()
+            .zip(between)
+            .zip(steps)
+        {
+            *direction = (between + step).normalize();
         }
         self.weigh();
     }
@@ -80,39 +78,55 @@ impl Cloud<'_> {
         self.weigh();
     }
 
-    /// Distances of the samples from the surface, those asked for, taken after one more step to each foot point.
+    /// Distances from the surface of the samples that are asked for.
     pub(in crate::fit::position) fn distances(
         &self,
         surface: &Position,
         is_asked: impl Fn(usize) -> bool,
-    ) -> (Distances, Vec<f64>) {
-        let found = surface.points_and_tangents(&self.directions);
-        let nearer: Vec<Vector3<f64>> = found
-            .iter()
-            .enumerate()
-            .map(|(at, (point, slopes))| {
-                let n = &self.directions[at];
-                (n + foot_step(n, &(self.points[at] - point), slopes)).normalize()
+    ) -> Distances {
+        let asked: Vec<usize> = (0..self.points.len()).filter(|&at| is_asked(at)).collect();
+        let squares = self.squared_distances(surface, &asked);
+        self.mean_of(asked.into_iter().zip(squares))
+    }
+
+    /// Squared distances of samples from the surface, taken after one more step to each foot point.
+    pub(in crate::fit::position) fn squared_distances(
+        &self,
+        surface: &Position,
+        samples: &[usize],
+    ) -> Vec<f64> {
+        let of_samples = |all: &[Vector3<f64>]| samples.iter().map(|&at| all[at]).collect();
+        let directions: Vec<Vector3<f64>> = of_samples(&self.directions);
+        let points: Vec<Vector3<f64>> = of_samples(&self.points);
+        let found = surface.points_and_tangents(&directions);
+        let steps = found.iter().zip(&directions).zip(&points);
+        let nearer: Vec<Vector3<f64>> = steps
+            .map(|(((foot, slopes), n), point)| {
+                (n + foot_step(n, &(point - foot), slopes)).normalize()
             })
             .collect();
         let feet = surface.points_and_tangents(&nearer);
-        let squares: Vec<f64> = (0..self.points.len())
-            .map(|at| {
-                let squared = |point: &Vector3<f64>| (self.points[at] - point).norm_squared();
-                squared(&found[at].0).min(squared(&feet[at].0))
-            })
-            .collect();
+        let squared = |foot: &Vector3<f64>, point: &Vector3<f64>| (foot - point).norm_squared();
+        let both = found.iter().zip(&feet).zip(&points);
+        both.map(|((one, other), point)| squared(&one.0, point).min(squared(&other.0, point)))
+            .collect()
+    }
+
+    /// Root of the mean of the squared distances of some samples, and the largest.
+    pub(in crate::fit::position) fn mean_of(
+        &self,
+        squares: impl Iterator<Item = (usize, f64)>,
+    ) -> Distances {
         let (mut sum, mut weight, mut max) = (0.0, 0.0, 0.0_f64);
-        for at in (0..squares.len()).filter(|&at| is_asked(at)) {
-            sum += self.weights[at] * squares[at];
+        for (at, squared) in squares {
+            sum += self.weights[at] * squared;
             weight += self.weights[at];
-            max = max.max(squares[at]);
+            max = max.max(squared);
         }
-        let distances = Distances {
+        Distances {
             rms: (sum / weight).sqrt(),
             max: max.sqrt(),
-        };
-        (distances, squares)
+        }
     }
 
     /// Samples at which the surface is turned inside out.
@@ -123,4 +137,17 @@ impl Cloud<'_> {
             .filter(|(((_, slopes), n), normal)| area_normal(n, slopes).dot(normal) < 0.0)
             .count()
     }
+}
+
+/// The steps of directions to the foot points of their points.
+fn foot_steps(
+    surface: &Position,
+    directions: &[Vector3<f64>],
+    points: &[Vector3<f64>],
+) -> Vec<Vector3<f64>> {
+    let found = surface.points_and_tangents(directions).into_iter();
+    let pairs = found.zip(directions).zip(points);
+    pairs
+        .map(|(((foot, slopes), n), point)| foot_step(n, &(point - foot), &slopes))
+        .collect()
 }
