@@ -1,8 +1,8 @@
 //! The power of a surface's radius per degree of spherical harmonics.
 
 use super::elements::Element;
-use crate::sphere::{HarmonicBasis, coefficient_count};
-use rayon::prelude::*;
+use crate::sphere::{AccurateHarmonics, coefficient_count};
+use nalgebra::Vector3;
 use serde::Serialize;
 use std::f64::consts::PI;
 
@@ -11,10 +11,6 @@ pub const SPECTRUM_DEGREE: usize = 20;
 
 /// Largest degree of a [`RadialExpansion`]: the largest that models of grains have.
 pub const EXPANSION_DEGREE: usize = 128;
-
-/// Elements added up by one task; the sums of tasks are added in order, so that the result does not
-/// depend on the number of threads.
-const PER_TASK: usize = 4096;
 
 /// How the radius, seen from the centroid, is made of harmonics of each degree: r = sum of a_l^m Y_l^m
 /// with the real orthonormal harmonics of [`harmonics`](crate::sphere::harmonics).
@@ -43,18 +39,10 @@ pub struct RadialExpansion {
 impl RadialExpansion {
     /// That of the surface made of these elements, seen from the centroid.
     pub(super) fn new(elements: &[Element], degree: usize) -> Self {
-        let coefficients = coefficients(elements, degree);
-        let basis = HarmonicBasis::new(degree);
-        let missed = |element: &Element| {
-            let (direction, distance, solid_angle) = element.seen();
-            let mut values = vec![0.0; coefficients.len()];
-            basis.evaluate(&direction, &mut values);
-            let found: f64 = values.iter().zip(&coefficients).map(|(y, a)| y * a).sum();
-            (found - distance).powi(2) * solid_angle
-        };
-        let missed: Vec<f64> = elements.par_iter().map(missed).collect();
+        let seen = Seen::new(elements, degree);
+        let coefficients = seen.coefficients();
         Self {
-            rms: (missed.iter().sum::<f64>() / (4.0 * PI)).max(0.0).sqrt(),
+            rms: seen.missed(&coefficients),
             coefficients,
         }
     }
@@ -63,7 +51,7 @@ impl RadialExpansion {
 impl Spectrum {
     /// That of the surface made of these elements, seen from the centroid.
     pub(super) fn new(elements: &[Element]) -> Self {
-        let found = coefficients(elements, SPECTRUM_DEGREE);
+        let found = Seen::new(elements, SPECTRUM_DEGREE).coefficients();
         let power: Vec<f64> = (0..=SPECTRUM_DEGREE)
             .map(|degree| {
                 let own = degree * degree..coefficient_count(degree);
@@ -77,27 +65,58 @@ impl Spectrum {
     }
 }
 
-/// Coefficients of the radius up to a degree.
-fn coefficients(elements: &[Element], degree: usize) -> Vec<f64> {
-    let count = coefficient_count(degree);
-    let basis = HarmonicBasis::new(degree);
-    let sums: Vec<Vec<f64>> = elements
-        .par_chunks(PER_TASK)
-        .map(|elements| {
-            let (mut sums, mut values) = (vec![0.0; count], vec![0.0; count]);
-            for element in elements {
-                let (direction, distance, solid_angle) = element.seen();
-                basis.evaluate(&direction, &mut values);
-                let weight = distance * solid_angle;
-                for (sum, value) in sums.iter_mut().zip(&values) {
-                    *sum += value * weight;
-                }
-            }
-            sums
-        })
-        .collect();
-    let coefficient = |j: usize| sums.iter().map(|sums| sums[j]).sum::<f64>();
-    (0..count).map(coefficient).collect()
+/// A surface as it is seen from a point: how far off, in which directions and over which solid angles.
+struct Seen {
+    degree: usize,
+    harmonics: AccurateHarmonics,
+    distances: Vec<f64>,
+    solid_angles: Vec<f64>,
+}
+
+impl Seen {
+    fn new(elements: &[Element], degree: usize) -> Self {
+        let mut seen: [Vec<f64>; 2] = Default::default();
+        let directions = elements.iter().map(|element| {
+            let (direction, distance, solid_angle) = element.seen();
+            seen[0].push(distance);
+            seen[1].push(solid_angle);
+            direction
+        });
+        let directions: Vec<Vector3<f64>> = directions.collect();
+        let [distances, solid_angles] = seen;
+        Self {
+            degree,
+            harmonics: AccurateHarmonics::new(degree, &directions),
+            distances,
+            solid_angles,
+        }
+    }
+
+    /// Coefficients of the radius.
+    fn coefficients(&self) -> Vec<f64> {
+        let terms = self.distances.iter().zip(&self.solid_angles);
+        let terms: Vec<f64> = terms
+            .map(|(distance, solid_angle)| distance * solid_angle)
+            .collect();
+        let mut coefficients = vec![0.0; coefficient_count(self.degree)];
+        self.harmonics.adjoint(&terms, &mut coefficients);
+        coefficients
+    }
+
+    /// Root mean square over all directions of what coefficients miss of the radius.
+    fn missed(&self, coefficients: &[f64]) -> f64 {
+        let mut found = vec![0.0; self.distances.len()];
+        self.harmonics.synthesis(coefficients, &mut found);
+        let squares = found
+            .iter()
+            .zip(&self.distances)
+            .map(|(found, distance)| (found - distance).powi(2));
+        let sum: f64 = squares
+            .zip(&self.solid_angles)
+            .map(|(square, solid_angle)| square * solid_angle)
+            .sum();
+        (sum / (4.0 * PI)).max(0.0).sqrt()
+    }
 }
 
 #[cfg(test)]
@@ -107,8 +126,7 @@ mod tests {
     use crate::measure::elements::mesh_elements;
     use crate::shapes::Body;
     use approx::assert_relative_eq;
-    use nalgebra::{Point3, Rotation3, Vector3};
-    use std::f64::consts::PI;
+    use nalgebra::{Point3, Rotation3};
 
     /// That of a mesh of a body, turned and moved.
     fn spectrum(body: Body, angle: f64) -> Spectrum {
