@@ -6,10 +6,11 @@
 //! height and its variance are
 //!
 //! ```text
-//! a = S / I,   1 / I,      S = b'W e / s²,   I = b'W (b - b°) / s²
+//! a = S / I,   1 / I,      S = b'W e / s²,   I = b'W (b - b°) / s² + 1 / p²
 //! ```
 //!
-//! with b° what the estimate makes of radii b (generalised least squares: the inverse covariance of the radii takes them to
+//! with p the standard deviation of such heights before a point is seen, without which points far down a bump's side would
+//! tell heights of any size, and b° what the estimate makes of radii b (generalised least squares: the inverse covariance of the radii takes them to
 //! W e / s²). The estimate leaves out the share q_l that the points leave unlearnt: of b = sum b_l P_l that is
 //! b - b° = sum q_l b_l P_l, at the end and in the mean square over a cloud that is alike everywhere. The width is the one
 //! of several under which the points are most likely.
@@ -22,6 +23,9 @@ use nalgebra::Vector3;
 
 /// k of the bumps: Gaussians of 20, 14, 10, 7, 5 and 3.5 degrees.
 const SHARPNESSES: [f64; 6] = [8.0, 16.0, 32.0, 64.0, 128.0, 256.0];
+
+/// Standard deviation of heights, in units of the mean radius, before a point is seen: that of beaks.
+const EXPECTED: f64 = 0.1;
 
 /// A bump is nothing where its logarithm is below this.
 const LEAST: f64 = -16.0;
@@ -91,7 +95,8 @@ impl<'a> Tips<'a> {
         }
         let likely = self.bumps.iter().zip(sums).map(|(bump, [score, squares])| {
             let score = score / self.noise;
-            let information = squares * bump.left_of_squares / self.noise;
+            let information =
+                squares * bump.left_of_squares / self.noise + 1.0 / (EXPECTED * EXPECTED);
             let missing = Missing {
                 height: bump.left * score / information,
                 variance: bump.left * bump.left / information,

@@ -1,6 +1,7 @@
 use super::*;
-use crate::fit::estimate::trial::estimated;
+use crate::fit::estimate::trial::{estimated, samples};
 use crate::shapes::{Body, Sampling, SynthOptions, synthesize};
+use std::f64::consts::TAU;
 
 /// A bump of which the estimate makes nothing is missing as it is; of one that it follows in part, so much of it.
 #[test]
@@ -58,5 +59,28 @@ fn little_is_missing_of_a_ball() {
             missing.height.abs() < 4.0 * missing.variance.sqrt(),
             "{missing:?}"
         );
+    }
+}
+
+/// Of a ball in dense rings, none of which is within 18 degrees of an end: what may be missing there is bounded.
+#[test]
+fn far_from_all_points_a_tip_is_no_higher_than_beaks_are() {
+    let on_ring = |ring: i32| {
+        let height = 0.1 * f64::from(ring);
+        let across = (1.0 - height * height).sqrt();
+        (0..200).map(move |at| {
+            let (sin, cos) = (TAU * f64::from(at) / 200.0).sin_cos();
+            Vector3::new(across * cos, across * sin, height)
+        })
+    };
+    let directions: Vec<Vector3<f64>> = (-9..=9).flat_map(on_ring).collect();
+    let samples = samples(&directions, |_| 1.0, 0.003);
+    let found = estimated(&samples, Vector3::repeat(1.0));
+    let posterior = found.posterior();
+    let tips = Tips::new(&found, &posterior);
+    for end in [Vector3::z(), -Vector3::z()] {
+        let missing = tips.missing(&end);
+        assert!(missing.height.abs() < 0.1, "{missing:?}");
+        assert!(missing.variance < EXPECTED * EXPECTED, "{missing:?}");
     }
 }
