@@ -30,6 +30,7 @@ mod outcome;
 mod position;
 mod positioned;
 mod prepare;
+mod repeated;
 mod samples;
 mod segments;
 mod sound;

@@ -2,7 +2,7 @@
 
 use super::candidate::Rejection;
 use crate::measure::{FacesDefect, Fill, SelfCrossing};
-use nalgebra::Vector3;
+use nalgebra::{Point3, Vector3};
 
 /// Something odd about a scan or its fit that did not stop it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -27,6 +27,13 @@ pub enum FitWarning {
     },
     /// The points have a neck, at which [`split`](crate::scan::split) would cut them apart.
     Neck,
+    /// A place stands in many rows, and counts once.
+    Repeated {
+        /// The place, in the scan's frame.
+        place: Point3<f64>,
+        /// How often it stands there.
+        times: usize,
+    },
     /// Points that the scan holds twice, a little apart, were replaced by their means.
     Twins {
         /// Points that it is fewer.

@@ -93,6 +93,12 @@ impl FitWarning {
                 f,
                 "The points have a neck, as of two grains that touch: if these are two, split them (grainform split)."
             ),
+            Self::Repeated { place, times } => write!(
+                f,
+                "{times} points stand at one place, ({}, {}, {}), and count as one: scanners write one place for all that they \
+                 do not see. If it is no place of the grain, take them out.",
+                place.x, place.y, place.z
+            ),
             Self::Twins { twins, points } => write!(
                 f,
                 "The scan seems to hold its points more than once, a little apart: {twins} of {points} points lie next \

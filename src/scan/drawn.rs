@@ -20,7 +20,7 @@ pub(super) fn by_coordinates(one: &Point3<f64>, other: &Point3<f64>) -> Ordering
 }
 
 /// A number that coordinates decide, and that looks random.
-fn hash(point: &Point3<f64>) -> u64 {
+pub(super) fn hash(point: &Point3<f64>) -> u64 {
     let mix = |hash: u64, c: &f64| {
         let mixed = (hash ^ (c + 0.0).to_bits()).wrapping_mul(0x9e37_79b9_7f4a_7c15);
         mixed ^ (mixed >> 29)

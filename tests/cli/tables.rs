@@ -41,7 +41,7 @@ fn places_are_fitted_and_not_the_normals_before_them() {
     let refused = grainform(&table("# by hand\n"), &["fit", "a.xyz"]);
     let told = errors(&refused);
     assert!(
-        told.contains("a.xyz: line 2: ") && told.contains("as normals have"),
+        told.contains("a.xyz: line 2: ") && told.contains("as normals are"),
         "{told}"
     );
     assert_eq!(refused.status.code(), Some(2));

@@ -7,12 +7,14 @@ use crate::fit::error::FitError;
 use crate::fit::prepare::{
     Reference, ReferenceKind, principal_axes, scanned_surface, semi_axes, usable,
 };
+use crate::fit::repeated::without_repeats;
 use crate::fit::warning::FitWarning;
 use crate::measure::{Unit, equivalent_radius, mesh_properties};
 use crate::mesh::Mesh;
 use crate::model::Frame;
 use crate::scan::Scan;
 use nalgebra::{Point3, Vector3};
+use std::borrow::Cow;
 
 /// Closed faces in their own place and size, and the way back to the scan.
 pub(super) struct LocalFaces {
@@ -38,6 +40,7 @@ impl LocalFaces {
     pub(super) fn new(scan: &Scan) -> Result<Self, FitError> {
         let Faces {
             mesh,
+            points,
             kind,
             warnings,
         } = faces(scan)?;
@@ -58,9 +61,9 @@ impl LocalFaces {
             axes: principal_axes(&at_unit, &properties),
         };
         let place = |point: &Point3<f64>| at_unit_frame.to_local(point) / size;
-        let points = (kind == ReferenceKind::Crust).then(|| {
+        let points = points.map(|vertices| {
             let points = Mesh {
-                vertices: scan.points.clone(),
+                vertices,
                 triangles: Vec::new(),
             };
             unit.mesh(&points).vertices.iter().map(place).collect()
@@ -110,6 +113,8 @@ impl LocalFaces {
 /// The faces that are mapped to the sphere.
 struct Faces {
     mesh: Mesh,
+    /// The scan's points, if the faces are only near them.
+    points: Option<Vec<Point3<f64>>>,
     kind: ReferenceKind,
     warnings: Vec<FitWarning>,
 }
@@ -118,16 +123,19 @@ struct Faces {
 fn faces(scan: &Scan) -> Result<Faces, FitError> {
     if scan.topology.is_none() {
         usable(scan)?;
+        let (points, repeated) = without_repeats(Cow::Borrowed(&scan.points));
         return Ok(Faces {
-            mesh: surface_of_points(&scan.points)?,
+            mesh: surface_of_points(&points)?,
+            points: Some(points.into_owned()),
             kind: ReferenceKind::Crust,
-            warnings: Vec::new(),
+            warnings: repeated.into_iter().collect(),
         });
     }
     let surface = scanned_surface(scan)?;
     match surface.kind {
         ReferenceKind::Faces | ReferenceKind::Voxels => Ok(Faces {
             mesh: compact(&surface.mesh),
+            points: None,
             kind: surface.kind,
             warnings: surface.warnings,
         }),

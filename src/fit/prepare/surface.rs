@@ -10,6 +10,7 @@ use super::thin::{Thinned, WHOLE_CLOUD, thin};
 use super::together::{neighbouring, together};
 use super::twins::merged;
 use crate::fit::error::FitError;
+use crate::fit::repeated::without_repeats;
 use crate::fit::warning::FitWarning;
 use crate::fit::without::without;
 use crate::measure::{FacesDefect, Fill, SelfCrossing, scanned_body, self_crossing, without_dust};
@@ -240,6 +241,7 @@ fn filled(mesh: Mesh, fill: Option<Fill>) -> ScannedSurface<'static> {
 
 /// Of points alone.
 fn from_directions(points: Cow<'_, [Point3<f64>]>) -> Result<ScannedSurface<'_>, FitError> {
+    let (points, repeated) = without_repeats(points);
     let given = points.len();
     let merged = (given <= MOST_WITH_TWINS)
         .then(|| merged(&points))
@@ -294,7 +296,7 @@ fn from_directions(points: Cow<'_, [Point3<f64>]>) -> Result<ScannedSurface<'_>,
     Ok(ScannedSurface {
         unseen: gap.unseen,
         is_sparse: gap.is_sparse,
-        warnings: [twins, neck, strays, gap.warning()]
+        warnings: [repeated, twins, neck, strays, gap.warning()]
             .into_iter()
             .flatten()
             .collect(),

@@ -53,9 +53,10 @@ fn read(bytes: &[u8], warnings: &mut Vec<String>) -> Result<Vec<Point3<f64>>, Pa
         return Err(unexpected(first_line, expected, first));
     }
     let axes = named.unwrap_or([0, 1, 2]);
+    let rows = lines.filter(|(_, row)| remark(row).is_none());
     let mut points = Vec::new();
     let mut skipped = 0;
-    for (line, row) in lines.filter(|(_, row)| remark(row).is_none()) {
+    for (line, row) in rows.clone() {
         let point = read_row(line, row, separator, columns, axes)?;
         if point.iter().all(|c| c.is_finite()) {
             points.push(point);
@@ -69,8 +70,12 @@ fn read(bytes: &[u8], warnings: &mut Vec<String>) -> Result<Vec<Point3<f64>>, Pa
             "Dropped {rows} with a coordinate that is not finite."
         ));
     }
+    let others = || {
+        let others = rows.map(|(line, row)| read_row(line, row, separator, columns, [3, 4, 5]));
+        others.filter_map(Result::ok).collect()
+    };
     if named.is_none()
-        && let Some(expected) = unnamed::expected(&points, columns)
+        && let Some(expected) = unnamed::expected(&points, columns, others)
     {
         return Err(unexpected(first_line, expected, first));
     }
@@ -194,7 +199,7 @@ mod tests {
     fn normals_are_no_coordinates_unless_they_are_named_so() {
         let told = parse(normals("5 6 7").as_bytes()).unwrap_err().to_string();
         assert!(
-            told.starts_with("line 1:") && told.contains("as normals have"),
+            told.starts_with("line 1:") && told.contains("as normals are"),
             "{told}"
         );
         let named = format!("# x y z r g b\n{}", normals("5 6 7"));
@@ -204,6 +209,35 @@ mod tests {
         assert_eq!(first(&normals("5 6")), [1.0, 0.0, 0.0]);
         let sphere_and_a_point = format!("{}2 0 0 5 6 7", normals("5 6 7"));
         assert_eq!(first(&sphere_and_a_point), [1.0, 0.0, 0.0]);
+        // Of a ball, whose normals come next.
+        assert_eq!(first(&normals("0.6 0 -0.8")), [1.0, 0.0, 0.0]);
+    }
+
+    /// With two digits, as whole numbers of 8 bits, and unknown in one row of forty.
+    #[test]
+    fn normals_are_known_as_they_are_written() {
+        let rows = |write: fn(f64, f64) -> String| {
+            let of_row = |row: i32| {
+                let (sin, cos) = f64::from(row).sin_cos();
+                let normal = if row == 0 {
+                    "0 0 0".into()
+                } else {
+                    write(cos, sin)
+                };
+                format!("{normal} {row} 6 7\n")
+            };
+            (0..40).map(of_row).collect::<String>()
+        };
+        let written: [fn(f64, f64) -> String; 2] = [
+            |cos, sin| format!("{:.2} {:.2} {sin:.2}", cos * 0.6, cos * 0.8),
+            |cos, sin| format!("{:.0} {:.0} 0", 127.0 * cos, 127.0 * sin),
+        ];
+        for write in written {
+            let told = parse(rows(write).as_bytes()).unwrap_err().to_string();
+            assert!(told.contains("as normals are"), "{told}");
+        }
+        let of_radius_127 = rows(|cos, sin| format!("{} {} 0", 127.0 * cos, 127.0 * sin));
+        assert!(parse(of_radius_127.as_bytes()).is_ok());
     }
 
     #[test]
