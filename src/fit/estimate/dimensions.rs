@@ -13,6 +13,7 @@
 //! over the directions and s the random slope of the ripples' height, by E[-s' H^-1 s / 2], at most by the standard
 //! deviation of the ripples.
 
+use super::cloud::Cloud;
 use super::left_out::LeftOut;
 use super::outcome::Estimate;
 use crate::measure::support_near;
@@ -112,9 +113,24 @@ impl Reach {
 }
 
 impl End {
+    /// By how much the end lies above the highest point.
+    pub(super) fn unseen(&self, cloud: &Cloud) -> f64 {
+        let towards = self.towards();
+        let points = cloud.directions.iter().zip(&cloud.radii);
+        let heights = points.map(|(n, radius)| radius * n.dot(&towards));
+        let highest = heights.fold(f64::NEG_INFINITY, f64::max);
+        let unseen = self.point.dot(&towards) - highest;
+        self.by_radius / self.along * unseen.max(0.0)
+    }
+
+    /// The axis, in the stretched space.
+    fn towards(&self) -> Vector3<f64> {
+        self.direction * self.along + self.tilt
+    }
+
     /// By how much the body may reach farther, where what is left of the points is no noise.
     pub(super) fn exceeded(&self, points: &LeftOut<'_>) -> f64 {
-        let towards = self.direction * self.along + self.tilt;
+        let towards = self.towards();
         let beyond = points.beyond(&towards, self.point.dot(&towards));
         self.by_radius / self.along * beyond
     }
