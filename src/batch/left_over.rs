@@ -2,7 +2,7 @@
 
 use super::grain::hash;
 use super::names::names;
-use std::collections::HashSet;
+use std::collections::HashMap;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -23,7 +23,8 @@ pub(super) fn mesh(folder: &Path, name: &str) -> PathBuf {
 }
 
 /// The files of models and meshes in the folder of results that were not saved with a row: of other scans, or of other
-/// settings. Of all rows, `paths` are the names, and `hashes` those of their model and their mesh, where they have one.
+/// settings. Of all rows, `paths` are the names, and `hashes` those of their model and their mesh, where they have one;
+/// `is_known` tells of either whether this run has saved or read those of all rows.
 ///
 /// # Errors
 /// Where a folder that is there cannot be read.
@@ -31,21 +32,26 @@ pub(super) fn left_over(
     folder: &Path,
     paths: &[String],
     hashes: Vec<[Option<String>; 2]>,
+    is_known: [bool; 2],
 ) -> io::Result<Vec<PathBuf>> {
-    let mut saved = HashSet::new();
+    let mut saved = HashMap::new();
     for (name, [of_model, of_mesh]) in names(paths).iter().zip(hashes) {
         saved.extend(of_model.map(|hash| (model(folder, name), hash)));
         saved.extend(of_mesh.map(|hash| (mesh(folder, name), hash)));
     }
     let mut left = Vec::new();
-    for files in [MODELS, MESHES].map(|name| folder.join(name)) {
+    for (files, is_known) in [MODELS, MESHES]
+        .map(|name| folder.join(name))
+        .iter()
+        .zip(is_known)
+    {
         if !files.is_dir() {
             continue;
         }
         for entry in files.read_dir()? {
             let path = entry?.path();
-            let file = hash(&path).map(|hash| (path.clone(), hash));
-            if !file.is_some_and(|file| saved.contains(&file)) {
+            let is_saved = |of_row: &String| is_known || hash(&path).as_ref() == Some(of_row);
+            if !saved.get(&path).is_some_and(is_saved) {
                 left.push(path);
             }
         }
