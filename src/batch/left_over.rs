@@ -59,3 +59,31 @@ pub(super) fn left_over(
     left.sort();
     Ok(left)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_was_not_saved_with_a_row_is_left_over() {
+        let folder = tempfile::tempdir().unwrap();
+        let [own, other] = ["a", "b"].map(|name| model(folder.path(), name));
+        let own_mesh = mesh(folder.path(), "a");
+        for path in [&own, &other, &own_mesh] {
+            std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+            std::fs::write(path, path.as_os_str().as_encoded_bytes()).unwrap();
+        }
+        let left = |of_model: Option<String>, is_known: bool| {
+            let hashes = vec![[of_model, hash(&own_mesh)]];
+            left_over(folder.path(), &["a.ply".into()], hashes, [is_known, false]).unwrap()
+        };
+        let own_hash = hash(&own);
+        let both = [own, other];
+        assert_eq!(left(own_hash, false), both[1..]);
+        let of_other_settings = Some("of other settings".to_owned());
+        assert_eq!(left(of_other_settings.clone(), false), both);
+        assert_eq!(left(None, true), both);
+        // What this run has saved is not read again.
+        assert_eq!(left(of_other_settings, true), both[1..]);
+    }
+}
