@@ -9,10 +9,13 @@ const FITTED_BY: [&str; 5] = ["tolerance", "segments", "largest", "extrapolate",
 
 /// What is odd about a comparison of two lots: whole sentences.
 pub(crate) fn doubts(first: &Lot, second: &Lot) -> Vec<String> {
-    [fitted_otherwise(first, second), shared(first, second)]
-        .into_iter()
-        .flatten()
-        .collect()
+    let found = [
+        fitted_otherwise(first, second),
+        shared(first, second),
+        copied(first, "first"),
+        copied(second, "other"),
+    ];
+    found.into_iter().flatten().collect()
 }
 
 /// Which settings are not the same, where both lots tell theirs.
@@ -40,6 +43,18 @@ fn shared(first: &Lot, second: &Lot) -> Option<String> {
             "The lots share {}, by the bytes of their scans: the intervals do not hold, for they take the lots as \
              independent.",
             plural(count, "grain")
+        )
+    })
+}
+
+/// How many grains of a lot are counted again.
+fn copied(lot: &Lot, which: &str) -> Option<String> {
+    (lot.copies > 0).then(|| {
+        format!(
+            "{} of the {which} lot {} of scans that others are of, by their bytes: the intervals do not hold, for they \
+             take the grains as independent.",
+            plural(lot.copies, "grain"),
+            if lot.copies == 1 { "is" } else { "are" }
         )
     })
 }
@@ -93,5 +108,19 @@ mod tests {
         assert!(doubts(&one, &one)[0].starts_with("The lots share 3 grains,"));
         let apart = lot(&[], &[("ct", Some(3))]);
         assert!(doubts(&one, &apart).is_empty());
+    }
+
+    #[test]
+    fn grains_that_a_lot_counts_again_are_told_of_either() {
+        let [one, other] = [("a", 1), ("b", 2)].map(|(hash, copies)| Lot {
+            copies,
+            ..lot(&[], &[(hash, None)])
+        });
+        let told = doubts(&one, &other);
+        let [first, second] = &told[..] else {
+            panic!("{told:?}");
+        };
+        assert!(first.starts_with("1 grain of the first lot is of scans"));
+        assert!(second.starts_with("2 grains of the other lot are of scans"));
     }
 }

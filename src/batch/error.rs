@@ -34,6 +34,12 @@ pub(crate) enum BatchError {
         /// The folder.
         folder: PathBuf,
     },
+    /// What is named as a scan is no file.
+    #[error("{} is no file but a pipe or a device, which a batch cannot read again: save it as a file first", path.display())]
+    NoFile {
+        /// The pipe or device.
+        path: PathBuf,
+    },
     /// The results would go into a folder in which scans are looked for.
     #[error(
         "the results cannot go into {}, for scans are looked for in it, and not in a folder of results: give another one \

@@ -28,12 +28,16 @@ pub(crate) struct Inputs {
 /// to folders are not followed in folders, nor by `**`.
 ///
 /// # Errors
-/// [`BatchError`] where a folder or list cannot be read, or where nothing is found. A file that is not there is told in
-/// its row.
+/// [`BatchError`] where a folder or list cannot be read, what is named is a pipe or a device, or where nothing is found. A
+/// file that is not there is told in its row.
 pub(crate) fn inputs(paths: &[PathBuf]) -> Result<Inputs, BatchError> {
     let mut all = Inputs::default();
     for path in paths {
         all.scans.extend(named(path, &mut all.left_out)?);
+    }
+    let mut scans = all.scans.iter();
+    if let Some(path) = scans.find(|path| is_endless(path) && !path.is_dir()) {
+        return Err(BatchError::NoFile { path: path.clone() });
     }
     let mut seen = HashSet::new();
     all.scans.retain(|path| seen.insert(place(path)));
@@ -338,6 +342,16 @@ mod tests {
             let found = inputs(&[path(named)]).unwrap();
             assert_eq!(found.scans, [path("a.ply")], "{named}");
             assert_eq!(found.left_out, [path("b.ply")], "{named}");
+        }
+        std::fs::write(
+            path("list.txt"),
+            path("c.ply").as_os_str().as_encoded_bytes(),
+        )
+        .unwrap();
+        let list = PathBuf::from(format!("@{}", path("list.txt").display()));
+        for named in [path("b.ply"), list] {
+            let refused = inputs(&[path("a.ply"), named]);
+            assert!(matches!(refused, Err(BatchError::NoFile { .. })));
         }
     }
 }

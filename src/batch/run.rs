@@ -8,10 +8,11 @@ use super::journal::{Journal, Place, Row, key};
 use super::left_over::{MESHES, MODELS, left_over, mesh, model};
 use super::names::of_scans;
 use super::population::Population;
-use super::queue::{Queue, Task, with_label};
+use super::queue::{Queue, Task, with_label, without_label};
 use super::results::write_results;
 use crate::export::sweep;
-use std::collections::BTreeMap;
+use std::collections::hash_map::Entry;
+use std::collections::{BTreeMap, HashMap};
 use std::fs::{File, TryLockError};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
@@ -57,6 +58,8 @@ pub(crate) struct Done {
     pub population: Population,
     /// The files written.
     pub files: Vec<PathBuf>,
+    /// Grains of the same bytes as one before, which is named after each.
+    pub copies: Vec<[String; 2]>,
     /// Models and meshes of earlier runs, which no row is of.
     pub left_over: Vec<PathBuf>,
 }
@@ -151,6 +154,7 @@ fn work(batch: &Batch, progress: &(dyn Fn(Progress) + Sync)) -> Result<Done, Bat
     let columns = columns(&batch.settings.measures);
     let mut failures = Vec::new();
     let (mut paths, mut hashes) = (Vec::new(), Vec::new());
+    let (mut first, mut copies) = (HashMap::new(), Vec::new());
     let mut population = Population::new(&columns);
     for row in rows() {
         let row = row.map_err(failed)?;
@@ -158,10 +162,18 @@ fn work(batch: &Batch, progress: &(dyn Fn(Progress) + Sync)) -> Result<Done, Bat
         hashes.push([row.model_hash.clone(), row.mesh_hash.clone()]);
         match row.reason {
             Some(reason) => failures.push((row.path, reason)),
-            None => population.add(&row),
+            None => {
+                population.add(&row);
+                let (_, label) = without_label(&row.path);
+                match first.entry((row.hash, label)) {
+                    Entry::Occupied(own) => copies.push([row.path, String::clone(own.get())]),
+                    Entry::Vacant(free) => drop(free.insert(row.path)),
+                }
+            }
         }
     }
     population.finish();
+    let is_known = [batch.settings.models, batch.settings.meshes.is_some()];
     let files = write_results(folder, &columns, &rows, &population)?;
     Ok(Done {
         all: places.len(),
@@ -169,7 +181,8 @@ fn work(batch: &Batch, progress: &(dyn Fn(Progress) + Sync)) -> Result<Done, Bat
         failed: failures,
         population,
         files,
-        left_over: left_over(folder, &paths, hashes).map_err(failed)?,
+        copies,
+        left_over: left_over(folder, &paths, hashes, is_known).map_err(failed)?,
     })
 }
 

@@ -23,6 +23,8 @@ pub(crate) struct Lot {
     pub settings: BTreeMap<String, BTreeSet<String>>,
     /// Its scans: the hash of each, and the label of a grain in an image.
     pub scans: BTreeSet<(String, Option<i64>)>,
+    /// How many more grains it has than scans.
+    pub copies: usize,
 }
 
 /// Reads the figures in a folder of results, or in any table, as Parquet if it is so named, else as CSV.
@@ -96,7 +98,7 @@ impl Lot {
         }
         if let Some(hash) = cell("hash") {
             let (_, label) = without_label(cell("path").unwrap_or_default());
-            self.scans.insert((hash.into(), label));
+            self.copies += usize::from(!self.scans.insert((hash.into(), label)));
         }
     }
 

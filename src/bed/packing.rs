@@ -22,9 +22,9 @@ const STRATA: f64 = 10.0;
 const MOST_STRATA: f64 = 4e6;
 const MOST_ALONG: f64 = 1e4;
 
-/// How far the core keeps from side walls and from the floor, in mean diameters.
+/// How far the core keeps from side walls, in mean diameters, and from the floor, in layers.
 const FROM_SIDES: f64 = 2.0;
-const FROM_FLOOR: f64 = 1.5;
+const LAYERS_FROM_FLOOR: usize = 3;
 
 /// Share of the centres that lie below the surface of the bed; what is told of a bed keeps a diameter below it.
 const BELOW_SURFACE: f64 = 0.85;
@@ -43,9 +43,10 @@ pub struct Fraction {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Packing {
-    /// Two diameters off the side walls, 1.5 off the floor, one below the surface; `None` if nothing is left.
+    /// Two diameters off the side walls, 1.5 off the floor, one below the surface; `None` if not half a diameter of height
+    /// is left.
     pub core: Option<Fraction>,
-    /// From wall to wall, from the floor to one diameter below the surface.
+    /// From wall to wall, from the floor to one diameter below the surface; `None` if that is not half a diameter.
     pub whole: Option<Fraction>,
     /// The height below which 85 % of the centres lie, in metres.
     pub surface: f64,
@@ -120,30 +121,33 @@ pub fn packing(bed: &Bed) -> Packing {
     let diameter = 2.0 * mean_radius(bed);
     let thickness = LAYER * diameter;
     let count = (surface / thickness).floor().max(0.0) as usize;
-    let tallies: Vec<[Tally; 2]> = (0..count)
+    let tallies = |layer: usize, below: f64| {
+        grid.layer(bed.settings().container, layer, thickness, diameter, below)
+    };
+    let layers: Vec<[Tally; 2]> = (0..count)
         .into_par_iter()
-        .map(|layer| grid.layer(bed.settings().container, layer, thickness, diameter))
+        .map(|layer| tallies(layer, f64::INFINITY))
         .collect();
     let below = surface - diameter;
-    let over = |at: usize, floor: f64| {
-        let layers = tallies.iter().enumerate().filter(|(layer, _)| {
-            let from = *layer as f64 * thickness;
-            from >= floor - 1e-9 * diameter && from + thickness <= below
-        });
-        let sum = layers.fold(Tally::default(), |sum, (_, tally)| sum.with(tally[at]));
-        sum.fraction()
+    let whole_layers = (below / thickness).floor().max(0.0) as usize;
+    let cut = tallies(whole_layers, below);
+    // What is thinner than a layer holds too few points for an error.
+    let over = |at: usize, first: usize| {
+        let layers = layers.get(first..whole_layers)?.iter().chain([&cut]);
+        let sum = layers.fold(Tally::default(), |sum, tally| sum.with(tally[at]));
+        sum.fraction().filter(|_| first < whole_layers)
     };
-    let layers = tallies.iter().enumerate().map(|(layer, tally)| Layer {
+    let told = layers.iter().enumerate().map(|(layer, tally)| Layer {
         from: layer as f64 * thickness,
         to: (layer + 1) as f64 * thickness,
         core: tally[0].fraction(),
         whole: tally[1].fraction(),
     });
     Packing {
-        core: over(0, FROM_FLOOR * diameter),
-        whole: over(1, 0.0),
+        core: over(0, LAYERS_FROM_FLOOR),
+        whole: over(1, 0),
         surface,
-        layers: layers.collect(),
+        layers: told.collect(),
     }
 }
 
@@ -211,13 +215,14 @@ impl<'a> Grid<'a> {
         })
     }
 
-    /// The core's and the whole's part of a layer.
+    /// The core's and the whole's part of a layer, as far as that is below a height.
     fn layer(
         &self,
         container: Container,
         layer: usize,
         thickness: f64,
         diameter: f64,
+        below: f64,
     ) -> [Tally; 2] {
         let (from, sides) = match container {
             Container::Box(sides) => ([0.0; 2], sides),
@@ -255,7 +260,8 @@ impl<'a> Grid<'a> {
                 let base = Point3::new(from[0], from[1], layer as f64 * thickness);
                 let point = base + place;
                 let inwards = inwards(point.x, point.y);
-                let is_filled = (inwards >= 0.0).then(|| self.is_filled(&point));
+                let is_asked = inwards >= 0.0 && point.z <= below;
+                let is_filled = is_asked.then(|| self.is_filled(&point));
                 [
                     is_filled.filter(|_| inwards >= FROM_SIDES * diameter),
                     is_filled,

@@ -19,13 +19,17 @@ pub enum Rest {
 }
 
 impl Bed {
-    /// Goes on by 50 steps, and looks whether the grains are at rest.
+    /// Goes on to the next of the steps 50, 100 and so on, and looks whether the grains are at rest; or until its time is
+    /// up, if that is before.
     ///
     /// # Errors
     /// [`BedError::Unstable`] if they run away.
     pub fn go_on(&mut self) -> Result<(), BedError> {
-        for _ in 0..LOOK {
+        loop {
             self.advance();
+            if self.is_looked_at() || self.is_over() {
+                break;
+            }
         }
         let liveliness = self.liveliness();
         if !liveliness.is_finite() {
@@ -33,10 +37,12 @@ impl Bed {
                 seconds: self.seconds(),
             });
         }
-        self.state.quiet = match liveliness < self.settings.rest {
-            true => self.state.quiet.saturating_add(1),
-            false => 0,
-        };
+        if self.is_looked_at() {
+            self.state.quiet = match liveliness < self.settings.rest {
+                true => self.state.quiet.saturating_add(1),
+                false => 0,
+            };
+        }
         Ok(())
     }
 
@@ -45,6 +51,16 @@ impl Bed {
         if self.state.quiet >= QUIET {
             return Some(Rest::AtRest);
         }
-        (self.seconds() >= self.settings.most_seconds).then_some(Rest::TimeIsUp)
+        self.is_over().then_some(Rest::TimeIsUp)
+    }
+
+    /// Whether this is a step at which it is looked whether the grains are at rest: the same ones however often a bed is
+    /// stopped.
+    fn is_looked_at(&self) -> bool {
+        self.steps().is_multiple_of(LOOK)
+    }
+
+    fn is_over(&self) -> bool {
+        self.seconds() >= self.settings.most_seconds
     }
 }

@@ -49,12 +49,12 @@ impl Console {
         if self.quiet {
             return Ok(());
         }
-        let text = text.to_string();
         if self.is_stdout_taken {
-            say(wrap::to_width(&text, wrap::width(&io::stderr())));
+            say(text);
             return Ok(());
         }
-        put(wrap::to_width(&text, wrap::width(&io::stdout())))
+        let width = wrap::width(&io::stdout());
+        put(wrap::to_width(&text.to_string(), width))
     }
 
     /// Tells a report: as JSON where that is asked for, else for a person, with the names of what was written and with

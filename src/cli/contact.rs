@@ -70,6 +70,12 @@ fn contact(args: &ContactArgs) -> Result<ContactReport> {
         Some(path) => Some(touched(path, &args.other_towards)?),
         None => None,
     };
+    let mut touches = std::iter::once(&first).chain(&second);
+    if args.edge_radius.is_some() && touches.all(|touch| touch.edge_radius.is_none()) {
+        bail!(
+            "--edge-radius rounds an edge, and there is none where the bodies touch: leave it out"
+        );
+    }
     let mut report = ContactReport::new(first, second, args.angle_deg.to_radians(), &load)?;
     if !(report.normal_force_n.is_finite() && report.normal_stiffness_n_per_m.is_finite()) {
         bail!("the force of an indentation of {indentation_um} um is beyond the range of numbers");

@@ -6,7 +6,7 @@ use super::solid::Solid;
 use super::values::EngineArg;
 use super::{idle, inputs, outputs, solid, threads};
 use crate::clump::clump;
-use crate::engines::{AnmExpansion, Deck, GrainMaterial, InputFile, Kind, anm_files};
+use crate::engines::{AnmExpansion, Deck, Engine, GrainMaterial, InputFile, Kind, anm_files};
 use crate::measure::{SPECTRUM_DEGREE, Scheme, Survey};
 use crate::model::{Grain, Superquadric};
 use crate::report::{ClumpReport, short};
@@ -24,10 +24,8 @@ const GRAINS: usize = 200;
 const SEED: u64 = 1;
 
 pub(super) fn run(args: ExportDemArgs, console: Console) -> Result<()> {
-    if let (EngineArg::Anm, Some(option)) = (args.engine, args.deck.asked()) {
-        bail!(
-            "{option} is for engines in which clumps of spheres fall, and anm tells shapes only: leave it out"
-        );
+    if let Some((option, reason)) = args.deck.idle(args.engine) {
+        bail!("{option} is for engines in which {reason}: leave it out");
     }
     threads::start(0, console)?;
     let progress = console.progress();
@@ -110,19 +108,35 @@ fn deck(args: &ExportDemArgs, subjects: &[Subject]) -> Result<(Deck, Vec<String>
 }
 
 impl DeckArgs {
-    /// An option that is asked for.
-    fn asked(&self) -> Option<&'static str> {
-        idle::asked([
+    /// An option that is asked for and has no effect in an engine, and what it is for.
+    fn idle(&self, engine: EngineArg) -> Option<(&'static str, &'static str)> {
+        let seed = (self.seed.is_some(), "--seed");
+        let grains = (self.grains.is_some(), "--grains");
+        let rest = [
             (self.spheres.spheres.is_some(), "--spheres"),
             (self.spheres.error.is_some(), "--error"),
-            (self.grains.is_some(), "--grains"),
-            (self.seed.is_some(), "--seed"),
             (self.density.is_some(), "--density"),
             (self.youngs_modulus_mpa.is_some(), "--youngs-modulus-mpa"),
             (self.poissons_ratio.is_some(), "--poissons-ratio"),
             (self.friction.is_some(), "--friction"),
             (self.restitution.is_some(), "--restitution"),
-        ])
+        ];
+        let (options, reason) = match engine {
+            EngineArg::Deck(Engine::Lammps | Engine::Yade) => return None,
+            EngineArg::Deck(Engine::Liggghts) => (
+                vec![seed],
+                "the folder places the grains, and LIGGGHTS places them itself",
+            ),
+            EngineArg::Deck(Engine::MercuryDpm) => (
+                vec![seed, grains],
+                "the folder places the grains, and of MercuryDPM a driver does",
+            ),
+            EngineArg::Anm => (
+                [&[seed, grains][..], &rest].concat(),
+                "clumps of spheres fall, and anm tells shapes only",
+            ),
+        };
+        Some((idle::asked(&options)?, reason))
     }
 
     fn material(&self) -> GrainMaterial {

@@ -7,15 +7,20 @@ use super::streams::put_json;
 use super::values::SurfaceArg;
 use super::{outputs, superquadric};
 use crate::digits::plural;
-use crate::fit::Fitted;
+use crate::fit::{FitOptions, Fitted, Seams};
 use crate::report::{FitReport, largest_loss, write_harmonics};
+use crate::sphere::Symmetry;
 use anyhow::{Result, bail};
 use std::time::Instant;
 
 pub(super) fn run(args: FitArgs, console: Console) -> Result<()> {
     let started = Instant::now();
     let fitting = &args.fitting;
-    let options = fitting.settle(console)?;
+    let options = FitOptions {
+        extrapolate: args.extrapolate,
+        exhaustive: args.exhaustive,
+        ..fitting.settle(console)?
+    };
     if let Some(path) = &args.mesh {
         args.meshing.check_for(path, console)?;
     }
@@ -37,6 +42,11 @@ pub(super) fn run(args: FitArgs, console: Console) -> Result<()> {
         }
     };
     options.check()?;
+    if options.exhaustive && options.seams == Seams::Blended && options.symmetry == Symmetry::NONE {
+        bail!(
+            "--exhaustive is for independent segments (--seams none) and mirrored expansions (--symmetry): leave it out"
+        );
+    }
 
     let progress = console.progress();
     let ScanFit {

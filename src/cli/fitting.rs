@@ -8,7 +8,7 @@ use super::{inputs, threads};
 use crate::fit::{self, FitOptions, Fitted, Kind, Stage, Work, whole_or_largest};
 use crate::report::{Seconds, escaped};
 use crate::scan::Scan;
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, bail};
 use std::time::Instant;
 
 /// A fit, and what came with it.
@@ -31,9 +31,11 @@ impl FittingArgs {
             max_degree: self.max_degree,
             max_segments: self.max_segments,
             tolerance: self.tolerance,
-            extrapolate: self.extrapolate,
-            exhaustive: self.exhaustive,
+            ..FitOptions::default()
         };
+        if options.degree.is_some() && options.max_degree.is_some() {
+            bail!("--max-degree bounds a search, and --degree leaves none: leave one of them out");
+        }
         options.check()?;
         threads::start(self.threads, console)?;
         Ok(options)

@@ -53,6 +53,12 @@ pub(super) fn parse_labels(
 ) -> Result<Option<Volume>> {
     let volume = parse_volume(called(path), bytes, input.limit.max_bytes)?;
     if let Some(volume) = &volume {
+        if input.format.is_some() {
+            bail!(
+                "{} is a segmented volume, and --format tells apart meshes and points: leave it out",
+                name(path)
+            );
+        }
         check_unit(path, volume.unit(), unit)?;
     }
     Ok(volume)
@@ -92,16 +98,19 @@ pub(super) fn parse_scan(
     Ok(parse_file(called(path), bytes, format)?)
 }
 
-/// Whether these are the bytes of a model, which has no labels.
+/// Whether these are the bytes of a model, which has neither labels nor a format of scans.
 pub(super) fn is_model(path: &Path, bytes: &[u8], input: &InputArgs) -> Result<bool> {
-    let is_model = starts_as_model(bytes);
-    if is_model && input.label.is_some() {
-        bail!(
-            "{} is a model, and has no labels: leave --label out",
-            name(path)
-        );
+    if !starts_as_model(bytes) {
+        return Ok(false);
     }
-    Ok(is_model)
+    let name = name(path);
+    if input.label.is_some() {
+        bail!("{name} is a model, and has no labels: leave --label out");
+    }
+    if input.format.is_some() {
+        bail!("{name} is a model, and --format is of scans: leave it out");
+    }
+    Ok(true)
 }
 
 fn starts_as_model(bytes: &[u8]) -> bool {

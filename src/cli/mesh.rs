@@ -28,7 +28,12 @@ pub(super) fn run(args: MeshArgs, console: Console) -> Result<()> {
     let read = [Some(args.model.as_path()), args.scan.as_deref()];
     let is_taken = outputs::check(read.into_iter().flatten(), &[output], false)?;
     let console = console.beside(is_taken);
-    let format = MeshFormat::of(&args.output).unwrap_or(args.format);
+    let format = match (MeshFormat::of(&args.output), args.format) {
+        (Some(_), Some(_)) => bail!(
+            "--format is that of standard output (-o -), and the name of a file tells its own: leave it out"
+        ),
+        (of_file, asked) => of_file.or(asked).unwrap_or(MeshFormat::Ply),
+    };
     let bytes = match format {
         MeshFormat::Stl | MeshFormat::Obj => PLAIN,
         MeshFormat::Ply | MeshFormat::Vtp | MeshFormat::Glb => DETAILED,

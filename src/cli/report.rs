@@ -40,17 +40,23 @@ pub(super) fn run(args: ReportArgs, console: Console) -> Result<()> {
             "--truth tells what is known of the scans in a folder of results: name such a folder"
         );
     }
-    let read = grains.map(PathBuf::as_path);
-    let console = console.beside(outputs::check(read, &files, false)?);
+    let named = grains.clone().map(PathBuf::as_path);
+    let console = console.beside(outputs::check(named, &files, false)?);
     let progress = console.progress();
-    let (mut grains, mut lots) = (Vec::new(), Vec::new());
-    for path in &args.paths {
-        progress.stage(format_args!("Reporting {}", escaped(&inputs::name(path))));
-        match path.is_dir() {
-            true => lots.push(LotPart::read(path, args.truth.as_deref())?),
-            false => grains.push(grain_part(path, &args)?),
-        }
+    progress.stage("Reading");
+    let grains = grains.map(|path| Input::read(path, &args));
+    let grains = grains.collect::<Result<Vec<_>>>()?;
+    if let (true, Some(option)) = (grains.iter().all(|grain| grain.is_model), of_scans(&args)) {
+        bail!("{option} is for scans, and no scan is named: leave it out");
     }
+    let lots = args.paths.iter().filter(|path| path.is_dir());
+    let lots = lots.map(|path| LotPart::read(path, args.truth.as_deref()));
+    let lots = lots.collect::<Result<Vec<_>, _>>()?;
+    let part = |grain: Input| {
+        progress.stage(format_args!("Reporting {}", escaped(&grain.name)));
+        grain.part(&args)
+    };
+    let grains = grains.into_iter().map(part).collect::<Result<_>>()?;
     let page = Page {
         version: env!("CARGO_PKG_VERSION"),
         command: command(),
@@ -71,13 +77,20 @@ pub(super) fn run(args: ReportArgs, console: Console) -> Result<()> {
 
 /// An option of scans and models that is asked for.
 fn of_grains(args: &ReportArgs) -> Option<&'static str> {
-    idle::asked([
-        (args.search, "--search"),
-        (args.bench, "--bench"),
-        (args.largest, "--largest"),
+    let options = [
         (args.unit.is_some(), "--unit"),
         (args.input.label.is_some(), "--label"),
         (args.input.format.is_some(), "--format"),
+    ];
+    of_scans(args).or(idle::asked(&options))
+}
+
+/// An option of scans alone that is asked for.
+fn of_scans(args: &ReportArgs) -> Option<&'static str> {
+    idle::asked(&[
+        (args.search, "--search"),
+        (args.bench, "--bench"),
+        (args.largest, "--largest"),
     ])
 }
 
@@ -91,12 +104,41 @@ fn command() -> String {
         .join(" ")
 }
 
-/// Reads a scan, which is fitted, or a model.
-fn grain_part(path: &Path, args: &ReportArgs) -> Result<GrainPart> {
-    let name = inputs::name(path);
-    let bytes = inputs::read(path, &args.input.limit)?;
-    let hash = ("BLAKE3 of the input", blake3::hash(&bytes).to_string());
-    if inputs::is_model(path, &bytes, &args.input)? {
+/// A scan, which is fitted, or a model.
+struct Input<'a> {
+    path: &'a Path,
+    name: String,
+    bytes: Vec<u8>,
+    is_model: bool,
+}
+
+impl<'a> Input<'a> {
+    fn read(path: &'a Path, args: &ReportArgs) -> Result<Self> {
+        let bytes = inputs::read(path, &args.input.limit)?;
+        Ok(Self {
+            path,
+            name: inputs::name(path),
+            is_model: inputs::is_model(path, &bytes, &args.input)?,
+            bytes,
+        })
+    }
+
+    fn part(self, args: &ReportArgs) -> Result<GrainPart> {
+        match self.is_model {
+            true => self.of_model(args),
+            false => self.of_scan(args),
+        }
+    }
+
+    fn hash(&self) -> (&'static str, String) {
+        ("BLAKE3 of the input", blake3::hash(&self.bytes).to_string())
+    }
+
+    fn of_model(self, args: &ReportArgs) -> Result<GrainPart> {
+        let hash = self.hash();
+        let Self {
+            path, name, bytes, ..
+        } = self;
         let grain = inputs::parse_model(path, &bytes)?;
         solid::is_seen_whole(
             &grain,
@@ -110,7 +152,7 @@ fn grain_part(path: &Path, args: &ReportArgs) -> Result<GrainPart> {
         let mut facts = vec![("model", plural(grain.coefficient_count(), "coefficient"))];
         facts.extend(no_errors(told.no_standard_errors));
         facts.push(hash);
-        return Ok(GrainPart::new(Subject {
+        Ok(GrainPart::new(Subject {
             name,
             grain: &grain,
             scan: None,
@@ -120,45 +162,52 @@ fn grain_part(path: &Path, args: &ReportArgs) -> Result<GrainPart> {
             warnings,
             search: None,
             bench: None,
-        }));
+        }))
     }
-    let scan = inputs::parse_scan(path, &bytes, &args.input, args.unit)?;
-    let (scan, left_out) = whole_or_largest(scan, args.largest);
-    let options = FitOptions::default();
-    let failed = || format!("cannot fit {name}");
-    let fitted = fit_scan(&scan, &options, &FitContext::default()).with_context(failed);
-    let mut fitted = inputs::explained(fitted, &scan)?;
-    fitted.warnings.extend(left_out);
-    fitted.grain = fitted.grain_with_errors();
-    let search = match args.search {
-        true => Some(search(&scan, &name).with_context(failed)?),
-        false => None,
-    };
-    let bench = match args.bench {
-        true => Some(costs(&scan, &name).with_context(failed)?),
-        false => None,
-    };
-    let survey = fitted.survey();
-    let told = FitReport::with_survey(name.clone(), args.unit, &fitted, &survey, &options, &[]);
-    let mut warnings = sentences(scan.warnings(), &fitted.warnings, args.unit);
-    let (measured, missing) = measured(&survey, &fitted.grain, args);
-    warnings.extend(missing);
-    let errors = measured.standard_errors.as_ref();
-    let measures = MeasureRow::of(&measured.measures, errors, args.unit);
-    draw(args, &name, &fitted.grain, Some(&scan))?;
-    let mut facts = facts(&told, &fitted);
-    facts.push(hash);
-    Ok(GrainPart::new(Subject {
-        name,
-        grain: &fitted.grain,
-        scan: Some(&scan),
-        unit: args.unit,
-        facts,
-        measures,
-        warnings,
-        search,
-        bench,
-    }))
+
+    fn of_scan(self, args: &ReportArgs) -> Result<GrainPart> {
+        let hash = self.hash();
+        let Self {
+            path, name, bytes, ..
+        } = self;
+        let scan = inputs::parse_scan(path, &bytes, &args.input, args.unit)?;
+        let (scan, left_out) = whole_or_largest(scan, args.largest);
+        let options = FitOptions::default();
+        let failed = || format!("cannot fit {name}");
+        let fitted = fit_scan(&scan, &options, &FitContext::default()).with_context(failed);
+        let mut fitted = inputs::explained(fitted, &scan)?;
+        fitted.warnings.extend(left_out);
+        fitted.grain = fitted.grain_with_errors();
+        let search = match args.search {
+            true => Some(search(&scan, &name).with_context(failed)?),
+            false => None,
+        };
+        let bench = match args.bench {
+            true => Some(costs(&scan, &name).with_context(failed)?),
+            false => None,
+        };
+        let survey = fitted.survey();
+        let told = FitReport::with_survey(name.clone(), args.unit, &fitted, &survey, &options, &[]);
+        let mut warnings = sentences(scan.warnings(), &fitted.warnings, args.unit);
+        let (measured, missing) = measured(&survey, &fitted.grain, args);
+        warnings.extend(missing);
+        let errors = measured.standard_errors.as_ref();
+        let measures = MeasureRow::of(&measured.measures, errors, args.unit);
+        draw(args, &name, &fitted.grain, Some(&scan))?;
+        let mut facts = facts(&told, &fitted);
+        facts.push(hash);
+        Ok(GrainPart::new(Subject {
+            name,
+            grain: &fitted.grain,
+            scan: Some(&scan),
+            unit: args.unit,
+            facts,
+            measures,
+            warnings,
+            search,
+            bench,
+        }))
+    }
 }
 
 /// All measures of a grain, and those that cannot be had or are withheld, as sentences.

@@ -1,5 +1,6 @@
 //! Lines on standard output and standard error.
 
+use super::wrap;
 use crate::report::escaped;
 use anyhow::{Context, Result};
 use serde::Serialize;
@@ -16,12 +17,13 @@ pub(super) fn put_json(record: &impl Serialize) -> Result<()> {
     put(serde_json::to_string_pretty(record)?)
 }
 
-/// Tells the user something on standard error; where that is closed there is nobody to tell.
+/// Tells the user something on standard error, wrapped to the terminal; where that is closed there is nobody to tell.
 pub(super) fn say(text: impl Display) {
+    let text = wrap::to_width(&text.to_string(), wrap::width(&io::stderr()));
     let _ = writeln!(io::stderr().lock(), "{text}");
 }
 
-/// Tells why the command failed, on one line.
+/// Tells why the command failed, on one line where it is not wrapped.
 pub(super) fn say_error(text: &str) {
     say(format_args!("error: {}", escaped(text)));
 }

@@ -26,6 +26,11 @@ pub(super) fn run(
              --surface"
         );
     }
+    if args.fitting.stats {
+        bail!(
+            "--stats counts the candidates of a search, and superquadrics have none: leave it out"
+        );
+    }
     let progress = console.progress();
     let (grain, scan, report) = fitted(args, form)?;
     if args.png.is_some() {

@@ -2,6 +2,7 @@
 
 use super::args::SynthArgs;
 use super::console::Console;
+use super::inputs::is_stream;
 use super::outputs;
 use super::streams::put_json;
 use super::values::{CloudFormat, SemiAxes, Subject};
@@ -54,6 +55,10 @@ pub(super) fn run(args: SynthArgs, console: Console) -> Result<()> {
     let is_superquadric = matches!(args.body, Subject::Superquadric | Subject::Poly);
     if args.exponents.is_some() && !is_superquadric {
         bail!("--exponents are those of a superquadric or a poly; leave them out");
+    }
+    let writes_points = !is_mesh && args.output.as_deref().is_some_and(is_stream);
+    if args.format.is_some() && !writes_points {
+        bail!("--format is that of points on standard output (-o -): leave it out");
     }
     match args.body {
         Subject::Body(body) => body_scan(&args, body.into(), console),
@@ -185,11 +190,11 @@ fn write_points(args: &SynthArgs, points: &[Point3<f64>]) -> Result<()> {
     })
 }
 
-fn format(path: &Path, of_stream: CloudFormat) -> CloudFormat {
+fn format(path: &Path, of_stream: Option<CloudFormat>) -> CloudFormat {
     match path.extension() {
         Some(extension) if extension.eq_ignore_ascii_case("xyz") => CloudFormat::Xyz,
         Some(_) => CloudFormat::Ply,
-        None => of_stream,
+        None => of_stream.unwrap_or(CloudFormat::Ply),
     }
 }
 

@@ -1,8 +1,9 @@
-//! Lines of a summary that are too long for the terminal: they go on below their own text, not below their label.
+//! Lines that are too long for the terminal: they are broken at blanks only, so that options and paths stay whole, and go
+//! on below their own text, not below their label.
 
 use std::io::IsTerminal;
 use terminal_size::{Width, terminal_size_of};
-use textwrap::Options;
+use textwrap::{Options, WordSplitter};
 
 #[cfg(unix)]
 use std::os::fd::AsFd as Handle;
@@ -31,7 +32,11 @@ pub(super) fn to_width(text: &str, width: Option<usize>) -> String {
             return line.into();
         }
         let indent = " ".repeat(hang(line).min(width / 2));
-        textwrap::fill(line, Options::new(width).subsequent_indent(&indent))
+        let options = Options::new(width)
+            .subsequent_indent(&indent)
+            .word_splitter(WordSplitter::NoHyphenation)
+            .break_words(false);
+        textwrap::fill(line, options)
     });
     lines.collect::<Vec<String>>().join("\n")
 }
@@ -62,6 +67,15 @@ mod tests {
              Lengths are in the scan's unit, and this\n\
              sentence goes on."
         );
+        let text = "error: cannot read lot/of-last-may/barley_kernels/0001.ply: ask for more with --max-bytes";
+        assert_eq!(
+            to_width(text, Some(40)),
+            "error: cannot read\n\
+             lot/of-last-may/barley_kernels/0001.ply:\n\
+             ask for more with --max-bytes"
+        );
+        let path = "a".repeat(50);
+        assert_eq!(to_width(&path, Some(40)), path);
         assert_eq!(to_width(text, None), text);
         assert_eq!(to_width(text, Some(100)), text);
     }

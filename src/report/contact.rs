@@ -6,7 +6,7 @@ use super::unit::Unit;
 use crate::contact::{
     ContactError, Correction, Curved, RelativeCurvature, Touch, force_error, reach,
 };
-use crate::model::{Grain, Surface};
+use crate::model::{Grain, PositionGrain, StarGrain, Surface};
 use nalgebra::Vector3;
 use serde::Serialize;
 use std::fmt;
@@ -65,6 +65,9 @@ pub struct TouchRecord {
     /// How far the body reaches from its centre.
     #[serde(skip)]
     pub reach: f64,
+    /// Whether its model is one expansion of the whole sphere.
+    #[serde(skip)]
+    pub is_whole: bool,
 }
 
 /// What a contact is loaded with.
@@ -138,6 +141,7 @@ impl TouchRecord {
             },
             edge_radius: touch.cap.map(|cap| cap.radius),
             reach: reach(grain),
+            is_whole: is_whole(grain),
         }
     }
 
@@ -147,6 +151,12 @@ impl TouchRecord {
             error: self.curvature_error?,
         })
     }
+}
+
+fn is_whole(grain: &Grain) -> bool {
+    let is_one = |star: &StarGrain| star.segments() == 1;
+    let has_no_cells = |position: &PositionGrain| position.position().cover().is_none();
+    grain.star().is_some_and(is_one) || grain.position().is_some_and(has_no_cells)
 }
 
 impl ContactReport {
@@ -197,9 +207,12 @@ impl ContactReport {
                 "the curvature is less certain there than it is large, so the force has no standard error".into(),
             ),
             Some(Ok(share)) if share > UNCERTAIN => warnings.push(format!(
-                "the curvature is so uncertain there that the force is known to {:.0} % only; fit with --segments 1, \
-                 or a finer scan",
-                100.0 * share
+                "the curvature is so uncertain there that the force is known to {:.0} % only; fit {}",
+                100.0 * share,
+                match first.is_whole && second.as_ref().is_none_or(|other| other.is_whole) {
+                    true => "a finer scan",
+                    false => "with --segments 1, or a finer scan",
+                }
             )),
             Some(Ok(_)) => (),
         }

@@ -176,6 +176,7 @@ impl FromStr for Body {
 mod tests {
     use super::*;
     use crate::shapes::Sampling;
+    use crate::sphere::across;
     use approx::assert_relative_eq;
 
     /// Directions all over the sphere, the six axes among them.
@@ -205,8 +206,7 @@ mod tests {
                 let (r, gradient) = surface.radius_and_gradient(&n);
                 assert_relative_eq!(r, surface.radius(&n), max_relative = 1e-14);
                 assert!(gradient.dot(&n).abs() < 1e-13 * r);
-                let first = n.cross(&Vector3::ith(n.iamin(), 1.0)).normalize();
-                for tangent in [first, n.cross(&first)] {
+                for tangent in across(&n) {
                     let at =
                         |angle: f64| surface.radius(&(n * angle.cos() + tangent * angle.sin()));
                     let difference = (at(step) - at(-step)) / (2.0 * step);

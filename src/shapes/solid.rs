@@ -66,6 +66,7 @@ mod tests {
     use crate::Mesh;
     use crate::measure::mesh_properties;
     use crate::shapes::{Body, Cylinder, Ellipsoid, Sampling};
+    use crate::sphere::across;
     use approx::assert_relative_eq;
     use proptest::prelude::*;
 
@@ -160,8 +161,7 @@ mod tests {
             let mut skipped = 0;
             for n in Sampling::Fibonacci.directions(500, 0).unwrap() {
                 let (r, gradient) = shape.radius_and_gradient(&n);
-                let first = n.cross(&Vector3::ith(n.iamin(), 1.0)).normalize();
-                for tangent in [first, n.cross(&first)] {
+                for tangent in across(&n) {
                     let at = |angle: f64| shape.radius(&(n * angle.cos() + tangent * angle.sin()));
                     let slopes = [at(step) - r, r - at(-step)].map(|rise| rise / step);
                     if (slopes[0] - slopes[1]).abs() > 1e-3 {
@@ -188,8 +188,7 @@ mod tests {
                 assert_relative_eq!(found.radius, r, max_relative = 1e-14);
                 assert!((found.gradient - gradient).norm() < 1e-13 * r);
                 assert!((found.hessian * n).norm() < 1e-12 * r);
-                let first = n.cross(&Vector3::ith(n.iamin(), 1.0)).normalize();
-                for tangent in [first, n.cross(&first)] {
+                for tangent in across(&n) {
                     let [after, before] = [step, -step].map(|angle| {
                         let n = n * angle.cos() + tangent * angle.sin();
                         shape.radius_and_gradient(&n).1

@@ -1,5 +1,6 @@
 //! The highest direction near by, of heights that need not be smooth.
 
+use super::tangents::across;
 use nalgebra::Vector3;
 use std::f64::consts::FRAC_PI_4;
 
@@ -19,8 +20,7 @@ pub(crate) fn compass(
         if step < least {
             break;
         }
-        let first = n.cross(&Vector3::ith(n.iamin(), 1.0)).normalize();
-        let second = n.cross(&first);
+        let [first, second] = across(&n);
         let best = (0..8)
             .map(|i| {
                 let (sin, cos) = (i as f64 * FRAC_PI_4).sin_cos();

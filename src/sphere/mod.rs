@@ -46,7 +46,7 @@ pub(crate) use partition::{azimuth_fraction, polar_fraction};
 pub(crate) use quadrature::GaussLegendre;
 pub(crate) use ring_grid::RingGrid;
 pub use symmetry::{Symmetry, SymmetryError};
-pub(crate) use tangents::tangents;
+pub(crate) use tangents::{across, tangents};
 pub(crate) use transform::{
     AccurateHarmonics, HarmonicGram, Interpolant, LowerTriangle, ScatteredHarmonics,
 };

@@ -1,5 +1,6 @@
 //! Mirror planes through the origin, and the region of the sphere that they leave.
 
+use super::tangents::across;
 use super::{AngleRectangle, Cap};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
@@ -94,10 +95,9 @@ impl Symmetry {
             Self::NONE => Vector3::z(),
             _ => Vector3::from(along).normalize(),
         };
-        let first = centre.cross(&Vector3::ith(centre.iamin(), 1.0)).normalize();
         Cap {
             centre,
-            tangents: [first, centre.cross(&first)],
+            tangents: across(&centre),
             height: match self.images() {
                 1 => 2.0,
                 8 => 1.0 - centre.x,

@@ -1,4 +1,4 @@
-//! A frame in the tangent plane.
+//! Frames in the tangent plane.
 
 use nalgebra::Vector3;
 
@@ -9,5 +9,11 @@ pub(crate) fn tangents(n: &Vector3<f64>) -> [Vector3<f64>; 2] {
         false => Vector3::y(),
     };
     let a = n.cross(&axis).normalize();
+    [a, n.cross(&a)]
+}
+
+/// The same, seen from the axis that `n` is least along. Coefficients in files of mirrored models are told in these.
+pub(crate) fn across(n: &Vector3<f64>) -> [Vector3<f64>; 2] {
+    let a = n.cross(&Vector3::ith(n.iamin(), 1.0)).normalize();
     [a, n.cross(&a)]
 }

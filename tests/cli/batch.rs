@@ -237,6 +237,41 @@ fn a_pipe_in_a_folder_is_told_and_not_waited_for() {
     assert!(output.status.success() && told.starts_with(note), "{told}");
 }
 
+#[cfg(unix)]
+#[test]
+fn a_pipe_that_is_named_is_refused_and_not_waited_for() {
+    let folder = lot(1);
+    let pipe = folder.path().join("p.ply");
+    assert!(Command::new("mkfifo").arg(pipe).status().unwrap().success());
+    let output = grainform(&folder, &batch(&["lot", "p.ply", "-o", "r"]));
+    let told = errors(&output);
+    assert!(
+        told.starts_with("error: p.ply is no file but a pipe"),
+        "{told}"
+    );
+    assert!(!folder.path().join("r").exists());
+}
+
+#[test]
+fn copies_of_a_scan_are_told_by_the_batch_and_beside_another_lot() {
+    let folder = lot(3);
+    let path = |name: &str| folder.path().join(name);
+    std::fs::copy(path("lot/01.xyz"), path("lot/02.xyz")).unwrap();
+    let run = |words: &[&str]| {
+        let words = [&["batch"], words, &["--only", "volume"]].concat();
+        errors(&grainform(&folder, &words))
+    };
+    assert_eq!(run(&["lot/00.xyz", "lot/01.xyz", "-o", "apart"]), "");
+    let told = run(&["lot", "-o", "lots"]);
+    let warning =
+        "warning: 1 scan has the same bytes as another, such as lot/02.xyz as lot/01.xyz: ";
+    assert!(told.starts_with(warning), "{told}");
+    let told = errors(&grainform(&folder, &["compare", "apart", "lots"]));
+    let warning = "warning: 1 grain of the other lot is of scans that others are of";
+    assert!(told.contains(warning), "{told}");
+    assert!(!told.contains("first lot"), "{told}");
+}
+
 #[test]
 fn so_many_jobs_are_lowered_with_a_note() {
     let folder = lot(1);

@@ -212,6 +212,27 @@ fn what_cannot_be_pressed_is_refused_in_a_sentence() {
 }
 
 #[test]
+fn an_uncertain_curvature_asks_for_what_was_not_done() {
+    let folder = folder();
+    let scan = "synth ellipsoid --axes 3,2.5,2 --points 1500 --noise 0.5% -o s.ply";
+    succeed(&folder, &scan.split(' ').collect::<Vec<_>>());
+    let told = |segments: &str| {
+        let fit = ["fit", "s.ply", "--tolerance", "1%", "--segments", segments];
+        succeed(&folder, &[&fit[..], &["-o", "m.json"]].concat());
+        let press = "contact m.json --unit mm --indentation-um 10 --youngs-modulus-mpa 100";
+        let report = json(&folder, &press.split(' ').collect::<Vec<_>>());
+        report["warnings"][0].as_str().unwrap().to_owned()
+    };
+    let cells = told("6");
+    assert!(
+        cells.ends_with("% only; fit with --segments 1, or a finer scan"),
+        "{cells}"
+    );
+    let whole = told("1");
+    assert!(whole.ends_with("% only; fit a finer scan"), "{whole}");
+}
+
+#[test]
 fn the_edge_of_a_mirrored_model_is_rounded_when_its_radius_is_given() {
     let folder = folder();
     succeed(&folder, &["synth", "ellipsoid", "-o", "s.ply"]);

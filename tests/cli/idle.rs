@@ -1,7 +1,7 @@
 //! Options that would change nothing are refused.
 
 use super::errors::refuse;
-use super::{errors, folder, grainform};
+use super::{errors, folder, grainform, succeed};
 
 /// Runs these words, which must be refused for what they ask.
 fn idle(words: &str, expected: &str) {
@@ -22,7 +22,120 @@ fn models_have_no_labels() {
         let words: Vec<&str> = words.split(' ').chain(["--label", "1"]).collect();
         let expected = "other.json is a model, and has no labels: leave --label out";
         refuse(&words, &[expected]);
+        let format = [&words[..words.len() - 2], &["--format", "ply"]].concat();
+        refuse(
+            &format,
+            &["other.json is a model, and --format is of scans: leave it out"],
+        );
     }
+}
+
+#[test]
+fn what_is_of_scans_alone_is_refused_of_models() {
+    for option in ["--search", "--bench", "--largest"] {
+        let words = format!("report other.json -o a.html {option}");
+        idle(
+            &words,
+            &format!("{option} is for scans, and no scan is named"),
+        );
+    }
+}
+
+#[test]
+fn what_an_engine_has_no_use_for_is_refused() {
+    for (engine, options) in [
+        ("liggghts", &["--seed"][..]),
+        ("mercurydpm", &["--seed", "--grains"]),
+    ] {
+        for option in options {
+            let words =
+                format!("export-dem torus.obj --engine {engine} --unit mm -o dem {option} 1");
+            idle(
+                &words,
+                &format!("{option} is for engines in which the folder places the grains"),
+            );
+        }
+    }
+}
+
+#[test]
+fn a_search_has_no_options_for_what_it_does_not_do() {
+    idle(
+        "fit torus.obj --exhaustive",
+        "--exhaustive is for independent segments",
+    );
+    idle(
+        "fit torus.obj --surface poly --stats",
+        "--stats counts the candidates",
+    );
+    refuse(
+        &["fit", "torus.obj", "--degree", "3", "--max-degree", "2"],
+        &["--max-degree bounds a search, and --degree leaves none"],
+    );
+    for option in ["--exhaustive", "--extrapolate"] {
+        refuse(
+            &["search", "torus.obj", option],
+            &["unexpected argument", option],
+        );
+    }
+}
+
+#[test]
+fn options_of_what_is_not_written_are_refused() {
+    refuse(
+        &["fit", "torus.obj", "--resolution", "8"],
+        &["not provided: --mesh"],
+    );
+    for words in [
+        "mesh other.json -o a.stl --format ply",
+        "synth bean --format xyz",
+        "synth bean -o a.ply --format xyz",
+        "synth hook -o - --format xyz",
+    ] {
+        idle(words, "--format is that of");
+    }
+}
+
+#[test]
+fn options_of_scans_and_of_forces_ask_for_these() {
+    for (words, expected) in [
+        ("bench --max-bytes 9", "<SCAN>"),
+        ("bench --format ply", "<SCAN>"),
+        ("bench --label 3", "<SCAN>"),
+        ("bench torus.obj --unit mm", "not provided: --json"),
+        (
+            "contact a.json b.json --pose-b 0,0,0,1,0,0,0 --poissons-ratio .2",
+            "not provided: --youngs-modulus-mpa",
+        ),
+        (
+            "contact a.json b.json --pose-b 0,0,0,1,0,0,0 --other-poissons-ratio .2",
+            "not provided: --youngs-modulus-mpa",
+        ),
+        (
+            "contact a.json b.json --pose-b 0,0,0,1,0,0,0 --other-youngs-modulus-mpa 2",
+            "not provided: --youngs-modulus-mpa",
+        ),
+    ] {
+        let words: Vec<&str> = words.split(' ').collect();
+        refuse(&words, &[expected]);
+    }
+}
+
+#[test]
+fn an_edge_is_rounded_only_where_there_is_one() {
+    let folder = folder();
+    succeed(&folder, &["synth", "sphere", "-o", "s.ply"]);
+    succeed(&folder, &["fit", "s.ply", "-o", "m.json"]);
+    let words =
+        "contact m.json --unit mm --indentation-um 1 --youngs-modulus-mpa 9 --edge-radius 1";
+    let words: Vec<&str> = words.split(' ').collect();
+    let refused = grainform(&folder, &words);
+    let told = errors(&refused);
+    assert!(
+        told.starts_with("error: --edge-radius rounds an edge, and there is none"),
+        "{told}"
+    );
+    assert_eq!(refused.status.code(), Some(2));
 }
 
 #[test]

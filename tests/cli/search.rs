@@ -48,7 +48,7 @@ fn lists_every_candidate_and_chooses_what_fit_chooses() {
 fn the_table_marks_the_choice() {
     let folder = folder();
     let bean = grain("bean.ply");
-    let words = [&["search", &bean, "--exhaustive"], &INDEPENDENT[..]].concat();
+    let words = [&["search", &bean], &INDEPENDENT[..]].concat();
     let text = succeed(&folder, &words);
     let marked: Vec<&str> = text
         .lines()

@@ -54,11 +54,11 @@ pub(in crate::cli) struct DeckArgs {
     #[command(flatten)]
     pub(in crate::cli) spheres: SpheresArgs,
 
-    /// Number of grains [default: 200]
+    /// Number of grains; of mercurydpm its driver tells it [default: 200]
     #[arg(long, value_name = "K", value_parser = count::<usize>)]
     pub(in crate::cli) grains: Option<usize>,
 
-    /// Seed of the orientations at the start [default: 1]
+    /// Seed of the orientations at the start, of lammps and yade [default: 1]
     #[arg(long, value_name = "S", value_parser = count::<u64>)]
     pub(in crate::cli) seed: Option<u64>,
 

@@ -28,7 +28,7 @@ pub(in crate::cli) struct InputArgs {
     #[arg(long, value_name = "K", value_parser = label, help_heading = RUN)]
     pub(in crate::cli) label: Option<i64>,
 
-    /// Format of the scan, where neither its content nor its extension tells: ply, stl, obj or xyz
+    /// Format of the scan, where its content does not tell: ply, stl, obj or xyz [default: that of its extension]
     #[arg(long, value_name = "FORMAT", help_heading = RUN)]
     pub(in crate::cli) format: Option<ScanFormat>,
 
@@ -47,11 +47,6 @@ pub(in crate::cli) struct FittingArgs {
     /// Of several bodies in the scan, fit the largest
     #[arg(long, help_heading = SEARCH)]
     pub(in crate::cli) largest: bool,
-
-    /// Tell area, volume, moments and size where much of the surface was not seen, as guesses with the errors of
-    /// guesses
-    #[arg(long, help_heading = SEARCH)]
-    pub(in crate::cli) extrapolate: bool,
 
     /// How segments are joined: blended (overlapping cells, fitted together) or none (k x k
     /// independent segments of the angle domain, with steps between them)
@@ -89,10 +84,6 @@ pub(in crate::cli) struct FittingArgs {
     #[arg(long, value_name = "T|auto", default_value = "auto", value_parser = tolerance,
           help_heading = SEARCH)]
     pub(in crate::cli) tolerance: Tolerance,
-
-    /// Fit every candidate, also those that cannot win; the choice is the same
-    #[arg(long, help_heading = SEARCH)]
-    pub(in crate::cli) exhaustive: bool,
 
     /// Threads, 0 for all cores; at most 4 per core are used, and the result does not depend on it
     #[arg(long, value_name = "N", value_parser = count::<usize>, default_value_t = 0, help_heading = RUN)]

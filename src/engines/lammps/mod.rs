@@ -3,6 +3,7 @@
 //! Clumps are written as the versions of 2021 and those of 2025 read them: no overlap keywords, no kinetic energy of
 //! atoms.
 
+mod rest;
 mod script;
 mod settled;
 mod superellipsoid;

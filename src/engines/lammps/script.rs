@@ -1,9 +1,9 @@
 //! The script that LAMMPS runs.
 
+use super::rest::rest;
 use crate::engines::deck::{Deck, GRAVITY};
 
-/// Grains are at rest when they have been so at five looks in a row, fifty steps of a grain apart.
-const LOOKS: usize = 5;
+/// Steps of a grain between two looks whether grains are at rest.
 const LOOK: f64 = 50.0;
 
 /// Looks between two lines of the log.
@@ -75,11 +75,7 @@ run 0
 undump start
 variable dry index 0
 if \"${{dry}} == 1\" then quit
-# At rest: all together have less kinetic energy than this at {LOOKS} looks in a row.
-variable lively equal \"v_energy >= {rest:e}\"
-fix looks all ave/time {look} 1 {look} v_lively ave window {LOOKS}
-variable looks equal f_looks
-fix rest all halt {look} v_looks == 0 error continue message no
+{ends_at_rest}
 shell mkdir frames
 dump frames all custom {frame} frames/bed.*.dump id mol type x y z radius
 dump_modify frames pad 9
@@ -102,6 +98,7 @@ write_dump all custom settled.dump id mol type x y z radius modify sort id
         line = LINE * look,
         frame = (FRAME / step).ceil(),
         most = deck.most_steps(),
+        ends_at_rest = rest(deck.rest_energy(), look, look),
         rest = deck.rest_energy(),
     )
 }

@@ -61,6 +61,28 @@ impl<'a> BlendPart<'a> {
         place
     }
 
+    /// What a cell's radius is not less than within a cap, sought until it is enough, and the work that took beside
+    /// values.
+    fn least_of(
+        &self,
+        cell: usize,
+        middle: &Vector3<f64>,
+        radius: f64,
+        enough: f64,
+    ) -> (f64, usize) {
+        let bound = &self.bounds[cell];
+        let least = match bound.holds(middle) {
+            true => bound.within(middle, radius, self.surface.cell_radius(cell, middle)),
+            false => bound.everywhere(),
+        };
+        let expansion = || self.surface.expansion(cell);
+        let recentred = match least < enough {
+            true => self.recentring.least(expansion(), middle, radius),
+            false => None,
+        };
+        recentred.map_or((least, 0), |(found, work)| (least.max(found), work))
+    }
+
     fn corners(&self) -> [Vector3<f64>; 4] {
         let [b, c] = self.tangents;
         [(0, 0), (0, 1), (1, 0), (1, 1)].map(|(i, j)| self.at([b[i], c[j]]))
@@ -89,19 +111,8 @@ impl Part for BlendPart<'_> {
         // The mean of the bounds, weighed in the worst way, is enough if this is not below zero.
         let (mut excess, mut recentred) = (0.0, 0);
         for cell in cells() {
-            let bound = &self.bounds[cell];
-            let mut least = match bound.holds(&middle) {
-                true => bound.within(&middle, radius, self.surface.cell_radius(cell, &middle)),
-                false => bound.everywhere(),
-            };
-            if least < enough
-                && let Some((found, work)) =
-                    self.recentring
-                        .least(self.surface.expansion(cell), &middle, radius)
-            {
-                recentred += work;
-                least = least.max(found);
-            }
+            let (least, work) = self.least_of(cell, &middle, radius, enough);
+            recentred += work;
             let [lightest, heaviest] = self.surface.cover().weight(cell).range(&corners);
             let weight = if least < enough { heaviest } else { lightest };
             excess += weight * (least - enough);

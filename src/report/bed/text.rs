@@ -10,8 +10,22 @@ use std::fmt;
 
 impl fmt::Display for BedReport {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.write_grains(f)?;
+        self.write_settings(f)?;
+        self.write_runs(f)?;
+        self.write_packing(f)?;
+        self.write_fabric(f)?;
+        write!(f, "Figures after ± are standard errors")?;
+        match self.runs.len() {
+            1 => write!(f, " of the sampling; --seeds tells those of the bed."),
+            _ => write!(f, " over the runs."),
+        }
+    }
+}
+
+impl BedReport {
+    fn write_grains(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let metres = self.unit.metres();
-        let length = |value: f64| format!("{} {}", short(value / metres), self.unit);
         for kinds in self.kinds.chunk_by(|one, other| one.input == other.input) {
             let range = |figure: &dyn Fn(&BedKindRecord) -> f64| {
                 let figures = || kinds.iter().map(figure);
@@ -32,6 +46,12 @@ impl fmt::Display for BedReport {
                 range(&|kind| 1e6 * kind.mass_kg)
             )?;
         }
+        Ok(())
+    }
+
+    fn write_settings(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let metres = self.unit.metres();
+        let length = |value: f64| format!("{} {}", short(value / metres), self.unit);
         let container = match self.settings.container {
             Container::Box([width, depth]) => format!("box {} x {}", length(width), length(depth)),
             Container::Cylinder(radius) => format!("cylinder of diameter {}", length(2.0 * radius)),
@@ -52,21 +72,26 @@ impl fmt::Display for BedReport {
             given(settings.rolling_friction),
             given(settings.damping[0]),
             given(settings.damping[1])
-        )?;
-        if let [run] = self.runs.as_slice() {
-            let way = match run.is_at_rest {
-                true => "in",
-                false => "not, in",
-            };
-            writeln!(
-                f,
-                "settled       {way} {} s, {}",
-                short(run.seconds),
-                plural(run.steps as usize, "step")
-            )?;
-        } else {
-            writeln!(f, "runs          {}", self.runs.len())?;
-        }
+        )
+    }
+
+    fn write_runs(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [run] = self.runs.as_slice() else {
+            return writeln!(f, "runs          {}", self.runs.len());
+        };
+        let way = match run.is_at_rest {
+            true => "in",
+            false => "not, in",
+        };
+        writeln!(
+            f,
+            "settled       {way} {} s, {}",
+            short(run.seconds),
+            plural(run.steps as usize, "step")
+        )
+    }
+
+    fn write_packing(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let crushed = || self.runs.iter().any(BedRunRecord::is_crushed);
         let fraction = |figure: Option<BedMean>, place: &str| match figure {
             Some(fraction) => format!("packing fraction {fraction}, {place}"),
@@ -76,7 +101,11 @@ impl fmt::Display for BedReport {
         let means = &self.means;
         let core = fraction(means.core, "two diameters off the walls");
         let whole = fraction(means.whole, "from wall to wall");
-        writeln!(f, "core          {core}\nwhole         {whole}")?;
+        writeln!(f, "core          {core}\nwhole         {whole}")
+    }
+
+    fn write_fabric(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let means = &self.means;
         if let (Some(contacts), Some(neighbours)) = (means.contacts, means.neighbours) {
             writeln!(
                 f,
@@ -104,10 +133,6 @@ impl fmt::Display for BedReport {
                 "long axes     order {order}, vertical {vertical} (1 upright, -0.5 flat)"
             )?;
         }
-        write!(f, "Figures after ± are standard errors")?;
-        match self.runs.len() {
-            1 => write!(f, " of the sampling; --seeds tells those of the bed."),
-            _ => write!(f, " over the runs."),
-        }
+        Ok(())
     }
 }

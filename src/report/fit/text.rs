@@ -43,28 +43,50 @@ impl ReferenceRecord {
 
 impl fmt::Display for FitReport {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let labels = Labels(self.unit);
-        let mm = labels.length();
-        let share = |length: f64| {
-            let share = 100.0 * length / self.mean_radius;
-            match share.abs() {
-                0.0 | 0.001.. => format!("{share:.3}"),
-                _ => format!("{share:.1e}"),
-            }
-        };
-        let radius = match self.surface {
+        self.write_model(f)?;
+        self.write_figures(f)?;
+        self.write_residuals(f)?;
+        if self.standard_errors.is_some() {
+            writeln!(f, "Figures after ± are standard errors.")?;
+        }
+        if let Some(reason) = &self.no_standard_errors {
+            writeln!(f, "No standard errors: {reason}.")?;
+        }
+        write!(f, "Lengths are in {}.", Labels(self.unit).name())
+    }
+}
+
+impl FitReport {
+    /// A length as a share of the mean radius, in percent.
+    fn share(&self, length: f64) -> String {
+        let share = 100.0 * length / self.mean_radius;
+        match share.abs() {
+            0.0 | 0.001.. => format!("{share:.3}"),
+            _ => format!("{share:.1e}"),
+        }
+    }
+
+    /// What shares are of.
+    fn radius(&self) -> &'static str {
+        match self.surface {
             "star" => "mean radius",
             _ => "ball's radius",
-        };
-        let of_radius = |length: f64| {
-            format!(
-                "{}{mm} ({} % of the {radius})",
-                short(length),
-                share(length)
-            )
-        };
-        let (area, volume) = (labels.area(), labels.volume());
-        let heldout = self.heldout_rms.map_or("unknown".into(), of_radius);
+        }
+    }
+
+    /// A length, and its share of the mean radius.
+    fn of_radius(&self, length: f64) -> String {
+        format!(
+            "{}{} ({} % of the {})",
+            short(length),
+            Labels(self.unit).length(),
+            self.share(length),
+            self.radius()
+        )
+    }
+
+    /// What was fitted, and why.
+    fn write_model(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let points = plural(self.points, "point");
         writeln!(f, "scan          {}, {points}", escaped(&self.input))?;
         if let Some(rule) = &self.surface_rule {
@@ -91,13 +113,16 @@ impl fmt::Display for FitReport {
         }
         writeln!(f, "chosen for    {}", self.rule)?;
         if let Some(tolerance) = self.tolerance {
+            let unit = match self.unit {
+                Some(_) => Labels(self.unit).length(),
+                None => " in the scan's unit".into(),
+            };
             writeln!(
                 f,
-                "tolerance     {}{}, {} % of the {radius}",
+                "tolerance     {}{unit}, {} % of the {}",
                 short(tolerance),
-                self.unit
-                    .map_or(" in the scan's unit".into(), |_| labels.length()),
-                share(tolerance)
+                self.share(tolerance),
+                self.radius()
             )?;
         }
         if let Some(estimate) = &self.estimate {
@@ -105,59 +130,73 @@ impl fmt::Display for FitReport {
                 f,
                 "estimate      degree {}, known to {}",
                 estimate.degree,
-                of_radius(estimate.deviation)
+                self.of_radius(estimate.deviation)
             )?;
         }
         if let Some(rms) = self.estimate_rms {
-            writeln!(f, "difference    RMS {} from the estimate", of_radius(rms))?;
+            let rms = self.of_radius(rms);
+            writeln!(f, "difference    RMS {rms} from the estimate")?;
             if let Some(largest) = self.estimate.and_then(|e| e.largest_difference) {
-                writeln!(f, "              largest {}", of_radius(largest))?;
+                writeln!(f, "              largest {}", self.of_radius(largest))?;
             }
         }
+        Ok(())
+    }
+
+    /// Area, volume and size.
+    fn write_figures(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let labels = Labels(self.unit);
         let errors = self.standard_errors.as_ref();
         if let Some(found) = self.area {
-            let error = errors.map(|errors| errors.area);
-            writeln!(f, "area          {}{area}", with_error(found, error))?;
+            let area = with_error(found, errors.map(|errors| errors.area));
+            writeln!(f, "area          {area}{}", labels.area())?;
         }
         if let Some(found) = self.volume {
-            let error = errors.map(|errors| errors.volume);
-            writeln!(f, "volume        {}{volume}", with_error(found, error))?;
+            let volume = with_error(found, errors.map(|errors| errors.volume));
+            writeln!(f, "volume        {volume}{}", labels.volume())?;
         }
         if let Some(dimensions) = &self.dimensions {
             let errors = errors.map(|errors| &errors.dimensions);
             writeln!(
                 f,
-                "size          {} x {} x {}{mm}",
+                "size          {} x {} x {}{}",
                 with_error(dimensions.length, errors.map(|errors| errors.length)),
                 with_error(dimensions.width, errors.map(|errors| errors.width)),
                 with_error(dimensions.thickness, errors.map(|errors| errors.thickness)),
+                labels.length()
             )?;
         }
         for (names, reason) in by_reason(&self.not_measured) {
             writeln!(f, "not told      {names}: {reason}")?;
         }
-        if let Some(reference) = &self.reference {
-            self.compare(reference, f)?;
+        match &self.reference {
+            Some(reference) => self.compare(reference, f),
+            None => Ok(()),
         }
-        writeln!(f, "held-out RMS  {heldout}")?;
-        writeln!(f, "residuals     RMS {}", of_radius(self.rms))?;
-        writeln!(f, "              largest {}", of_radius(self.max))?;
+    }
+
+    /// How far the points are off, and what else tells how good the fit is.
+    fn write_residuals(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let length = Labels(self.unit).length();
+        let held_out = self.heldout_rms.map(|rms| self.of_radius(rms));
+        let held_out = held_out.unwrap_or("unknown".into());
+        writeln!(f, "held-out RMS  {held_out}")?;
+        writeln!(f, "residuals     RMS {}", self.of_radius(self.rms))?;
+        writeln!(f, "              largest {}", self.of_radius(self.max))?;
         if self.seam_jump > 0.0 {
-            writeln!(f, "seam jump     largest {}", of_radius(self.seam_jump))?;
+            let jump = self.of_radius(self.seam_jump);
+            writeln!(f, "seam jump     largest {jump}")?;
         }
         if let Some(asymmetry) = self.asymmetry {
-            writeln!(f, "asymmetry     RMS {}", of_radius(asymmetry))?;
+            writeln!(f, "asymmetry     RMS {}", self.of_radius(asymmetry))?;
         }
         if let Some(noise) = self.noise {
-            writeln!(f, "noise         {}", of_radius(noise))?;
+            writeln!(f, "noise         {}", self.of_radius(noise))?;
         }
+        let radius = short(self.mean_radius);
         match self.surface {
-            "star" => writeln!(f, "mean radius   {}{mm}", short(self.mean_radius))?,
-            _ => writeln!(
-                f,
-                "ball          of equal volume: radius {}{mm}",
-                short(self.mean_radius)
-            )?,
+            "star" => writeln!(f, "mean radius   {radius}{length}")?,
+            _ => writeln!(f, "ball          of equal volume: radius {radius}{length}")?,
         }
         if self.reduced_segments > 0 {
             let (count, s) = match self.reduced_segments {
@@ -169,20 +208,15 @@ impl fmt::Display for FitReport {
                 "reduced       {count} need{s} no higher degree, or hold{s} too few points for it"
             )?;
         }
-        if let Some(loss) = self.harmonics_loss {
-            writeln!(f, "harmonics     converted with a loss of {loss:.1e}{mm}")?;
+        match self.harmonics_loss {
+            Some(loss) => writeln!(
+                f,
+                "harmonics     converted with a loss of {loss:.1e}{length}"
+            ),
+            None => Ok(()),
         }
-        if errors.is_some() {
-            writeln!(f, "Figures after ± are standard errors.")?;
-        }
-        if let Some(reason) = &self.no_standard_errors {
-            writeln!(f, "No standard errors: {reason}.")?;
-        }
-        write!(f, "Lengths are in {}.", labels.name())
     }
-}
 
-impl FitReport {
     /// Area and volume beside those of a polyhedron, which are themselves off.
     fn compare(&self, reference: &ReferenceRecord, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         reference.write(f, &Labels(self.unit))?;

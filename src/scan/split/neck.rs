@@ -5,8 +5,7 @@
 
 use super::dust::LEAST_POINTS;
 use super::outline::Outline;
-use super::plane::across;
-use crate::sphere::compass;
+use crate::sphere::{across, compass};
 use nalgebra::{Matrix2, Point3, Vector2, Vector3};
 use std::f64::consts::PI;
 

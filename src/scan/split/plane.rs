@@ -7,6 +7,7 @@
 
 use super::links::{nearest, nearest_distance};
 use crate::polygon_hull::polygon_hull;
+use crate::sphere::across;
 use crate::spread::{covariance, robust_deviation};
 use kiddo::ImmutableKdTree;
 use nalgebra::{Point3, Unit, Vector2, Vector3};
@@ -263,12 +264,6 @@ fn holds(corners: &[Vector2<f64>], place: &Vector2<f64>, margin: f64) -> bool {
         && edges
             .map(|(from, to)| (to - from).perp(&(place - from)) - margin * (to - from).norm())
             .all(|inwards| inwards > 0.0)
-}
-
-/// Two unit vectors across a third.
-pub(super) fn across(normal: &Vector3<f64>) -> [Vector3<f64>; 2] {
-    let first = normal.cross(&Vector3::ith(normal.iamin(), 1.0)).normalize();
-    [first, normal.cross(&first)]
 }
 
 /// The diagonal of the box round the points.

@@ -3,6 +3,7 @@
 use super::body::Superellipsoid;
 use super::law::{Law, Partner};
 use crate::engines::deck::{Deck, GRAVITY};
+use crate::engines::lammps::rest::{LOOKS, rest};
 use crate::measure::equivalent_radius;
 
 /// Steps in the time of the shortest contact.
@@ -10,9 +11,6 @@ const STEPS: f64 = 40.0;
 
 /// Simulated seconds between two frames, at which grains may be found to be at rest.
 const FRAME: f64 = 0.05;
-
-/// Grains are at rest when they have been so at five looks in a row.
-const LOOKS: usize = 5;
 
 /// Neighbours that LAMMPS has room for if it is not told of more.
 const NEIGHBOURS: usize = 2000;
@@ -53,11 +51,7 @@ variable inside equal count(grains,box)
 thermo_style custom step atoms c_top v_energy v_inside
 thermo {frame}
 thermo_modify lost error flush yes
-# At rest: all together have less kinetic energy than this at {LOOKS} looks in a row.
-variable lively equal \"v_energy >= {rest:e}\"
-fix looks all ave/time {look} 1 {look} v_lively ave window {LOOKS}
-variable looks equal f_looks
-fix rest all halt {frame} v_looks == 0 error continue message no
+{ends_at_rest}
 # Diameters, turns and roundness as OVITO takes them.
 compute size grains property/atom shapex shapey shapez
 compute turn grains property/atom quatw quati quatj quatk
@@ -76,6 +70,7 @@ if \"${{energy}} < {rest:e}\" then &
         skin = 0.3 * least,
         page = 10 * neighbours,
         frame = LOOKS * look,
+        ends_at_rest = rest(deck.rest_energy(), look, LOOKS * look),
         rest = deck.rest_energy(),
         most = (deck.seconds / step).ceil(),
     )
