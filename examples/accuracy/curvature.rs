@@ -57,7 +57,7 @@ fn row(
         // The closed form at the same place, whose direction from its own origin is another.
         let place = grain.point(&n).coords.normalize();
         let exact = Curvature::new(&place, &Radial(truth.as_ref()).jet(&place)).principal;
-        let error = grain.curvature_error(&n).ok_or("an estimate")?;
+        let error = grain.local_error(&n).ok_or("an estimate")?.curvature;
         sharpest = sharpest.max(exact[0].max(exact[1]));
         sharpest_told = sharpest_told.max(told[0].max(told[1]));
         for (told, exact) in told.into_iter().zip(exact) {

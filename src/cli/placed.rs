@@ -6,12 +6,13 @@ use super::values::{LawArg, PoseArg};
 use super::{contact, inputs, outputs, solid};
 use crate::annotate::{self, ContactFrame};
 use crate::contact::{
-    ContactBody, VolumeLaw, contact_regions, effective_modulus_pa, reach, union_contacts,
+    ContactBody, RegionError, TOLD, VolumeLaw, contact_gaps, contact_regions, effective_modulus_pa,
+    reach, union_contacts,
 };
 use crate::export::{Detail, MeshFormat};
 use crate::measure::{grain_properties, solid_properties};
 use crate::model::{Frame, Grain, Surface};
-use crate::report::{HertzLaw, NormalLaw, PlacedReport, RegionsReport, Unit, Withheld};
+use crate::report::{GapRecord, HertzLaw, NormalLaw, PlacedReport, RegionsReport, Unit, Withheld};
 use anyhow::{Context, Result, anyhow, bail};
 use nalgebra::{Isometry3, Translation3};
 use std::path::Path;
@@ -50,12 +51,15 @@ pub(super) fn run(args: &ContactArgs, pose: &PoseArg, console: Console) -> Resul
         let what = "its contacts are told beside another union only, and not by --law volume";
         solid::is_seen_whole(grain, name, what)?;
     }
-    let [one, two] = &grains;
-    let found = contact_regions(&ContactBody::new(one), &ContactBody::new(two), &moved(pose))
-        .with_context(|| format!("cannot tell the contact of {} and {}", names[0], names[1]))?;
+    let bodies = grains.each_ref().map(|grain| ContactBody::new(grain));
+    let [first, second] = &bodies;
+    let told = contact_regions(first, second, &moved(pose))
+        .and_then(|found| Ok((found, gaps(&bodies, &grains, &moved(pose))?)));
+    let (found, gaps) =
+        told.with_context(|| format!("cannot tell the contact of {} and {}", names[0], names[1]))?;
     let doubts = doubts(&grains, &names);
     let [one, two] = names;
-    let mut report = RegionsReport::new(one, two, args.unit, &found, law.as_ref());
+    let mut report = RegionsReport::new(one, two, args.unit, &found, gaps, law.as_ref());
     report.warnings.extend(doubts);
     let frames = report
         .regions
@@ -63,6 +67,24 @@ pub(super) fn run(args: &ContactArgs, pose: &PoseArg, console: Console) -> Resul
         .map(|region| frame(region.point, region.normal));
     draw(args, &grains, pose, &frames.collect::<Vec<_>>())?;
     console.tell(&report, args.json, written, &report.warnings)
+}
+
+/// Places where the surfaces may touch for all that is known of them.
+fn gaps(
+    bodies: &[ContactBody<'_>; 2],
+    grains: &[Grain; 2],
+    pose: &Isometry3<f64>,
+) -> Result<Vec<GapRecord>, RegionError> {
+    let largest = |grain: &Grain| {
+        let errors = grain.local_errors()?.of_cells().iter();
+        Some(errors.map(|error| error.place).fold(0.0, f64::max))
+    };
+    let (Some(one), Some(two)) = (largest(&grains[0]), largest(&grains[1])) else {
+        return Ok(Vec::new());
+    };
+    let margin = TOLD * one.hypot(two);
+    let places = contact_gaps(&bodies[0], &bodies[1], pose, margin)?;
+    Ok(places.iter().filter_map(GapRecord::new).collect())
 }
 
 fn moved(pose: &PoseArg) -> Isometry3<f64> {

@@ -19,7 +19,7 @@
 
 mod convex;
 mod edge;
-mod force_error;
+mod known;
 pub mod law;
 mod material;
 mod regions;
@@ -32,11 +32,11 @@ pub use convex::{
     ConvexContact, ConvexPair, ConvexStatus, Method, UnionContact, Warm, union_contacts,
 };
 pub use edge::{EdgeError, TangentCap};
-pub use force_error::{Curved, force_error};
+pub use known::{Curved, KnownContact, TOLD, told_depth};
 pub use material::{Material, MaterialError, effective_modulus_pa};
 pub use regions::{
     ContactBody, ContactPair, ContactPlace, ContactRegion, ContactRegions, RegionError, RegionWork,
-    contact_regions,
+    contact_gaps, contact_regions,
 };
 pub use relative::{ContactError, Correction, LARGEST_RATIO, RelativeCurvature};
 pub use touch::{Touch, TouchError, reach, touch};

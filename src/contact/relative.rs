@@ -76,6 +76,28 @@ pub enum ContactError {
         /// The smaller one B.
         smaller: f64,
     },
+    /// The curvature is not told from none, as of the ripples of a fit on a flat side, or is that by which it rounds an edge.
+    #[error(
+        "the gap between the surfaces is curved by {} with a standard error of {}, as where a fit ripples on a flat side or \
+         rounds an edge: no force is vouched for", significant(*curvature, 3), significant(*error, 2)
+    )]
+    Uncertain {
+        /// The smaller curvature of the gap, 2 B.
+        curvature: f64,
+        /// Its standard error.
+        error: f64,
+    },
+    /// They overlap by so little beside the standard error of that that they may not touch.
+    #[error(
+        "the overlap of {} has a standard error of {}: the surfaces may as well be apart, and no force is vouched for",
+        significant(*depth, 3), significant(*error, 2)
+    )]
+    Shallow {
+        /// The overlap.
+        depth: f64,
+        /// Its standard error.
+        error: f64,
+    },
     /// The bodies would touch all over a side.
     #[error(
         "by their curvatures there the surfaces would touch as far as {} from the middle of the contact, and the body \

@@ -3,7 +3,7 @@
 use super::{EdgeError, TangentCap};
 use crate::Mesh;
 use crate::measure::{Curvature, Support, sound_crossings, support};
-use crate::model::Surface;
+use crate::model::{LocalError, Surface};
 use crate::sphere::{cube_grid, tangents, unit};
 use nalgebra::Vector3;
 use std::f64::consts::TAU;
@@ -38,6 +38,8 @@ pub struct Touch {
     pub directions: [Vector3<f64>; 2],
     /// The cap by which an edge was rounded.
     pub cap: Option<TangentCap>,
+    /// Standard errors of the surface there, where it tells them; of an edge none.
+    pub error: Option<LocalError>,
 }
 
 /// Why a body's contact has no curvature.
@@ -102,6 +104,7 @@ pub fn touch(
             principal: found.curvature.principal,
             directions: found.curvature.directions,
             cap: None,
+            error: surface.local_error(&found.direction),
         });
     }
     round(
@@ -185,6 +188,7 @@ fn round(
         principal: cap.principal_curvatures(1.0 / bend),
         directions: [along.cross(towards), along],
         cap: Some(cap),
+        error: None,
     })
 }
 

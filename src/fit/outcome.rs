@@ -3,6 +3,7 @@
 use super::candidate::Search;
 use super::estimate::{Estimate, RadiusError};
 use super::figures::Figures;
+use super::local_cells;
 use super::prepare::{Reference, ReferenceKind};
 use super::samples::Samples;
 use super::warning::FitWarning;
@@ -252,20 +253,23 @@ impl Fitted {
         })
     }
 
-    /// The grain with its [standard errors](Self::standard_errors) and the [errors of its
-    /// curvature](crate::model::CurvatureErrors), which a file of it keeps, or why there are none.
+    /// The grain with its [standard errors](Self::standard_errors) and [those of its surface from place to
+    /// place](crate::model::LocalErrors), which a file of it keeps, or why there are none.
     pub fn grain_with_errors(&self) -> Grain {
+        let survey = self.survey();
+        let of_faces = survey
+            .properties()
+            .map_or(0.0, |told| self.beside_faces(&told));
         let of_estimate = || {
             let posterior = self.posterior.as_ref()?;
-            posterior.curvature_errors(self.grain.star()?)
+            posterior.local_errors(self.grain.star()?)
         };
-        let of_samples = || {
-            let samples = self.samples.as_ref()?;
-            samples.curvature_errors(self.grain.position()?)
-        };
-        let errors = of_estimate().or_else(of_samples);
-        let grain = self.grain.clone().with_curvature_errors(errors);
-        grain.with_standard_errors(self.standard_errors(&self.survey()))
+        let of_samples = || Some(self.samples.as_ref()?.local_errors(&self.grain));
+        let squares = of_estimate().or_else(of_samples);
+        let errors =
+            squares.and_then(|squares| local_cells::errors(&squares, of_faces, &self.grain));
+        let grain = self.grain.clone().with_local_errors(errors);
+        grain.with_standard_errors(self.standard_errors(&survey))
     }
 
     /// Standard deviations of the radius in directions of the scan's frame (vectors of any length but zero), in the scan's

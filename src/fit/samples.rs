@@ -1,23 +1,24 @@
-//! What a surface without a radius was fitted to, and how well its curvature is known by it: how far it is from that of
-//! the samples near by.
+//! What a surface was fitted to, and how well it is known by it from place to place: how far it and its curvature are from
+//! those of the samples near by.
 //!
-//! Where cells are pulled two ways the surface may bend far more than the body, though it is nowhere far from it: its
-//! curvature is compared with that of a quadric
+//! Where cells are pulled two ways the surface may bend far more than the body, though it is nowhere far from it, and
+//! ripples beside an edge are of no body: the surface is compared with a quadric
 //!
 //! ```text
 //! h(u, v) = c0 + c1 u + c2 v - (k11 u^2 + 2 k12 u v + k22 v^2) / 2
 //! ```
 //!
 //! fitted by least squares to the heights of the nearest samples over the tangent plane. All of the difference counts as
-//! error, that of the quadric too: it follows noise more than the surface does, and no bend of the size of its samples' patch.
+//! error, that of the quadric too, and of its distance what it may be off by its samples' scatter: it follows noise more than the surface does, and no bend of the size of its samples' patch.
 //! Of a cell the largest counts, for such bends are narrow.
 
-use crate::fit::curvature_cells::{PER_CELL, directions, errors, tensor};
+use crate::fit::local_cells::{PER_CELL, Squares, of_cells, tensor};
 use crate::fit::neighbours::Neighbours;
 use crate::measure::Curvature;
-use crate::model::{CurvatureErrors, PositionGrain, Surface};
+use crate::model::{Grain, Surface};
 use nalgebra::{DMatrix, DVector, Matrix3, Point3, Vector3};
 use rayon::prelude::*;
+use std::f64::consts::PI;
 
 /// What a surface was fitted to.
 #[derive(Debug, Clone)]
@@ -28,9 +29,15 @@ pub(crate) struct Samples {
     pub(crate) normals: Vec<Vector3<f64>>,
 }
 
-/// Samples of a quadric at most, and at least: it has six numbers.
+/// Numbers of a quadric.
+const NUMBERS: usize = 6;
+
+/// Samples of a quadric at most, and at least.
 const MOST: usize = 40;
 const LEAST: usize = 12;
+
+/// A surface that turns by more radians from sample to sample is not told to by them: it rounds an edge.
+const LARGEST_TURN: f64 = 0.5;
 
 /// Cosine to the surface's normal below which a sample is of another side of the body.
 const SAME_SIDE: f64 = 0.5;
@@ -39,29 +46,38 @@ const SAME_SIDE: f64 = 0.5;
 const RANK: f64 = 1e-6;
 
 impl Samples {
-    /// Standard errors of the curvature of a grain that was fitted to these samples.
-    pub(crate) fn curvature_errors(&self, grain: &PositionGrain) -> Option<CurvatureErrors> {
+    /// Squares of the errors of a surface that was fitted to these samples, in the [directions] of cells.
+    pub(super) fn local_errors(&self, grain: &Grain) -> Vec<Squares> {
         let places: Vec<Vector3<f64>> = self.points.iter().map(|point| point.coords).collect();
         let neighbours = Neighbours::new(&places);
-        let frame = grain.frame();
-        let towards: Vec<Vector3<f64>> = directions().iter().map(|n| frame.axes * n).collect();
+        let centre = grain.frame().centre.coords;
+        let towards = of_cells(grain);
         let jets = grain.jets(&towards);
-        let squares: Vec<f64> = towards
+        let squares: Vec<Squares> = towards
             .par_iter()
             .zip(&jets)
             .map(|(n, jet)| {
                 let curvature = Curvature::new(n, jet);
-                let told = tensor(&curvature);
-                let place = frame.centre.coords + jet.place;
-                let near = self.near(&neighbours, &place, &curvature.normal);
+                let near = self.near(&neighbours, &(centre + jet.place), &curvature.normal);
                 // Of what no samples tell, all is in doubt.
-                let samples = quadric(&near, &curvature).unwrap_or_else(Matrix3::zeros);
-                (told - samples).norm_squared()
+                let told = quadric(&near, &curvature).unwrap_or(Quadric {
+                    square: jet.place.norm_squared(),
+                    tensor: Matrix3::zeros(),
+                    spacing: f64::INFINITY,
+                });
+                let own = tensor(&curvature);
+                let off = match own.norm() * told.spacing < LARGEST_TURN {
+                    true => own - told.tensor,
+                    false => own,
+                };
+                Squares {
+                    place: told.square,
+                    curvature: off.norm_squared(),
+                }
             })
             .collect();
         let cells = squares.chunks_exact(PER_CELL);
-        let worst = cells.flat_map(|own| [own.iter().copied().fold(0.0, f64::max); PER_CELL]);
-        errors(&worst.collect::<Vec<f64>>())
+        cells.flat_map(|own| [worst(own); PER_CELL]).collect()
     }
 
     /// The samples nearest to a place that are of its side of the body, from there.
@@ -79,14 +95,32 @@ impl Samples {
     }
 }
 
-/// The curvature tensor of samples round a place of a surface; `None` if they do not tell it.
-fn quadric(near: &[Vector3<f64>], at: &Curvature) -> Option<Matrix3<f64>> {
+fn worst(own: &[Squares]) -> Squares {
+    let most = |of: fn(&Squares) -> f64| own.iter().map(of).fold(0.0, f64::max);
+    Squares {
+        place: most(|squares| squares.place),
+        curvature: most(|squares| squares.curvature),
+    }
+}
+
+/// What samples round a place of a surface tell.
+struct Quadric {
+    /// Of its distance from the place, and the variance of that.
+    square: f64,
+    /// Its curvature.
+    tensor: Matrix3<f64>,
+    /// Distance between the samples.
+    spacing: f64,
+}
+
+/// The quadric of samples round a place of a surface; `None` if they do not tell it.
+fn quadric(near: &[Vector3<f64>], at: &Curvature) -> Option<Quadric> {
     let [first, second] = &at.directions;
     let reach = near.iter().map(Vector3::norm).fold(0.0, f64::max);
     if near.len() < LEAST || reach <= 0.0 {
         return None;
     }
-    let mut rows = DMatrix::zeros(near.len(), 6);
+    let mut rows = DMatrix::zeros(near.len(), NUMBERS);
     let mut heights = DVector::zeros(near.len());
     for (i, step) in near.iter().enumerate() {
         let (u, v) = (step.dot(first) / reach, step.dot(second) / reach);
@@ -94,31 +128,39 @@ fn quadric(near: &[Vector3<f64>], at: &Curvature) -> Option<Matrix3<f64>> {
         rows.row_mut(i).copy_from_slice(&row);
         heights[i] = step.dot(&at.normal) / reach;
     }
-    let svd = rows.svd(true, true);
-    if svd.rank(RANK * svd.singular_values.max()) < 6 {
+    let svd = rows.clone().svd(true, true);
+    if svd.rank(RANK * svd.singular_values.max()) < NUMBERS {
         return None;
     }
-    let told = svd.solve(&heights, 0.0).ok()? / reach;
+    let told = svd.solve(&heights, 0.0).ok()?;
+    let spare = (near.len() - NUMBERS) as f64;
+    let variance = (&heights - &rows * &told).norm_squared() / spare;
+    let first_row = svd.v_t.as_ref()?.column(0);
+    let leverage = first_row.component_div(&svd.singular_values).norm_squared();
     let across = first * second.transpose() + second * first.transpose();
     let along = |direction: &Vector3<f64>, k: f64| direction * direction.transpose() * k;
-    Some(along(first, told[3]) + across * told[4] + along(second, told[5]))
+    Some(Quadric {
+        square: (told[0] * told[0] + variance * leverage) * reach * reach,
+        spacing: reach * (PI / near.len() as f64).sqrt(),
+        tensor: (along(first, told[3]) + across * told[4] + along(second, told[5])) / reach,
+    })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::{Frame, Position};
+    use crate::model::{Frame, Position, PositionGrain};
     use crate::sphere::{cube_grid, harmonic_index};
-    use std::f64::consts::PI;
 
     /// A ball whose points are X(n) = radius n.
-    fn ball(radius: f64) -> PositionGrain {
+    fn ball(radius: f64) -> Grain {
         let of_unit = radius * (4.0 * PI / 3.0).sqrt();
         let mut harmonics = vec![0.0; 12];
         for (axis, order) in [1, -1, 0].into_iter().enumerate() {
             harmonics[3 * harmonic_index(1, order) + axis] = of_unit;
         }
-        PositionGrain::new(Frame::SCAN, Position::whole(harmonics).unwrap()).unwrap()
+        let position = Position::whole(harmonics).unwrap();
+        PositionGrain::new(Frame::SCAN, position).unwrap().into()
     }
 
     fn samples(of: impl Fn(&Vector3<f64>) -> f64) -> Samples {
@@ -133,12 +175,27 @@ mod tests {
     #[test]
     fn the_error_is_the_difference_from_the_samples() {
         let samples = samples(|_| 1.0);
-        let exact = samples.curvature_errors(&ball(1.0)).unwrap();
-        assert!(exact.of_cells().iter().all(|&error| error < 0.05));
+        let exact = samples.local_errors(&ball(1.0));
+        assert!(exact.iter().all(|e| e.curvature.sqrt() < 0.05));
+        assert!(exact.iter().all(|e| e.place.sqrt() < 1e-3));
         // Both principal curvatures of a ball of .8 are a quarter too large.
-        let bent = samples.curvature_errors(&ball(0.8)).unwrap();
+        let bent = samples.local_errors(&ball(0.8));
         let off = 0.25 * 2.0_f64.sqrt();
-        assert!(bent.of_cells().iter().all(|e| (e / off - 1.0).abs() < 0.15));
+        let is_near = |told: f64, off: f64| (told.sqrt() / off - 1.0).abs() < 0.15;
+        assert!(bent.iter().all(|e| is_near(e.curvature, off)));
+        assert!(bent.iter().all(|e| is_near(e.place, 0.2)));
+    }
+
+    #[test]
+    fn a_surface_that_turns_from_sample_to_sample_is_not_told_by_them() {
+        let mut thin = samples(|_| 0.05);
+        let dense = thin.local_errors(&ball(0.05));
+        assert!(dense.iter().all(|e| e.curvature.sqrt() < 1.0));
+        thin.points = thin.points.iter().step_by(60).copied().collect();
+        thin.normals = thin.normals.iter().step_by(60).copied().collect();
+        let all = 20.0 * 2.0_f64.sqrt();
+        let rounded = thin.local_errors(&ball(0.05));
+        assert!(rounded.iter().all(|e| e.curvature.sqrt() > 0.99 * all));
     }
 
     #[test]
@@ -149,8 +206,13 @@ mod tests {
         samples.points.retain(|_| *of_points.next().unwrap());
         let mut of_normals = kept.iter();
         samples.normals.retain(|_| *of_normals.next().unwrap());
-        let errors = samples.curvature_errors(&ball(1.0)).unwrap();
-        let error = errors.at(&-Vector3::z());
+        let grain = ball(1.0);
+        let squares = samples.local_errors(&grain);
+        let errors = crate::fit::local_cells::errors(&squares, 0.1, &grain).unwrap();
+        let error = errors.at(&-Vector3::z()).curvature;
         assert!((error - 2.0_f64.sqrt()).abs() < 1e-2, "{error}");
+        // Where they are near, the size of the grain is in doubt.
+        let place = errors.at(&Vector3::z()).place;
+        assert!((place - 0.1).abs() < 1e-3, "{place}");
     }
 }

@@ -2,11 +2,12 @@
 //!
 //! A file holds one surface: a radius (`cells` and `margin`; `parts_per_angle` and `segments`; `symmetry` and
 //! `coefficients`; or `harmonics`; with `stretch`, if the grain is stretched), a `position`, or `superquadrics`. It may
-//! hold `standard_errors` of its figures or, as `no_standard_errors`, why there are none; `curvature_errors` (of a radius
-//! or a position); `unseen`, if the scan did not see much of the grain; and `contradicted`, if the polyhedron through its
+//! hold `standard_errors` of its figures or, as `no_standard_errors`, why there are none; `local_errors` of its surface
+//! (of a radius or a position); `unseen`, if the scan did not see much of the grain; and `contradicted`, if the polyhedron through its
 //! points has another area or volume.
 //!
-//! Version 6 is written. Version 5 had no standard errors but those of the curvature; version 4 no `unseen` and no
+//! Version 7 is written. Version 6 had no `local_errors` but `curvature_errors`, which told nothing of tips and are passed
+//! over; version 5 had no standard errors but those of the curvature; version 4 no `unseen` and no
 //! `contradicted` either; version 3 no `position` and no `superquadrics` either; version 2 no `harmonics`, `stretch`,
 //! `margin` and `curvature_errors` either; version 1 had segments alone. All are read.
 
@@ -14,7 +15,7 @@ use super::errors_record::ErrorsRecord;
 use super::grain::Kind;
 use super::superquadric::PartRecord;
 use super::{
-    Blended, Contradicted, CurvatureErrors, Family, Frame, Grain, InvalidGrain, Mirrored,
+    Blended, Contradicted, Family, Frame, Grain, InvalidGrain, LocalError, LocalErrors, Mirrored,
     NoInterval, Position, PositionGrain, Segmented, StandardErrors, StarGrain, Stretch,
     SuperquadricGrain, Surface, Unseen, Whole,
 };
@@ -23,7 +24,7 @@ use nalgebra::{Matrix3, Point3, Vector3};
 use serde::{Deserialize, Serialize};
 
 /// The version of the file format that this library writes.
-const VERSION: u32 = 6;
+const VERSION: u32 = 7;
 
 /// The text that tells a model file from any other JSON.
 const FORMAT: &str = "grainform model";
@@ -72,8 +73,11 @@ struct GrainFile {
     /// Why there are none, in their place.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     no_standard_errors: Option<NoInterval>,
-    /// Standard errors of the curvature in 864 cells of directions, where they are known.
+    /// Standard errors of the surface in 864 cells of directions, where they are known.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    local_errors: Option<LocalErrorsRecord>,
+    /// Those of the curvature alone, in files of versions up to 6.
+    #[serde(default, skip_serializing)]
     curvature_errors: Option<Vec<f64>>,
     /// The position of points over the sphere, in place of all else.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -99,6 +103,14 @@ struct PositionRecord {
     margin: Option<f64>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     harmonics: Option<Vec<f64>>,
+}
+
+/// Standard errors by cell.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct LocalErrorsRecord {
+    place: Vec<f64>,
+    curvature: Vec<f64>,
 }
 
 /// A cell, numbered as in [`CubeCell`], and the coefficients of its cap basis by degree.
@@ -145,9 +157,11 @@ pub enum ModelError {
          or `symmetry` and `coefficients`, or `harmonics`, or `position` with `cells` or `harmonics`, or `superquadrics`"
     )]
     Surface,
-    /// The errors of the curvature are none.
-    #[error("the model is not sound: `curvature_errors` must hold 864 numbers, none below zero")]
-    CurvatureErrors,
+    /// The errors of the surface are none.
+    #[error(
+        "the model is not sound: `local_errors` must hold 864 numbers of `place` and of `curvature`, none below zero"
+    )]
+    LocalErrors,
     /// The standard errors are none.
     #[error(
         "the model is not sound: it must hold either `standard_errors`, finite numbers, none below zero, or \
@@ -185,7 +199,7 @@ pub fn grain_to_json(grain: &Grain) -> String {
         standard_errors: grain.standard_errors().ok().map(Into::into),
         no_standard_errors: (grain.standard_errors().err())
             .filter(|why| *why != NoInterval::NotTold),
-        curvature_errors: grain.curvature_errors().map(|e| e.of_cells().to_vec()),
+        local_errors: grain.local_errors().map(LocalErrorsRecord::of),
         ..GrainFile::default()
     };
     match grain.kind() {
@@ -214,6 +228,24 @@ impl GrainFile {
             }
             Family::Whole(surface) => self.harmonics = Some(surface.coefficients().to_vec()),
         }
+    }
+}
+
+impl LocalErrorsRecord {
+    fn of(errors: &LocalErrors) -> Self {
+        let cells = errors.of_cells();
+        Self {
+            place: cells.iter().map(|error| error.place).collect(),
+            curvature: cells.iter().map(|error| error.curvature).collect(),
+        }
+    }
+
+    fn read(&self) -> Result<LocalErrors, ModelError> {
+        let is_paired = self.place.len() == self.curvature.len();
+        let pairs = self.place.iter().zip(&self.curvature);
+        let cells = pairs.map(|(&place, &curvature)| LocalError { place, curvature });
+        let errors = LocalErrors::new(cells.collect()).filter(|_| is_paired);
+        errors.ok_or(ModelError::LocalErrors)
     }
 }
 
@@ -301,15 +333,13 @@ pub fn grain_from_json(text: &str) -> Result<Grain, ModelError> {
         return Err(ModelError::Contradicted);
     }
     let standard_errors = file.standard_errors()?;
-    let errors = file.curvature_errors.clone();
-    let errors =
-        errors.map(|errors| CurvatureErrors::new(errors).ok_or(ModelError::CurvatureErrors));
+    let local_errors = file.local_errors.as_ref().map(LocalErrorsRecord::read);
     let grain = file.grain()?;
     Ok(grain
         .with_unseen(unseen)
         .with_contradicted(contradicted)
         .with_standard_errors(standard_errors)
-        .with_curvature_errors(errors.transpose()?))
+        .with_local_errors(local_errors.transpose()?))
 }
 
 impl GrainFile {
@@ -347,7 +377,9 @@ impl GrainFile {
                 return Ok(grain.into());
             }
             ((None, None), (None, None), (None, None), None, (None, Some(records)))
-                if stretch.is_none() && self.curvature_errors.is_none() =>
+                if stretch.is_none()
+                    && self.curvature_errors.is_none()
+                    && self.local_errors.is_none() =>
             {
                 let body = PartRecord::read(&records).map_err(InvalidGrain::from)?;
                 return Ok(SuperquadricGrain::multi(frame, body)?.into());

@@ -1,7 +1,7 @@
 //! The fitted grain, of whichever kind.
 
 use super::{
-    Contradicted, CurvatureErrors, Frame, NoInterval, Node, PositionGrain, StandardErrors,
+    Contradicted, Frame, LocalError, LocalErrors, NoInterval, Node, PositionGrain, StandardErrors,
     StarGrain, SuperquadricGrain, Surface, SurfaceElement, SurfaceJet, Tiling, Unseen,
 };
 use crate::mesh::Mesh;
@@ -17,7 +17,7 @@ pub struct Grain {
     unseen: Option<Unseen>,
     contradicted: Option<Contradicted>,
     standard_errors: Result<StandardErrors, NoInterval>,
-    curvature_errors: Option<CurvatureErrors>,
+    local_errors: Option<LocalErrors>,
 }
 
 /// The kinds of surfaces that are fitted.
@@ -79,11 +79,11 @@ impl Grain {
             Kind::Position(grain) => Kind::Position(grain.about_origin(factor)),
             Kind::Superquadric(grain) => Kind::Superquadric(grain.about_origin(factor)),
         };
-        let curvature_errors = self.curvature_errors.as_ref();
+        let local_errors = self.local_errors.as_ref();
         Self {
             kind,
             standard_errors: self.standard_errors.map(|errors| errors.times(factor)),
-            curvature_errors: curvature_errors.map(|errors| errors.over(factor)),
+            local_errors: local_errors.map(|errors| errors.times(factor)),
             ..*self
         }
     }
@@ -132,17 +132,17 @@ impl Grain {
         self.standard_errors
     }
 
-    /// The same with standard errors of its curvature, where they are known.
-    pub fn with_curvature_errors(self, curvature_errors: Option<CurvatureErrors>) -> Self {
+    /// The same with standard errors of its surface from place to place, where they are known.
+    pub fn with_local_errors(self, local_errors: Option<LocalErrors>) -> Self {
         Self {
-            curvature_errors,
+            local_errors,
             ..self
         }
     }
 
-    /// Standard errors of its curvature, where they are known.
-    pub fn curvature_errors(&self) -> Option<&CurvatureErrors> {
-        self.curvature_errors.as_ref()
+    /// Standard errors of its surface from place to place, where they are known.
+    pub fn local_errors(&self) -> Option<&LocalErrors> {
+        self.local_errors.as_ref()
     }
 
     /// The largest degree of its expansions; zero if it has none.
@@ -176,12 +176,6 @@ impl Grain {
             Kind::Superquadric(grain) => grain.number_count() as f64,
         }
     }
-
-    /// Standard error of the curvature in a direction of the scan's frame, in one over the scan's unit, where it is known.
-    pub fn curvature_error(&self, n: &Vector3<f64>) -> Option<f64> {
-        let errors = self.curvature_errors.as_ref()?;
-        Some(errors.at(&self.frame().axes.tr_mul(&unit(n))))
-    }
 }
 
 impl From<Kind> for Grain {
@@ -191,7 +185,7 @@ impl From<Kind> for Grain {
             unseen: None,
             contradicted: None,
             standard_errors: Err(NoInterval::NotTold),
-            curvature_errors: None,
+            local_errors: None,
         }
     }
 }
@@ -253,6 +247,15 @@ impl Surface for Grain {
 
     fn may_cross(&self) -> bool {
         self.surface().may_cross()
+    }
+
+    fn local_error(&self, n: &Vector3<f64>) -> Option<LocalError> {
+        let errors = self.local_errors.as_ref()?;
+        let local = self.frame().axes.tr_mul(&unit(n));
+        Some(errors.at(&match self.star() {
+            Some(grain) => grain.stretch().direction(&local).0,
+            None => local,
+        }))
     }
 
     fn grid(&self, resolution: usize) -> (Vec<Vector3<f64>>, Vec<[u32; 3]>) {

@@ -1,6 +1,6 @@
 //! What every kind of grain is: a closed surface over the unit sphere.
 
-use super::{Frame, Tiling};
+use super::{Frame, LocalError, Tiling};
 use crate::mesh::Mesh;
 use crate::sphere::{cube_grid, tangents};
 use nalgebra::{Matrix3, Point3, Vector3};
@@ -77,6 +77,11 @@ pub trait Surface: Sync {
     /// Whether two parts of the surface may lie in one another: of a star-shaped one never.
     fn may_cross(&self) -> bool {
         true
+    }
+
+    /// How far the surface may be off in a direction, and its curvature, where that is known.
+    fn local_error(&self, _n: &Vector3<f64>) -> Option<LocalError> {
+        None
     }
 
     /// X(n) in the scan.

@@ -4,8 +4,9 @@ use super::escape::escaped;
 use super::number::{short, triple, with_error};
 use super::unit::Unit;
 use crate::contact::{
-    ContactError, Correction, Curved, RelativeCurvature, Touch, force_error, reach,
+    ContactError, Correction, Curved, KnownContact, RelativeCurvature, Touch, reach,
 };
+use crate::digits::significant;
 use crate::model::{Grain, PositionGrain, StarGrain, Surface};
 use nalgebra::Vector3;
 use serde::Serialize;
@@ -28,6 +29,8 @@ pub struct ContactReport {
     pub smaller_curvature: f64,
     /// Effective radius 1 / (2 sqrt(A B)).
     pub effective_radius: f64,
+    /// Its standard error; `null`, as those of force and stiffness, where that of a curvature is not known.
+    pub effective_radius_error: Option<f64>,
     /// Correction for a patch that is not round.
     pub correction: f64,
     /// Effective modulus, in pascals.
@@ -36,11 +39,12 @@ pub struct ContactReport {
     pub indentation_um: f64,
     /// Normal force, in newtons.
     pub normal_force_n: f64,
-    /// Its standard error, from those of the curvatures; `null` where one of them is not known, or may be that of no
-    /// single contact.
+    /// Its standard error, from those of the curvatures.
     pub normal_force_error_n: Option<f64>,
     /// Stiffness, in newtons per metre.
     pub normal_stiffness_n_per_m: f64,
+    /// Its standard error.
+    pub normal_stiffness_error_n_per_m: Option<f64>,
     /// What to know of these figures.
     pub warnings: Vec<String>,
 }
@@ -53,6 +57,8 @@ pub struct TouchRecord {
     pub input: String,
     /// The point, in the scan's frame.
     pub point: [f64; 3],
+    /// Standard error of where the surface is there, along its normal; `null` where it is not known.
+    pub point_error: Option<f64>,
     /// The direction in which it is touched: the outward normal.
     pub normal: [f64; 3],
     /// Principal curvatures, the larger first, in one over the unit.
@@ -135,21 +141,19 @@ impl TouchRecord {
             point: (grain.frame().centre + touch.point).coords.into(),
             normal: (*normal).into(),
             principal_curvatures: touch.principal,
-            curvature_error: match touch.cap {
-                Some(_) => None,
-                None => grain.curvature_error(&touch.direction),
-            },
+            point_error: touch.error.map(|error| error.place),
+            curvature_error: touch.error.map(|error| error.curvature),
             edge_radius: touch.cap.map(|cap| cap.radius),
             reach: reach(grain),
             is_whole: is_whole(grain),
         }
     }
 
-    fn curved(&self) -> Option<Curved> {
-        Some(Curved {
+    fn curved(&self) -> Curved {
+        Curved {
             principal: self.principal_curvatures,
-            error: self.curvature_error?,
-        })
+            error: self.curvature_error,
+        }
     }
 }
 
@@ -171,21 +175,14 @@ impl ContactReport {
         angle_rad: f64,
         load: &Load,
     ) -> Result<Self, ContactError> {
-        let flat = Some(Curved::PLANE);
-        let other = second.as_ref().map_or(flat, TouchRecord::curved);
-        let principal = |record: &TouchRecord| record.principal_curvatures;
-        let relative = RelativeCurvature::new(
-            principal(&first),
-            second.as_ref().map_or([0.0; 2], principal),
-            angle_rad,
-        )?;
+        let other = second.as_ref().map_or(Curved::PLANE, TouchRecord::curved);
+        let known = KnownContact::new(first.curved(), other, angle_rad)?;
+        let relative = known.relative();
         let indentation_m = 1e-6 * load.indentation_um;
         let (metres, modulus) = (load.unit.metres(), load.effective_modulus_pa);
         let force = relative.normal_force_n(metres, indentation_m, modulus);
-        let share = first
-            .curved()
-            .zip(other)
-            .map(|(one, other)| force_error(&one, &other, angle_rad));
+        let stiffness = relative.normal_stiffness_n_per_m(metres, indentation_m, modulus);
+        let share = known.force_share(indentation_m, Some(0.0));
         let mut warnings = Vec::new();
         let body = second
             .as_ref()
@@ -193,20 +190,17 @@ impl ContactReport {
         let indentation = indentation_m / metres;
         warnings.extend(beside_hertz(
             "the indentation",
-            &relative,
+            relative,
             indentation,
             body,
         )?);
         match share {
             None => warnings.push(
                 "how certain the curvature is there is not known, so the force has no standard error: superquadrics, fits \
-                 with --seams none or --symmetry, and rounded edges have none"
+                 with --seams none or --symmetry, models of older versions and rounded edges have none"
                     .into(),
             ),
-            Some(Err(_)) => warnings.push(
-                "the curvature is less certain there than it is large, so the force has no standard error".into(),
-            ),
-            Some(Ok(share)) if share > UNCERTAIN => warnings.push(format!(
+            Some(share) if share > UNCERTAIN => warnings.push(format!(
                 "the curvature is so uncertain there that the force is known to {:.0} % only; fit {}",
                 100.0 * share,
                 match first.is_whole && second.as_ref().is_none_or(|other| other.is_whole) {
@@ -214,7 +208,7 @@ impl ContactReport {
                     false => "with --segments 1, or a finer scan",
                 }
             )),
-            Some(Ok(_)) => (),
+            Some(_) => (),
         }
         Ok(Self {
             unit: load.unit,
@@ -223,16 +217,16 @@ impl ContactReport {
             larger_curvature: relative.larger(),
             smaller_curvature: relative.smaller(),
             effective_radius: relative.effective_radius(),
+            effective_radius_error: known
+                .share(RelativeCurvature::effective_radius)
+                .map(|share| share * relative.effective_radius()),
             correction: relative.correction(Correction::Elliptic),
             effective_modulus_pa: modulus,
             indentation_um: load.indentation_um,
             normal_force_n: force,
-            normal_force_error_n: share.and_then(Result::ok).map(|share| share * force),
-            normal_stiffness_n_per_m: relative.normal_stiffness_n_per_m(
-                metres,
-                indentation_m,
-                modulus,
-            ),
+            normal_force_error_n: share.map(|share| share * force),
+            normal_stiffness_n_per_m: stiffness,
+            normal_stiffness_error_n_per_m: share.map(|share| share * stiffness),
             warnings,
         })
     }
@@ -241,7 +235,11 @@ impl ContactReport {
 impl TouchRecord {
     fn write(&self, f: &mut fmt::Formatter<'_>, unit: Unit) -> fmt::Result {
         writeln!(f, "body          {}", escaped(&self.input))?;
-        writeln!(f, "touched at    {} {unit}", triple(self.point))?;
+        write!(f, "touched at    {} {unit}", triple(self.point))?;
+        if let Some(error) = self.point_error {
+            write!(f, ", ± {} along the normal", significant(error, 2))?;
+        }
+        writeln!(f)?;
         let radii = self.principal_curvatures.map(|k| {
             let error = self.curvature_error.map(|error| error / (k * k));
             with_error(1.0 / k, error)
@@ -269,7 +267,7 @@ impl fmt::Display for ContactReport {
         writeln!(
             f,
             "relative      effective radius {} {unit}, correction {}",
-            short(self.effective_radius),
+            with_error(self.effective_radius, self.effective_radius_error),
             short(self.correction)
         )?;
         writeln!(
@@ -286,7 +284,10 @@ impl fmt::Display for ContactReport {
         write!(
             f,
             "stiffness     {} N/m",
-            short(self.normal_stiffness_n_per_m)
+            with_error(
+                self.normal_stiffness_n_per_m,
+                self.normal_stiffness_error_n_per_m
+            )
         )
     }
 }

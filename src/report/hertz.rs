@@ -1,8 +1,9 @@
 //! Normal forces by Hertz where two bodies are placed so that they overlap.
 
 use super::contact::beside_hertz;
-use crate::contact::RelativeCurvature;
+use crate::contact::{KnownContact, told_depth};
 use crate::measure::Curvature;
+use crate::model::LocalError;
 
 /// What Hertz's forces are made of, beside depths and curvatures.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -15,29 +16,47 @@ pub struct HertzLaw {
     pub body: f64,
 }
 
+/// What a force is made of at one place, in the bodies' unit.
+pub(super) struct Overlap<'a> {
+    /// How far the bodies overlap.
+    pub(super) depth: f64,
+    /// Of both surfaces at its two ends.
+    pub(super) curvatures: &'a [Curvature; 2],
+    /// Their standard errors there, where they are known.
+    pub(super) errors: Option<&'a [LocalError; 2]>,
+    /// Standard error of the depth, where it is known.
+    pub(super) depth_error: Option<f64>,
+}
+
+/// A force in newtons, and its standard error where that is known.
+pub(super) struct Force {
+    pub(super) force_n: f64,
+    pub(super) error_n: Option<f64>,
+}
+
 impl HertzLaw {
-    /// The force in newtons of bodies that overlap by a depth, with their curvatures at its two ends, in the bodies' unit;
-    /// `None` where the theory has none. Adds what to know of it.
-    pub(super) fn force_n(
-        &self,
-        depth: f64,
-        [one, two]: &[Curvature; 2],
-        warnings: &mut Vec<String>,
-    ) -> Option<f64> {
-        let angle = one.directions[0]
-            .dot(&two.directions[0])
-            .clamp(-1.0, 1.0)
-            .acos();
-        let known =
-            RelativeCurvature::new(one.principal, two.principal, angle).and_then(|relative| {
-                let beside = beside_hertz("the depth", &relative, depth, self.body)?;
-                Ok((relative, beside))
+    /// The force of an overlap; `None` where the theory has none, or none is vouched for. Adds what to know of it.
+    pub(super) fn force(&self, overlap: &Overlap<'_>, warnings: &mut Vec<String>) -> Option<Force> {
+        let known = told_depth(overlap.depth, overlap.depth_error)
+            .and_then(|()| KnownContact::at(overlap.curvatures, overlap.errors))
+            .and_then(|known| {
+                let beside = beside_hertz("the depth", known.relative(), overlap.depth, self.body)?;
+                Ok((known, beside))
             });
         match known {
-            Ok((relative, beside)) => {
+            Ok((known, beside)) => {
                 warnings.extend(beside.iter().map(|told| sentence(told)));
                 let metres = self.metres_per_unit;
-                Some(relative.normal_force_n(metres, depth * metres, self.effective_modulus_pa))
+                let force_n = known.relative().normal_force_n(
+                    metres,
+                    overlap.depth * metres,
+                    self.effective_modulus_pa,
+                );
+                let share = known.force_share(overlap.depth, overlap.depth_error);
+                Some(Force {
+                    force_n,
+                    error_n: share.map(|share| share * force_n),
+                })
             }
             Err(error) => {
                 warnings.push(format!("No force by Hertz: {error}."));

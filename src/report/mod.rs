@@ -50,7 +50,7 @@ pub use measure::{
 pub(crate) use measure::{Withheld, by_reason};
 pub use number::{percent, short};
 pub use placed::{PlacedReport, PlacedTouch};
-pub use regions::{NormalLaw, RegionRecord, RegionsReport};
+pub use regions::{GapRecord, NormalLaw, RegionRecord, RegionsReport};
 pub use search::{CandidateRecord, SearchReport};
 pub use split::{PlaneRecord, SplitGrainRecord, SplitReport};
 pub use standard_errors::StandardErrorsRecord;

@@ -1,7 +1,7 @@
 //! Where two bodies touch that are placed beside each other.
 
 use super::escape::escaped;
-use super::hertz::HertzLaw;
+use super::hertz::{HertzLaw, Overlap};
 use super::number::{short, triple};
 use super::unit::{Labels, Unit};
 use crate::contact::UnionContact;
@@ -10,9 +10,9 @@ use crate::measure::Curvature;
 use serde::Serialize;
 use std::fmt;
 
-/// Why figures of bodies that are placed beside each other have no standard errors.
-pub(super) const NO_ERRORS: &str = "No standard errors: depths are small beside the grains, whose surfaces may be as far off as \
-     their lengths are.";
+/// Why figures of placed bodies have no standard errors whose surfaces do not tell theirs.
+pub(super) const NO_ERRORS: &str = "No standard errors: of superquadrics, of fits with --seams none or --symmetry and of models \
+     of older versions it is not known how far the surface is off from place to place, and depths are small beside the grains.";
 
 /// All touches of two bodies, the deepest first; lengths are in the unit of their scans.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -66,8 +66,15 @@ impl PlacedReport {
             normal: touch.normal.into(),
             overlap: touch.overlap,
             principal_curvatures: curvatures.each_ref().map(|curvature| curvature.principal),
-            normal_force_n: law
-                .and_then(|law| law.force_n(touch.overlap, curvatures, &mut warnings)),
+            normal_force_n: law.and_then(|law| {
+                let overlap = Overlap {
+                    depth: touch.overlap,
+                    curvatures,
+                    errors: None,
+                    depth_error: None,
+                };
+                Some(law.force(&overlap, &mut warnings)?.force_n)
+            }),
         });
         Self {
             first,

@@ -2,11 +2,11 @@
 
 use super::contact::beyond_hertz;
 use super::escape::escaped;
-use super::hertz::HertzLaw;
-use super::number::{short, triple};
+use super::hertz::{Force, HertzLaw, Overlap};
+use super::number::{triple, with_error};
 use super::placed::NO_ERRORS;
 use super::unit::{Labels, Unit};
-use crate::contact::{ContactRegion, ContactRegions, VolumeLaw};
+use crate::contact::{ContactPlace, ContactRegion, ContactRegions, VolumeLaw, told_depth};
 use crate::digits::plural;
 use serde::Serialize;
 use std::fmt;
@@ -33,14 +33,16 @@ pub struct RegionsReport {
     pub unit: Option<Unit>,
     /// Where they overlap; nothing if they are apart.
     pub regions: Vec<RegionRecord>,
+    /// Where they are apart by less than twice the standard error of that: there they may touch.
+    pub gaps: Vec<GapRecord>,
     /// Triangles of both bodies to begin with.
     pub triangles: usize,
     /// Of these, triangles that were left out at once.
     pub triangles_skipped: usize,
     /// Places of the surfaces that were evaluated beyond those of these triangles.
     pub places_evaluated: usize,
-    /// Why these figures have no standard errors.
-    pub no_standard_errors: &'static str,
+    /// Why these figures have no standard errors; `null` if they have.
+    pub no_standard_errors: Option<&'static str>,
     /// What to know of these figures.
     pub warnings: Vec<String>,
 }
@@ -55,60 +57,129 @@ pub struct RegionRecord {
     pub normal: [f64; 3],
     /// How far they overlap along the normal.
     pub depth: f64,
+    /// Its standard error; `null`, as those of the others, where a surface does not tell its own or the region has no
+    /// deepest points.
+    pub depth_error: Option<f64>,
     /// The volume they share.
     pub volume: f64,
     /// By how much its integration may be off.
     pub volume_error: f64,
+    /// Its standard error; `null` also where the region is no lens.
+    pub volume_standard_error: Option<f64>,
     /// Principal curvatures of both bodies there, the larger first; `null` where the region has no deepest points.
     pub principal_curvatures: Option<[[f64; 2]; 2]>,
-    /// Normal force in newtons; `null` where none was asked for, or the law has none.
+    /// Their standard errors, of both bodies.
+    pub curvature_errors: Option<[f64; 2]>,
+    /// Normal force in newtons; `null` where none was asked for, the law has none, or none is vouched for.
     pub normal_force_n: Option<f64>,
+    /// Its standard error.
+    pub normal_force_error_n: Option<f64>,
+}
+
+/// A place where two bodies may touch, in the frame of the first body's scan.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct GapRecord {
+    /// The middle between them.
+    pub point: [f64; 3],
+    /// The unit normal from the first body to the second.
+    pub normal: [f64; 3],
+    /// How far they are apart.
+    pub gap: f64,
+    /// Its standard error.
+    pub gap_error: f64,
+}
+
+impl GapRecord {
+    /// The record of a place where surfaces are apart, if their errors leave it open whether they touch.
+    pub fn new(place: &ContactPlace) -> Option<Self> {
+        let gap_error = place.depth_error()?;
+        told_depth(-place.depth, Some(gap_error)).err()?;
+        Some(Self {
+            point: place.point.coords.into(),
+            normal: place.normal.into(),
+            gap: -place.depth,
+            gap_error,
+        })
+    }
 }
 
 impl RegionsReport {
-    /// The report of these regions.
+    /// The report of these regions and gaps.
     pub fn new(
         first: String,
         second: String,
         unit: Option<Unit>,
         found: &ContactRegions,
+        gaps: Vec<GapRecord>,
         law: Option<&NormalLaw>,
     ) -> Self {
         let mut warnings = Vec::new();
-        let regions = found.regions.iter().map(|region| RegionRecord {
-            point: region.point.coords.into(),
-            normal: region.normal.into(),
-            depth: region.depth,
-            volume: region.volume,
-            volume_error: region.volume_error,
-            principal_curvatures: region
-                .curvatures
-                .as_ref()
-                .map(|pair| pair.each_ref().map(|curvature| curvature.principal)),
-            normal_force_n: law.and_then(|law| law.force_n(region, &mut warnings)),
-        });
+        let record = |region: &ContactRegion| {
+            let force = law.and_then(|law| law.force(region, &mut warnings));
+            RegionRecord {
+                point: region.point.coords.into(),
+                normal: region.normal.into(),
+                depth: region.depth,
+                depth_error: region.depth_error(),
+                volume: region.volume,
+                volume_error: region.volume_error,
+                volume_standard_error: region.volume_standard_error(),
+                principal_curvatures: region
+                    .curvatures
+                    .as_ref()
+                    .map(|pair| pair.each_ref().map(|curvature| curvature.principal)),
+                curvature_errors: region.errors.map(|pair| pair.map(|error| error.curvature)),
+                normal_force_n: force.as_ref().map(|force| force.force_n),
+                normal_force_error_n: force.and_then(|force| force.error_n),
+            }
+        };
+        let regions: Vec<_> = found.regions.iter().map(record).collect();
         Self {
             first,
             second,
             unit,
-            regions: regions.collect(),
+            regions,
+            gaps,
+            no_standard_errors: no_errors(&found.regions),
             triangles: found.work.triangles,
             triangles_skipped: found.work.skipped,
             places_evaluated: found.work.evaluated,
-            no_standard_errors: NO_ERRORS,
             warnings,
         }
     }
 }
 
+/// Why a region has no standard errors.
+const NO_POINTS: &str =
+    "No standard errors: a region has no two points whose line is normal to both surfaces.";
+
+fn no_errors(regions: &[ContactRegion]) -> Option<&'static str> {
+    let lack = regions.iter().filter(|region| region.errors.is_none());
+    let reason = |region: &ContactRegion| match region.curvatures {
+        Some(_) => NO_ERRORS,
+        None => NO_POINTS,
+    };
+    lack.map(reason).next()
+}
+
 impl NormalLaw {
-    fn force_n(&self, region: &ContactRegion, warnings: &mut Vec<String>) -> Option<f64> {
+    fn force(&self, region: &ContactRegion, warnings: &mut Vec<String>) -> Option<Force> {
         let law = match self {
             Self::Volume(law) => {
+                if let Err(error) = told_depth(region.depth, region.depth_error()) {
+                    warnings.push(format!("No force: {error}."));
+                    return None;
+                }
                 let share = region.depth / law.effective_radius();
                 let radius = "effective radius of the bodies' volumes";
                 warnings.extend(beyond_hertz("The depth", share, radius).map(|told| told + "."));
-                return Some(law.force_n(region).norm());
+                let force_n = law.force_n(region).norm();
+                let share = VolumeLaw::force_share(region);
+                return Some(Force {
+                    force_n,
+                    error_n: share.map(|share| share * force_n),
+                });
             }
             Self::Hertz(law) => law,
         };
@@ -116,7 +187,43 @@ impl NormalLaw {
             warnings.push("No force by Hertz: a region has no two points whose line is normal to both surfaces.".into());
             return None;
         };
-        law.force_n(region.depth, curvatures, warnings)
+        let overlap = Overlap {
+            depth: region.depth,
+            curvatures,
+            errors: region.errors.as_ref(),
+            depth_error: region.depth_error(),
+        };
+        law.force(&overlap, warnings)
+    }
+}
+
+impl RegionRecord {
+    fn write(&self, f: &mut fmt::Formatter<'_>, labels: &Labels) -> fmt::Result {
+        writeln!(f, "touched at    {}{}", triple(self.point), labels.length())?;
+        writeln!(f, "  normal      {}", triple(self.normal))?;
+        let depth = with_error(self.depth, self.depth_error);
+        writeln!(f, "  depth       {depth}{}", labels.length())?;
+        let volume = with_error(self.volume, self.volume_standard_error);
+        writeln!(
+            f,
+            "  volume      {volume}{}, integrated to {:.1e}",
+            labels.volume(),
+            self.volume_error
+        )?;
+        if let Some(force) = self.normal_force_n {
+            let force = with_error(force, self.normal_force_error_n);
+            writeln!(f, "  force       {force} N")?;
+        }
+        Ok(())
+    }
+}
+
+impl GapRecord {
+    fn write(&self, f: &mut fmt::Formatter<'_>, labels: &Labels) -> fmt::Result {
+        writeln!(f, "may touch at  {}{}", triple(self.point), labels.length())?;
+        writeln!(f, "  normal      {}", triple(self.normal))?;
+        let gap = with_error(self.gap, Some(self.gap_error));
+        writeln!(f, "  gap         {gap}{}", labels.length())
     }
 }
 
@@ -126,34 +233,16 @@ impl fmt::Display for RegionsReport {
         writeln!(f, "first         {}", escaped(&self.first))?;
         writeln!(f, "second        {}", escaped(&self.second))?;
         write!(f, "contact       ")?;
-        match self.regions.len() {
-            0 => writeln!(f, "none: they are apart")?,
-            count => writeln!(f, "at {}", plural(count, "place"))?,
+        match (self.regions.len(), self.gaps.len()) {
+            (0, 0) => writeln!(f, "none: they are apart")?,
+            (0, _) => writeln!(f, "not told: they are apart by less than may be wrong")?,
+            (count, _) => writeln!(f, "at {}", plural(count, "place"))?,
         }
         for region in &self.regions {
-            writeln!(
-                f,
-                "touched at    {}{}",
-                triple(region.point),
-                labels.length()
-            )?;
-            writeln!(f, "  normal      {}", triple(region.normal))?;
-            writeln!(
-                f,
-                "  depth       {}{}",
-                short(region.depth),
-                labels.length()
-            )?;
-            writeln!(
-                f,
-                "  volume      {}{}, integrated to {:.1e}",
-                short(region.volume),
-                labels.volume(),
-                region.volume_error
-            )?;
-            if let Some(force) = region.normal_force_n {
-                writeln!(f, "  force       {} N", short(force))?;
-            }
+            region.write(f, &labels)?;
+        }
+        for gap in &self.gaps {
+            gap.write(f, &labels)?;
         }
         write!(
             f,
@@ -162,9 +251,9 @@ impl fmt::Display for RegionsReport {
             self.triangles,
             self.places_evaluated
         )?;
-        match self.regions.as_slice() {
-            [] => Ok(()),
-            _ => write!(f, "\n{}", self.no_standard_errors),
+        match self.no_standard_errors {
+            None => Ok(()),
+            Some(reason) => write!(f, "\n{reason}"),
         }
     }
 }

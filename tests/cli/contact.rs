@@ -328,3 +328,78 @@ fn ellipsoids_that_were_fitted_are_curved_on_their_axes() {
     let force = report["regions"][0]["normal_force_n"].as_f64().unwrap();
     assert!((force / 2.876 - 1.0).abs() < 1e-3, "{force}");
 }
+
+#[test]
+fn placed_grains_have_errors_that_cover_and_too_little_overlap_has_no_force() {
+    let folder = folder();
+    for seed in ["1", "2"] {
+        let scan = format!("{seed}.ply");
+        let model = format!("{seed}.json");
+        let body = ["synth", "ellipsoid", "--axes", "1,1,10", "--points", "1538"];
+        let noise = ["--noise", "0.5%", "--seed", seed, "-o", &scan];
+        succeed(&folder, &[&body[..], &noise].concat());
+        succeed(&folder, &["fit", &scan, "-o", &model]);
+    }
+    let placed = |pose: &str, more: &[&str]| {
+        let load = ["--unit", "mm", "--youngs-modulus-mpa", "91", "--pose-b"];
+        json(
+            &folder,
+            &[&["contact", "1.json", "2.json"], more, &load, &[pose]].concat(),
+        )
+    };
+    // Crossed, .05 in each other.
+    let report = placed("1.95,0,0,0.70710678,0.70710678,0,0", &[]);
+    let region = &report["regions"][0];
+    let number = |name: &str| region[name].as_f64().unwrap();
+    let (depth, error) = (number("depth"), number("depth_error"));
+    assert!((depth - 0.05).abs() < 2.5 * error, "{depth} {error}");
+    assert!(number("normal_force_error_n") > 1.5 * error / depth * number("normal_force_n"));
+    assert!(report["no_standard_errors"].is_null());
+
+    // By less than is known of their tips.
+    for law in ["hertz", "volume"] {
+        let report = placed("0,0,19.85,1,0,0,0", &["--law", law]);
+        let warnings = report["warnings"].to_string();
+        match report["regions"].as_array().unwrap().first() {
+            Some(region) => {
+                assert!(region["normal_force_n"].is_null(), "{report}");
+                assert!(warnings.contains("may as well be apart"), "{warnings}");
+            }
+            None => {
+                let gap = &report["gaps"][0];
+                let (gap, error) = (gap["gap"].as_f64(), gap["gap_error"].as_f64());
+                assert!(gap < error.map(|error| 2.0 * error), "{report}");
+            }
+        }
+    }
+    let far = placed("0,0,25,1,0,0,0", &[]);
+    assert_eq!(far["gaps"].as_array().unwrap().len(), 0);
+}
+
+#[test]
+fn ripples_on_the_side_of_a_cube_are_no_curvature() {
+    let folder = folder();
+    succeed(
+        &folder,
+        &["synth", "cube", "--points", "1538", "-o", "s.ply"],
+    );
+    succeed(&folder, &["fit", "s.ply", "-o", "m.json"]);
+    let load = [
+        "--unit",
+        "mm",
+        "--indentation-um",
+        "1",
+        "--youngs-modulus-mpa",
+        "91",
+    ];
+    for towards in ["0,0,-1", "1,0,0", "0,1,0", "1,1,0.02"] {
+        let words = [&["contact", "m.json", "--towards", towards], &load[..]].concat();
+        let output = grainform(&folder, &words);
+        assert_eq!(output.status.code(), Some(2), "{towards}");
+        let told = errors(&output);
+        assert!(
+            told.contains("no force is vouched for") || told.contains("do not part"),
+            "{told}"
+        );
+    }
+}

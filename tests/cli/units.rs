@@ -41,6 +41,7 @@ fn a_unit_labels_lengths_areas_and_volumes_and_is_in_the_json() {
         assert_eq!(report["unit"], "mm");
         assert!(json(&folder, words).get("unit").is_none());
     }
+    succeed(&folder, &["fit", &bean, "-o", "m.json"]);
     let load = "--indentation-um 10 --youngs-modulus-mpa 9 --unit Mm";
     let load: Vec<&str> = load.split(' ').collect();
     let output = grainform(&folder, &[&["contact", "m.json"], &load[..]].concat());

@@ -58,6 +58,7 @@ impl Found {
                 .as_ref()
                 .map_or(self.extent, DeepestPair::depth),
             curvatures: self.deepest.map(|pair| pair.curvatures),
+            errors: self.deepest.and_then(|pair| pair.errors),
             point: centre + middle,
             normal: sums.area.normalize(),
             volume: sums.volume,

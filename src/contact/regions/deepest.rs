@@ -2,7 +2,7 @@
 //! that are apart, nearest to the other.
 
 use crate::measure::Curvature;
-use crate::model::{Surface, SurfaceJet};
+use crate::model::{LocalError, Surface, SurfaceJet};
 use crate::sphere::tangents;
 use nalgebra::{Isometry3, Matrix2, Matrix4, Point3, Vector2, Vector3, Vector4};
 
@@ -31,6 +31,8 @@ pub(super) struct DeepestPair {
     /// The unit normal of the first surface, outwards.
     pub(super) normal: Vector3<f64>,
     pub(super) curvatures: [Curvature; 2],
+    /// Of both surfaces there, where they are known.
+    pub(super) errors: Option<[LocalError; 2]>,
 }
 
 /// What is known of a surface in one direction, in the common frame.
@@ -106,6 +108,7 @@ impl DeepestPair {
                     points: [0, 1].map(|i| locals[i].shifted(steps[i])),
                     normal,
                     curvatures,
+                    errors: errors_at(bodies, &directions),
                 };
                 return (curvatures[1].normal.dot(&normal) < 0.0).then_some(found);
             }
@@ -117,6 +120,11 @@ impl DeepestPair {
     pub(super) fn depth(&self) -> f64 {
         (self.points[0] - self.points[1]).dot(&self.normal)
     }
+}
+
+fn errors_at(bodies: &[Placed<'_>; 2], directions: &[Vector3<f64>; 2]) -> Option<[LocalError; 2]> {
+    let [one, two] = [0, 1].map(|i| bodies[i].surface.local_error(&directions[i]));
+    Some([one?, two?])
 }
 
 /// The step to where the line between the points is normal to the first surface, and the normal of the first surface to

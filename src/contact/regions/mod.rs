@@ -19,11 +19,13 @@ mod pair;
 mod patch;
 mod sums;
 
+use super::{KnownContact, RelativeCurvature};
 use crate::measure::Curvature;
-use crate::model::Surface;
+use crate::model::{LocalError, Surface};
 use cluster::{Cluster, Found};
 use deepest::Placed;
 use nalgebra::{Isometry3, Point3, Translation3, Vector3};
+use near::near_places;
 pub use pair::{ContactPair, ContactPlace};
 use patch::Patch;
 use std::fmt;
@@ -96,6 +98,28 @@ pub struct ContactRegion {
     pub moment: Vector3<f64>,
     /// Curvature of both surfaces at the two points of the depth; none where these were not found.
     pub curvatures: Option<[Curvature; 2]>,
+    /// Standard errors of both surfaces there, where both tell them.
+    pub errors: Option<[LocalError; 2]>,
+}
+
+impl ContactRegion {
+    /// Standard error of the depth, where both surfaces tell theirs.
+    pub fn depth_error(&self) -> Option<f64> {
+        self.errors.as_ref().map(apart_error)
+    }
+
+    /// Standard error of the volume, where both surfaces tell theirs: of the depth over the area of the region, and of the
+    /// effective radius, by which the volume of a lens goes.
+    pub fn volume_standard_error(&self) -> Option<f64> {
+        let known = KnownContact::at(self.curvatures.as_ref()?, self.errors.as_ref()).ok()?;
+        let of_radius = known.share(RelativeCurvature::effective_radius)? * self.volume;
+        Some(of_radius.hypot(self.area.norm() * self.depth_error()?))
+    }
+}
+
+/// Standard error of how far surfaces lie in each other along their common normal.
+fn apart_error([one, two]: &[LocalError; 2]) -> f64 {
+    one.place.hypot(two.place)
 }
 
 /// What was looked at, and what was not.
@@ -171,6 +195,35 @@ pub fn contact_regions(
         .collect();
     regions.sort_by(|one, other| other.volume.total_cmp(&one.volume));
     Ok(ContactRegions { regions, work })
+}
+
+/// Where two bodies, of which the second is moved by `pose`, come nearer to each other than `margin` and do not touch: each
+/// has a depth below zero.
+///
+/// # Errors
+///
+/// [`RegionError::NotFinite`]
+pub fn contact_gaps(
+    first: &ContactBody<'_>,
+    second: &ContactBody<'_>,
+    pose: &Isometry3<f64>,
+    margin: f64,
+) -> Result<Vec<ContactPlace>, RegionError> {
+    let bodies = [first, second];
+    check(bodies, pose)?;
+    let common = Common::new(bodies, pose);
+    if common.clearance(bodies) > margin {
+        return Ok(Vec::new());
+    }
+    let near = near_places(
+        &common.placed(bodies),
+        bodies.map(|body| &body.whole),
+        margin,
+    );
+    let places = near.into_iter();
+    Ok(places
+        .map(|pair| ContactPlace::of_pair(pair, &common.centre))
+        .collect())
 }
 
 /// Refuses what would be apart of everything, for nothing is near to NaN.

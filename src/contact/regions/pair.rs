@@ -11,9 +11,11 @@ use super::deepest::DeepestPair;
 use super::lens::lens;
 use super::near::near_places;
 use super::{
-    Common, ContactBody, ContactRegion, RegionError, check, contact_regions, found_regions,
+    Common, ContactBody, ContactRegion, RegionError, apart_error, check, contact_regions,
+    found_regions,
 };
 use crate::measure::Curvature;
+use crate::model::LocalError;
 use nalgebra::{Isometry3, Point3, Vector3};
 
 /// The margin, as a share of the smaller body's radius.
@@ -80,7 +82,7 @@ pub struct ContactPlace {
 }
 
 impl ContactPlace {
-    fn of_pair(pair: DeepestPair, centre: &Point3<f64>) -> Self {
+    pub(super) fn of_pair(pair: DeepestPair, centre: &Point3<f64>) -> Self {
         let middle = nalgebra::center(&pair.points[0], &pair.points[1]);
         Self {
             point: middle + centre.coords,
@@ -106,6 +108,16 @@ impl ContactPlace {
     /// Curvature of both surfaces at the deepest points; none of a region without such points.
     pub fn curvatures(&self) -> Option<&[Curvature; 2]> {
         self.deepest.as_ref().map(|pair| &pair.curvatures)
+    }
+
+    /// Standard errors of both surfaces there, where both tell them.
+    pub fn errors(&self) -> Option<&[LocalError; 2]> {
+        self.deepest.as_ref()?.errors.as_ref()
+    }
+
+    /// Standard error of the depth, where both surfaces tell theirs.
+    pub fn depth_error(&self) -> Option<f64> {
+        self.errors().map(apart_error)
     }
 }
 

@@ -2,7 +2,6 @@
 
 use crate::mesh::Bounds;
 use crate::model::Surface;
-use crate::sphere::cube_grid;
 use nalgebra::{Isometry3, Point3, Vector3};
 use std::collections::HashMap;
 
@@ -33,9 +32,7 @@ pub(super) struct Patch {
 impl Patch {
     /// The whole surface.
     pub(super) fn whole(surface: &(impl Surface + ?Sized)) -> Self {
-        let (directions, triangles) = cube_grid(CELLS);
-        let axes = surface.frame().axes;
-        let directions: Vec<_> = directions.iter().map(|local| axes * local).collect();
+        let (directions, triangles) = surface.grid(CELLS);
         let mut whole = Self {
             vertices: points(surface, &directions),
             known: vec![None; directions.len()],

@@ -1,6 +1,8 @@
 use super::*;
 use crate::contact::VolumeLaw;
-use crate::model::{Derivatives, Radial, StarSurface};
+use crate::model::{
+    Derivatives, Family, Frame, Grain, LocalErrors, Radial, StarGrain, StarSurface, Whole,
+};
 use crate::shapes::{Ellipsoid, Solid};
 use approx::assert_relative_eq;
 use nalgebra::{Matrix3, UnitQuaternion};
@@ -236,4 +238,65 @@ fn pairs_are_followed_by_as_many_threads_as_there_are() {
     is_shared::<ContactBody<'_>>();
     is_shared::<ContactPair<'_>>();
     is_shared::<ContactPlace>();
+}
+
+/// A ball whose surface is known to a share of its radius, and its curvature to the same share.
+fn known_ball(radius: f64, share: f64) -> Grain {
+    let family = Whole::new(vec![radius * (4.0 * PI).sqrt()]).unwrap();
+    let error = LocalError {
+        place: share * radius,
+        curvature: share / radius,
+    };
+    let grain = StarGrain::new(Frame::SCAN, Family::Whole(family)).unwrap();
+    Grain::from(grain).with_local_errors(LocalErrors::new(vec![error; 864]))
+}
+
+#[test]
+fn a_pair_that_moves_has_the_errors_of_its_regions() {
+    let (one, two) = (known_ball(1.0, 1e-3), known_ball(0.5, 4e-3));
+    let bodies = [ContactBody::new(&one), ContactBody::new(&two)];
+    let pose = Isometry3::new(Vector3::z() * 1.45, Vector3::x());
+    let mut pair = ContactPair::new(&bodies[0], &bodies[1]);
+    pair.update(&pose).unwrap();
+    let [place] = pair.places() else {
+        panic!("{pair:?}")
+    };
+    let depth_error = place.depth_error().unwrap();
+    assert_relative_eq!(depth_error, 1e-3_f64.hypot(2e-3), max_relative = 1e-12);
+    let found = contact_regions(&bodies[0], &bodies[1], &pose).unwrap();
+    let [region] = &found.regions[..] else {
+        panic!("{found:?}")
+    };
+    assert_eq!(region.depth_error(), Some(depth_error));
+    assert_eq!(region.errors.as_ref(), place.errors());
+    // Lenses share V = pi R u², and a ball's radius is off by its share over the root of two.
+    let of_depth = 2.0 * depth_error / region.depth;
+    let of_radius = 1e-3_f64.hypot(2.0 * 4e-3) / 3.0 / 2.0_f64.sqrt();
+    let error = region.volume_standard_error().unwrap() / region.volume;
+    assert_relative_eq!(error, of_depth.hypot(of_radius), max_relative = 0.02);
+    let of_force = (1.5 * depth_error / region.depth).hypot(1.25 * of_radius);
+    let share = VolumeLaw::force_share(region).unwrap();
+    assert_relative_eq!(share, of_force, max_relative = 0.02);
+
+    // One that tells none leaves it open.
+    let exact = ball(0.5);
+    let exact = Radial(&exact);
+    let found = contact_regions(&bodies[0], &ContactBody::new(&exact), &pose).unwrap();
+    assert_eq!(found.regions[0].depth_error(), None);
+    assert_eq!(VolumeLaw::force_share(&found.regions[0]), None);
+}
+
+#[test]
+fn gaps_within_a_margin_are_found() {
+    let (one, two) = (ball(1.0), ball(0.5));
+    let (one, two) = (Radial(&one), Radial(&two));
+    let (one, two) = (ContactBody::new(&one), ContactBody::new(&two));
+    let pose = Isometry3::translation(0.0, 1.503, 0.0);
+    let gaps = |margin: f64| contact_gaps(&one, &two, &pose, margin).unwrap();
+    assert!(gaps(0.002).is_empty());
+    let [gap] = &gaps(0.004)[..] else {
+        panic!("one gap")
+    };
+    assert_relative_eq!(gap.depth, -0.003, max_relative = 1e-9);
+    assert_relative_eq!(gap.point.y, 1.0015, max_relative = 1e-9);
 }

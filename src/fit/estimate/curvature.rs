@@ -1,4 +1,8 @@
-//! How well the curvature of a grain is known.
+//! How well the surface of a grain is known from place to place.
+//!
+//! Where it is, is off by the [error of its radius](super::local) and, as squares, by a bump that is [missing](super::tips) and
+//! no chance, by what the points leave open of a wide one, by what a [hole](super::hole) may hide, and where residuals are no noise by how much the points near by are missed
+//! when they are [left out](super::left_out).
 //!
 //! The curvature of a surface is off by that of the difference between it and the estimate, which is known, and by that
 //! of the estimate's own error. Where a surface moves by h along its normal, its curvature tensor changes by the second
@@ -16,60 +20,112 @@
 //! A = (1 - n' n'') T / (m r'),   f = m N.T^-1 n',   <|A' H A|²> = (2 tr G² + (tr G)²) k / 8,   G = A'A
 //! ```
 //!
-//! with n'' the transpose of n', radii r' in units of their mean m. Multiplied with how much worse or better than noise the
-//! nearest points are met.
+//! with n'' the transpose of n', radii r' in units of their mean m. k is larger where the radius is less well known, in
+//! proportion. Where the nearest points are [met](super::local) worse than noise is, both errors are as much larger, but not
+//! smaller where they are met better: on the tips of a needle noise is small, and the few points there are weighed against the
+//! prior as if it were not. A bump bends all directions alike, H = -a k of its height and sharpness: one that is missing, and the
+//! widest as far as points near by leave its height open, for which the prior, alike everywhere, leaves no room.
 
-use super::outcome::{Estimate, bending_variance, spare};
-use crate::fit::curvature_cells::{PER_CELL, directions, errors, tensor};
-use crate::fit::neighbours::Neighbours;
+use super::hole::Hole;
+use super::left_out::LeftOut;
+use super::outcome::{Estimate, bending_variance, variance};
+use super::posterior::Posterior;
+use super::tips::{Missing, Tips};
+use crate::fit::local_cells::{PER_CELL, Squares, directions, tensor};
 use crate::measure::Curvature;
-use crate::model::{CurvatureErrors, Family, StarGrain, Surface, SurfaceJet};
+use crate::model::{Family, LocalErrors, StarGrain, Surface, SurfaceJet};
 use crate::sphere::CubeCell;
 use nalgebra::{Matrix2, Vector3};
+use rayon::prelude::*;
 
-/// Least error as a share of the curvature: of clean ellipsoids it is off by 5e-6.
+/// Least error as a share of the curvature, and of the radius: of clean ellipsoids they are off by 5e-6 and 1e-6.
 const FLOOR: f64 = 1e-5;
 
-/// Points near by that tell how well the surface is met there.
-const VICINITY: usize = 40;
-
 impl Estimate {
-    /// Standard errors of the curvature of a grain that stands for the estimate; none where edges hide them.
-    pub(crate) fn curvature_errors(&self, grain: &StarGrain) -> Option<CurvatureErrors> {
+    /// Squares of the errors of a grain that stands for the estimate, in the [directions] of cells; none where edges hide
+    /// them.
+    pub(in crate::fit) fn local_errors(&self, grain: &StarGrain) -> Option<Vec<Squares>> {
         if self.hides_edges(self.is_rough()) {
             return None;
         }
         let frame = grain.frame();
         let expansion = Family::Whole(self.expansion(self.degree));
         let best = StarGrain::stretched(frame, self.stretch(), expansion).ok()?;
-        let neighbours = Neighbours::new(&self.cloud.directions);
-        let misfits = self.misfits();
-        let bending = bending_variance(&self.spectrum, &self.unlearnt);
-        let misfit = |n: &Vector3<f64>| {
-            let near = neighbours.nearest(&self.stretched(n).normalize(), VICINITY);
-            near.iter().map(|&i| misfits[i]).sum::<f64>() / near.len().max(1) as f64
+        let local: Vec<Vector3<f64>> = directions().iter().map(|n| self.plain(n)).collect();
+        let towards: Vec<Vector3<f64>> = local.iter().map(|n| frame.axes * n).collect();
+        let jets = best.jets(&towards).into_iter().zip(grain.jets(&towards));
+        let locals = self.locals(grain, &local);
+        let posterior = self.posterior();
+        let tips = Tips::new(self, &posterior);
+        // Squares of the height, and of the bend, of what the prior does not expect.
+        let unexpected = |cell: &CubeCell| {
+            let (missing, widest) = tips.missing_and_widest(&cell.middle());
+            let missing = Some(missing)
+                .filter(Missing::is_no_chance)
+                .unwrap_or_default();
+            let height = missing.height.powi(2);
+            let chance = widest.variance;
+            [
+                height + chance,
+                height * missing.sharpness.powi(2) + chance * widest.sharpness.powi(2),
+            ]
         };
-        let square = |n: &Vector3<f64>, best: &SurfaceJet, told: &SurfaceJet, misfit: f64| {
-            let towards = frame.axes * n;
-            let curvature = Curvature::new(&towards, best);
+        let cells = CubeCell::uniform(LocalErrors::PARTS);
+        let unexpected: Vec<[f64; 2]> = cells.par_iter().map(unexpected).collect();
+        let beside = self.beside(&posterior, &local);
+        // Second derivatives are larger where radii are less well known.
+        let bending_per_value = bending_variance(&self.spectrum, &self.unlearnt)
+            / variance(&self.spectrum, &self.unlearnt);
+        let square = |at: usize, best: &SurfaceJet, told: &SurfaceJet| {
+            let (n, known) = (&local[at], &locals[at]);
+            let [height, bump] = unexpected[at / PER_CELL];
+            let curvature = Curvature::new(&towards[at], best);
             let exact = tensor(&curvature);
-            let told = tensor(&Curvature::new(&towards, told));
+            let told = tensor(&Curvature::new(&towards[at], told));
             let difference = (told - exact).norm_squared();
             let rounding = FLOOR * FLOOR * exact.norm_squared();
-            let local = [0, 1].map(|i| frame.axes.tr_mul(&curvature.directions[i]));
+            let [first, second] = [0, 1].map(|i| frame.axes.tr_mul(&curvature.directions[i]));
             let normal = frame.axes.tr_mul(&curvature.normal);
-            let bend = self.bend(n, best.place.norm(), &normal, local);
-            difference + rounding + misfit * bending * bend
+            let bend = self.bend(n, best.place.norm(), &normal, [first, second]);
+            let bending = known.variance_at_least() * bending_per_value;
+            let unknown = beside[at] + height;
+            let radius = known.square_at_least() + unknown * known.scale.powi(2);
+            let rounding_of_place = (FLOOR * best.place.norm()).powi(2);
+            Squares {
+                place: (radius + rounding_of_place) * normal.dot(n).powi(2),
+                curvature: difference
+                    + rounding
+                    + bending * bend.of_noise()
+                    + bump * bend.of_bump(),
+            }
         };
-        let cells = CubeCell::uniform(CurvatureErrors::PARTS);
-        let directions = directions();
-        let towards: Vec<Vector3<f64>> = directions.iter().map(|n| frame.axes * n).collect();
-        let jets = best.jets(&towards).into_iter().zip(grain.jets(&towards));
-        let misfits = cells.iter().map(|cell| misfit(&cell.at(0.5, 0.5)));
-        let misfits = misfits.flat_map(|misfit| std::iter::repeat_n(misfit, PER_CELL));
-        let known = directions.iter().zip(jets).zip(misfits);
-        let squares = known.map(|((n, (best, told)), misfit)| square(n, &best, &told, misfit));
-        errors(&squares.collect::<Vec<f64>>())
+        let jets = jets.enumerate();
+        Some(
+            jets.map(|(at, (best, told))| square(at, &best, &told))
+                .collect(),
+        )
+    }
+
+    /// Squares of what a hole may hide of the radius of the stretched space and, where residuals are no noise, of how far
+    /// points are missed, in directions of the grain's own frame.
+    fn beside(&self, posterior: &Posterior<'_>, local: &[Vector3<f64>]) -> Vec<f64> {
+        let residuals = posterior.residuals(&self.coefficients);
+        let left_out = self
+            .is_rough()
+            .then(|| LeftOut::new(self, posterior, &residuals, true));
+        let hole = Some(Hole::of(self)).filter(|hole| hole.is_no_chance(self.cloud.len()));
+        let beside = |n: &Vector3<f64>| {
+            let n = self.stretched(n).normalize();
+            let missed = left_out.as_ref().map_or(0.0, |points| points.near(&n));
+            let hidden = hole.as_ref().map_or(0.0, |hole| hole.hidden(&n).0);
+            missed + hidden * hidden
+        };
+        local.iter().map(beside).collect()
+    }
+
+    /// T^-1 n', of unit length.
+    fn plain(&self, stretched: &Vector3<f64>) -> Vector3<f64> {
+        stretched.component_div(&self.cloud.stretch).normalize()
     }
 
     /// T n.
@@ -77,34 +133,45 @@ impl Estimate {
         self.cloud.stretch.component_mul(n)
     }
 
-    /// f² (2 tr G² + (tr G)²) / 8 where the plain surface, in the direction n, has a radius, a normal and orthogonal
-    /// unit tangents.
+    /// What second derivatives of the stretched radius bend where the plain surface, in the direction n, has a radius, a
+    /// normal and orthogonal unit tangents.
     fn bend(
         &self,
         n: &Vector3<f64>,
         radius: f64,
         normal: &Vector3<f64>,
         tangents: [Vector3<f64>; 2],
-    ) -> f64 {
+    ) -> Bend {
         let mapped = self.stretched(n);
         let unit = mapped.normalize();
-        let move_along = self.cloud.mean * normal.dot(&unit.component_div(&self.cloud.stretch));
         let [first, second] = tangents.map(|t| {
             let moved = self.stretched(&t);
             (moved - unit * unit.dot(&moved)) / (radius * mapped.norm())
         });
         let across = first.dot(&second);
-        let gram = Matrix2::new(first.norm_squared(), across, across, second.norm_squared());
-        move_along.powi(2) * (2.0 * gram.norm_squared() + gram.trace().powi(2)) / 8.0
+        Bend {
+            move_along: self.cloud.mean * normal.dot(&unit.component_div(&self.cloud.stretch)),
+            gram: Matrix2::new(first.norm_squared(), across, across, second.norm_squared()),
+        }
+    }
+}
+
+/// f and G.
+struct Bend {
+    move_along: f64,
+    gram: Matrix2<f64>,
+}
+
+impl Bend {
+    /// f² (2 tr G² + (tr G)²) / 8
+    fn of_noise(&self) -> f64 {
+        let squares = 2.0 * self.gram.norm_squared() + self.gram.trace().powi(2);
+        self.move_along.powi(2) * squares / 8.0
     }
 
-    /// Squares of the points' residuals over what noise leaves of them.
-    fn misfits(&self) -> Vec<f64> {
-        let residuals = self.posterior().residuals(&self.coefficients);
-        let spare = spare(&self.unlearnt, self.cloud.len() as f64);
-        let expected = self.spectrum.noise().powi(2) * spare;
-        let weighted = residuals.iter().zip(&self.cloud.weights);
-        weighted.map(|(e, w)| w * e * e / expected).collect()
+    /// f² tr G², of second derivatives that are one in all directions.
+    fn of_bump(&self) -> f64 {
+        self.move_along.powi(2) * self.gram.norm_squared()
     }
 }
 

@@ -87,6 +87,18 @@ impl<'a> Variances<'a> {
     }
 }
 
+/// How well the radius of the stretched space is known in a direction.
+pub(super) struct Local {
+    /// Variance of the estimate, in squares of the mean.
+    variance: f64,
+    /// By how much more, or less, than that the points near by are missed.
+    factor: f64,
+    /// Of a plain radius to one of the stretched space, in units of the mean.
+    pub(super) scale: f64,
+    /// By how much a grain differs from the estimate, in the plain radius.
+    difference: f64,
+}
+
 impl Estimate {
     /// Errors of the radius of a grain that stands for the estimate, in directions of the grain's own frame: to those of
     /// the estimate is added, as a square, by how much the grain differs from it there.
@@ -95,12 +107,23 @@ impl Estimate {
         grain: &StarGrain,
         directions: &[Vector3<f64>],
     ) -> Vec<RadiusError> {
+        let noise = self.spectrum.noise().powi(2);
+        let known = self.locals(grain, directions).into_iter();
+        known
+            .map(|local| RadiusError {
+                surface: local.error(local.variance),
+                point: local.error(local.variance + noise),
+            })
+            .collect()
+    }
+
+    /// How well the radius is known in directions of the grain's own frame.
+    pub(super) fn locals(&self, grain: &StarGrain, directions: &[Vector3<f64>]) -> Vec<Local> {
         let posterior = self.posterior();
         let given = self.given(&posterior);
         let variances = Variances::new(&given);
         let predictions = Predictions::new(self, |n| variances.at(n), &posterior);
         let neighbours = Neighbours::new(&self.cloud.directions);
-        let noise = self.spectrum.noise().powi(2);
 
         let mapped: Vec<Vector3<f64>> = directions
             .iter()
@@ -118,15 +141,31 @@ impl Estimate {
             .map(|(((mapped, n), variance), (stretched, radius))| {
                 let near = neighbours.nearest(n, VICINITY);
                 let squares = near.iter().map(|&i| predictions.standardised[i].powi(2));
-                let factor = squares.sum::<f64>() / near.len().max(1) as f64;
-                let scale = self.cloud.mean / mapped.norm();
-                let difference = radius - stretched / mapped.norm();
-                let error = |variance: f64| difference.hypot(scale * (factor * variance).sqrt());
-                RadiusError {
-                    surface: error(variance),
-                    point: error(variance + noise),
+                Local {
+                    variance,
+                    factor: squares.sum::<f64>() / near.len().max(1) as f64,
+                    scale: self.cloud.mean / mapped.norm(),
+                    difference: radius - stretched / mapped.norm(),
                 }
             })
             .collect()
+    }
+}
+
+impl Local {
+    /// Of the plain radius, with a variance of that of the stretched space.
+    fn error(&self, variance: f64) -> f64 {
+        let scatter = self.scale * (self.factor * variance).sqrt();
+        self.difference.hypot(scatter)
+    }
+
+    /// Variance in the stretched space, no less than the estimate tells.
+    pub(super) fn variance_at_least(&self) -> f64 {
+        self.factor.max(1.0) * self.variance
+    }
+
+    /// Square of the error of the plain radius with it.
+    pub(super) fn square_at_least(&self) -> f64 {
+        self.difference.powi(2) + self.scale.powi(2) * self.variance_at_least()
     }
 }

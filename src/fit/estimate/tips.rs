@@ -37,6 +37,18 @@ pub(super) struct Missing {
     pub(super) height: f64,
     /// Its variance.
     pub(super) variance: f64,
+    /// k of the bump: over a small angle a it falls by k a² / 2 of its height.
+    pub(super) sharpness: f64,
+}
+
+/// Standard deviations of its height beyond which a bump is no chance, of some thousand that are looked for.
+const NO_CHANCE: f64 = 4.0;
+
+impl Missing {
+    /// Whether noise would hardly make as high a bump.
+    pub(super) fn is_no_chance(&self) -> bool {
+        self.height.powi(2) > NO_CHANCE.powi(2) * self.variance
+    }
 }
 
 /// The points with what the estimate leaves of them.
@@ -79,6 +91,23 @@ impl<'a> Tips<'a> {
 
     /// What is missing at an end, in the stretched space.
     pub(super) fn missing(&self, end: &Vector3<f64>) -> Missing {
+        self.missing_and_widest(end).0
+    }
+
+    /// The same, and the widest of the bumps.
+    pub(super) fn missing_and_widest(&self, end: &Vector3<f64>) -> (Missing, Missing) {
+        let likely = self.likely(end);
+        let known = likely.iter().filter(|(gain, _)| gain.is_finite());
+        let best = known.max_by(|(a, _), (b, _)| a.total_cmp(b));
+        let widest = Some(likely[0].1).filter(|widest| widest.variance.is_finite());
+        (
+            best.map(|(_, missing)| *missing).unwrap_or_default(),
+            widest.unwrap_or_default(),
+        )
+    }
+
+    /// Of each bump about an end by how much it makes the points more likely, and its height.
+    fn likely(&self, end: &Vector3<f64>) -> [(f64, Missing); SHARPNESSES.len()] {
         let mut sums = [[0.0; 2]; SHARPNESSES.len()];
         let weighted = self.residuals.iter().zip(&self.cloud.weights);
         for (n, (e, w)) in self.cloud.directions.iter().zip(weighted) {
@@ -93,19 +122,18 @@ impl<'a> Tips<'a> {
                 *of_squares += w * height * height;
             }
         }
-        let likely = self.bumps.iter().zip(sums).map(|(bump, [score, squares])| {
+        std::array::from_fn(|at| {
+            let (bump, [score, squares]) = (&self.bumps[at], sums[at]);
             let score = score / self.noise;
             let information =
                 squares * bump.left_of_squares / self.noise + 1.0 / (EXPECTED * EXPECTED);
             let missing = Missing {
                 height: bump.left * score / information,
                 variance: bump.left * bump.left / information,
+                sharpness: bump.sharpness,
             };
             (score * score / information, missing)
-        });
-        let known = likely.filter(|(gain, _)| gain.is_finite());
-        let best = known.max_by(|(a, _), (b, _)| a.total_cmp(b));
-        best.map(|(_, missing)| missing).unwrap_or_default()
+        })
     }
 }
 

@@ -108,7 +108,7 @@ impl Estimate {
 
     /// Whether it is a made body with edges that it does not resolve, so that its errors are not known: where residuals are no
     /// noise (`is_rough`), where points of a rim were left out, or where the last degrees still carry something.
-    pub(super) fn hides_edges(&self, is_rough: bool) -> bool {
+    pub(crate) fn hides_edges(&self, is_rough: bool) -> bool {
         let may_have_edges =
             is_rough || are_many(self.outliers, self.cloud.len()) || self.goes_on();
         may_have_edges && (is_symmetric(&self.coefficients) || is_flat_sided(&self.cloud.points()))

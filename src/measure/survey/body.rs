@@ -99,7 +99,7 @@ impl<'a> Body<'a> {
     /// Standard error of the curvature in a direction, where it is known.
     pub(super) fn curvature_error(&self, n: &Vector3<f64>) -> Option<f64> {
         match self {
-            Self::Grain(grain, _) => grain.curvature_error(n),
+            Self::Grain(grain, _) => Some(grain.local_error(n)?.curvature),
             Self::Known(..) | Self::Mesh(..) => None,
         }
     }

@@ -8,8 +8,8 @@ use grainform::measure::{
     Curvature, Deviation, Scheme, Survey, crossings, feet, grain_properties, mesh_properties,
 };
 use grainform::model::{
-    CurvatureErrors, Frame, InvalidGrain, ModelError, Position, PositionGrain, Radial, SurfaceJet,
-    grain_from_json, grain_to_json,
+    Frame, InvalidGrain, LocalError, LocalErrors, ModelError, Position, PositionGrain, Radial,
+    SurfaceJet, grain_from_json, grain_to_json,
 };
 use grainform::shapes::{Ellipsoid, Solid};
 use grainform::sphere::{Cover, CubeCell, HarmonicBasis, coefficient_count, cube_grid};
@@ -290,14 +290,18 @@ fn distances_from_a_banana_are_along_its_normals() {
 #[test]
 fn a_saved_position_is_the_same_to_the_last_bit_and_a_broken_one_is_refused() {
     let n = Vector3::new(0.6, -0.64, 0.48);
-    let errors: Vec<f64> = (0..864).map(|cell| f64::from(cell) * 1e-3).collect();
+    let error = |cell: u32| LocalError {
+        place: f64::from(cell) * 1e-3,
+        curvature: 2.0 - f64::from(cell) * 1e-3,
+    };
+    let errors: Vec<LocalError> = (0..864).map(error).collect();
     for grain in ellipsoids(turned()) {
-        let grain = grain.with_curvature_errors(CurvatureErrors::new(errors.clone()));
+        let grain = grain.with_local_errors(LocalErrors::new(errors.clone()));
         let text = grain_to_json(&grain);
         let loaded = grain_from_json(&text).expect("a model");
         assert_eq!(grain_to_json(&loaded), text);
-        assert_eq!(loaded.curvature_error(&n), grain.curvature_error(&n));
-        assert!(loaded.curvature_error(&n).is_some());
+        assert_eq!(loaded.local_error(&n), grain.local_error(&n));
+        assert!(loaded.local_error(&n).is_some());
         assert_eq!(loaded.place(&n), grain.place(&n));
         assert!(loaded.star().is_none() && loaded.position().is_some());
     }
@@ -314,8 +318,11 @@ fn a_saved_position_is_the_same_to_the_last_bit_and_a_broken_one_is_refused() {
         let error = spoilt(&|file| file[name] = value.clone());
         assert!(matches!(error, ModelError::Surface), "{name}: {error}");
     }
-    let error = spoilt(&|file| file["curvature_errors"] = json!([1.0]));
-    assert!(matches!(error, ModelError::CurvatureErrors), "{error}");
+    for (places, curvatures) in [(1, 1), (863, 864), (864, 865)] {
+        let errors = json!({"place": vec![1.0; places], "curvature": vec![1.0; curvatures]});
+        let error = spoilt(&|file| file["local_errors"] = errors.clone());
+        assert!(matches!(error, ModelError::LocalErrors), "{error}");
+    }
     let error = spoilt(&|file| file["position"]["cells"] = json!([]));
     assert!(matches!(error, ModelError::Surface), "{error}");
     let error = spoilt(&|file| file["position"]["harmonics"] = json!([1.0, 2.0, 3.0, 4.0]));

@@ -38,7 +38,7 @@ fn coverage(body: Body, fitted: &Fitted) -> (f64, f64) {
             let place = grain.point(n).coords.normalize();
             let exact = Curvature::new(&place, &Radial(truth.as_ref()).jet(&place));
             let off = |i: usize| (fit.principal[i] - exact.principal[i]).abs();
-            off(0).max(off(1)) / grain.curvature_error(n).unwrap()
+            off(0).max(off(1)) / grain.local_error(n).unwrap().curvature
         })
         .collect();
     let count = deviations.len() as f64;
@@ -55,6 +55,33 @@ fn errors_of_curvature_cover_and_are_not_too_wide() {
             let (share, rms) = coverage(body, &fitted);
             assert!(share > 0.94, "{body} {points} {noise}: {share}");
             assert!((0.4..1.3).contains(&rms), "{body} {points} {noise}: {rms}");
+        }
+    }
+}
+
+#[test]
+fn errors_of_places_and_of_curvature_cover_on_the_tips_of_a_needle() {
+    let axes = Vector3::new(1.0, 1.0, 10.0);
+    for (noise, seed) in [(0.0, 1), (0.005, 1), (0.005, 2)] {
+        let options = SynthOptions::clean(Body::Ellipsoid)
+            .with_axes(Some(axes))
+            .with_noise(noise)
+            .with_seed(seed);
+        let scan = Scan::from_points(synthesize(&options).unwrap().points);
+        let grain = crate::fit(&scan, &FitOptions::default())
+            .unwrap()
+            .grain_with_errors();
+        let frame = grain.frame();
+        for tip in [Vector3::z(), -Vector3::z()] {
+            let n = tip * 10.0 - frame.centre.coords;
+            let error = grain.local_error(&n).unwrap();
+            let off = (grain.point(&n).z.abs() - 10.0).abs();
+            assert!(off < 2.5 * error.place, "{noise}: {off} {error:?}");
+            assert!(error.place < 0.3, "{noise}: {error:?}");
+            let found = Curvature::new(&n.normalize(), &grain.jet(&n)).principal;
+            let off = (found[0] - 10.0).abs().max((found[1] - 10.0).abs());
+            assert!(off < 2.5 * error.curvature, "{noise}: {off} {error:?}");
+            assert!(error.curvature < 5.0, "{noise}: {error:?}");
         }
     }
 }
