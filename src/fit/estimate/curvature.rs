@@ -31,7 +31,7 @@ use super::left_out::LeftOut;
 use super::outcome::{Estimate, bending_variance, variance};
 use super::posterior::Posterior;
 use super::tips::{Missing, Tips};
-use crate::fit::local_cells::{PER_CELL, Squares, directions, tensor};
+use crate::fit::local_cells::{Squares, directions, tensor};
 use crate::measure::Curvature;
 use crate::model::{Family, LocalErrors, StarGrain, Surface, SurfaceJet};
 use crate::sphere::CubeCell;
@@ -51,7 +51,8 @@ impl Estimate {
         let frame = grain.frame();
         let expansion = Family::Whole(self.expansion(self.degree));
         let best = StarGrain::stretched(frame, self.stretch(), expansion).ok()?;
-        let local: Vec<Vector3<f64>> = directions().iter().map(|n| self.plain(n)).collect();
+        let stretched = directions();
+        let local: Vec<Vector3<f64>> = stretched.iter().map(|n| self.plain(n)).collect();
         let towards: Vec<Vector3<f64>> = local.iter().map(|n| frame.axes * n).collect();
         let jets = best.jets(&towards).into_iter().zip(grain.jets(&towards));
         let locals = self.locals(grain, &local);
@@ -70,15 +71,17 @@ impl Estimate {
                 height * missing.sharpness.powi(2) + chance * widest.sharpness.powi(2),
             ]
         };
-        let cells = CubeCell::uniform(LocalErrors::PARTS);
-        let unexpected: Vec<[f64; 2]> = cells.par_iter().map(unexpected).collect();
+        // Bumps are wider than four cells.
+        let wide = CubeCell::uniform(LocalErrors::PARTS / 2);
+        let unexpected: Vec<[f64; 2]> = wide.par_iter().map(unexpected).collect();
         let beside = self.beside(&posterior, &local);
         // Second derivatives are larger where radii are less well known.
         let bending_per_value = bending_variance(&self.spectrum, &self.unlearnt)
             / variance(&self.spectrum, &self.unlearnt);
         let square = |at: usize, best: &SurfaceJet, told: &SurfaceJet| {
             let (n, known) = (&local[at], &locals[at]);
-            let [height, bump] = unexpected[at / PER_CELL];
+            let wide = CubeCell::position(LocalErrors::PARTS / 2, &stretched[at]);
+            let [height, bump] = unexpected[wide];
             let curvature = Curvature::new(&towards[at], best);
             let exact = tensor(&curvature);
             let told = tensor(&Curvature::new(&towards[at], told));

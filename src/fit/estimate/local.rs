@@ -22,8 +22,8 @@ use nalgebra::Vector3;
 /// Points whose errors of prediction are taken together.
 const VICINITY: usize = 40;
 
-/// Largest leverage: a point that decides all by itself says nothing of errors.
-const MOST_LEVERAGE: f64 = 0.98;
+/// Least 1 - h: a point that decides all by itself says nothing of errors.
+const LEAST_SPARE: f64 = 0.02;
 
 /// Errors of the radius in a direction, standard deviations in the scan's unit.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -41,27 +41,18 @@ pub(super) struct Predictions {
 }
 
 impl Predictions {
-    pub(super) fn new(
-        estimate: &Estimate,
-        variances: impl Fn(&[Vector3<f64>]) -> Vec<f64>,
-        posterior: &Posterior<'_>,
-    ) -> Self {
+    pub(super) fn new(estimate: &Estimate, posterior: &Posterior<'_>) -> Self {
         let noise = estimate.spectrum.noise();
-        let cloud = &estimate.cloud;
-        let known = variances(&cloud.directions);
-        let weights = cloud.weights.iter();
-        let leverages: Vec<f64> = known
-            .iter()
-            .zip(weights)
-            .map(|(v, w)| (w * v / (noise * noise)).min(MOST_LEVERAGE))
-            .collect();
         let residuals = posterior.residuals(&estimate.coefficients);
-        let standardised = residuals
-            .iter()
-            .zip(leverages.iter().zip(&cloud.weights))
-            .map(|(e, (h, w))| e / (noise * ((1.0 - h) / w).sqrt()))
-            .collect();
-        Self { standardised }
+        let spares = estimate.spares();
+        let points = spares.iter().zip(&estimate.cloud.weights);
+        let standardised = residuals.iter().zip(points).map(|(e, (spare, w))| {
+            let spare = spare.max(LEAST_SPARE);
+            e / (noise * (spare / w).sqrt())
+        });
+        Self {
+            standardised: standardised.collect(),
+        }
     }
 }
 
@@ -122,7 +113,7 @@ impl Estimate {
         let posterior = self.posterior();
         let given = self.given(&posterior);
         let variances = Variances::new(&given);
-        let predictions = Predictions::new(self, |n| variances.at(n), &posterior);
+        let predictions = Predictions::new(self, &posterior);
         let neighbours = Neighbours::new(&self.cloud.directions);
 
         let mapped: Vec<Vector3<f64>> = directions

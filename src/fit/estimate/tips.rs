@@ -21,7 +21,7 @@ use super::outcome::Estimate;
 use super::posterior::Posterior;
 use nalgebra::Vector3;
 
-/// k of the bumps: Gaussians of 20, 14, 10, 7, 5 and 3.5 degrees.
+/// k of the bumps, each twice the one before: Gaussians of 20, 14, 10, 7, 5 and 3.5 degrees.
 const SHARPNESSES: [f64; 6] = [8.0, 16.0, 32.0, 64.0, 128.0, 256.0];
 
 /// Standard deviation of heights, in units of the mean radius, before a point is seen: that of beaks.
@@ -112,14 +112,15 @@ impl<'a> Tips<'a> {
         let weighted = self.residuals.iter().zip(&self.cloud.weights);
         for (n, (e, w)) in self.cloud.directions.iter().zip(weighted) {
             let fall = n.dot(end) - 1.0;
-            for (bump, [of_residuals, of_squares]) in self.bumps.iter().zip(&mut sums) {
-                let exponent = bump.sharpness * fall;
-                if exponent < LEAST {
+            // Every bump is the square of the one before.
+            let mut height = (SHARPNESSES[0] * fall).exp();
+            for (sharpness, [of_residuals, of_squares]) in SHARPNESSES.iter().zip(&mut sums) {
+                if sharpness * fall < LEAST {
                     break;
                 }
-                let height = exponent.exp();
                 *of_residuals += w * height * e;
-                *of_squares += w * height * height;
+                height *= height;
+                *of_squares += w * height;
             }
         }
         std::array::from_fn(|at| {
