@@ -1,9 +1,15 @@
-//! Where errors of a grain's surface are taken: in the middles of the cells of [`LocalErrors`].
+//! Where errors of a grain's surface are taken: some places in each cell of [`LocalErrors`].
 
 use crate::measure::Curvature;
 use crate::model::{Grain, LocalError, LocalErrors, Stretch, Surface};
 use crate::sphere::CubeCell;
 use nalgebra::{Matrix3, Vector3};
+
+/// Places along each side of a cell.
+const PLACES: usize = 2;
+
+/// Places of a cell.
+pub(super) const PER_CELL: usize = PLACES * PLACES;
 
 /// Squares of errors.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -12,10 +18,15 @@ pub(super) struct Squares {
     pub(super) curvature: f64,
 }
 
-/// The middles of the cells.
+/// Directions of the space of the cells, those of a cell one after the other.
 pub(super) fn directions() -> Vec<Vector3<f64>> {
+    let along = || (0..PLACES).map(|i| (i as f64 + 0.5) / PLACES as f64);
     let cells = CubeCell::uniform(LocalErrors::PARTS);
-    cells.iter().map(CubeCell::middle).collect()
+    let places = |cell: &CubeCell| {
+        let both = along().flat_map(|s| along().map(move |t| (s, t)));
+        both.map(|(s, t)| cell.at(s, t)).collect::<Vec<_>>()
+    };
+    cells.iter().flat_map(places).collect()
 }
 
 /// The same in the scan's frame.
@@ -31,14 +42,23 @@ pub(super) fn of_cells(grain: &Grain) -> Vec<Vector3<f64>> {
 pub(super) fn errors(squares: &[Squares], of_size: f64, grain: &Grain) -> Option<LocalErrors> {
     let towards = of_cells(grain);
     let away = grain.jets(&towards).into_iter().zip(&towards);
-    let errors = away.zip(squares).map(|((jet, n), squares)| {
-        let off = of_size * Curvature::new(n, &jet).normal.dot(&jet.place);
-        LocalError {
-            place: round((squares.place + off.powi(2)).sqrt()),
-            curvature: round(squares.curvature.sqrt()),
-        }
-    });
-    LocalErrors::new(errors.collect())
+    let off: Vec<f64> = away
+        .map(|(jet, n)| (of_size * Curvature::new(n, &jet).normal.dot(&jet.place)).powi(2))
+        .collect();
+    let root_mean = |sum: f64| round((sum / PER_CELL as f64).sqrt());
+    let cells = squares
+        .chunks_exact(PER_CELL)
+        .zip(off.chunks_exact(PER_CELL));
+    let of_cell = |(own, off): (&[Squares], &[f64])| LocalError {
+        place: root_mean(
+            own.iter()
+                .zip(off)
+                .map(|(squares, off)| squares.place + off)
+                .sum(),
+        ),
+        curvature: root_mean(own.iter().map(|squares| squares.curvature).sum()),
+    };
+    LocalErrors::new(cells.map(of_cell).collect())
 }
 
 /// To three digits: an error needs no more.

@@ -12,7 +12,7 @@
 //! error, that of the quadric too, and of its distance what it may be off by its samples' scatter: it follows noise more than the surface does, and no bend of the size of its samples' patch.
 //! Of a cell the largest counts, for such bends are narrow.
 
-use crate::fit::local_cells::{Squares, of_cells, tensor};
+use crate::fit::local_cells::{PER_CELL, Squares, of_cells, tensor};
 use crate::fit::neighbours::Neighbours;
 use crate::measure::Curvature;
 use crate::model::{Grain, Surface};
@@ -53,7 +53,7 @@ impl Samples {
         let centre = grain.frame().centre.coords;
         let towards = of_cells(grain);
         let jets = grain.jets(&towards);
-        towards
+        let squares: Vec<Squares> = towards
             .par_iter()
             .zip(&jets)
             .map(|(n, jet)| {
@@ -75,7 +75,9 @@ impl Samples {
                     curvature: off.norm_squared(),
                 }
             })
-            .collect()
+            .collect();
+        let cells = squares.chunks_exact(PER_CELL);
+        cells.flat_map(|own| [worst(own); PER_CELL]).collect()
     }
 
     /// The samples nearest to a place that are of its side of the body, from there.
@@ -90,6 +92,14 @@ impl Samples {
             .filter(|&at| self.normals[at].dot(normal) > SAME_SIDE)
             .map(|at| self.points[at].coords - place)
             .collect()
+    }
+}
+
+fn worst(own: &[Squares]) -> Squares {
+    let most = |of: fn(&Squares) -> f64| own.iter().map(of).fold(0.0, f64::max);
+    Squares {
+        place: most(|squares| squares.place),
+        curvature: most(|squares| squares.curvature),
     }
 }
 

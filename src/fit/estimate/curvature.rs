@@ -31,7 +31,7 @@ use super::left_out::LeftOut;
 use super::outcome::{Estimate, bending_variance, variance};
 use super::posterior::Posterior;
 use super::tips::{Missing, Tips};
-use crate::fit::local_cells::{Squares, directions, tensor};
+use crate::fit::local_cells::{PER_CELL, Squares, directions, tensor};
 use crate::measure::Curvature;
 use crate::model::{Family, LocalErrors, StarGrain, Surface, SurfaceJet};
 use crate::sphere::CubeCell;
@@ -51,11 +51,14 @@ impl Estimate {
         let frame = grain.frame();
         let expansion = Family::Whole(self.expansion(self.degree));
         let best = StarGrain::stretched(frame, self.stretch(), expansion).ok()?;
-        let stretched = directions();
-        let local: Vec<Vector3<f64>> = stretched.iter().map(|n| self.plain(n)).collect();
+        let local: Vec<Vector3<f64>> = directions().iter().map(|n| self.plain(n)).collect();
         let towards: Vec<Vector3<f64>> = local.iter().map(|n| frame.axes * n).collect();
         let jets = best.jets(&towards).into_iter().zip(grain.jets(&towards));
-        let locals = self.locals(grain, &local);
+        // What is smooth is taken once in a cell.
+        let cells = CubeCell::uniform(LocalErrors::PARTS);
+        let middles: Vec<Vector3<f64>> = cells.iter().map(CubeCell::middle).collect();
+        let plain: Vec<Vector3<f64>> = middles.iter().map(|n| self.plain(n)).collect();
+        let locals = self.locals(grain, &plain);
         let posterior = self.posterior();
         let tips = Tips::new(self, &posterior);
         // Squares of the height, and of the bend, of what the prior does not expect.
@@ -74,13 +77,14 @@ impl Estimate {
         // Bumps are wider than four cells.
         let wide = CubeCell::uniform(LocalErrors::PARTS / 2);
         let unexpected: Vec<[f64; 2]> = wide.par_iter().map(unexpected).collect();
-        let beside = self.beside(&posterior, &local);
+        let beside = self.beside(&posterior, &plain);
         // Second derivatives are larger where radii are less well known.
         let bending_per_value = bending_variance(&self.spectrum, &self.unlearnt)
             / variance(&self.spectrum, &self.unlearnt);
         let square = |at: usize, best: &SurfaceJet, told: &SurfaceJet| {
-            let (n, known) = (&local[at], &locals[at]);
-            let wide = CubeCell::position(LocalErrors::PARTS / 2, &stretched[at]);
+            let (n, cell) = (&local[at], at / PER_CELL);
+            let known = &locals[cell];
+            let wide = CubeCell::position(LocalErrors::PARTS / 2, &middles[cell]);
             let [height, bump] = unexpected[wide];
             let curvature = Curvature::new(&towards[at], best);
             let exact = tensor(&curvature);
@@ -91,7 +95,7 @@ impl Estimate {
             let normal = frame.axes.tr_mul(&curvature.normal);
             let bend = self.bend(n, best.place.norm(), &normal, [first, second]);
             let bending = known.variance_at_least() * bending_per_value;
-            let unknown = beside[at] + height;
+            let unknown = beside[cell] + height;
             let radius = known.square_at_least() + unknown * known.scale.powi(2);
             let rounding_of_place = (FLOOR * best.place.norm()).powi(2);
             Squares {
