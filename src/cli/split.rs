@@ -6,9 +6,12 @@ use super::{inputs, outputs, threads};
 use crate::export::{save_mesh, write_points_ply};
 use crate::mesh::Mesh;
 use crate::report::SplitReport;
-use crate::scan::{Scan, split, split_labels};
+use crate::scan::{Scan, Volume, split, split_labels, split_uncut};
 use anyhow::{Context, Result, bail};
 use std::path::Path;
+
+/// Of the files of grains: of surfaces and points, and of voxels.
+const EXTENSIONS: [&str; 2] = ["ply", "nrrd"];
 
 pub(super) fn run(args: SplitArgs, console: Console) -> Result<()> {
     spares_the_scan(&args.scan, &args.output)?;
@@ -18,34 +21,56 @@ pub(super) fn run(args: SplitArgs, console: Console) -> Result<()> {
     progress.stage("Reading");
     let bytes = inputs::read(&args.scan, &args.input.limit)?;
     let failed = || format!("cannot split {name}");
-    let found = match inputs::parse_labels(&args.scan, &bytes, &args.input, args.unit)? {
-        Some(volume) if args.input.label.is_none() => {
+    let volume = inputs::parse_labels(&args.scan, &bytes, &args.input, args.unit)?;
+    let found = match &volume {
+        Some(volume) => {
             progress.stage("Telling the grains apart");
-            split_labels(&volume).with_context(failed)?
+            split_labels(volume, args.input.label).with_context(failed)?
         }
-        _ => {
+        None => {
             let scan = inputs::parse_scan(&args.scan, &bytes, &args.input, args.unit)?;
             progress.stage("Telling the grains apart");
-            inputs::explained(split(&scan).with_context(failed), &scan)?
+            let found = match args.uncut {
+                true => split_uncut(&scan),
+                false => split(&scan),
+            };
+            inputs::explained(found.with_context(failed), &scan)?
         }
     };
     progress.stage("Writing");
     outputs::make_folder(&args.output)?;
-    let files: Vec<String> = (1..=found.grains.len()).map(file_name).collect();
+    let [of_surface, of_voxels] = EXTENSIONS;
+    let extension = volume.as_ref().map_or(of_surface, |_| of_voxels);
+    let files: Vec<String> = (1..=found.grains.len())
+        .map(|number| file_name(number, extension))
+        .collect();
     for (grain, file) in found.grains.iter().zip(&files) {
-        write(&grain.scan, &args.output.join(file))?;
+        let path = args.output.join(file);
+        match (&volume, &grain.voxels) {
+            (Some(volume), Some(body)) => write_voxels(&volume.alone(body), &path)?,
+            _ => write(&grain.scan, &path)?,
+        }
     }
     drop(progress);
-    let next = args.output.join(file_name(files.len() + 1));
     let mut report = SplitReport::new(name, &found, files).in_unit(args.unit);
-    if next.exists() {
-        report.warnings.push(format!(
-            "{} is of an earlier split, as may be those after it: remove them, or write into another folder.",
-            next.display()
-        ));
-    }
+    let of_volume = volume.iter().flat_map(|volume| volume.warnings());
+    report.warnings.splice(0..0, of_volume.cloned());
+    report
+        .warnings
+        .extend(earlier(&args.output, found.grains.len(), extension));
     let written = args.output.display().to_string();
     console.tell(&report, args.json, [written], &report.warnings)
+}
+
+/// What to say where the folder has grains of an earlier split beside so many of this one.
+fn earlier(folder: &Path, grains: usize, extension: &str) -> Option<String> {
+    let first = |other: &str| if other == extension { grains + 1 } else { 1 };
+    let paths = EXTENSIONS.map(|other| folder.join(file_name(first(other), other)));
+    let left = paths.iter().find(|path| path.exists())?;
+    Some(format!(
+        "{} is of an earlier split, as may be those after it: remove them, or write into another folder.",
+        left.display()
+    ))
 }
 
 /// Refuses a folder in which a grain would replace the scan.
@@ -54,11 +79,14 @@ fn spares_the_scan(scan: &Path, folder: &Path) -> Result<()> {
         return Ok(());
     };
     let name = file.file_name().map(|name| name.to_string_lossy());
-    let number = name.as_deref().and_then(|name| {
-        let number = name.strip_prefix("grain_")?.strip_suffix(".ply")?;
-        number.parse().ok()
-    });
-    if file.parent() == Some(&folder) && name == number.map(|number| file_name(number).into()) {
+    let is_grain = |extension: &&str| {
+        let number = name.as_deref().and_then(|name| {
+            let (number, own) = name.strip_prefix("grain_")?.split_once('.')?;
+            number.parse().ok().filter(|_| own == *extension)
+        });
+        name == number.map(|number| file_name(number, extension).into())
+    };
+    if file.parent() == Some(&folder) && EXTENSIONS.iter().any(is_grain) {
         bail!(
             "cannot write the grains into {}: the input {} is named as one of them, which would replace it; give \
              another folder with -o",
@@ -69,8 +97,12 @@ fn spares_the_scan(scan: &Path, folder: &Path) -> Result<()> {
     Ok(())
 }
 
-fn file_name(number: usize) -> String {
-    format!("grain_{number:04}.ply")
+fn file_name(number: usize, extension: &str) -> String {
+    format!("grain_{number:04}.{extension}")
+}
+
+fn write_voxels(voxels: &Volume, path: &Path) -> Result<()> {
+    outputs::write(path, |file| Ok(voxels.write_nrrd(file)?))
 }
 
 fn write(grain: &Scan, path: &Path) -> Result<()> {

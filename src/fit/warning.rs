@@ -20,6 +20,13 @@ pub enum FitWarning {
         /// Their number.
         parts: usize,
     },
+    /// Hollows in the scan that are too small to be refused were left out: the fitted surface has none.
+    Pores {
+        /// Their number.
+        pores: usize,
+        /// What they enclose, as a share of what the scan's outer surface does.
+        share: f64,
+    },
     /// All bodies but the largest were left out, as asked for.
     OthersLeftOut {
         /// Their number.

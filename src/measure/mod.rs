@@ -73,8 +73,8 @@ pub use oriented_box::OrientedBox;
 pub use outline::Outline;
 pub use projection::{OUTLINE_AZIMUTHS, ProjectionError, project};
 pub use roundness::ROUNDNESS_ORDER;
+pub(crate) use scanned::{Dust, largest_part, without_dust};
 pub use scanned::{FacesDefect, Fill, ScannedBody, scanned_body};
-pub(crate) use scanned::{largest_part, without_dust};
 pub use self_crossing::SelfCrossing;
 pub(crate) use self_crossing::self_crossing;
 #[cfg(feature = "cli")]

@@ -5,6 +5,7 @@ use super::unit::Unit;
 use crate::digits::plural;
 use crate::scan::Split;
 use serde::Serialize;
+use std::collections::BTreeMap;
 use std::fmt;
 
 /// The grains that a scan was split into.
@@ -20,10 +21,12 @@ pub struct SplitReport {
     pub distance: Option<f64>,
     /// The plane that the grains lay on; `null` where there is none.
     pub plane: Option<PlaneRecord>,
-    /// Clumps, or parts of a mesh, that are too small for a grain.
+    /// Clumps, or bodies of a mesh or of a segmented volume, that are too small for a grain.
     pub dust: usize,
-    /// Points of these.
+    /// Points of these; of a segmented volume their voxels.
     pub dust_points: usize,
+    #[serde(skip)]
+    is_volume: bool,
     /// Places where grains that touched were cut apart.
     pub cuts: usize,
     /// The grains, in the order of their names.
@@ -55,8 +58,12 @@ pub struct SplitGrainRecord {
     /// Its label in a segmented volume.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub label: Option<i64>,
-    /// Number of points.
+    /// Number of points; of a segmented volume those between its voxels and others.
     pub points: usize,
+    /// The clump it was cut from, a number that grains of one clump share; `null` where it was not cut.
+    pub cut_from: Option<usize>,
+    /// Width of the widest neck at which that clump was cut, over that of the narrower side.
+    pub neck: Option<f64>,
     /// Whether it may be several that touch.
     pub may_touch: bool,
 }
@@ -72,22 +79,26 @@ impl SplitReport {
                 file,
                 label: grain.label,
                 points: grain.scan.points().len(),
+                cut_from: grain.cut.map(|cut| cut.clump),
+                neck: grain.cut.map(|cut| cut.neck),
                 may_touch: grain.may_touch,
             })
             .collect();
+        let is_volume =
+            grains.iter().any(|grain| grain.label.is_some()) || !split.left_out.is_empty();
         let touching = grains.iter().filter(|grain| grain.may_touch);
-        let warnings = touching.map(|grain| {
-            format!(
-                "{} may be several grains that touch, or is bent: no neck was found to cut it at.",
+        let touching = touching.map(|grain| match is_volume {
+            true => format!(
+                "{} has a neck, as of grains that touch, and voxels are not cut apart: if it is several, separate them \
+                 in the segmentation.",
                 grain.file
-            )
+            ),
+            false => format!(
+                "{} may be several grains that touch, or one that is bent or has a waist: it was not cut.",
+                grain.file
+            ),
         });
-        let is_volume = split.grains.iter().any(|grain| grain.label.is_some());
-        let steps = is_volume.then(|| {
-            "The files hold the steps between voxels, which a fit of them takes for the grain's own: fit the image itself \
-             for figures, with --label or by batch."
-                .to_owned()
-        });
+        let warnings: Vec<String> = cut_apart(&grains).into_iter().chain(touching).collect();
         let left_out = split
             .left_out
             .iter()
@@ -104,8 +115,9 @@ impl SplitReport {
             }),
             dust: split.dust,
             dust_points: split.dust_points,
-            cuts: split.cuts,
-            warnings: steps.into_iter().chain(warnings).chain(left_out).collect(),
+            is_volume,
+            cuts: split.cuts(),
+            warnings: warnings.into_iter().chain(left_out).collect(),
             grains,
         }
     }
@@ -114,6 +126,28 @@ impl SplitReport {
     pub fn in_unit(self, unit: Option<Unit>) -> Self {
         Self { unit, ..self }
     }
+}
+
+/// Which grains were cut apart, on what evidence, and what to do if one of them was cut in two.
+fn cut_apart(grains: &[SplitGrainRecord]) -> Option<String> {
+    let mut clumps: BTreeMap<usize, (f64, Vec<&str>)> = BTreeMap::new();
+    for grain in grains {
+        if let (Some(clump), Some(neck)) = (grain.cut_from, grain.neck) {
+            let (_, files) = clumps.entry(clump).or_insert((neck, Vec::new()));
+            files.push(&grain.file);
+        }
+    }
+    let told: Vec<String> = clumps
+        .values()
+        .map(|(neck, files)| format!("{} ({:.0} %)", files.join(" from "), 100.0 * neck))
+        .collect();
+    (!told.is_empty()).then(|| {
+        format!(
+            "Cut apart at a neck, with its width beside that of the narrower side: {}. A grain that has a waist is cut \
+             too: if one of these was one grain, split again with --uncut.",
+            told.join(", ")
+        )
+    })
 }
 
 impl fmt::Display for SplitReport {
@@ -137,7 +171,8 @@ impl fmt::Display for SplitReport {
                 triple(plane.normal)
             )?;
         }
-        let dust = plural(self.dust_points, "point");
+        let noun = if self.is_volume { "voxel" } else { "point" };
+        let dust = plural(self.dust_points, noun);
         write!(
             f,
             "dust          {} of {dust} left out",

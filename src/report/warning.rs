@@ -2,7 +2,7 @@
 
 use super::number::{percent, short};
 use super::unit::{Labels, Unit};
-use crate::digits::plural;
+use crate::digits::{plural, significant};
 use crate::fit::{FitWarning, Rejection};
 use crate::measure::{FacesDefect, Fill};
 use crate::model::{Contradicted, NoInterval, Unseen};
@@ -79,6 +79,13 @@ impl FitWarning {
                     1 => "A detached part was".into(),
                     _ => format!("{parts} detached parts were"),
                 }
+            ),
+            Self::Pores { pores, share } => write!(
+                f,
+                "The scan has {} in it, which the fitted surface has not: area and volume are those of the grain \
+                 without hollows, and these make {} % of its volume.",
+                plural(pores, "small hollow"),
+                significant(100.0 * share, 2)
             ),
             Self::OthersLeftOut { others: 1 } => {
                 write!(f, "Another body was left out; the largest was kept.")

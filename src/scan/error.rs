@@ -176,6 +176,17 @@ pub enum ParseError {
         /// Where.
         place: Place,
     },
+    /// A fourth coordinate is not 1: readers of OBJ disagree on what it does.
+    #[error(
+        "{place}: the fourth number of `v` is {weight}: a weight, by which x, y and z were to be divided, or something \
+         measured, such as an intensity, which would leave them as they are; write the points with three numbers"
+    )]
+    Weight {
+        /// The line.
+        place: Place,
+        /// The number.
+        weight: f64,
+    },
     /// A face names a point that does not exist.
     #[error(
         "{place}: the face names point {index}, but the scan has {}, numbered from \

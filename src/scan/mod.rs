@@ -33,12 +33,12 @@ use format::Format;
 pub(crate) use repeated::distinct;
 pub use source::{MAX_BYTES, read_bytes, read_stream};
 pub(crate) use split::has_neck;
-pub use split::{Plane, Split, SplitGrain, split, split_labels};
+pub use split::{Cut, Plane, Split, SplitGrain, split, split_labels, split_uncut};
 pub use topology::Topology;
 pub(crate) use topology::each_edge;
 #[cfg(feature = "cli")]
 pub(crate) use volume::Extent;
-pub use volume::{LabelScan, Volume, VolumeError, parse_volume, voxel_file};
+pub use volume::{Volume, VolumeError, VoxelBody, parse_volume, voxel_file};
 
 /// What is told of points in one plane.
 const FLAT: &str = "All points lie in one plane: they do not enclose a body.";

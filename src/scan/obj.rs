@@ -64,8 +64,8 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Scan, ParseError> {
     Ok(scan)
 }
 
-/// The point of a line `v`. A fourth number that ends the line is a weight, by which the others are divided; where
-/// more follow they are a colour.
+/// The point of a line `v`. A fourth number that ends the line is a weight, by which the others are divided, or what a
+/// scanner put there, by which they are not: only 1 leaves no doubt. Where more follow they are a colour.
 fn vertex<'a>(
     number: usize,
     line: &[u8],
@@ -83,16 +83,12 @@ fn vertex<'a>(
     let &[weight] = rest else {
         return Ok(point);
     };
-    let weight = coordinate(number, weight)?;
-    if weight <= 0.0 {
-        let expected = "a weight above zero as the fourth number of `v`";
-        return Err(unexpected(number, expected, line));
-    }
-    let place = Place::Line(number);
-    let point = point / weight;
-    match point.iter().all(|c| c.is_finite()) {
-        true => Ok(point),
-        false => Err(ParseError::NotFinite { place }),
+    match coordinate(number, weight)? {
+        1.0 => Ok(point),
+        weight => Err(ParseError::Weight {
+            place: Place::Line(number),
+            weight,
+        }),
     }
 }
 
@@ -177,17 +173,18 @@ mod tests {
     }
 
     #[test]
-    fn a_fourth_number_is_a_weight_and_six_are_a_place_and_a_colour() {
+    fn a_fourth_number_is_refused_unless_it_is_one_and_six_are_a_place_and_a_colour() {
         let first = |line: &str| parse(format!("{line}\n{POINTS}").as_bytes()).map(|s| s.points[0]);
-        for line in [
-            "v 1 2 3",
-            "v 2 4 6 2",
-            "v .5 1 1.5 .5 # half",
-            "v 1 2 3 .5 .5 .5",
-        ] {
+        for line in ["v 1 2 3", "v 1 2 3 1.0 # one", "v 1 2 3 .5 .5 .5"] {
             assert_eq!(first(line), Ok(Point3::new(1.0, 2.0, 3.0)), "{line}");
         }
-        for line in ["v 1 2 3 0", "v 1 2 3 -1", "v 1e300 2 3 1e-300", "v 1 2 3 x"] {
+        for line in [
+            "v 1 2 3 0",
+            "v 1 2 3 -1",
+            "v 2 4 6 2",
+            "v 1 2 3 .5",
+            "v 1 2 3 x",
+        ] {
             let told = first(line).unwrap_err().to_string();
             assert!(told.starts_with("line 1:"), "{told}");
         }

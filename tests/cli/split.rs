@@ -58,6 +58,45 @@ fn a_tray_becomes_a_file_for_each_grain_in_the_frame_of_the_tray() {
 }
 
 #[test]
+fn what_is_cut_apart_is_told_and_can_be_left_whole() {
+    let folder = folder();
+    let words = ["synth", "sphere", "--points", "3000", "-o", "one.xyz"];
+    succeed(&folder, &words);
+    let one = std::fs::read_to_string(folder.path().join("one.xyz")).unwrap();
+    let points: Vec<Vec<f64>> = one
+        .lines()
+        .map(|line| {
+            line.split_whitespace()
+                .filter_map(|word| word.parse().ok())
+                .collect()
+        })
+        .filter(|point: &Vec<f64>| point.len() >= 3)
+        .collect();
+    let widest = points.iter().map(|point| point[0]).fold(0.0, f64::max);
+    let two = points
+        .iter()
+        .flat_map(|p| [0.0, 1.99 * widest].map(|x| format!("{} {} {}\n", p[0] + x, p[1], p[2])));
+    std::fs::write(folder.path().join("two.xyz"), two.collect::<String>()).unwrap();
+    let report = json(&folder, &["split", "two.xyz", "-o", "cut"]);
+    assert_eq!(
+        (&report["cuts"], report["grains"].as_array().unwrap().len()),
+        (&1.into(), 2)
+    );
+    let warnings = report["warnings"].to_string();
+    assert!(
+        warnings.contains("grain_0001.ply from grain_0002.ply ("),
+        "{warnings}"
+    );
+    assert!(warnings.contains("--uncut"), "{warnings}");
+    let report = json(&folder, &["split", "two.xyz", "-o", "whole", "--uncut"]);
+    assert_eq!(
+        (&report["cuts"], report["grains"].as_array().unwrap().len()),
+        (&0.into(), 1)
+    );
+    assert_eq!(report["grains"][0]["may_touch"], true);
+}
+
+#[test]
 fn a_grain_does_not_replace_the_scan_that_it_is_split_from() {
     let folder = folder();
     let scan = folder.path().join("grain_0001.ply");

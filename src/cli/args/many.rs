@@ -12,7 +12,7 @@ use std::path::PathBuf;
 ///
 /// Of a mesh, a grain is what shares no point with the rest, with its hollows. Of a cloud, the plane that grains lie on is left out, and
 /// a grain is what hangs together by the distances between its points; grains that touch are cut apart at their neck.
-/// Of a segmented volume, a grain is what has a label. What is too small for a grain is dust. Files are numbered by where the grains lie, and keep the frame of the scan.
+/// Of a segmented volume, a grain is what has one label and hangs together by faces of voxels. What is too small for a grain is dust. Files are numbered by where the grains lie, and keep the frame of the scan.
 #[derive(Args)]
 pub(in crate::cli) struct SplitArgs {
     /// The scan: PLY, STL, OBJ or XYZ, or a segmented volume: NRRD, MetaImage, NIfTI, a TIFF stack or .npy; packed with
@@ -20,9 +20,14 @@ pub(in crate::cli) struct SplitArgs {
     #[arg(value_name = "SCAN")]
     pub(in crate::cli) scan: PathBuf,
 
-    /// Write the grains into this folder, as grain_0001.ply and so on
+    /// Write the grains into this folder, as grain_0001.ply and so on; those of a volume as .nrrd, which are measured as
+    /// the voxels that they are
     #[arg(short, long, value_name = "DIR", help_heading = OUTPUT)]
     pub(in crate::cli) output: PathBuf,
+
+    /// Cut no cloud at a neck: for grains that have a waist themselves
+    #[arg(long)]
+    pub(in crate::cli) uncut: bool,
 
     /// Unit of the scan's lengths, told beside them: um, mm, cm or m
     #[arg(long, value_name = "UNIT", help_heading = OUTPUT)]

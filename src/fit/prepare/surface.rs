@@ -13,7 +13,9 @@ use crate::fit::error::FitError;
 use crate::fit::repeated::without_repeats;
 use crate::fit::warning::FitWarning;
 use crate::fit::without::without;
-use crate::measure::{FacesDefect, Fill, SelfCrossing, scanned_body, self_crossing, without_dust};
+use crate::measure::{
+    Dust, FacesDefect, Fill, SelfCrossing, scanned_body, self_crossing, without_dust,
+};
 use crate::mesh::Mesh;
 use crate::model::Unseen;
 use crate::scan::{Scan, has_neck};
@@ -212,9 +214,21 @@ fn from_parts(scan: &Scan) -> Result<ScannedSurface<'static>, FitError> {
             }
         }
     };
-    let dust = cleaned.map(|(_, parts)| FitWarning::Dust { parts });
-    surface.warnings.extend(dust.into_iter().chain(crossing));
+    let dust = cleaned.into_iter().flat_map(|(_, dust)| told(dust));
+    surface.warnings.extend(dust.chain(crossing));
     Ok(surface)
+}
+
+/// What to say of parts that were left out.
+fn told(dust: Dust) -> impl Iterator<Item = FitWarning> {
+    let Dust {
+        specks: parts,
+        pores,
+        share,
+    } = dust;
+    let specks = (parts > 0).then_some(FitWarning::Dust { parts });
+    let pores = (pores > 0).then_some(FitWarning::Pores { pores, share });
+    specks.into_iter().chain(pores)
 }
 
 /// Of faces whose small holes are closed by triangles, which were not seen.

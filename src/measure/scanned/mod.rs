@@ -15,7 +15,7 @@ use crate::scan::{Scan, each_edge};
 use bodies::arrange;
 pub use fill::Fill;
 use fill::fill;
-pub(crate) use parts::{largest_part, without_dust};
+pub(crate) use parts::{Dust, largest_part, without_dust};
 use rims::rims;
 use thiserror::Error;
 

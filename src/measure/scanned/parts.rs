@@ -11,7 +11,19 @@ struct Size {
     triangles: Vec<usize>,
     vertices: usize,
     area: f64,
+    /// Below zero where it is wound inwards, as hollows are.
     volume: f64,
+}
+
+/// What was too small for bodies.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Dust {
+    /// Parts that are wound outwards, or open.
+    pub(crate) specks: usize,
+    /// Parts that are wound inwards: hollows.
+    pub(crate) pores: usize,
+    /// What the hollows enclose, over what all outer surfaces do.
+    pub(crate) share: f64,
 }
 
 /// Several parts of a scan's faces.
@@ -29,23 +41,35 @@ fn sizes(mesh: &Mesh) -> Vec<Size> {
             triangles,
             vertices: own.vertices.len(),
             area,
-            volume: volume.abs(),
+            volume,
         }
     };
     parts(mesh).into_iter().map(size).collect()
 }
 
-/// The scan without parts that are too small for bodies, and how many these are; `None` if there are none.
-pub(crate) fn without_dust(scan: &Scan) -> Option<(Scan, usize)> {
+/// The scan without parts that are too small for bodies, and what these are; `None` if there are none.
+pub(crate) fn without_dust(scan: &Scan) -> Option<(Scan, Dust)> {
     let mesh = scan.welded();
     let mut sizes = sizes(&mesh);
-    let (parts, vertices) = (sizes.len(), mesh.vertices.len() as f64);
+    let vertices = mesh.vertices.len() as f64;
     let area: f64 = sizes.iter().map(|size| size.area).sum();
-    sizes.retain(|size| size.area > DUST * area || size.vertices as f64 > DUST * vertices);
-    let dust = parts - sizes.len();
-    (dust > 0).then(|| {
+    let outer: f64 = sizes.iter().map(|size| size.volume.max(0.0)).sum();
+    let is_small =
+        |size: &mut Size| size.area <= DUST * area && size.vertices as f64 <= DUST * vertices;
+    let small: Vec<Size> = sizes.extract_if(.., is_small).collect();
+    let is_closed = scan.topology.as_ref().is_some_and(|own| own.closed);
+    let volumes = small.iter().map(|size| size.volume);
+    let pores: Vec<f64> = volumes
+        .filter(|volume| is_closed && *volume < 0.0)
+        .collect();
+    (!small.is_empty()).then(|| {
         let mut kept: Vec<usize> = sizes.into_iter().flat_map(|size| size.triangles).collect();
         kept.sort_unstable();
+        let dust = Dust {
+            specks: small.len() - pores.len(),
+            pores: pores.len(),
+            share: -pores.iter().sum::<f64>() / outer,
+        };
         (scan.part(part(&mesh, &kept)), dust)
     })
 }
@@ -56,7 +80,8 @@ pub(crate) fn largest_part(scan: &Scan) -> Option<(Scan, usize)> {
     let sizes = sizes(&mesh);
     let order = |a: &&Size, b: &&Size| {
         let of_equal_volume = a.area.total_cmp(&b.area);
-        a.volume.total_cmp(&b.volume).then(of_equal_volume)
+        let volumes = [a, b].map(|size| size.volume.abs());
+        volumes[0].total_cmp(&volumes[1]).then(of_equal_volume)
     };
     let largest = sizes.iter().max_by(order)?;
     let others = sizes.len() - 1;

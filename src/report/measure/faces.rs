@@ -66,7 +66,7 @@ impl FacesRecord {
         });
         let hollow = (sums_are_told && self.cavities > 0).then(|| {
             format!(
-                "The scan has {}, whose volume is subtracted and whose area is part of the area.",
+                "The scan has {} (of hollows), whose volume is subtracted and whose area is part of the area.",
                 plural(self.cavities, "inner surface")
             )
         });

@@ -12,24 +12,41 @@ const MOST_CUTS: usize = 12;
 /// with edges below .04, of three balls or more that touch above .1, as of bent bodies.
 const FOLLOWED: f64 = 0.1;
 
-/// Points that hang together.
-pub(super) struct Clump {
+/// What is done at the necks of clumps.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Necks {
+    Cut,
+    Keep,
+}
+
+/// Points of one grain.
+pub(super) struct Part {
     pub(super) points: Vec<u32>,
     pub(super) may_touch: bool,
 }
 
+/// What a clump was cut into, and how wide the widest of the necks was beside the narrower of its sides.
+pub(super) struct Parts {
+    pub(super) parts: Vec<Part>,
+    pub(super) neck: f64,
+}
+
 /// Cuts a clump at its necks, one after the other.
-pub(super) fn cut(places: &[Point3<f64>], clump: Vec<u32>, distance: f64) -> Vec<Clump> {
+pub(super) fn cut(places: &[Point3<f64>], clump: Vec<u32>, distance: f64, necks: Necks) -> Parts {
     let of = |points: &[u32]| -> Vec<Point3<f64>> {
         points.iter().map(|&i| places[i as usize]).collect()
     };
-    let (mut whole, mut waists, mut necks) = (Vec::new(), Vec::new(), Vec::new());
+    let most_cuts = match necks {
+        Necks::Cut => MOST_CUTS,
+        Necks::Keep => 0,
+    };
+    let (mut whole, mut waists, mut cuts) = (Vec::new(), Vec::new(), Vec::new());
     let mut left = vec![clump];
     while let Some(points) = left.pop() {
         let own = of(&points);
         let neck = Neck::find(&own, distance).filter(Neck::is_waist);
         let has_waist = neck.is_some();
-        let is_last = whole.len() + left.len() >= MOST_CUTS;
+        let is_last = whole.len() + left.len() >= most_cuts;
         let cut = neck.filter(|_| !is_last).and_then(|neck| {
             let sides = sides(&points, &neck.cut(&own)?);
             let are_grains = sides.iter().all(|side| side.len() >= LEAST_POINTS);
@@ -37,7 +54,7 @@ pub(super) fn cut(places: &[Point3<f64>], clump: Vec<u32>, distance: f64) -> Vec
         });
         match cut {
             Some((neck, sides)) => {
-                necks.push(neck);
+                cuts.push(neck);
                 left.extend(sides);
             }
             None => {
@@ -47,17 +64,19 @@ pub(super) fn cut(places: &[Point3<f64>], clump: Vec<u32>, distance: f64) -> Vec
         }
     }
     // The first of several cuts was made by outlines of grains that still touched.
-    if necks.len() > 1 {
-        settle(places, &mut whole, &necks);
+    if cuts.len() > 1 {
+        settle(places, &mut whole, &cuts);
     }
-    whole
-        .into_iter()
-        .zip(waists)
-        .map(|(points, has_waist)| Clump {
-            may_touch: has_waist || Outline::misses(&of(&points)) > FOLLOWED,
-            points,
-        })
-        .collect()
+    let parts = whole.into_iter().zip(waists);
+    Parts {
+        parts: parts
+            .map(|(points, has_waist)| Part {
+                may_touch: has_waist || Outline::misses(&of(&points)) > FOLLOWED,
+                points,
+            })
+            .collect(),
+        neck: cuts.iter().map(Neck::width).fold(0.0, f64::max),
+    }
 }
 
 /// The points before and beyond a neck.

@@ -1,31 +1,35 @@
 //! A scan that holds many grains, as one scan for each.
 //!
-//! Of a mesh, a grain is what shares no point with the rest, its hollows included. Of a cloud, the plane that grains lie on is taken away,
+//! Of a mesh, a grain is what shares no point with the rest, its hollows included; of a segmented volume, voxels of one
+//! label that share faces. Of a cloud, the plane that grains lie on is taken away,
 //! and a grain is what hangs together by distances that the cloud itself tells; grains that touch are cut apart at
 //! their neck. What is too small for a grain is dust. Every grain keeps the frame of the scan.
 
 mod bodies;
 mod cut;
 mod dust;
+mod labels;
 mod links;
 mod neck;
 mod outline;
 mod plane;
 mod spacing;
 
+pub use labels::split_labels;
 pub use plane::Plane;
 use spacing::covering;
 
 use super::drawn::{by_coordinates, drawn};
-use super::{ParseError, Scan, Volume, VolumeError};
+use super::{ParseError, Scan, VolumeError, VoxelBody};
 use bodies::bodies;
-use cut::{Clump, cut};
+use cut::{Necks, Part, Parts, cut};
 use dust::{LEAST_POINTS, without_dust};
 use links::Links;
 use nalgebra::Point3;
 use neck::Neck;
 use rayon::prelude::*;
 use std::cmp::Ordering;
+use std::collections::BTreeSet;
 
 /// The grains of a scan, and what else there was.
 #[derive(Debug, Clone, PartialEq)]
@@ -40,14 +44,32 @@ pub struct Split {
     pub plane: Option<Plane>,
     /// Points on the plane, and beyond it.
     pub plane_points: usize,
-    /// Clumps, bodies of a mesh, or labels that are too small for a grain.
+    /// Clumps, bodies of a mesh, or bodies of a segmented volume that are too small for a grain.
     pub dust: usize,
-    /// Points of these.
+    /// Points of these; of a segmented volume their voxels.
     pub dust_points: usize,
-    /// Places where grains that touched were cut apart.
-    pub cuts: usize,
-    /// Why labels of a segmented volume are no grains.
+    /// Why labels of a segmented volume, or bodies of them, are no grains.
     pub left_out: Vec<VolumeError>,
+}
+
+impl Split {
+    /// Places where grains that touched were cut apart.
+    pub fn cuts(&self) -> usize {
+        let clumps = |grain: &SplitGrain| grain.cut.map(|cut| cut.clump);
+        let cut: Vec<usize> = self.grains.iter().filter_map(clumps).collect();
+        let distinct: BTreeSet<usize> = cut.iter().copied().collect();
+        cut.len() - distinct.len()
+    }
+}
+
+/// What a grain was cut from.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct Cut {
+    /// The clump, a number that it shares with the other grains that were cut from it, and with none else.
+    pub clump: usize,
+    /// Width of the widest neck at which the clump was cut, over that of the narrower of its sides.
+    pub neck: f64,
 }
 
 /// One grain of several.
@@ -60,19 +82,35 @@ pub struct SplitGrain {
     pub indices: Vec<u32>,
     /// Its label in a segmented volume.
     pub label: Option<i64>,
-    /// Whether it may be several that touch, though no neck was found: it has a waist, or is not convex by far.
+    /// Its voxels in a segmented volume, see [`Volume::alone`](super::Volume::alone).
+    pub voxels: Option<VoxelBody>,
+    /// What it was cut from at a neck; a single grain with a waist may have been cut so, too.
+    pub cut: Option<Cut>,
+    /// Whether it may be several that touch, though it was not cut: it has a waist, or is not convex by far.
     pub may_touch: bool,
 }
 
-/// Splits a scan into its grains.
+/// Splits a scan into its grains; grains that touch are cut apart at their necks.
 ///
 /// # Errors
 /// [`ParseError`] where the points are none, not finite, all the same or all on one line.
 pub fn split(scan: &Scan) -> Result<Split, ParseError> {
+    split_at(scan, Necks::Cut)
+}
+
+/// Splits a scan into what hangs together, grains with a waist as well as grains that touch.
+///
+/// # Errors
+/// Those of [`split`].
+pub fn split_uncut(scan: &Scan) -> Result<Split, ParseError> {
+    split_at(scan, Necks::Keep)
+}
+
+fn split_at(scan: &Scan, necks: Necks) -> Result<Split, ParseError> {
     super::check::check(&scan.points)?;
     let mut split = match scan.topology {
         Some(_) => split_faces(scan),
-        None => split_points(&scan.points),
+        None => split_points(&scan.points, necks),
     };
     split
         .grains
@@ -95,46 +133,25 @@ pub(crate) fn has_neck(points: &[Point3<f64>]) -> bool {
     neck(1.0).is_some_and(|neck| neck.is_narrow()) && neck(2.0).is_some_and(|neck| neck.is_waist())
 }
 
-/// The grains of a segmented volume, one for each label, in the order of the labels.
-///
-/// # Errors
-/// [`VolumeError`] where there is no label, or the values are none.
-pub fn split_labels(volume: &Volume) -> Result<Split, VolumeError> {
-    let (mut bodies, mut left_out) = (Vec::new(), Vec::new());
-    for (label, found) in volume.scans()? {
-        match found {
-            Ok(scan) => bodies.push((Some(label), scan)),
-            Err(reason) => left_out.push(reason),
-        }
-    }
-    Ok(Split {
-        left_out,
-        ..without_small(bodies.into_iter())
-    })
-}
-
 fn split_faces(scan: &Scan) -> Split {
     let bodies = bodies(&scan.welded()).into_iter();
-    without_small(bodies.map(|body| (None, scan.part(body))))
-}
-
-/// The bodies but for those whose area is that of dust.
-fn without_small(bodies: impl Iterator<Item = (Option<i64>, Scan)>) -> Split {
-    let (grains, dust) = without_dust(bodies, 0.0, |(_, body)| area(body));
+    let bodies = bodies.map(|body| scan.part(body));
+    let (grains, dust) = without_dust(bodies, 0.0, area);
     Split {
         distance: None,
         plane: None,
         plane_points: 0,
         dust: dust.len(),
-        dust_points: dust.iter().map(|(_, body)| body.points.len()).sum(),
-        cuts: 0,
+        dust_points: dust.iter().map(|body| body.points.len()).sum(),
         left_out: Vec::new(),
         grains: grains
             .into_iter()
-            .map(|(label, scan)| SplitGrain {
+            .map(|scan| SplitGrain {
                 scan,
                 indices: Vec::new(),
-                label,
+                label: None,
+                voxels: None,
+                cut: None,
                 may_touch: false,
             })
             .collect(),
@@ -149,7 +166,7 @@ fn area(body: &Scan) -> f64 {
     body.triangles.iter().map(area).sum()
 }
 
-fn split_points(all: &[Point3<f64>]) -> Split {
+fn split_points(all: &[Point3<f64>], necks: Necks) -> Split {
     let order = sorted(all);
     let points: Vec<Point3<f64>> = order.iter().map(|&i| all[i as usize]).collect();
     let distinct = |i: &usize| *i == 0 || points[*i] != points[*i - 1];
@@ -169,17 +186,21 @@ fn split_points(all: &[Point3<f64>]) -> Split {
     let (clumps, dust) = without_dust(clumps.into_iter(), LEAST_POINTS as f64, |clump| {
         clump.len() as f64
     });
-    let cut: Vec<Vec<Clump>> = clumps
+    let cut: Vec<Parts> = clumps
         .into_par_iter()
-        .map(|clump| cut(&places, clump, distance.unwrap_or(0.0)))
+        .map(|clump| cut(&places, clump, distance.unwrap_or(0.0), necks))
         .collect();
-    let cuts = cut.iter().map(|parts| parts.len() - 1).sum();
-    let grains: Vec<Clump> = cut.into_iter().flatten().collect();
+    let cuts = cut.into_iter().enumerate().flat_map(|(clump, parts)| {
+        let Parts { parts, neck } = parts;
+        let cut = (parts.len() > 1).then_some(Cut { clump, neck });
+        parts.into_iter().map(move |part| (part, cut))
+    });
+    let (grains, cuts): (Vec<Part>, Vec<Option<Cut>>) = cuts.unzip();
 
     // The grain of every point: of those above the plane, of those below a grain, and of their equals.
     let mut owners = vec![None; points.len()];
-    for (grain, clump) in (0..).zip(&grains) {
-        for &place in &clump.points {
+    for (grain, part) in (0..).zip(&grains) {
+        for &place in &part.points {
             owners[above[place as usize] as usize] = Some(grain);
         }
     }
@@ -190,7 +211,7 @@ fn split_points(all: &[Point3<f64>]) -> Split {
         let places_on: Vec<Point3<f64>> = on.iter().map(|&i| points[i]).collect();
         let grains: Vec<Vec<Point3<f64>>> = grains
             .iter()
-            .map(|clump| clump.points.iter().map(|&i| places[i as usize]).collect())
+            .map(|part| part.points.iter().map(|&i| places[i as usize]).collect())
             .collect();
         for (own, grain) in on
             .into_iter()
@@ -216,19 +237,20 @@ fn split_points(all: &[Point3<f64>]) -> Split {
         distance,
         dust: dust.len(),
         dust_points,
-        cuts,
         left_out: Vec::new(),
         grains: members
             .into_iter()
-            .zip(grains)
-            .map(|(mut indices, clump)| {
+            .zip(grains.into_iter().zip(cuts))
+            .map(|(mut indices, (part, cut))| {
                 indices.sort_unstable();
                 let points = indices.iter().map(|&i| all[i as usize]).collect();
                 SplitGrain {
                     scan: Scan::from_points(points),
                     indices,
                     label: None,
-                    may_touch: clump.may_touch,
+                    voxels: None,
+                    cut,
+                    may_touch: part.may_touch,
                 }
             })
             .collect(),

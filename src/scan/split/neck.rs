@@ -30,10 +30,15 @@ const PLACES: i32 = 60;
 /// Share of the points that each side has, at least.
 const LEAST_SIDE: f64 = 0.1;
 
-/// Section of a neck over the smaller of the largest on both sides: what is below is cut ...
+/// Section of a neck over the smaller of the largest on both sides: what is below is cut, ...
 const NECK: f64 = 0.4;
 
-/// ... and what is below this may be several grains: it is cut where two outlines fit so much better than one.
+/// ... what is below this where two outlines fit so much better than one. Of grains on trays that touch it is .12 to .24,
+/// of 120 other pairs above .5 for ten, which meet face to face or have few points. Of a smooth body with a waist of
+/// three quarters it is .57 or more, and that is never cut, ...
+const BROAD: f64 = 0.5;
+
+/// ... and what is below this may be several grains.
 const WAIST: f64 = 0.7;
 
 /// RMS distance from two outlines over that from one. Of grains that touch it is below .12, with noise of 1 % too.
@@ -124,9 +129,14 @@ impl Neck {
         self.ratio < WAIST
     }
 
+    /// Width of the neck over that of the narrower side.
+    pub(super) fn width(&self) -> f64 {
+        self.ratio.sqrt()
+    }
+
     /// Whether each point is beyond the neck, if there are two grains.
     pub(super) fn cut(&self, points: &[Point3<f64>]) -> Option<Vec<bool>> {
-        let beyond = self.beyond(points);
+        let beyond = (self.ratio < BROAD).then(|| self.beyond(points))?;
         (self.is_narrow() || are_two(points, &beyond)).then_some(beyond)
     }
 

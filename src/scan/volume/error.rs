@@ -155,6 +155,34 @@ pub enum VolumeError {
         /// Share of its boundary that lies on one side of the image.
         share: f64,
     },
+    /// The border of the image cuts bodies of a label off, which has others.
+    #[error(
+        "of the label {label}, {} cut off at the border of the volume, so that the size cannot be known; scan the grains \
+         whole, or crop the volume with a margin",
+        match bodies {
+            1 => "1 body is".into(),
+            _ => format!("{bodies} bodies are"),
+        }
+    )]
+    BodiesCutOff {
+        /// The label.
+        label: i64,
+        /// Number of bodies that are cut off.
+        bodies: usize,
+    },
+    /// A label has nothing but specks.
+    #[error(
+        "the label {label} is {specks} specks of less than {most} voxels each, too few for a shape: look whether it is \
+         noise of the segmentation, or scan more finely"
+    )]
+    Specks {
+        /// The label.
+        label: i64,
+        /// Bodies that hang together by faces.
+        specks: usize,
+        /// Voxels of a speck are fewer.
+        most: usize,
+    },
     /// So few voxels have no shape.
     #[error(
         "the label {label} has {}, too few for a shape: look whether it is a speck of the segmentation, or scan more \

@@ -4,6 +4,7 @@
 //! a few lines each and are read here, for the crates that know them bring whole array libraries along; TIFF has a
 //! crate of its own.
 
+mod bodies;
 mod border;
 mod error;
 mod lattice;
@@ -17,6 +18,7 @@ mod scatter;
 mod tiff;
 mod unit;
 
+pub use bodies::VoxelBody;
 pub use error::VolumeError;
 pub(super) use lattice::filled as filled_lattice;
 
@@ -35,7 +37,7 @@ const MOST_LABELS: usize = 100_000;
 const MOST_BOXES: f64 = 100.0;
 
 /// Fewest voxels that have a shape: those of a ball of radius 2.
-const LEAST_VOXELS: usize = 30;
+pub(super) const LEAST_VOXELS: usize = 30;
 
 /// An image of labels; zero is what is around the grains.
 #[derive(Debug, Clone, PartialEq)]
@@ -133,9 +135,6 @@ fn told(name: &str, error: &ReadError) -> VolumeError {
     }
 }
 
-/// A label and its boundary, or why it has none that a grain is told by.
-pub type LabelScan = (i64, Result<Scan, VolumeError>);
-
 impl Volume {
     /// An image with axes along x, y and z.
     ///
@@ -208,25 +207,39 @@ impl Volume {
     /// The labels but zero, and where they are.
     fn extents(&self) -> Result<BTreeMap<i64, Extent>, VolumeError> {
         let mut found = BTreeMap::new();
-        let [width, height, depth] = self.size;
+        let [_, height, depth] = self.size;
         for (z, y) in (0..depth).flat_map(|z| (0..height).map(move |y| (z, y))) {
-            let row = width * (y + height * z);
-            let mut x = 0;
-            while x < width {
-                let (from, label) = (x, self.samples.label(row + x)?);
-                while x < width && self.samples.label(row + x)? == label {
-                    x += 1;
-                }
-                if label != 0 {
-                    let extent: &mut Extent = found.entry(label).or_default();
-                    extent.add([from, y, z], [x - 1, y, z]);
-                }
+            for (label, [from, to]) in self.row(y, z)? {
+                let extent: &mut Extent = found.entry(label).or_default();
+                extent.add([from, y, z], [to - 1, y, z]);
                 if found.len() > MOST_LABELS {
                     return Err(VolumeError::TooManyLabels { most: MOST_LABELS });
                 }
             }
         }
         Ok(found)
+    }
+
+    /// The labels but zero in a row along the first axis, each from where to where.
+    fn row(&self, y: usize, z: usize) -> Result<Vec<(i64, [usize; 2])>, VolumeError> {
+        let [width, height, _] = self.size;
+        let row = width * (y + height * z);
+        let (mut runs, mut x) = (Vec::new(), 0);
+        while x < width {
+            let (from, label) = (x, self.samples.label(row + x)?);
+            while x < width && self.samples.label(row + x)? == label {
+                x += 1;
+            }
+            if label != 0 {
+                runs.push((label, [from, x]));
+            }
+        }
+        Ok(runs)
+    }
+
+    /// What the file does not tell: whole sentences.
+    pub fn warnings(&self) -> &[String] {
+        &self.warnings
     }
 
     /// The boundary of what has a label; where none is given, of the only one.
@@ -258,16 +271,6 @@ impl Volume {
             None if extents.is_empty() => Err(VolumeError::NoLabels),
             None => Err(VolumeError::SeveralLabels { labels: labels() }),
         }
-    }
-
-    /// The boundary of every label, see [`Self::scan`], or why it has none that a grain is told by.
-    ///
-    /// # Errors
-    /// [`VolumeError`] if there is no label, or the values are none.
-    pub fn scans(&self) -> Result<Vec<LabelScan>, VolumeError> {
-        let extents = self.grains()?;
-        let grain = |(label, extent): (&i64, &Extent)| (*label, self.grain(*label, extent));
-        Ok(extents.iter().map(grain).collect())
     }
 
     /// Where all labels are.
@@ -317,7 +320,7 @@ impl Volume {
 }
 
 /// Where the voxels of a label are.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Extent {
     voxels: usize,
     low: [usize; 3],

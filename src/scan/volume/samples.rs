@@ -2,6 +2,7 @@
 
 use super::VolumeError;
 use crate::digits::plural;
+use std::ops::Range;
 
 /// A type of numbers.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -77,6 +78,21 @@ impl Samples {
             ),
             None => warning,
         })
+    }
+
+    /// So many zeros of the same type.
+    pub(super) fn blank(&self, count: usize) -> Self {
+        Self {
+            bytes: vec![0; count * self.kind.bytes()],
+            ..*self
+        }
+    }
+
+    /// Copies samples of the same type to where they begin here.
+    pub(super) fn copy(&mut self, to: usize, other: &Self, from: Range<usize>) {
+        let size = self.kind.bytes();
+        let from = &other.bytes[size * from.start..size * from.end];
+        self.bytes[size * to..][..from.len()].copy_from_slice(from);
     }
 
     /// A sample as a label.

@@ -1,6 +1,7 @@
 //! NRRD: lines of text, an empty one, and the voxels, or the name of the file that has them.
 
 mod axes;
+mod write;
 
 use super::samples::{Kind, Order, Samples};
 use super::{Beside, Volume, VolumeError};
