@@ -19,6 +19,7 @@
 
 mod convex;
 mod edge;
+mod error;
 mod known;
 pub mod law;
 mod material;
@@ -32,12 +33,13 @@ pub use convex::{
     ConvexContact, ConvexPair, ConvexStatus, Method, UnionContact, Warm, union_contacts,
 };
 pub use edge::{EdgeError, TangentCap};
+pub use error::{ContactError, LARGEST_RATIO};
 pub use known::{Curved, KnownContact, TOLD, told_depth};
 pub use material::{Material, MaterialError, effective_modulus_pa};
 pub use regions::{
     ContactBody, ContactPair, ContactPlace, ContactRegion, ContactRegions, RegionError, RegionWork,
     contact_gaps, contact_regions,
 };
-pub use relative::{ContactError, Correction, LARGEST_RATIO, RelativeCurvature};
+pub use relative::{Correction, RelativeCurvature};
 pub use touch::{Touch, TouchError, reach, touch};
 pub use volume_law::VolumeLaw;

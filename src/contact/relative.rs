@@ -19,15 +19,10 @@
 //! c   = (2/pi R_F(0, q², 1))^(-3/2) (4/(3 pi))^(1/2) (R_D(0, 1, q²) R_D(0, q², 1))^(1/4)
 //! ```
 
-use crate::digits::significant;
+use super::error::{ContactError, LARGEST_RATIO};
 use crate::elliptic::{rd, rf};
 use crate::measure::Curvature;
 use std::f64::consts::{FRAC_2_PI, PI};
-use thiserror::Error;
-
-/// Largest ratio A/B for which the correction is taken: the patch is then some 250 times longer than
-/// wide, and a theory of line contact is the better one.
-pub const LARGEST_RATIO: f64 = 1e4;
 
 /// The principal curvatures A >= B > 0 of the gap A x² + B y² between two touching surfaces, in one
 /// over the length of the surfaces.
@@ -48,69 +43,6 @@ pub enum Correction {
 
 /// Steps allowed to find the patch's proportions, which takes five.
 const MAX_STEPS: usize = 50;
-
-/// Why two surfaces do not touch as Hertz has it.
-#[derive(Debug, Clone, Copy, PartialEq, Error)]
-#[non_exhaustive]
-pub enum ContactError {
-    /// The gap does not open in all directions: a hollow, a saddle or a flat side. They touch along a
-    /// line or in several places.
-    #[error(
-        "the surfaces do not part in all directions from the point of contact (relative curvatures \
-         {} and {}); Hertz's theory needs a gap that opens", significant(*larger, 4), significant(*smaller, 4)
-    )]
-    NotConvex {
-        /// The larger relative curvature A.
-        larger: f64,
-        /// The smaller one B.
-        smaller: f64,
-    },
-    /// The gap opens [`LARGEST_RATIO`] times faster one way than the other.
-    #[error(
-        "the relative curvatures {} and {} are more than {LARGEST_RATIO} times apart: \
-         a contact along a line, for which this theory is not made", significant(*larger, 4), significant(*smaller, 4)
-    )]
-    Line {
-        /// The larger relative curvature A.
-        larger: f64,
-        /// The smaller one B.
-        smaller: f64,
-    },
-    /// The curvature is not told from none, as of the ripples of a fit on a flat side, or is that by which it rounds an edge.
-    #[error(
-        "the gap between the surfaces is curved by {} with a standard error of {}, as where a fit ripples on a flat side or \
-         rounds an edge: no force is vouched for", significant(*curvature, 3), significant(*error, 2)
-    )]
-    Uncertain {
-        /// The smaller curvature of the gap, 2 B.
-        curvature: f64,
-        /// Its standard error.
-        error: f64,
-    },
-    /// They overlap by so little beside the standard error of that that they may not touch.
-    #[error(
-        "the overlap of {} has a standard error of {}: the surfaces may as well be apart, and no force is vouched for",
-        significant(*depth, 3), significant(*error, 2)
-    )]
-    Shallow {
-        /// The overlap.
-        depth: f64,
-        /// Its standard error.
-        error: f64,
-    },
-    /// The bodies would touch all over a side.
-    #[error(
-        "by their curvatures there the surfaces would touch as far as {} from the middle of the contact, and the body \
-         reaches {} only: for Hertz's theory the surface is too flat, or the indentation too large",
-        significant(*reach, 4), significant(*body, 4)
-    )]
-    Flat {
-        /// How far from its middle the contact would reach.
-        reach: f64,
-        /// How far the smaller body reaches.
-        body: f64,
-    },
-}
 
 impl RelativeCurvature {
     /// That of two surfaces with these principal curvatures (either order, positive where convex),

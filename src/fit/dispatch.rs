@@ -66,6 +66,7 @@ impl PreparedScan<'_> {
             properties: None,
             posterior: None,
             samples: None,
+            edged: None,
             errors: None,
         }
     }

@@ -8,12 +8,10 @@ use super::estimate::{Estimate, estimate};
 use super::options::{FitOptions, Seams, Tolerance};
 use super::outcome::{EstimateSummary, Fitted, Residuals};
 use super::prepare::{PreparedScan, Sample};
-use super::samples::Samples;
 use super::warning::FitWarning;
-use crate::measure::Curvature;
-use crate::model::{Family, Grain, StarGrain, Surface};
+use crate::model::{Family, StarGrain};
 use crate::sphere::{Interpolant, coefficient_count};
-use nalgebra::{Point3, Vector3};
+use nalgebra::Vector3;
 use rayon::prelude::*;
 use std::iter::once;
 
@@ -160,25 +158,10 @@ pub(super) fn estimated(
         largest_difference,
     });
     if estimate.hides_edges(estimate.is_rough()) {
-        fitted.samples = Some(on_surface(prepared.points(), &fitted.grain));
+        fitted.edged = Some(prepared.points().to_vec());
     }
     fitted.posterior = Some(Box::new(estimate));
     Ok(fitted)
-}
-
-/// The points, and the normals of a grain in their directions.
-fn on_surface(points: &[Point3<f64>], grain: &Grain) -> Samples {
-    let centre = grain.frame().centre;
-    let is_away = |point: &&Point3<f64>| **point != centre;
-    let points: Vec<Point3<f64>> = points.iter().filter(is_away).copied().collect();
-    let towards: Vec<Vector3<f64>> = points.iter().map(|point| point - centre).collect();
-    let jets = grain.jets(&towards).into_iter().zip(&towards);
-    Samples {
-        normals: jets
-            .map(|(jet, n)| Curvature::new(n, &jet).normal)
-            .collect(),
-        points,
-    }
 }
 
 /// Blended cells that are within a limit of the estimate.

@@ -10,7 +10,7 @@ use super::warning::FitWarning;
 use crate::measure::{MassProperties, Scheme, Survey};
 use crate::model::{Grain, NoInterval, StandardErrors, StarGrain, Surface};
 use crate::sphere::unit;
-use nalgebra::Vector3;
+use nalgebra::{Point3, Vector3};
 
 /// A fitted grain and what is known of it.
 #[derive(Debug, Clone)]
@@ -46,6 +46,8 @@ pub struct Fitted {
     pub(crate) posterior: Option<Box<Estimate>>,
     /// What a surface without a radius was fitted to.
     pub(crate) samples: Option<Samples>,
+    /// The points of a radius whose estimate hides edges.
+    pub(crate) edged: Option<Vec<Point3<f64>>>,
     /// Standard errors of a surface that has no estimate of its radius.
     pub(crate) errors: Option<Result<StandardErrors, NoInterval>>,
 }
@@ -265,7 +267,11 @@ impl Fitted {
             posterior.local_errors(self.grain.star()?)
         };
         let of_samples = || Some(self.samples.as_ref()?.local_errors(&self.grain));
-        let squares = of_estimate().or_else(of_samples);
+        let of_points = || {
+            let samples = Samples::on_surface(self.edged.as_ref()?, &self.grain);
+            Some(samples.local_errors(&self.grain))
+        };
+        let squares = of_estimate().or_else(of_samples).or_else(of_points);
         let errors =
             squares.and_then(|squares| local_cells::errors(&squares, of_faces, &self.grain));
         let grain = self.grain.clone().with_local_errors(errors);

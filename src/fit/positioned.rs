@@ -71,6 +71,7 @@ pub(super) fn positioned(
         properties: None,
         posterior: None,
         samples: Some(fit.fitted_to),
+        edged: None,
         errors: Some(fit.errors),
     };
     Ok(fitted.beside_polyhedron())

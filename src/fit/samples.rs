@@ -46,6 +46,21 @@ const SAME_SIDE: f64 = 0.5;
 const RANK: f64 = 1e-6;
 
 impl Samples {
+    /// Points, and the normals of a grain in their directions.
+    pub(super) fn on_surface(points: &[Point3<f64>], grain: &Grain) -> Self {
+        let centre = grain.frame().centre;
+        let is_away = |point: &&Point3<f64>| **point != centre;
+        let points: Vec<Point3<f64>> = points.iter().filter(is_away).copied().collect();
+        let towards: Vec<Vector3<f64>> = points.iter().map(|point| point - centre).collect();
+        let jets = grain.jets(&towards).into_iter().zip(&towards);
+        Self {
+            normals: jets
+                .map(|(jet, n)| Curvature::new(n, &jet).normal)
+                .collect(),
+            points,
+        }
+    }
+
     /// Squares of the errors of a surface that was fitted to these samples, in the [directions] of cells.
     pub(super) fn local_errors(&self, grain: &Grain) -> Vec<Squares> {
         let places: Vec<Vector3<f64>> = self.points.iter().map(|point| point.coords).collect();

@@ -1,6 +1,6 @@
 //! Standard errors in the file of a model.
 
-use super::StandardErrors;
+use super::{LocalError, LocalErrors, StandardErrors};
 use nalgebra::Matrix3;
 use serde::{Deserialize, Serialize};
 
@@ -46,5 +46,31 @@ impl From<ErrorsRecord> for StandardErrors {
             dimensions: record.dimensions.into(),
             dimensions_excess: record.dimensions_excess.into(),
         }
+    }
+}
+
+/// Standard errors by cell.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct LocalErrorsRecord {
+    place: Vec<f64>,
+    curvature: Vec<f64>,
+}
+
+impl LocalErrorsRecord {
+    pub(super) fn of(errors: &LocalErrors) -> Self {
+        let cells = errors.of_cells();
+        Self {
+            place: cells.iter().map(|error| error.place).collect(),
+            curvature: cells.iter().map(|error| error.curvature).collect(),
+        }
+    }
+
+    /// `None` if these are no errors of all cells.
+    pub(super) fn read(&self) -> Option<LocalErrors> {
+        let is_paired = self.place.len() == self.curvature.len();
+        let pairs = self.place.iter().zip(&self.curvature);
+        let cells = pairs.map(|(&place, &curvature)| LocalError { place, curvature });
+        LocalErrors::new(cells.collect()).filter(|_| is_paired)
     }
 }

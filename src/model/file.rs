@@ -11,13 +11,13 @@
 //! `contradicted` either; version 3 no `position` and no `superquadrics` either; version 2 no `harmonics`, `stretch`,
 //! `margin` and `curvature_errors` either; version 1 had segments alone. All are read.
 
-use super::errors_record::ErrorsRecord;
+use super::errors_record::{ErrorsRecord, LocalErrorsRecord};
 use super::grain::Kind;
 use super::superquadric::PartRecord;
 use super::{
-    Blended, Contradicted, Family, Frame, Grain, InvalidGrain, LocalError, LocalErrors, Mirrored,
-    NoInterval, Position, PositionGrain, Segmented, StandardErrors, StarGrain, Stretch,
-    SuperquadricGrain, Surface, Unseen, Whole,
+    Blended, Contradicted, Family, Frame, Grain, InvalidGrain, Mirrored, NoInterval, Position,
+    PositionGrain, Segmented, StandardErrors, StarGrain, Stretch, SuperquadricGrain, Surface,
+    Unseen, Whole,
 };
 use crate::sphere::{AngularPartition, Cover, CoverError, CubeCell, MARGIN, Symmetry};
 use nalgebra::{Matrix3, Point3, Vector3};
@@ -103,14 +103,6 @@ struct PositionRecord {
     margin: Option<f64>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     harmonics: Option<Vec<f64>>,
-}
-
-/// Standard errors by cell.
-#[derive(Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct LocalErrorsRecord {
-    place: Vec<f64>,
-    curvature: Vec<f64>,
 }
 
 /// A cell, numbered as in [`CubeCell`], and the coefficients of its cap basis by degree.
@@ -231,24 +223,6 @@ impl GrainFile {
     }
 }
 
-impl LocalErrorsRecord {
-    fn of(errors: &LocalErrors) -> Self {
-        let cells = errors.of_cells();
-        Self {
-            place: cells.iter().map(|error| error.place).collect(),
-            curvature: cells.iter().map(|error| error.curvature).collect(),
-        }
-    }
-
-    fn read(&self) -> Result<LocalErrors, ModelError> {
-        let is_paired = self.place.len() == self.curvature.len();
-        let pairs = self.place.iter().zip(&self.curvature);
-        let cells = pairs.map(|(&place, &curvature)| LocalError { place, curvature });
-        let errors = LocalErrors::new(cells.collect()).filter(|_| is_paired);
-        errors.ok_or(ModelError::LocalErrors)
-    }
-}
-
 impl PositionRecord {
     fn of(position: &Position) -> Self {
         let mut record = Self::default();
@@ -333,7 +307,8 @@ pub fn grain_from_json(text: &str) -> Result<Grain, ModelError> {
         return Err(ModelError::Contradicted);
     }
     let standard_errors = file.standard_errors()?;
-    let local_errors = file.local_errors.as_ref().map(LocalErrorsRecord::read);
+    let local_errors = file.local_errors.as_ref();
+    let local_errors = local_errors.map(|record| record.read().ok_or(ModelError::LocalErrors));
     let grain = file.grain()?;
     Ok(grain
         .with_unseen(unseen)

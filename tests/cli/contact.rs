@@ -102,19 +102,21 @@ fn an_ellipsoid_on_a_plane_is_pressed_as_hertz_has_it() {
     assert!(text.contains("normal force"));
 }
 
+/// A contact that is pressed by a micrometre.
+const LIGHT: [&str; 6] = [
+    "--unit",
+    "mm",
+    "--indentation-um",
+    "1",
+    "--youngs-modulus-mpa",
+    "91",
+];
+
 #[test]
 fn a_direction_may_have_any_length() {
     let folder = ellipsoid();
     let told = |towards: &str| {
-        let load = [
-            "--unit",
-            "mm",
-            "--indentation-um",
-            "1",
-            "--youngs-modulus-mpa",
-            "9",
-        ];
-        let words = [&["contact", "m.json", "--towards", towards], &load[..]].concat();
+        let words = [&["contact", "m.json", "--towards", towards], &LIGHT[..]].concat();
         json(&folder, &words)["normal_force_n"].as_f64().unwrap()
     };
     let one = told("1,0,0");
@@ -384,16 +386,8 @@ fn ripples_on_the_side_of_a_cube_are_no_curvature() {
         &["synth", "cube", "--points", "1538", "-o", "s.ply"],
     );
     succeed(&folder, &["fit", "s.ply", "-o", "m.json"]);
-    let load = [
-        "--unit",
-        "mm",
-        "--indentation-um",
-        "1",
-        "--youngs-modulus-mpa",
-        "91",
-    ];
     for towards in ["0,0,-1", "1,0,0", "0,1,0", "1,1,0.02"] {
-        let words = [&["contact", "m.json", "--towards", towards], &load[..]].concat();
+        let words = [&["contact", "m.json", "--towards", towards], &LIGHT[..]].concat();
         let output = grainform(&folder, &words);
         assert_eq!(output.status.code(), Some(2), "{towards}");
         let told = errors(&output);

@@ -31,6 +31,7 @@ use super::left_out::LeftOut;
 use super::outcome::{Estimate, bending_variance, variance};
 use super::posterior::Posterior;
 use super::tips::{Missing, Tips};
+use super::unresolved::is_rough;
 use crate::fit::local_cells::{PER_CELL, Squares, directions, tensor};
 use crate::measure::Curvature;
 use crate::model::{Family, LocalErrors, StarGrain, Surface, SurfaceJet};
@@ -41,11 +42,17 @@ use rayon::prelude::*;
 /// Least error as a share of the curvature, and of the radius: of clean ellipsoids they are off by 5e-6 and 1e-6.
 const FLOOR: f64 = 1e-5;
 
+/// Parts of a cube's edge in cells that bumps are wider than: each holds four of those of [`LocalErrors`].
+const WIDE_PARTS: u16 = LocalErrors::PARTS / 2;
+
 impl Estimate {
     /// Squares of the errors of a grain that stands for the estimate, in the [directions] of cells; none where edges hide
     /// them.
     pub(in crate::fit) fn local_errors(&self, grain: &StarGrain) -> Option<Vec<Squares>> {
-        if self.hides_edges(self.is_rough()) {
+        let posterior = self.posterior();
+        let residuals = posterior.residuals(&self.coefficients);
+        let is_rough = is_rough(&self.cloud.of_mean_weight(&residuals));
+        if self.hides_edges(is_rough) {
             return None;
         }
         let frame = grain.frame();
@@ -59,33 +66,16 @@ impl Estimate {
         let middles: Vec<Vector3<f64>> = cells.iter().map(CubeCell::middle).collect();
         let plain: Vec<Vector3<f64>> = middles.iter().map(|n| self.plain(n)).collect();
         let locals = self.locals(grain, &plain);
-        let posterior = self.posterior();
-        let tips = Tips::new(self, &posterior);
-        // Squares of the height, and of the bend, of what the prior does not expect.
-        let unexpected = |cell: &CubeCell| {
-            let (missing, widest) = tips.missing_and_widest(&cell.middle());
-            let missing = Some(missing)
-                .filter(Missing::is_no_chance)
-                .unwrap_or_default();
-            let height = missing.height.powi(2);
-            let chance = widest.variance;
-            [
-                height + chance,
-                height * missing.sharpness.powi(2) + chance * widest.sharpness.powi(2),
-            ]
-        };
-        // Bumps are wider than four cells.
-        let wide = CubeCell::uniform(LocalErrors::PARTS / 2);
-        let unexpected: Vec<[f64; 2]> = wide.par_iter().map(unexpected).collect();
-        let beside = self.beside(&posterior, &plain);
+        let unexpected = self.unexpected(&posterior);
+        let left_out = is_rough.then(|| LeftOut::new(self, &posterior, &residuals, true));
+        let beside = self.beside(left_out.as_ref(), &plain);
         // Second derivatives are larger where radii are less well known.
         let bending_per_value = bending_variance(&self.spectrum, &self.unlearnt)
             / variance(&self.spectrum, &self.unlearnt);
         let square = |at: usize, best: &SurfaceJet, told: &SurfaceJet| {
             let (n, cell) = (&local[at], at / PER_CELL);
             let known = &locals[cell];
-            let wide = CubeCell::position(LocalErrors::PARTS / 2, &middles[cell]);
-            let [height, bump] = unexpected[wide];
+            let [height, bump] = unexpected[CubeCell::position(WIDE_PARTS, &middles[cell])];
             let curvature = Curvature::new(&towards[at], best);
             let exact = tensor(&curvature);
             let told = tensor(&Curvature::new(&towards[at], told));
@@ -113,17 +103,32 @@ impl Estimate {
         )
     }
 
+    /// Squares of the height, and of the bend, of what the prior does not expect: in cells of [`WIDE_PARTS`].
+    fn unexpected(&self, posterior: &Posterior<'_>) -> Vec<[f64; 2]> {
+        let tips = Tips::new(self, posterior);
+        let in_cell = |cell: &CubeCell| {
+            let (missing, widest) = tips.missing_and_widest(&cell.middle());
+            let missing = Some(missing)
+                .filter(Missing::is_no_chance)
+                .unwrap_or_default();
+            let height = missing.height.powi(2);
+            let chance = widest.variance;
+            [
+                height + chance,
+                height * missing.sharpness.powi(2) + chance * widest.sharpness.powi(2),
+            ]
+        };
+        let cells = CubeCell::uniform(WIDE_PARTS);
+        cells.par_iter().map(in_cell).collect()
+    }
+
     /// Squares of what a hole may hide of the radius of the stretched space and, where residuals are no noise, of how far
     /// points are missed, in directions of the grain's own frame.
-    fn beside(&self, posterior: &Posterior<'_>, local: &[Vector3<f64>]) -> Vec<f64> {
-        let residuals = posterior.residuals(&self.coefficients);
-        let left_out = self
-            .is_rough()
-            .then(|| LeftOut::new(self, posterior, &residuals, true));
+    fn beside(&self, left_out: Option<&LeftOut<'_>>, local: &[Vector3<f64>]) -> Vec<f64> {
         let hole = Some(Hole::of(self)).filter(|hole| hole.is_no_chance(self.cloud.len()));
         let beside = |n: &Vector3<f64>| {
             let n = self.stretched(n).normalize();
-            let missed = left_out.as_ref().map_or(0.0, |points| points.near(&n));
+            let missed = left_out.map_or(0.0, |points| points.near(&n));
             let hidden = hole.as_ref().map_or(0.0, |hole| hole.hidden(&n).0);
             missed + hidden * hidden
         };

@@ -34,43 +34,34 @@ pub struct RadiusError {
     pub point: f64,
 }
 
-/// The errors of prediction of a cloud's points.
-pub(super) struct Predictions {
-    /// In standard deviations.
-    pub(super) standardised: Vec<f64>,
-}
-
-impl Predictions {
-    pub(super) fn new(estimate: &Estimate, posterior: &Posterior<'_>) -> Self {
-        let noise = estimate.spectrum.noise();
-        let residuals = posterior.residuals(&estimate.coefficients);
-        let spares = estimate.spares();
-        let points = spares.iter().zip(&estimate.cloud.weights);
-        let standardised = residuals.iter().zip(points).map(|(e, (spare, w))| {
-            let spare = spare.max(LEAST_SPARE);
-            e / (noise * (spare / w).sqrt())
-        });
-        Self {
-            standardised: standardised.collect(),
-        }
-    }
+/// The errors of prediction of an estimate's points, in standard deviations.
+fn standardised(estimate: &Estimate, posterior: &Posterior<'_>) -> Vec<f64> {
+    let noise = estimate.spectrum.noise();
+    let residuals = posterior.residuals(&estimate.coefficients);
+    let spares = estimate.spares();
+    let points = spares.iter().zip(&estimate.cloud.weights);
+    let errors = residuals.iter().zip(points).map(|(e, (spare, w))| {
+        let spare = spare.max(LEAST_SPARE);
+        e / (noise * (spare / w).sqrt())
+    });
+    errors.collect()
 }
 
 /// Where the variances of the surface come from.
-pub(super) enum Variances<'a> {
+enum Variances<'a> {
     Exact(&'a Conditioned<'a>),
     Drawn(Draws),
 }
 
 impl<'a> Variances<'a> {
-    pub(super) fn new(given: &'a Conditioned<'a>) -> Self {
+    fn new(given: &'a Conditioned<'a>) -> Self {
         match given.factor {
             Some(_) => Self::Exact(given),
             None => Self::Drawn(Draws::new(given)),
         }
     }
 
-    pub(super) fn at(&self, directions: &[Vector3<f64>]) -> Vec<f64> {
+    fn at(&self, directions: &[Vector3<f64>]) -> Vec<f64> {
         match self {
             Self::Exact(given) => given.exact_variances(directions).unwrap_or_default(),
             Self::Drawn(draws) => draws.variances(directions),
@@ -113,7 +104,7 @@ impl Estimate {
         let posterior = self.posterior();
         let given = self.given(&posterior);
         let variances = Variances::new(&given);
-        let predictions = Predictions::new(self, &posterior);
+        let errors = standardised(self, &posterior);
         let neighbours = Neighbours::new(&self.cloud.directions);
 
         let mapped: Vec<Vector3<f64>> = directions
@@ -131,7 +122,7 @@ impl Estimate {
             .zip(differences)
             .map(|(((mapped, n), variance), (stretched, radius))| {
                 let near = neighbours.nearest(n, VICINITY);
-                let squares = near.iter().map(|&i| predictions.standardised[i].powi(2));
+                let squares = near.iter().map(|&i| errors[i].powi(2));
                 Local {
                     variance,
                     factor: squares.sum::<f64>() / near.len().max(1) as f64,

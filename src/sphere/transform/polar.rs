@@ -20,7 +20,7 @@ pub(super) struct PolarTable {
     columns: Vec<f64>,
 }
 
-/// Sums of the columns of one order with l - m even (0) and odd (1), for cosines and for sines.
+/// Terms of one order, for cosines and for sines: the sums of a ring's and its mirror image's (0), and their differences (1).
 struct Halves {
     cosine: [Vec<f64>; 2],
     sine: [Vec<f64>; 2],

@@ -1,0 +1,28 @@
+use super::*;
+
+/// Clean grains that run into a point sharper than the points are apart, which lie at random: few lie near it.
+#[test]
+fn the_length_of_a_pointed_grain_is_known_as_far_as_its_point_is_seen() {
+    let axes = Vector3::new(4.0, 1.3, 1.0);
+    let mut unseen = Vec::new();
+    for seed in 0..12 {
+        let at = |n: &Vector3<f64>| {
+            let across = 0.65 - 0.35 * n.x;
+            let p = Vector3::new(4.0 * n.x, 2.0 * across * n.y, 1.5 * across * n.z);
+            let n = p.normalize();
+            [n.x, n.y, n.z, p.norm()]
+        };
+        let directions = Sampling::Random.directions(3000, seed).unwrap();
+        let points: Vec<_> = directions.iter().map(at).collect();
+        let found = best(&estimated(&points, axes));
+        let error = found.errors(&found.figures).dimensions[0];
+        let length = found.figures.dimensions[0];
+        let off = (length - 8.0).abs();
+        assert!(off < 3.0 * error && error < 0.01, "{off} {error}");
+        let places = points.iter().map(|[x, _, _, radius]| x * radius);
+        let (low, high) = places.fold((0.0, 0.0), |(low, high), x| (x.min(low), x.max(high)));
+        unseen.push((length - (high - low)) / error);
+    }
+    // Of two ends a tenth is in the error.
+    assert!(unseen.iter().all(|ratio| *ratio < 15.0), "{unseen:?}");
+}
