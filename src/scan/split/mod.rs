@@ -170,7 +170,10 @@ fn split_points(all: &[Point3<f64>], necks: Necks) -> Split {
     let order = sorted(all);
     let points: Vec<Point3<f64>> = order.iter().map(|&i| all[i as usize]).collect();
     let distinct = |i: &usize| *i == 0 || points[*i] != points[*i - 1];
-    let plane = Plane::carrying(&points);
+    // What stands at one place over and over would carry every plane through it.
+    let mut once = points.clone();
+    once.dedup();
+    let plane = Plane::carrying(&once);
     let is_above = |point: &Point3<f64>| {
         plane.is_none_or(|plane| !plane.carries(point) && !plane.hides(point))
     };
@@ -229,14 +232,16 @@ fn split_points(all: &[Point3<f64>], necks: Necks) -> Split {
             members[*owner as usize].push(index);
         }
     }
-    let dust_points = dust.iter().map(Vec::len).sum();
-    let kept: usize = members.iter().map(Vec::len).sum();
+    let left = points.iter().zip(&owners);
+    let left = left.filter(|(_, owner)| owner.is_none());
+    let (dust_points, plane_points): (Vec<_>, Vec<_>) =
+        left.partition(|(point, _)| is_above(point));
     Split {
-        plane_points: plane.map_or(0, |_| all.len() - kept - dust_points),
+        plane_points: plane_points.len(),
         plane,
         distance,
         dust: dust.len(),
-        dust_points,
+        dust_points: dust_points.len(),
         left_out: Vec::new(),
         grains: members
             .into_iter()

@@ -51,6 +51,20 @@ fn a_tray_is_split_into_its_grains() {
 }
 
 #[test]
+fn rows_of_what_was_not_seen_are_one_point_of_dust_and_carry_no_plane() {
+    let tray = tray();
+    let origins = tray.origins.iter();
+    let table = origins.filter(|origin| **origin == Origin::Plane).count();
+    let rows = vec![Point3::new(0.0, 0.0, 40.0); tray.points.len()];
+    let points = [tray.points.clone(), rows].concat();
+    let found = split(&Scan::from_points(points)).unwrap();
+    assert_eq!((found.grains.len(), found.cuts()), (12, 1));
+    assert!(found.plane.is_some() && found.plane_points * 50 <= table * 51);
+    assert_eq!(found.dust, 25);
+    assert_eq!(found.dust_points, 96 + tray.points.len());
+}
+
+#[test]
 fn a_tray_that_is_moved_turned_scaled_and_shuffled_has_the_same_grains() {
     let tray = tray();
     let turn = Rotation3::from_euler_angles(0.3, -0.2, 0.0);
