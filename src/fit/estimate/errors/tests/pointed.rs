@@ -1,5 +1,32 @@
 use super::*;
 
+/// A ball with a tangent cone about x, as an apple seed and an almond have one: of the very tip the estimate makes too little,
+/// and what it leaves of the points there tells how much.
+#[test]
+fn the_length_of_a_cone_in_noise_is_told_no_too_surely() {
+    let tangent = (PI / 6.0, PI / 3.0);
+    let radius = |n: &Vector3<f64>| {
+        let angle = n.x.clamp(-1.0, 1.0).acos();
+        match angle < tangent.1 {
+            true => 1.0 / (tangent.0 + angle).sin(),
+            false => 1.0,
+        }
+    };
+    let mut off = Vec::new();
+    for seed in 0..4 {
+        let directions = Sampling::Random.directions(4000, seed).unwrap();
+        let found = best(&estimated(
+            &samples(&directions, radius, 0.004),
+            Vector3::repeat(1.0),
+        ));
+        let error = found.errors(&found.figures).dimensions[0];
+        assert!(error < 0.15, "{error}");
+        off.push((found.figures.dimensions[0] - 3.0) / error);
+    }
+    let mean = off.iter().sum::<f64>() / off.len() as f64;
+    assert!(mean > -2.0 && off.iter().all(|z| z.abs() < 3.5), "{off:?}");
+}
+
 /// Clean grains that run into a point sharper than the points are apart, which lie at random: few lie near it.
 #[test]
 fn the_length_of_a_pointed_grain_is_known_as_far_as_its_point_is_seen() {
