@@ -1,9 +1,7 @@
 //! How near fits come to the truth: prints tables of docs/accuracy.md.
 //!
-//! `cargo run --release --example accuracy`; with the argument `curvature` that of curvatures, with
-//! `contacts` that of pairs of fitted grains.
+//! `cargo run --release --example accuracy`; with the argument `curvature` that of curvatures.
 
-mod contacts;
 mod curvature;
 
 use grainform::measure::{Deviation, grain_properties};
@@ -18,9 +16,6 @@ const PLACES: usize = 20_000;
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     if std::env::args().any(|argument| argument == "curvature") {
         return curvature::print();
-    }
-    if std::env::args().any(|argument| argument == "contacts") {
-        return contacts::print();
     }
     println!("| body | points | sampling | noise | cells | coefficients | area | volume | RMS |");
     println!("|---|---|---|---|---|---|---|---|---|");

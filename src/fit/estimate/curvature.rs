@@ -61,7 +61,7 @@ impl Estimate {
         let local: Vec<Vector3<f64>> = directions().iter().map(|n| self.plain(n)).collect();
         let towards: Vec<Vector3<f64>> = local.iter().map(|n| frame.axes * n).collect();
         let jets = best.jets(&towards).into_iter().zip(grain.jets(&towards));
-        // What is smooth is taken once in a cell.
+        // What is smooth is taken once in a cell; how far the grain is from the estimate is not.
         let cells = CubeCell::uniform(LocalErrors::PARTS);
         let middles: Vec<Vector3<f64>> = cells.iter().map(CubeCell::middle).collect();
         let plain: Vec<Vector3<f64>> = middles.iter().map(|n| self.plain(n)).collect();
@@ -78,6 +78,7 @@ impl Estimate {
             let [height, bump] = unexpected[CubeCell::position(WIDE_PARTS, &middles[cell])];
             let curvature = Curvature::new(&towards[at], best);
             let exact = tensor(&curvature);
+            let apart = told.place.norm() - best.place.norm();
             let told = tensor(&Curvature::new(&towards[at], told));
             let difference = (told - exact).norm_squared();
             let rounding = FLOOR * FLOOR * exact.norm_squared();
@@ -85,8 +86,8 @@ impl Estimate {
             let normal = frame.axes.tr_mul(&curvature.normal);
             let bend = self.bend(n, best.place.norm(), &normal, [first, second]);
             let bending = known.variance_at_least() * bending_per_value;
-            let unknown = beside[cell] + height;
-            let radius = known.square_at_least() + unknown * known.scale.powi(2);
+            let unknown = known.variance_at_least() + beside[cell] + height;
+            let radius = apart.powi(2) + unknown * known.scale.powi(2);
             let rounding_of_place = (FLOOR * best.place.norm()).powi(2);
             Squares {
                 place: (radius + rounding_of_place) * normal.dot(n).powi(2),

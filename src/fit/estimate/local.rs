@@ -145,9 +145,4 @@ impl Local {
     pub(super) fn variance_at_least(&self) -> f64 {
         self.factor.max(1.0) * self.variance
     }
-
-    /// Square of the error of the plain radius with it.
-    pub(super) fn square_at_least(&self) -> f64 {
-        self.difference.powi(2) + self.scale.powi(2) * self.variance_at_least()
-    }
 }

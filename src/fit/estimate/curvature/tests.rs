@@ -60,6 +60,29 @@ fn errors_of_curvature_cover_and_are_not_too_wide() {
 }
 
 #[test]
+fn what_cells_leave_out_is_in_the_errors_of_places_everywhere() {
+    for body in [Body::Bean, Body::Maize] {
+        let fitted = fitted(body, 0.0, 6146, 3);
+        let truth = body.surface();
+        let grain = fitted.grain_with_errors();
+        let directions = Sampling::Random.directions(2000, 5).unwrap();
+        let deviation = |n: &Vector3<f64>| {
+            let place = grain.point(n).coords;
+            let exact = place.normalize() * truth.radius(&place.normalize());
+            let normal = Curvature::new(n, &grain.jet(n)).normal;
+            let off = normal.dot(&(place - exact));
+            off.abs() / grain.local_error(n).unwrap().place
+        };
+        let deviations: Vec<f64> = directions.iter().map(deviation).collect();
+        let most = deviations.iter().copied().fold(0.0, f64::max);
+        let squares: f64 = deviations.iter().map(|z| z * z).sum();
+        let rms = (squares / deviations.len() as f64).sqrt();
+        assert!(most < 6.0, "{body}: {most}");
+        assert!((0.5..1.3).contains(&rms), "{body}: {rms}");
+    }
+}
+
+#[test]
 fn errors_of_places_and_of_curvature_cover_on_the_tips_of_a_needle() {
     let axes = Vector3::new(1.0, 1.0, 10.0);
     for (noise, seed) in [(0.0, 1), (0.005, 1), (0.005, 2)] {
