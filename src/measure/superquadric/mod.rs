@@ -3,6 +3,7 @@
 
 mod bare;
 mod moments;
+mod octant;
 mod patch;
 mod single;
 mod solid;

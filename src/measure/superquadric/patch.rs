@@ -1,7 +1,6 @@
 //! The surface of a superquadric as patches: its octants, seen through the three faces of a box round each.
 
 use crate::model::{Octant, Superquadric};
-use crate::sphere::GaussLegendre;
 use nalgebra::Vector3;
 
 /// A rectangle on a face of the box that spans the semi-axes of an octant.
@@ -45,25 +44,6 @@ impl Patch {
             ..*self
         };
         [quarter(0, 0), quarter(0, 1), quarter(1, 0), quarter(1, 1)]
-    }
-
-    /// The nodes of a product of two Gauss rules, in the frame of the body.
-    pub(super) fn nodes(
-        &self,
-        body: &Superquadric,
-        rule: &GaussLegendre,
-    ) -> impl Iterator<Item = Node> {
-        let [along, across] = self.sides;
-        rule.on(along[0], along[1]).flat_map(move |(u, wu)| {
-            let [from, to] = across;
-            rule.on(from, to).map(move |(v, wv)| {
-                let node = self.node(body, [u, v]);
-                Node {
-                    area: node.area * (wu * wv),
-                    ..node
-                }
-            })
-        })
     }
 
     /// From and to along its two sides, as shares of the semi-axes.
