@@ -3,12 +3,12 @@
 use super::Outline;
 use super::coverage::covered_area;
 use crate::Mesh;
-use nalgebra::{Point3, Vector2, Vector3};
+use nalgebra::{Matrix2, Point3, Vector2, Vector3};
 use std::f64::consts::TAU;
 use thiserror::Error;
 
-/// Azimuths at which an outline is found. Of an ellipse the area is low by (2 pi / n)²/6, or 3e-6, and
-/// the perimeter by a quarter of that; the corner farthest out between two azimuths is added.
+/// Azimuths at which an outline is found, in a plane in which it is [about round](Rounding). Of an ellipse the area is low by
+/// (2 pi / n)²/6, or 3e-6; the corner farthest out between two azimuths is added.
 pub const OUTLINE_AZIMUTHS: usize = 1440;
 
 /// Share of an outline's area that the body may leave open. Covered areas are found to 0.3 %.
@@ -58,14 +58,15 @@ pub fn project(
     let across = axis.cross(&Vector3::ith(axis.iamin(), 1.0));
     let u = across.try_normalize(0.0).ok_or(ProjectionError::NoArea)?;
     let v = axis.cross(&u);
-    let places: Vec<Place> = mesh
-        .vertices
-        .iter()
-        .map(|vertex| Place::of(u.dot(&(vertex - centre)), v.dot(&(vertex - centre))))
+    let seen = mesh.vertices.iter().map(|vertex| vertex - centre);
+    let seen: Vec<Vector2<f64>> = seen
+        .map(|ray| Vector2::new(u.dot(&ray), v.dot(&ray)))
         .collect();
-    if places.iter().any(|place| !place.azimuth.is_finite()) {
-        return Err(ProjectionError::NoArea);
-    }
+    let rounding = Rounding::of(&seen).ok_or(ProjectionError::NoArea)?;
+    let places: Vec<Place> = seen
+        .iter()
+        .map(|place| Place::of(rounding.round * place))
+        .collect();
     let directions: Vec<Vector2<f64>> = (0..OUTLINE_AZIMUTHS)
         .map(|azimuth| (TAU * azimuth as f64 / OUTLINE_AZIMUTHS as f64).sin_cos())
         .map(|(sin, cos)| Vector2::new(cos, sin))
@@ -102,15 +103,49 @@ pub fn project(
     if radii.contains(&0.0) {
         return Err(ProjectionError::CentreOutside);
     }
-    let outline = Outline::of(with_corners(&samples, &places)).ok_or(ProjectionError::NoArea)?;
+    let corners = with_corners(&samples, &places).into_iter();
+    let corners = corners.map(|corner| rounding.back * corner).collect();
+    let outline = Outline::of(corners).ok_or(ProjectionError::NoArea)?;
     if is_star_shaped(mesh, centre) {
         return Ok(outline);
     }
-    let positions: Vec<Vector2<f64>> = places.iter().map(|place| place.position).collect();
-    let share = 1.0 - covered_area(&positions, &mesh.triangles) / outline.area;
+    let share = 1.0 - covered_area(&seen, &mesh.triangles) / outline.area;
     match share > LARGEST_OVERHANG {
         true => Err(ProjectionError::Overhang { share }),
         false => Ok(outline),
+    }
+}
+
+/// A linear map of the plane after which places scatter alike in all directions: of a slender outline equal azimuths would
+/// miss the tips. It keeps what is star-shaped so.
+struct Rounding {
+    round: Matrix2<f64>,
+    back: Matrix2<f64>,
+}
+
+impl Rounding {
+    /// `None` where the places are not finite, or lie on one line.
+    fn of(places: &[Vector2<f64>]) -> Option<Self> {
+        // In units of the farthest, whose squares neither overflow nor vanish.
+        let size = places.iter().map(|place| place.amax()).fold(0.0, f64::max);
+        let squares = places.iter().map(|place| place / size);
+        let moments: Matrix2<f64> = squares.map(|place| place * place.transpose()).sum();
+        if !moments.iter().all(|moment| moment.is_finite()) {
+            return None;
+        }
+        let scatter = (moments / places.len() as f64).symmetric_eigen();
+        let mut widths = scatter
+            .eigenvalues
+            .map(|square| size * square.max(0.0).sqrt());
+        let mut axes = scatter.eigenvectors;
+        if axes.determinant() < 0.0 {
+            axes.swap_columns(0, 1);
+            widths.swap_rows(0, 1);
+        }
+        (widths.min() > 0.0).then(|| Self {
+            round: Matrix2::from_diagonal(&widths.map(f64::recip)) * axes.transpose(),
+            back: axes * Matrix2::from_diagonal(&widths),
+        })
     }
 }
 
@@ -132,12 +167,12 @@ struct Place {
 }
 
 impl Place {
-    fn of(x: f64, y: f64) -> Self {
-        let turns = y.atan2(x) / TAU;
+    fn of(position: Vector2<f64>) -> Self {
+        let turns = position.y.atan2(position.x) / TAU;
         let turns = if turns < 0.0 { turns + 1.0 } else { turns };
         Self {
-            position: Vector2::new(x, y),
-            distance: Vector2::new(x, y).norm(),
+            position,
+            distance: position.norm(),
             azimuth: turns * OUTLINE_AZIMUTHS as f64,
         }
     }
@@ -220,6 +255,22 @@ mod tests {
             assert_relative_eq!(found.smallest_feret, 2.0 * short, max_relative = 1e-3);
             assert_relative_eq!(found.inscribed_diameter, 2.0 * short, max_relative = 2e-3);
             assert_relative_eq!(found.enclosing_diameter, 2.0 * long, max_relative = 1e-3);
+        }
+
+        #[test]
+        fn the_outline_of_a_needle_reaches_its_tips(angles in prop::array::uniform3(-3.0..3.0_f64)) {
+            let turn = Rotation3::from_euler_angles(angles[0], angles[1], angles[2]);
+            for semi_axes in [Vector3::new(1.0, 1.0, 100.0), Vector3::new(100.0, 100.0, 1.0)] {
+                let mut mesh = Mesh::radial(64, |_| 1.0);
+                for vertex in &mut mesh.vertices {
+                    *vertex = turn * Point3::from(vertex.coords.component_mul(&semi_axes));
+                }
+                let found = project(&mesh, &(turn * Vector3::x()), &Point3::origin()).unwrap();
+                let [short, long] = [semi_axes.y.min(semi_axes.z), semi_axes.y.max(semi_axes.z)];
+                assert_relative_eq!(found.area, PI * long * short, max_relative = 1e-3);
+                assert_relative_eq!(found.largest_feret, 2.0 * long, max_relative = 1e-9);
+                assert_relative_eq!(found.smallest_feret, 2.0 * short, max_relative = 1e-6);
+            }
         }
 
         #[test]

@@ -12,8 +12,11 @@ use crate::measure::{
 use crate::model::Surface;
 use nalgebra::{Matrix3, Vector3};
 
-/// Moments that differ by less than this share of the largest have axes by rounding alone.
+/// Second moments along two axes that differ by less than this share of the larger are equal: their axes are rounding's.
 const EQUAL: f64 = 1e-6;
+
+/// So are those of moments of inertia that differ by less than this share of the largest.
+const ROUNDED: f64 = 1e-12;
 
 impl Survey<'_> {
     /// Area, volume and moments at unit size.
@@ -69,7 +72,12 @@ impl Survey<'_> {
     fn own_axes(&self) -> Result<Matrix3<f64>, SurveyError> {
         let principal = self.unit_principal()?;
         let moments = principal.moments;
-        let are_equal = |i: usize, j: usize| moments[j] - moments[i] <= EQUAL * moments.max();
+        // Of a needle moments of inertia differ little though it is twice as wide as thick.
+        let along = |i: usize| 0.5 * moments.sum() - moments[i];
+        let are_equal = |i: usize, j: usize| {
+            let least = (EQUAL * along(i).max(along(j))).max(ROUNDED * moments.max());
+            moments[j] - moments[i] <= least
+        };
         let single = match [are_equal(0, 1), are_equal(1, 2)] {
             [false, false] => return Ok(principal.axes),
             [true, true] => return Ok(self.unit_minimum_box()?.axes),
