@@ -2,7 +2,7 @@
 
 use super::outcome::Fitted;
 use super::prepare::ReferenceKind;
-use crate::model::{Contradicted, NoInterval};
+use crate::model::{Contradicted, NoInterval, Surface};
 
 /// By how much area or volume may differ from those of the polyhedron through the points that a surface was fitted to. With
 /// standard errors, of 28 scans of grains and stones it is 1.8 % and 2.6 % at most; without, of cones, boxes and the like
@@ -19,6 +19,9 @@ const VOUCHING: f64 = 4.0;
 /// By how much the area may be larger than that of the polyhedron through points without faces, as a share of it, whatever vouches
 /// for it.
 const WILD: f64 = 0.3;
+
+/// Cells along the edge of a cube of the mesh by which a surface's reach is told.
+const RESOLUTION: usize = 32;
 
 impl Fitted {
     /// The same, of whose grain it is known what the polyhedron contradicts.
@@ -60,13 +63,24 @@ impl Fitted {
                 let is_volume = found.volume.is_none() || volume.abs() <= VOUCHING * errors.volume;
                 is_area && is_volume
             }
-            // Between points in few rows a surface may go anywhere, and no error tells it.
+            // Between points in few rows a surface may go anywhere, and beside the few on the rim of a plate; no error tells it.
             _ if !has_faces && shown > WILD * self.reference.area => false,
+            _ if !has_faces && self.reaches_beyond(LARGEST_DIFFERENCE + sag) => false,
             Ok(_) => true,
             // Where there is another reason, a polyhedron between points may be as wrong.
             Err(reason) => !has_faces && !matches!(reason, NoInterval::Unresolved { .. }),
         };
         (!is_vouched).then_some(found)
+    }
+
+    /// Whether the surface reaches farther from its centre than all points do, by more than this share.
+    fn reaches_beyond(&self, share: f64) -> bool {
+        let centre = self.grain.frame().centre;
+        let vertices = self.grain.mesh(RESOLUTION).vertices.into_iter();
+        let farthest = vertices.map(|vertex| (vertex - centre).norm());
+        let farthest = farthest.fold(0.0, f64::max);
+        let posterior = self.posterior.as_ref();
+        posterior.is_some_and(|estimate| farthest > (1.0 + share) * estimate.farthest_point())
     }
 }
 
@@ -74,8 +88,9 @@ impl Fitted {
 mod tests {
     use crate::fit::{FitOptions, fit};
     use crate::mesh::Mesh;
-    use crate::model::NoInterval;
+    use crate::model::{NoInterval, Superquadric};
     use crate::scan::Scan;
+    use crate::shapes::{SynthOptions, synthesize};
     use approx::assert_relative_eq;
 
     /// The fit of a closed mesh, had its faces so many times the area and the volume.
@@ -104,6 +119,17 @@ mod tests {
         fitted.reference.volume = own.volume;
         let fitted = fitted.beside_polyhedron();
         assert!(fitted.grain_with_errors().contradicted().is_some());
+    }
+
+    /// Few of the points that a centre sees lie on the rim of a plate.
+    #[test]
+    fn points_contradict_a_plate_that_reaches_far_beyond_them() {
+        let disc = Superquadric::single([10.0, 10.0, 0.5], 6.0, 2.0).unwrap();
+        let scan = synthesize(&SynthOptions::clean(disc).with_points(6146)).unwrap();
+        let fitted = fit(&Scan::from_points(scan.points), &FitOptions::default()).unwrap();
+        let found = fitted.grain.contradicted().unwrap();
+        assert!(found.area.unwrap() > 0.1 && found.volume.unwrap() > 0.05);
+        assert!(fitted.reaches_beyond(0.05) && !fitted.reaches_beyond(0.2));
     }
 
     #[test]

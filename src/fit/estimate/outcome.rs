@@ -53,6 +53,13 @@ impl Estimate {
     pub(super) fn given<'a>(&self, posterior: &'a Posterior<'_>) -> Conditioned<'a> {
         posterior.given_factored(&self.spectrum, self.factor.clone())
     }
+
+    /// How far from the centre the farthest of its points is, in the scan's unit.
+    pub(in crate::fit) fn farthest_point(&self) -> f64 {
+        let points = self.cloud.points().into_iter();
+        let away = points.map(|point| point.component_div(&self.cloud.stretch).norm());
+        self.cloud.mean * away.fold(0.0, f64::max)
+    }
 }
 
 /// Floor of the share of the points that is not spent on coefficients.

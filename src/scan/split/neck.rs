@@ -5,8 +5,10 @@
 
 use super::dust::LEAST_POINTS;
 use super::outline::Outline;
+use crate::polygon_hull::polygon_hull;
 use crate::sphere::{across, compass};
 use nalgebra::{Matrix2, Point3, Vector2, Vector3};
+use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
 /// Points by which a neck is looked for.
@@ -40,6 +42,10 @@ const BROAD: f64 = 0.5;
 
 /// ... and what is below this may be several grains.
 const WAIST: f64 = 0.7;
+
+/// Outline of a neck over the smaller of the largest on both sides, at most. Sections are told by how far points scatter, and
+/// of a plate whose points are dense in the middle they scatter least there.
+const OUTLINED: f64 = 0.85;
 
 /// RMS distance from two outlines over that from one. Of grains that touch it is below .12, with noise of 1 % too.
 const TWO: f64 = 0.33;
@@ -89,10 +95,31 @@ impl Neck {
         // Of few points a section may be a line by chance; all of them decide.
         let rays: Vec<Vector3<f64>> = points.iter().map(|point| point - origin).collect();
         let neck = narrowest(&rays, &axis, distance)?;
-        Some(Self {
+        neck.is_outlined(&rays).then(|| Self {
             at: neck.placed(&rays, distance) + axis.dot(&origin.coords),
             ..neck
         })
+    }
+
+    /// Whether the convex outlines of its sections have a neck too.
+    fn is_outlined(&self, rays: &[Vector3<f64>]) -> bool {
+        let [u, v] = across(&self.axis);
+        let mut sections: BTreeMap<i64, Vec<Vector2<f64>>> = BTreeMap::new();
+        for ray in rays {
+            let slab = ((self.axis.dot(ray) - self.at) / self.width).round() as i64;
+            let section = sections.entry(slab).or_default();
+            section.push(Vector2::new(u.dot(ray), v.dot(ray)));
+        }
+        let (mut own, mut below, mut above) = (0.0_f64, 0.0_f64, 0.0_f64);
+        for (slab, places) in sections {
+            let largest = match slab {
+                0 => &mut own,
+                ..0 => &mut below,
+                1.. => &mut above,
+            };
+            *largest = largest.max(area(&polygon_hull(places)));
+        }
+        own < OUTLINED * below.min(above)
     }
 
     /// Where the neck is smallest, by slabs much thinner than its own.
@@ -230,6 +257,12 @@ fn are_two(points: &[Point3<f64>], beyond: &[bool]) -> bool {
         one += whole.distance(point).powi(2);
     }
     two < TWO * TWO * one
+}
+
+/// The area of a polygon, its corners counter-clockwise.
+fn area(corners: &[Vector2<f64>]) -> f64 {
+    let edges = corners.iter().zip(corners.iter().cycle().skip(1));
+    edges.map(|(from, to)| 0.5 * from.perp(to)).sum()
 }
 
 /// The smallest section along an axis between larger ones.

@@ -1,5 +1,6 @@
 use super::*;
 use crate::mesh::Mesh;
+use crate::model::Superquadric;
 use crate::shapes::{
     Body, Origin, Sampling, SynthOptions, SyntheticTray, TrayOptions, synthesize, synthesize_tray,
 };
@@ -226,6 +227,15 @@ fn a_cloud_of_two_grains_that_touch_has_a_neck_and_one_grain_has_none() {
         let mut points = grain(Body::Bean);
         points.extend(grain(Body::Bean).iter().map(|point| point + aside));
         assert!(has_neck(&points), "{aside}");
+    }
+}
+
+#[test]
+fn a_plate_whose_points_are_dense_in_the_middle_has_no_neck() {
+    for axes in [[10.0, 10.0, 0.5], [1.0, 1.0, 15.0]] {
+        let plate = Superquadric::single(axes, 8.0, 2.0).unwrap();
+        let options = SynthOptions::clean(plate).with_points(6146);
+        assert!(!has_neck(&synthesize(&options).unwrap().points), "{axes:?}");
     }
 }
 
