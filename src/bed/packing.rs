@@ -26,6 +26,9 @@ const MOST_ALONG: f64 = 1e4;
 const FROM_SIDES: f64 = 2.0;
 const LAYERS_FROM_FLOOR: usize = 3;
 
+/// Width of the core at least, in mean diameters.
+const LEAST_WIDTH: f64 = 1.0;
+
 /// Share of the centres that lie below the surface of the bed; what is told of a bed keeps a diameter below it.
 const BELOW_SURFACE: f64 = 0.85;
 
@@ -44,7 +47,7 @@ pub struct Fraction {
 #[non_exhaustive]
 pub struct Packing {
     /// Two diameters off the side walls, 1.5 off the floor, one below the surface; `None` if not half a diameter of height
-    /// is left.
+    /// or one of width is left.
     pub core: Option<Fraction>,
     /// From wall to wall, from the floor to one diameter below the surface; `None` if that is not half a diameter.
     pub whole: Option<Fraction>,
@@ -62,7 +65,7 @@ pub struct Layer {
     pub from: f64,
     /// To this height, in metres.
     pub to: f64,
-    /// Two diameters off the side walls.
+    /// Two diameters off the side walls, where a diameter is left between.
     pub core: Option<Fraction>,
     /// From wall to wall.
     pub whole: Option<Fraction>,
@@ -233,6 +236,11 @@ impl<'a> Grid<'a> {
             Container::Box([width, depth]) => x.min(width - x).min(y).min(depth - y),
             Container::Cylinder(radius) => radius - x.hypot(y),
         };
+        let inmost = match container {
+            Container::Box([width, depth]) => width.min(depth) / 2.0,
+            Container::Cylinder(radius) => radius,
+        };
+        let has_core = inmost >= (FROM_SIDES + LEAST_WIDTH / 2.0) * diameter;
         let levels = (LAYER * STRATA).round();
         let finest = diameter / STRATA;
         let coarsest = (sides[0] * sides[1] * levels / MOST_STRATA).sqrt();
@@ -263,7 +271,7 @@ impl<'a> Grid<'a> {
                 let is_asked = inwards >= 0.0 && point.z <= below;
                 let is_filled = is_asked.then(|| self.is_filled(&point));
                 [
-                    is_filled.filter(|_| inwards >= FROM_SIDES * diameter),
+                    is_filled.filter(|_| has_core && inwards >= FROM_SIDES * diameter),
                     is_filled,
                 ]
             });

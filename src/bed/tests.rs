@@ -370,6 +370,27 @@ fn the_packing_fraction_of_a_lattice_is_known() {
 }
 
 #[test]
+fn a_bed_with_no_room_between_its_walls_has_no_core() {
+    let diameter = 5e-3;
+    let of_width = |diameters: f64| {
+        let bodies = (0..20).map(|level| {
+            let mut body = above(0.0);
+            body.position = Point3::new(0.01, 0.01, diameter * (0.5 + f64::from(level)));
+            body
+        });
+        let settings = BedSettings {
+            container: Container::Box([diameters * diameter, 0.04]),
+            ..BedSettings::default()
+        };
+        packing(&bed(settings, ball(), vec![slope(0.0)], bodies.collect()))
+    };
+    let narrow = of_width(4.9);
+    assert!(narrow.core.is_none() && narrow.whole.is_some());
+    assert!(narrow.layers.iter().all(|layer| layer.core.is_none()));
+    assert!(of_width(5.1).core.is_some());
+}
+
+#[test]
 fn shares_and_moved_grains_that_are_not_those_of_the_bed_are_refused() {
     let bed = few_at(0, 1);
     let found = Bed::new(bed.settings().clone(), vec![ball()], &[1.0, 1.0], None);

@@ -107,7 +107,9 @@ impl FromStr for PoseArg {
         if numbers.iter().any(|number| !number.is_finite()) {
             return Err(wrong);
         }
-        let turn = UnitQuaternion::try_new(Quaternion::new(w, i, j, k), 1e-100);
+        let turn = Quaternion::new(w, i, j, k);
+        // First by its largest part: the squares of what is left neither overflow nor vanish.
+        let turn = UnitQuaternion::try_new(turn / turn.coords.amax(), 0.0);
         Ok(Self {
             aside: Vector3::new(x, y, z),
             turn: turn.ok_or("the quaternion must not be zero")?,

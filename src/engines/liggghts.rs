@@ -142,7 +142,7 @@ fix x1 all wall/gran {model} primitive type 1 xplane {width:e}
 fix y0 all wall/gran {model} primitive type 1 yplane 0
 fix y1 all wall/gran {model} primitive type 1 yplane {depth:e}
 fix z0 all wall/gran {model} primitive type 1 zplane 0
-{templates}fix kinds all particledistribution/discrete {seed} {kinds}{weights}
+{templates}fix kinds all particledistribution/discrete/numberbased {seed} {kinds}{weights}
 fix pour all insert/pack seed {other} distributiontemplate kinds maxattempt 200 insert_every once overlapcheck yes \
 orientation random all_in yes vel constant 0 0 0 region box particles_in_region {count}
 {integration}

@@ -132,6 +132,8 @@ fn yade_liggghts_and_mercury_are_given_the_same_grain() {
     let template = settle.lines().find(|line| line.contains("multisphere 1"));
     let (_, tensor) = template.unwrap().split_once("mass").unwrap();
     assert_eq!(numbers(tensor)[..7], [kind.mass, i, 0.0, 0.0, j, 0.0, k]);
+    // Of this style kinds come by numbers; of the one without the word by mass.
+    assert!(settle.contains(" particledistribution/discrete/numberbased "));
     let mercury = |file: &str| text(Engine::MercuryDpm, &format!("Clumps/a_grain/{file}"));
     assert_eq!(numbers(&mercury("Inertia/Mass.txt")), [kind.mass]);
     let toi = numbers(&mercury("Inertia/TOI.txt"));

@@ -151,8 +151,7 @@ impl RegionsReport {
 }
 
 /// Why a region has no standard errors.
-const NO_POINTS: &str =
-    "No standard errors: a region has no two points whose line is normal to both surfaces.";
+const NO_POINTS: &str = "No standard errors: in a region no two points were found whose line is normal to both surfaces, or flat sides lie on each other there.";
 
 fn no_errors(regions: &[ContactRegion]) -> Option<&'static str> {
     let lack = regions.iter().filter(|region| region.errors.is_none());
@@ -184,7 +183,7 @@ impl NormalLaw {
             Self::Hertz(law) => law,
         };
         let Some(curvatures) = &region.curvatures else {
-            warnings.push("No force by Hertz: a region has no two points whose line is normal to both surfaces.".into());
+            warnings.push("No force by Hertz: in a region no two points were found whose line is normal to both surfaces, or flat sides lie on each other there.".into());
             return None;
         };
         let overlap = Overlap {

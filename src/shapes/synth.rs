@@ -11,6 +11,9 @@ use thiserror::Error;
 /// Largest noise, as a share of the mean radius; beyond it a radius could turn negative.
 pub const MAX_NOISE: f64 = 0.1;
 
+/// Rounding of the points where they lie, as a share of the mean radius, at most.
+const ROUNDED: f64 = 1e-7;
+
 /// How far an outlier is moved, as a share of its radius.
 const OUTLIER_STEP: f64 = 0.2;
 
@@ -139,8 +142,10 @@ pub enum SynthError {
         /// The angle asked for.
         missing_cap: f64,
     },
-    /// The offset must be finite.
-    #[error("the offset is not finite")]
+    /// Give a smaller offset.
+    #[error(
+        "the offset must be finite, and not so far that the points lose their digits: some 1e8 times the body's size"
+    )]
     Offset,
     /// Make the missing cap smaller or take more points.
     #[error("the missing cap leaves {}, fewer than {MIN_POINTS}", plural(*left, "point"))]
@@ -188,6 +193,11 @@ pub fn synthesize(options: &SynthOptions) -> Result<SyntheticScan, SynthError> {
     let directions = options.sampling.directions(options.points, options.seed)?;
     let surface = options.body.surface(options.axes)?;
     let truth = truth(options, surface.integrals());
+    let farthest = truth.mean_radius * ROUNDED / f64::EPSILON;
+    // Written so that NaN fails.
+    if !options.offset.iter().all(|length| length.abs() <= farthest) {
+        return Err(SynthError::Offset);
+    }
 
     let sigma = options.noise * truth.mean_radius;
     let mut noise = random(options.seed, Stream::Noise);
@@ -228,9 +238,6 @@ fn check(options: &SynthOptions) -> Result<(), SynthError> {
     }
     if !(0.0..=180.0).contains(&missing_cap) {
         return Err(SynthError::MissingCap { missing_cap });
-    }
-    if !options.offset.iter().all(|length| length.is_finite()) {
-        return Err(SynthError::Offset);
     }
     Ok(())
 }
@@ -370,6 +377,7 @@ mod tests {
             |o: &mut SynthOptions| o.outliers = -0.1,
             |o: &mut SynthOptions| o.missing_cap = 181.0,
             |o: &mut SynthOptions| o.offset.y = f64::INFINITY,
+            |o: &mut SynthOptions| o.offset.x = 1e10,
             |o: &mut SynthOptions| o.points = 3,
             |o: &mut SynthOptions| o.axes = Some(Vector3::new(2.0, 1.0, 1.0)),
         ] {

@@ -19,6 +19,9 @@ fn two_placed_surfaces_overlap_where_their_poles_meet_and_both_laws_agree_there(
         let words = ["contact", "m.json", "m.json", "--pose-b", pose];
         json(&folder, &[&words, more].concat())
     };
+    let turned = |q: &str| placed(&format!("0,0,1.98,{q}"), &[])["regions"].clone();
+    assert_eq!(turned("1e200,1e200,0,0"), turned("1,1,0,0"));
+    assert_eq!(turned("-1e-200,0,0,0"), turned("1,0,0,0"));
     let apart = placed("0,0,2.3,1,0,0,0", &[]);
     assert_eq!(apart["regions"].as_array().unwrap().len(), 0);
     assert_eq!(apart["triangles_skipped"], apart["triangles"]);

@@ -113,7 +113,7 @@ impl Cluster {
         let (near, compared) = trees[0].pairs(&trees[1]);
         work.compared += compared;
         if near.len() > MOST_NEAR {
-            return Err(RegionError::Deep);
+            return Err(RegionError::Unresolved);
         }
         let sides = [0, 1].map(|side| Side {
             vertices: &placed[side],
@@ -148,7 +148,7 @@ impl Cluster {
                 }
                 let is_closed = regions.iter().all(Region::is_closed);
                 if is_fine && !is_closed {
-                    return Err(RegionError::Deep);
+                    return Err(RegionError::Unresolved);
                 }
                 let all = regions.iter().zip(&sums).map(|(region, sums)| {
                     let (extent, starts) = self.deepest(region, &crossing, &placed);

@@ -158,6 +158,12 @@ pub enum RegionError {
         "the bodies lie so deep in each other, or so nearly in the same place, that what they share has no depth and no normal"
     )]
     Deep,
+    /// What is shared is a sliver, or the surfaces lie on each other over much of it.
+    #[error(
+        "the surfaces cross at so small an angle, or lie so near each other over so much of them, that what the bodies share is \
+         not resolved"
+    )]
+    Unresolved,
     /// Its triangles have no inside.
     #[error("the surfaces share no inside there: one goes through itself, or both coincide")]
     Crossing,
