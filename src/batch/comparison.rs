@@ -4,6 +4,7 @@ use super::interval::{Sample, intervals};
 use super::population::moments;
 use super::table::Lot;
 use serde::Serialize;
+use std::f64::consts::FRAC_1_SQRT_2;
 
 /// One measure of two lots.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -45,7 +46,7 @@ fn of_measure(name: &str, values: [&[f64]; 2]) -> Option<Comparison> {
     let lots = [sample(values[0])?, sample(values[1])?];
     let deviations = lots.map(|lot| lot.deviation);
     let difference = lots[1].mean - lots[0].mean;
-    let scale = (0.5 * (deviations[0].powi(2) + deviations[1].powi(2))).sqrt();
+    let scale = deviations[0].hypot(deviations[1]) * FRAC_1_SQRT_2;
     let found = intervals(lots);
     Some(Comparison {
         measure: name.into(),

@@ -82,11 +82,11 @@ impl Lot {
         }
     }
 
-    /// Hears the texts of a row, by the names of their columns.
-    fn hear(&mut self, row: &HashMap<&str, &str>) {
+    /// Hears the texts of a row, by the names of their columns. Whether it is that of a grain.
+    fn hear(&mut self, row: &HashMap<&str, &str>) -> bool {
         let cell = |name: &str| row.get(name).copied().filter(|cell| !cell.is_empty());
         if cell("status") == Some("failed") {
-            return;
+            return false;
         }
         self.units.extend(cell("unit").map(str::to_owned));
         let settings = cell("settings").unwrap_or_default().split(' ');
@@ -100,6 +100,7 @@ impl Lot {
             let (_, label) = without_label(cell("path").unwrap_or_default());
             self.copies += usize::from(!self.scans.insert((hash.into(), label)));
         }
+        true
     }
 
     /// Leaves out what is no figure of a grain.
@@ -130,7 +131,9 @@ fn of_csv(path: &Path) -> Result<Lot, TableError> {
     let mut lot = Lot::of_columns(names.iter());
     for record in reader.records() {
         let record = record.map_err(failed)?;
-        lot.hear(&names.iter().zip(&record).collect());
+        if !lot.hear(&names.iter().zip(&record).collect()) {
+            continue;
+        }
         for (values, cell) in lot.values.iter_mut().zip(&record) {
             values.extend(cell.parse::<f64>().ok().filter(|value| value.is_finite()));
         }
@@ -156,7 +159,9 @@ fn of_parquet(path: &Path) -> Result<Lot, TableError> {
             Field::Str(text) => Some((name.as_str(), text.as_str())),
             _ => None,
         });
-        lot.hear(&texts.collect());
+        if !lot.hear(&texts.collect()) {
+            continue;
+        }
         for (values, (_, cell)) in lot.values.iter_mut().zip(row.get_column_iter()) {
             if let Field::Double(value) = cell {
                 values.extend(Some(*value).filter(|value| value.is_finite()));

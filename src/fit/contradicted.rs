@@ -73,14 +73,19 @@ impl Fitted {
         (!is_vouched).then_some(found)
     }
 
-    /// Whether the surface reaches farther from its centre than all points do, by more than this share.
+    /// Whether the surface reaches farther from its centre than all points do, by more than this share, and not in a gap.
     fn reaches_beyond(&self, share: f64) -> bool {
-        let centre = self.grain.frame().centre;
+        let frame = self.grain.frame();
         let vertices = self.grain.mesh(RESOLUTION).vertices.into_iter();
-        let farthest = vertices.map(|vertex| (vertex - centre).norm());
-        let farthest = farthest.fold(0.0, f64::max);
-        let posterior = self.posterior.as_ref();
-        posterior.is_some_and(|estimate| farthest > (1.0 + share) * estimate.farthest_point())
+        let rays = vertices.map(|vertex| frame.to_local(&vertex));
+        let farthest = rays.max_by(|one, other| one.norm().total_cmp(&other.norm()));
+        self.posterior
+            .as_ref()
+            .zip(farthest)
+            .is_some_and(|(estimate, farthest)| {
+                farthest.norm() > (1.0 + share) * estimate.farthest_point()
+                    && estimate.is_among_points(&farthest)
+            })
     }
 }
 

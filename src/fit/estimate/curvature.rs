@@ -115,7 +115,7 @@ impl Estimate {
             let height = missing.height.powi(2);
             let chance = widest.variance;
             [
-                height + chance,
+                height + missing.variance + chance,
                 height * missing.sharpness.powi(2) + chance * widest.sharpness.powi(2),
             ]
         };

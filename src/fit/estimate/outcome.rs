@@ -5,6 +5,8 @@ use super::dense::Factor;
 use super::posterior::{Conditioned, Posterior};
 use super::spectrum::Spectrum;
 use super::sums::Sums;
+use crate::fit::gaps::random_gap;
+use nalgebra::Vector3;
 use std::sync::{Arc, OnceLock};
 
 /// The estimate of a grain's radius.
@@ -59,6 +61,13 @@ impl Estimate {
         let points = self.cloud.points().into_iter();
         let away = points.map(|point| point.component_div(&self.cloud.stretch).norm());
         self.cloud.mean * away.fold(0.0, f64::max)
+    }
+
+    /// Whether no more than a gap that chance leaves lies between a ray of the grain's own frame and a point.
+    pub(in crate::fit) fn is_among_points(&self, ray: &Vector3<f64>) -> bool {
+        let towards = self.cloud.stretch.component_mul(ray).normalize();
+        let alike = self.cloud.directions.iter().map(|n| n.dot(&towards));
+        alike.fold(-1.0, f64::max).acos() < random_gap(self.cloud.len())
     }
 }
 

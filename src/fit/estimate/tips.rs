@@ -41,12 +41,14 @@ const LIKELY: f64 = 0.5;
 /// Standard deviation of heights, in units of the mean radius, before a point is seen: that of beaks.
 const EXPECTED: f64 = 0.1;
 
-/// A bump is nothing where its logarithm is below this.
-const LEAST: f64 = -16.0;
+/// A bump is nothing where it is below this.
+const LEAST: f64 = 1e-7;
 
 /// What is missing at an end.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(super) struct Missing {
+    /// By how much it makes the points more likely, in squared standard deviations of its height.
+    pub(super) gain: f64,
     /// Most likely height above the estimate, in units of the mean radius.
     pub(super) height: f64,
     /// Its variance.
@@ -71,7 +73,7 @@ impl Missing {
 
     /// Whether noise would hardly make as high a bump.
     pub(super) fn is_no_chance(&self) -> bool {
-        self.height.powi(2) > NO_CHANCE.powi(2) * self.variance
+        self.gain > NO_CHANCE.powi(2)
     }
 }
 
@@ -104,17 +106,16 @@ impl Bump {
         }
     }
 
-    /// By how much a bump about an end makes points more likely, in squared standard deviations of its height, and its
-    /// height: from the sums of b w e and of w b².
-    fn told(&self, [score, squares]: [f64; 2], noise: f64) -> (f64, Missing) {
+    /// What is missing about an end, if it is this bump: from the sums of b w e and of w b².
+    fn told(&self, [score, squares]: [f64; 2], noise: f64) -> Missing {
         let score = score / noise;
         let information = squares * self.left_of_squares / noise + 1.0 / (EXPECTED * EXPECTED);
-        let missing = Missing {
+        Missing {
+            gain: score * score / information,
             height: self.left * score / information,
             variance: self.left * self.left / information,
             sharpness: self.sharpness,
-        };
-        (score * score / information, missing)
+        }
     }
 }
 
@@ -137,55 +138,49 @@ impl<'a> Tips<'a> {
     /// The same, and the widest of the bumps.
     pub(super) fn missing_and_widest(&self, end: &Vector3<f64>) -> (Missing, Missing) {
         let bumps = self.likely(end);
-        let widest = Some(bumps[0].1).filter(|widest| widest.variance.is_finite());
-        let known = bumps.into_iter().filter(|(gain, _)| gain.is_finite());
-        let best = known.max_by(|(a, _), (b, _)| a.total_cmp(b));
-        let (gain, best) = best.unwrap_or_default();
-        let missing = match gain > NOTABLE {
-            true => self
-                .highest(end, &bumps)
-                .map_or(best, |highest| best.or(&highest)),
+        let widest = Some(bumps[0]).filter(|widest| widest.variance.is_finite());
+        let known = bumps.into_iter().filter(|bump| bump.gain.is_finite());
+        let best = known.max_by(|a, b| a.gain.total_cmp(&b.gain));
+        let best = best.unwrap_or_default();
+        let missing = match best.gain > NOTABLE {
+            true => best.or(&self.highest(end, &bumps)),
             false => best,
         };
         (missing, widest.unwrap_or_default())
     }
 
     /// The highest of the bumps, and of the cusps about the end, that are nearly as likely as the likeliest.
-    fn highest(&self, end: &Vector3<f64>, bumps: &[(f64, Missing)]) -> Option<Missing> {
+    fn highest(&self, end: &Vector3<f64>, bumps: &[Missing]) -> Missing {
         let cusps = self.likely_cusps(end);
         let all = || bumps.iter().chain(&cusps);
-        let most = all().map(|(gain, _)| *gain).fold(0.0, f64::max);
-        let likely = all().filter(|(gain, _)| *gain >= LIKELY * most);
+        let most = all().map(|bump| bump.gain).fold(0.0, f64::max);
+        let likely = all().filter(|bump| bump.gain >= LIKELY * most).copied();
         likely
-            .map(|(_, missing)| *missing)
             .max_by(|one, other| one.height.abs().total_cmp(&other.height.abs()))
+            .unwrap_or_default()
     }
 
-    fn likely_cusps(&self, end: &Vector3<f64>) -> [(f64, Missing); STEEPNESSES.len()] {
-        let mut sums = [[0.0; 2]; STEEPNESSES.len()];
-        let weighted = self.residuals.iter().zip(&self.cloud.weights);
-        for (n, (e, w)) in self.cloud.directions.iter().zip(weighted) {
-            // Every cusp is the square of the one before.
-            let mut height = (-STEEPNESSES[0] * (n - end).norm()).exp();
-            for [of_residuals, of_squares] in &mut sums {
-                *of_residuals += w * height * e;
-                height *= height;
-                *of_squares += w * height;
-            }
-        }
+    /// Each bump about an end.
+    fn likely(&self, end: &Vector3<f64>) -> [Missing; SHARPNESSES.len()] {
+        let sums: [_; SHARPNESSES.len()] =
+            self.sums(|n| (SHARPNESSES[0] * (n.dot(end) - 1.0)).exp());
+        std::array::from_fn(|at| self.bumps[at].told(sums[at], self.noise))
+    }
+
+    fn likely_cusps(&self, end: &Vector3<f64>) -> [Missing; STEEPNESSES.len()] {
+        let sums: [_; STEEPNESSES.len()] =
+            self.sums(|n| (-STEEPNESSES[0] * (n - end).norm()).exp());
         std::array::from_fn(|at| self.cusps[at].told(sums[at], self.noise))
     }
 
-    /// Of each bump about an end by how much it makes the points more likely, and its height.
-    fn likely(&self, end: &Vector3<f64>) -> [(f64, Missing); SHARPNESSES.len()] {
-        let mut sums = [[0.0; 2]; SHARPNESSES.len()];
+    /// Sums of b w e and of w b² of bumps, of which each is the square of the one before.
+    fn sums<const N: usize>(&self, first: impl Fn(&Vector3<f64>) -> f64) -> [[f64; 2]; N] {
+        let mut sums = [[0.0; 2]; N];
         let weighted = self.residuals.iter().zip(&self.cloud.weights);
         for (n, (e, w)) in self.cloud.directions.iter().zip(weighted) {
-            let fall = n.dot(end) - 1.0;
-            // Every bump is the square of the one before.
-            let mut height = (SHARPNESSES[0] * fall).exp();
-            for (sharpness, [of_residuals, of_squares]) in SHARPNESSES.iter().zip(&mut sums) {
-                if sharpness * fall < LEAST {
+            let mut height = first(n);
+            for [of_residuals, of_squares] in &mut sums {
+                if height < LEAST {
                     break;
                 }
                 *of_residuals += w * height * e;
@@ -193,7 +188,7 @@ impl<'a> Tips<'a> {
                 *of_squares += w * height;
             }
         }
-        std::array::from_fn(|at| self.bumps[at].told(sums[at], self.noise))
+        sums
     }
 }
 

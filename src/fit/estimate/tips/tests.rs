@@ -81,7 +81,7 @@ fn far_from_all_points_a_tip_is_no_higher_than_beaks_are() {
     let posterior = found.posterior();
     let tips = Tips::new(&found, &posterior);
     for end in [Vector3::z(), -Vector3::z()] {
-        for (_, missing) in tips.likely(&end) {
+        for missing in tips.likely(&end) {
             assert!(missing.height.abs() < 0.1, "{missing:?}");
             assert!(missing.variance <= EXPECTED * EXPECTED, "{missing:?}");
         }
