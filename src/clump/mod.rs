@@ -2,9 +2,9 @@
 //!
 //! Balls that touch the grain's surface from within in two places, those of its medial axis, are candidates. The fewest
 //! that come near enough to all of the surface are taken one after the other, each is fitted to the part of the surface
-//! that is nearest to it, and at last all radii grow or shrink by the same length until the clump has the volume of the
-//! grain. Mass, centre and inertia of a clump are those of the *grain*, never sums over spheres, whose overlaps would
-//! count twice.
+//! that is nearest to it, hardly larger than the body holds, and at last all radii grow or shrink by the same length
+//! until the clump has the volume of the grain. Mass, centre and inertia of a clump are those of the *grain*, never sums
+//! over spheres, whose overlaps would count twice.
 
 mod cover;
 mod error;
@@ -18,7 +18,7 @@ mod union_volume;
 use crate::Mesh;
 use crate::measure::{Ball, MassProperties, equivalent_radius};
 pub use error::{ClumpError, MOST_SPHERES};
-use search::{Search, at_unit_size};
+use search::{Search, at_unit_size, told_excess};
 pub use union_volume::union_volume;
 
 /// How far the volume of a clump may be off the grain's, as a share of it; usually it is within 1e-4.
@@ -27,7 +27,8 @@ const MOST_EXCESS: f64 = 0.01;
 /// What ends the search.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ClumpTarget {
-    /// A number of spheres. Fewer are taken where some lie in others, or no more come nearer to the surface.
+    /// A number of spheres. Fewer are taken where some lie in others, and half as many as long as more come nearer to the
+    /// surface by less than a tenth.
     Spheres(usize),
     /// The fewest spheres found whose [`Clump::rms`] is at most this share of the [`Clump::equivalent_radius`].
     Error(f64),
@@ -41,7 +42,7 @@ pub struct Clump {
     /// Area, volume, centroid and inertia of the grain, of density one.
     pub grain: MassProperties,
     /// Root mean square over the grain's surface of the distance to the clump's along the grain's normal, in the
-    /// grain's unit.
+    /// grain's unit: over places that the spheres were not fitted to.
     pub rms: f64,
     /// Volume of the clump over that of the grain, less one. The volume is good to 1e-4 of itself, see
     /// [`union_volume`].
@@ -99,7 +100,7 @@ pub fn clump(
         ClumpTarget::Spheres(count) => search.of_count(count),
         ClumpTarget::Error(share) => search.of_error(share)?,
     };
-    let excess = search::excess_volume(&spheres);
+    let excess = told_excess(&spheres);
     // No range holds NaN.
     if !(-MOST_EXCESS..=MOST_EXCESS).contains(&excess) {
         return Err(ClumpError::Volume { excess });

@@ -5,27 +5,66 @@ use nalgebra::{Matrix4, Vector3, Vector4};
 use rayon::prelude::*;
 
 /// Rounds of assigning and fitting.
-const ROUNDS: usize = 20;
+const ROUNDS: usize = 30;
 
-/// Share of the trace that is added to the equations of a sphere: on a small part of the surface, centre and radius can
-/// hardly be told apart.
+/// Share of the trace that is added to the equations of a sphere, at first and at least: on a small part of the surface,
+/// centre and radius can hardly be told apart.
 const DAMPING: f64 = 1e-3;
 
-/// In each round every place goes to the sphere that is nearest to it, and each sphere takes a damped step of
-/// Gauss and Newton to the least sum of squared distances from its places: the hard union's own distances, for those of
-/// a smoothed one would shrink the spheres. Gives the spheres of the round with the least sum over all.
-pub(super) fn refine(places: &[EvenPlace], spheres: Vec<Ball>) -> Vec<Ball> {
-    let mut best = (f64::INFINITY, spheres.clone());
-    let mut spheres = spheres;
-    for _ in 0..=ROUNDS {
-        let owners: Vec<Owner> = places.par_iter().map(|at| owner(at, &spheres)).collect();
-        let sum = owners.iter().map(|owner| owner.distance.powi(2)).sum();
-        if sum < best.0 {
-            best = (sum, spheres.clone());
+/// It is so many times as much after a step that comes nearer, and after one that does not.
+const AFTER_NEARER: f64 = 0.5;
+const AFTER_OTHER: f64 = 4.0;
+
+/// No sphere becomes larger than so many times the largest that the body holds: flat parts of a surface are those of
+/// endless spheres.
+const OVERHANG: f64 = 1.1;
+
+/// In each round every place goes to the sphere that is nearest to it, and each sphere takes a step of Levenberg and
+/// Marquardt to the least sum of squared distances from its places: the hard union's own distances, for those of
+/// a smoothed one would shrink the spheres. Steps after which the sum over all is no less are taken back. `largest` is
+/// the radius of the largest sphere that the body holds.
+pub(super) fn refine(places: &[EvenPlace], spheres: Vec<Ball>, largest: f64) -> Vec<Ball> {
+    let largest = OVERHANG * largest;
+    let within = |ball: Ball| Ball {
+        radius: ball.radius.clamp(0.0, largest),
+        ..ball
+    };
+    let assigned = |spheres: Vec<Ball>| {
+        let spheres = spheres.into_iter().map(within).collect();
+        Assigned::new(places, spheres)
+    };
+    let mut best = assigned(spheres);
+    let mut damping = DAMPING;
+    for _ in 0..ROUNDS {
+        let next = assigned(step(places, &best, damping));
+        match next.sum < best.sum {
+            true => {
+                best = next;
+                damping = (AFTER_NEARER * damping).max(DAMPING);
+            }
+            false => damping *= AFTER_OTHER,
         }
-        spheres = step(places, &owners, &spheres);
     }
-    best.1
+    best.spheres
+}
+
+/// Spheres, and of each place which one is nearest.
+struct Assigned {
+    spheres: Vec<Ball>,
+    owners: Vec<Owner>,
+    /// Of squared distances.
+    sum: f64,
+}
+
+impl Assigned {
+    fn new(places: &[EvenPlace], spheres: Vec<Ball>) -> Self {
+        let owners: Vec<Owner> = places.par_iter().map(|at| owner(at, &spheres)).collect();
+        Self {
+            sum: owners.iter().map(|owner| owner.distance.powi(2)).sum(),
+            owners,
+            spheres,
+        }
+    }
 }
 
 /// The sphere that is nearest to a place, and how far outside of it the place is.
@@ -48,9 +87,10 @@ fn owner(at: &EvenPlace, spheres: &[Ball]) -> Owner {
     owner
 }
 
-fn step(places: &[EvenPlace], owners: &[Owner], spheres: &[Ball]) -> Vec<Ball> {
+fn step(places: &[EvenPlace], from: &Assigned, damping: f64) -> Vec<Ball> {
+    let spheres = &from.spheres;
     let mut equations = vec![(Matrix4::zeros(), Vector4::zeros()); spheres.len()];
-    for (at, &Owner { index, distance }) in places.iter().zip(owners) {
+    for (at, &Owner { index, distance }) in places.iter().zip(&from.owners) {
         let from = at.place - spheres[index].centre.coords;
         let away = from / from.norm().max(f64::MIN_POSITIVE);
         let row = Vector4::new(away.x, away.y, away.z, 1.0);
@@ -58,14 +98,14 @@ fn step(places: &[EvenPlace], owners: &[Owner], spheres: &[Ball]) -> Vec<Ball> {
         equations[index].1 += row * distance;
     }
     let moved = |(ball, (matrix, side)): (&Ball, &(Matrix4<f64>, Vector4<f64>))| {
-        let damped = matrix + Matrix4::identity() * (DAMPING * matrix.trace());
+        let damped = matrix + Matrix4::identity() * (damping * matrix.trace());
         let Some(factor) = damped.cholesky() else {
             return *ball;
         };
         let step = factor.solve(side);
         Ball {
             centre: ball.centre + Vector3::new(step.x, step.y, step.z),
-            radius: (ball.radius + step.w).max(0.0),
+            radius: ball.radius + step.w,
         }
     };
     spheres.iter().zip(&equations).map(moved).collect()

@@ -10,14 +10,23 @@ use crate::measure::{Ball, EvenPlace, even_places, medial_balls};
 use nalgebra::{Point3, Vector3};
 use std::f64::consts::PI;
 
-/// Places of the surface that the clump is compared with.
-const PLACES: usize = 4000;
+/// Places of the surface that are covered, and so many times fewer that have a candidate.
+const COVERED: usize = 4000;
+const COVERED_PER_CANDIDATE: usize = 4;
 
-/// So many times fewer places have a candidate.
-const PLACES_PER_CANDIDATE: usize = 4;
+/// Places that spheres are fitted to.
+const FITTED: usize = 12_000;
 
-/// Rows along each side of the box in which volumes are found.
+/// Places that the error is found from. They lie between those of the fit, where it is no better than anywhere: an even
+/// multiple of their number has none in common with them.
+const JUDGED: usize = 4 * FITTED;
+
+/// Rows across the shortest side of a clump in which its volume is made, and told.
 const ROWS: usize = 300;
+const ROWS_TOLD: usize = 600;
+
+/// More spheres that come nearer by less than so many times bring nothing.
+const NEARER: f64 = 1.1;
 
 /// How near to the grain's the volume of the clump is made, relative to it.
 const VOLUME_TOLERANCE: f64 = 1e-5;
@@ -56,16 +65,20 @@ pub(super) fn at_unit_size(mesh: &Mesh, centre: &Point3<f64>, radius: f64) -> Me
 
 /// A grain of unit size, and what its clumps are made from.
 pub(super) struct Search {
-    places: Vec<EvenPlace>,
     cover: Cover,
+    fitted: Vec<EvenPlace>,
+    judged: Vec<EvenPlace>,
 }
+
+/// Spheres and their error.
+type Judged = (Vec<Ball>, f64);
 
 impl Search {
     pub(super) fn new(mesh: &Mesh) -> Result<Self, ClumpError> {
-        let places = even_places(mesh, PLACES);
-        let feet: Vec<EvenPlace> = places
+        let covered = even_places(mesh, COVERED);
+        let feet: Vec<EvenPlace> = covered
             .iter()
-            .step_by(PLACES_PER_CANDIDATE)
+            .step_by(COVERED_PER_CANDIDATE)
             .copied()
             .collect();
         let mut candidates = medial_balls(mesh, &feet);
@@ -76,24 +89,39 @@ impl Search {
         match candidates.is_empty() {
             true => Err(ClumpError::NoInside),
             false => Ok(Self {
-                cover: Cover::new(&places, candidates),
-                places,
+                cover: Cover::new(&covered, candidates),
+                fitted: even_places(mesh, FITTED),
+                judged: even_places(mesh, JUDGED),
             }),
         }
     }
 
-    /// At most so many spheres, and their error.
-    pub(super) fn of_count(&self, count: usize) -> (Vec<Ball>, f64) {
-        let spheres = with_volume(refine(&self.places, self.cover.of_count(count)));
+    /// At most so many spheres: half as many as long as more bring nothing.
+    pub(super) fn of_count(&self, count: usize) -> Judged {
+        let mut found = self.fit(count);
+        while found.0.len() > 1 {
+            let fewer = self.fit(found.0.len() / 2);
+            if fewer.1 > NEARER * found.1 {
+                break;
+            }
+            found = fewer;
+        }
+        found
+    }
+
+    /// So many spheres, or fewer where some lie in others.
+    fn fit(&self, count: usize) -> Judged {
+        let spheres = self.cover.of_count(count);
+        let spheres = with_volume(refine(&self.fitted, spheres, self.cover.largest()));
         let spheres = without_swallowed(spheres);
-        let rms = root_mean_square(&self.places, &spheres);
+        let rms = root_mean_square(&self.judged, &spheres);
         (spheres, rms)
     }
 
     /// The fewest spheres found whose error is at most a share of the radius.
-    pub(super) fn of_error(&self, share: f64) -> Result<(Vec<Ball>, f64), ClumpError> {
+    pub(super) fn of_error(&self, share: f64) -> Result<Judged, ClumpError> {
         let (mut low, mut high) = (0, 1);
-        let mut best = self.of_count(high);
+        let mut best = self.fit(high);
         let (mut reached, mut spheres) = (best.1, best.0.len());
         while best.1 > share {
             if high == MOST_SPHERES {
@@ -104,14 +132,14 @@ impl Search {
                 });
             }
             (low, high) = (high, (2 * high).min(MOST_SPHERES));
-            best = self.of_count(high);
+            best = self.fit(high);
             if best.1 < reached {
                 (reached, spheres) = (best.1, best.0.len());
             }
         }
         while high - low > 1 {
             let middle = (low + high) / 2;
-            let found = self.of_count(middle);
+            let found = self.fit(middle);
             match found.1 <= share {
                 true => (high, best) = (middle, found),
                 false => low = middle,
@@ -144,7 +172,7 @@ fn with_volume(spheres: Vec<Ball>) -> Vec<Ball> {
         });
         wider.collect()
     };
-    let excess = |offset: f64| excess_volume(&wider(offset));
+    let excess = |offset: f64| excess_volume(&wider(offset), ROWS);
     // A secant through the last two, the first with the slope of a sphere of unit size.
     let (mut offset, mut found) = (0.0, excess(0.0));
     let mut slope = 3.0;
@@ -162,7 +190,11 @@ fn with_volume(spheres: Vec<Ball>) -> Vec<Ball> {
     wider(offset)
 }
 
-/// The volume of a clump beside that of the grain of unit size.
-pub(super) fn excess_volume(spheres: &[Ball]) -> f64 {
-    union_volume(spheres, ROWS) / UNIT_VOLUME - 1.0
+/// The volume of a clump beside that of the grain of unit size, as it is told.
+pub(super) fn told_excess(spheres: &[Ball]) -> f64 {
+    excess_volume(spheres, ROWS_TOLD)
+}
+
+fn excess_volume(spheres: &[Ball], rows: usize) -> f64 {
+    union_volume(spheres, rows) / UNIT_VOLUME - 1.0
 }

@@ -1,5 +1,6 @@
+use super::gap::root_mean_square;
 use super::*;
-use crate::measure::mesh_properties;
+use crate::measure::{even_places, mesh_properties};
 use approx::assert_relative_eq;
 use nalgebra::{Point3, Rotation3, Vector3};
 
@@ -33,6 +34,52 @@ fn the_balls_that_a_body_is_made_of_are_found() {
     let fewest = found(&mesh, ClumpTarget::Error(0.01));
     assert_eq!(fewest.spheres.len(), 2);
     assert!(fewest.rms < 0.01 * fewest.equivalent_radius());
+}
+
+/// An ellipsoid.
+fn ellipsoid(semi_axes: [f64; 3]) -> Mesh {
+    let mut mesh = Mesh::radial(32, |_| 1.0);
+    for vertex in &mut mesh.vertices {
+        vertex
+            .coords
+            .component_mul_assign(&Vector3::from(semi_axes));
+    }
+    mesh
+}
+
+#[test]
+fn needles_and_plates_have_more_spheres_and_less_error_the_more_are_asked_for() {
+    for semi_axes in [[50.0, 1.0, 1.0], [20.0, 1.0, 1.0], [20.0, 20.0, 1.0]] {
+        let mesh = ellipsoid(semi_axes);
+        let mut last = f64::INFINITY;
+        for count in [3, 10, 30, 100] {
+            let clump = found(&mesh, ClumpTarget::Spheres(count));
+            assert!(clump.spheres.len() > count / 2, "{semi_axes:?} {count}");
+            assert!(clump.rms < 0.6 * last, "{semi_axes:?} {count}");
+            assert!(clump.volume_error.abs() < 1e-4, "{semi_axes:?} {count}");
+            last = clump.rms;
+        }
+        assert!(last < 0.1 * equivalent_radius(mesh_properties(&mesh).unwrap().volume));
+    }
+}
+
+#[test]
+fn the_error_told_is_that_of_places_that_were_not_fitted() {
+    let bumps = |n: &Vector3<f64>| {
+        1.0 + 0.1 * (7.0 * n.x).sin() * (6.0 * n.y).cos() + 0.1 * (8.0 * n.z).sin()
+    };
+    let mesh = Mesh::radial(64, bumps);
+    let clump = found(&mesh, ClumpTarget::Spheres(200));
+    let elsewhere = root_mean_square(&even_places(&mesh, 40_013), &clump.spheres);
+    assert_relative_eq!(clump.rms, elsewhere, max_relative = 0.03);
+}
+
+#[test]
+fn a_ball_is_one_sphere_however_many_are_asked_for() {
+    let mesh = Mesh::radial(24, |_| 1.0);
+    for count in [1, 10, 30] {
+        assert_eq!(found(&mesh, ClumpTarget::Spheres(count)).spheres.len(), 1);
+    }
 }
 
 #[test]

@@ -114,7 +114,7 @@ fn a_clump_stops_at_an_error_and_is_written_as_a_table_or_an_object() {
 fn a_ball_is_one_sphere() {
     let folder = folder();
     succeed(&folder, &["synth", "sphere", "-o", "s.ply"]);
-    let report = json(&folder, &["clump", "s.ply", "--spheres", "1"]);
+    let report = json(&folder, &["clump", "s.ply", "--spheres", "10"]);
     let [(_, radius)] = spheres(&report)[..] else {
         panic!("{report}")
     };
