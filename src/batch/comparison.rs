@@ -4,7 +4,7 @@ use super::interval::{Sample, intervals};
 use super::population::moments;
 use super::table::Lot;
 use serde::Serialize;
-use std::f64::consts::FRAC_1_SQRT_2;
+use std::f64::consts::SQRT_2;
 
 /// One measure of two lots.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -46,7 +46,7 @@ fn of_measure(name: &str, values: [&[f64]; 2]) -> Option<Comparison> {
     let lots = [sample(values[0])?, sample(values[1])?];
     let deviations = lots.map(|lot| lot.deviation);
     let difference = lots[1].mean - lots[0].mean;
-    let scale = deviations[0].hypot(deviations[1]) * FRAC_1_SQRT_2;
+    let scale = deviations[0].hypot(deviations[1]) / SQRT_2;
     let found = intervals(lots);
     Some(Comparison {
         measure: name.into(),

@@ -79,14 +79,14 @@ fn the_folder_of_a_bed_is_none_for_lammps_and_a_dry_run_is_told_as_json() {
     use std::os::unix::fs::PermissionsExt;
     let folder = models();
     let engine = folder.path().join("lmp");
-    let script = "#!/bin/sh\necho GRANULAR RIGID\necho '  30 rigid bodies with 60 atoms'\n";
+    let script = "#!/bin/sh\necho GRANULAR RIGID\necho '  30 rigid bodies with 90 atoms'\n";
     fs::write(&engine, script).unwrap();
     fs::set_permissions(&engine, fs::Permissions::from_mode(0o755)).unwrap();
     let dry = [
         "--engine",
         "lammps",
         "--spheres",
-        "2",
+        "3",
         "--dry-run",
         "--json",
     ];
@@ -102,7 +102,7 @@ fn the_folder_of_a_bed_is_none_for_lammps_and_a_dry_run_is_told_as_json() {
     assert!(output.status.success(), "{}", errors(&output));
     let report: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
     assert_eq!(report["runs"][0]["grains"], 30);
-    assert_eq!(report["runs"][0]["spheres"], 60);
+    assert_eq!(report["runs"][0]["spheres"], 90);
     assert_eq!(report["runs"][0]["folder"], "deck");
     succeed(&folder, &brief("0.01", "bed"));
     let refused = errors(&run("bed"));

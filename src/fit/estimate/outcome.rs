@@ -65,9 +65,10 @@ impl Estimate {
 
     /// Whether no more than a gap that chance leaves lies between a ray of the grain's own frame and a point.
     pub(in crate::fit) fn is_among_points(&self, ray: &Vector3<f64>) -> bool {
-        let towards = self.cloud.stretch.component_mul(ray).normalize();
-        let alike = self.cloud.directions.iter().map(|n| n.dot(&towards));
-        alike.fold(-1.0, f64::max).acos() < random_gap(self.cloud.len())
+        let directions = self.cloud.directions.iter();
+        let plain = directions.map(|n| n.component_div(&self.cloud.stretch).normalize());
+        let nearest = plain.map(|n| n.angle(ray)).fold(f64::INFINITY, f64::min);
+        nearest < random_gap(self.cloud.len())
     }
 }
 
