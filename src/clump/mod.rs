@@ -2,7 +2,7 @@
 //!
 //! Balls that touch the grain's surface from within in two places, those of its medial axis, are candidates. The fewest
 //! that come near enough to all of the surface are taken one after the other, each is fitted to the part of the surface
-//! that is nearest to it, hardly larger than the body holds, and at last all radii grow or shrink by the same length
+//! that is nearest to it, not much larger than the body holds, and at last all radii grow or shrink by the same length
 //! until the clump has the volume of the grain. Mass, centre and inertia of a clump are those of the *grain*, never sums
 //! over spheres, whose overlaps would count twice.
 
@@ -28,7 +28,7 @@ const MOST_EXCESS: f64 = 0.01;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ClumpTarget {
     /// A number of spheres. Fewer are taken where some lie in others, and half as many as long as more come nearer to the
-    /// surface by less than a tenth.
+    /// surface by less than a twentieth.
     Spheres(usize),
     /// The fewest spheres found whose [`Clump::rms`] is at most this share of the [`Clump::equivalent_radius`].
     Error(f64),

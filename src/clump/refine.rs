@@ -17,7 +17,7 @@ const AFTER_OTHER: f64 = 4.0;
 
 /// No sphere becomes larger than so many times the largest that the body holds: flat parts of a surface are those of
 /// endless spheres.
-const OVERHANG: f64 = 1.1;
+const OVERHANG: f64 = 1.5;
 
 /// In each round every place goes to the sphere that is nearest to it, and each sphere takes a step of Levenberg and
 /// Marquardt to the least sum of squared distances from its places: the hard union's own distances, for those of

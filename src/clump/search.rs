@@ -26,7 +26,7 @@ const ROWS: usize = 300;
 const ROWS_TOLD: usize = 600;
 
 /// More spheres that come nearer by less than so many times bring nothing.
-const NEARER: f64 = 1.1;
+const NEARER: f64 = 1.05;
 
 /// How near to the grain's the volume of the clump is made, relative to it.
 const VOLUME_TOLERANCE: f64 = 1e-5;

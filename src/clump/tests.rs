@@ -55,11 +55,11 @@ fn needles_and_plates_have_more_spheres_and_less_error_the_more_are_asked_for() 
         for count in [3, 10, 30, 100] {
             let clump = found(&mesh, ClumpTarget::Spheres(count));
             assert!(clump.spheres.len() > count / 2, "{semi_axes:?} {count}");
-            assert!(clump.rms < 0.6 * last, "{semi_axes:?} {count}");
+            assert!(clump.rms < 0.75 * last, "{semi_axes:?} {count}");
             assert!(clump.volume_error.abs() < 1e-4, "{semi_axes:?} {count}");
             last = clump.rms;
         }
-        assert!(last < 0.1 * equivalent_radius(mesh_properties(&mesh).unwrap().volume));
+        assert!(last < 0.15 * equivalent_radius(mesh_properties(&mesh).unwrap().volume));
     }
 }
 
