@@ -7,7 +7,7 @@ use nalgebra::{Matrix2, Point3, Vector2, Vector3};
 use std::f64::consts::TAU;
 use thiserror::Error;
 
-/// Azimuths at which an outline is found, in a plane in which it is [about round](Rounding). Of an ellipse the area is low by
+/// Azimuths at which an outline is found, in a plane in which it is about round. Of an ellipse the area is low by
 /// (2 pi / n)²/6, or 3e-6; the corner farthest out between two azimuths is added.
 pub const OUTLINE_AZIMUTHS: usize = 1440;
 
