@@ -39,6 +39,17 @@ pub(crate) fn polygon_hull(points: Vec<Vector2<f64>>) -> Vec<Vector2<f64>> {
     corners
 }
 
+/// The area of a convex polygon, its corners counter-clockwise.
+pub(crate) fn hull_area(corners: &[Vector2<f64>]) -> f64 {
+    let Some(first) = corners.first() else {
+        return 0.0;
+    };
+    let fan = corners.windows(2);
+    fan.map(|edge| (edge[0] - first).perp(&(edge[1] - first)))
+        .sum::<f64>()
+        / 2.0
+}
+
 /// Of many points those that are not well inside the octagon of the ones farthest in eight directions (Akl and Toussaint
 /// 1978).
 fn outer(points: Vec<Vector2<f64>>) -> Vec<Vector2<f64>> {

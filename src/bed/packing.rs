@@ -236,10 +236,7 @@ impl<'a> Grid<'a> {
             Container::Box([width, depth]) => x.min(width - x).min(y).min(depth - y),
             Container::Cylinder(radius) => radius - x.hypot(y),
         };
-        let inmost = match container {
-            Container::Box([width, depth]) => width.min(depth) / 2.0,
-            Container::Cylinder(radius) => radius,
-        };
+        let inmost = inwards(from[0] + sides[0] / 2.0, from[1] + sides[1] / 2.0);
         let has_core = inmost >= (FROM_SIDES + LEAST_WIDTH / 2.0) * diameter;
         let levels = (LAYER * STRATA).round();
         let finest = diameter / STRATA;

@@ -51,9 +51,11 @@ pub fn union_volume(balls: &[Ball], rows: usize) -> f64 {
 /// Balls in the frame of the principal axes of all of them, as if none overlapped: the longest along z, the shortest
 /// along y.
 fn along_own_axes(balls: &[Ball]) -> Vec<Ball> {
-    let sum = |f: &dyn Fn(&Ball) -> Vector3<f64>| balls.iter().map(f).sum::<Vector3<f64>>();
     let volume: f64 = balls.iter().map(|ball| ball.radius.powi(3)).sum();
-    let centre = sum(&|ball| ball.centre.coords * ball.radius.powi(3)) / volume;
+    let weighted = balls
+        .iter()
+        .map(|ball| ball.centre.coords * ball.radius.powi(3));
+    let centre = weighted.sum::<Vector3<f64>>() / volume;
     let moment = |ball: &Ball| {
         let from = ball.centre.coords - centre;
         from * from.transpose() * ball.radius.powi(3)
@@ -146,6 +148,7 @@ mod tests {
             [0.0; 2]
         );
     }
+
     #[test]
     fn rows_and_layers_of_balls_have_the_volume_of_all_of_them() {
         let ball = |place: Vector3<f64>, radius: f64| Ball {

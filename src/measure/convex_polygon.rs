@@ -1,6 +1,6 @@
 //! The convex hull of points in the plane, and what is measured on it with calipers.
 
-use crate::polygon_hull::polygon_hull;
+use crate::polygon_hull::{hull_area, polygon_hull};
 use nalgebra::Vector2;
 
 /// A convex polygon, its corners counter-clockwise and no three of them on one line. It may be a point
@@ -35,13 +35,7 @@ impl ConvexPolygon {
     }
 
     pub(super) fn area(&self) -> f64 {
-        let Some(first) = self.corners.first() else {
-            return 0.0;
-        };
-        let fan = self.corners.windows(2);
-        fan.map(|edge| (edge[0] - first).perp(&(edge[1] - first)))
-            .sum::<f64>()
-            / 2.0
+        hull_area(&self.corners)
     }
 
     /// Length of the border; of a segment, twice its length.

@@ -65,7 +65,7 @@ impl Estimate {
         let cells = CubeCell::uniform(LocalErrors::PARTS);
         let middles: Vec<Vector3<f64>> = cells.iter().map(CubeCell::middle).collect();
         let plain: Vec<Vector3<f64>> = middles.iter().map(|n| self.plain(n)).collect();
-        let locals = self.locals(grain, &plain);
+        let locals = self.locals(&plain);
         let unexpected = self.unexpected(&posterior);
         let left_out = is_rough.then(|| LeftOut::new(self, &posterior, &residuals, true));
         let beside = self.beside(left_out.as_ref(), &plain);
@@ -139,11 +139,6 @@ impl Estimate {
     /// T^-1 n', of unit length.
     fn plain(&self, stretched: &Vector3<f64>) -> Vector3<f64> {
         stretched.component_div(&self.cloud.stretch).normalize()
-    }
-
-    /// T n.
-    fn stretched(&self, n: &Vector3<f64>) -> Vector3<f64> {
-        self.cloud.stretch.component_mul(n)
     }
 
     /// What second derivatives of the stretched radius bend where the plain surface, in the direction n, has a radius, a

@@ -77,8 +77,6 @@ pub(super) struct Local {
     factor: f64,
     /// Of a plain radius to one of the stretched space, in units of the mean.
     pub(super) scale: f64,
-    /// By how much a grain differs from the estimate, in the plain radius.
-    difference: f64,
 }
 
 impl Estimate {
@@ -90,44 +88,50 @@ impl Estimate {
         directions: &[Vector3<f64>],
     ) -> Vec<RadiusError> {
         let noise = self.spectrum.noise().powi(2);
-        let known = self.locals(grain, directions).into_iter();
+        let known = self.locals(directions).into_iter();
+        let differences = self.differences(grain, directions).into_iter();
         known
-            .map(|local| RadiusError {
-                surface: local.error(local.variance),
-                point: local.error(local.variance + noise),
+            .zip(differences)
+            .map(|(local, difference)| RadiusError {
+                surface: difference.hypot(local.scatter(local.variance)),
+                point: difference.hypot(local.scatter(local.variance + noise)),
             })
             .collect()
     }
 
+    /// By how much the plain radius of a grain differs from that of the estimate.
+    fn differences(&self, grain: &StarGrain, directions: &[Vector3<f64>]) -> Vec<f64> {
+        let mapped: Vec<Vector3<f64>> = directions.iter().map(|n| self.stretched(n)).collect();
+        let unit: Vec<Vector3<f64>> = mapped.iter().map(Vector3::normalize).collect();
+        let stretched = self.stretched_radii(&unit).into_iter().zip(&mapped);
+        let own = grain.local_radii(directions).into_iter();
+        own.zip(stretched)
+            .map(|(radius, (stretched, mapped))| radius - stretched / mapped.norm())
+            .collect()
+    }
+
     /// How well the radius is known in directions of the grain's own frame.
-    pub(super) fn locals(&self, grain: &StarGrain, directions: &[Vector3<f64>]) -> Vec<Local> {
+    pub(super) fn locals(&self, directions: &[Vector3<f64>]) -> Vec<Local> {
         let posterior = self.posterior();
         let given = self.given(&posterior);
         let variances = Variances::new(&given);
         let errors = standardised(self, &posterior);
         let neighbours = Neighbours::new(&self.cloud.directions);
 
-        let mapped: Vec<Vector3<f64>> = directions
-            .iter()
-            .map(|n| self.cloud.stretch.component_mul(n))
-            .collect();
+        let mapped: Vec<Vector3<f64>> = directions.iter().map(|n| self.stretched(n)).collect();
         let unit: Vec<Vector3<f64>> = mapped.iter().map(Vector3::normalize).collect();
         let known = variances.at(&unit);
-        let radii = self.stretched_radii(&unit).into_iter();
-        let differences = radii.zip(grain.local_radii(directions));
         mapped
             .iter()
             .zip(&unit)
             .zip(known)
-            .zip(differences)
-            .map(|(((mapped, n), variance), (stretched, radius))| {
+            .map(|((mapped, n), variance)| {
                 let near = neighbours.nearest(n, VICINITY);
                 let squares = near.iter().map(|&i| errors[i].powi(2));
                 Local {
                     variance,
                     factor: squares.sum::<f64>() / near.len().max(1) as f64,
                     scale: self.cloud.mean / mapped.norm(),
-                    difference: radius - stretched / mapped.norm(),
                 }
             })
             .collect()
@@ -135,10 +139,9 @@ impl Estimate {
 }
 
 impl Local {
-    /// Of the plain radius, with a variance of that of the stretched space.
-    fn error(&self, variance: f64) -> f64 {
-        let scatter = self.scale * (self.factor * variance).sqrt();
-        self.difference.hypot(scatter)
+    /// Standard deviation of the plain radius, with a variance of that of the stretched space.
+    fn scatter(&self, variance: f64) -> f64 {
+        self.scale * (self.factor * variance).sqrt()
     }
 
     /// Variance in the stretched space, no less than the estimate tells.

@@ -56,6 +56,11 @@ impl Estimate {
         posterior.given_factored(&self.spectrum, self.factor.clone())
     }
 
+    /// T n, of a direction of the grain's own frame.
+    pub(super) fn stretched(&self, n: &Vector3<f64>) -> Vector3<f64> {
+        self.cloud.stretch.component_mul(n)
+    }
+
     /// How far from the centre the farthest of its points is, in the scan's unit.
     pub(in crate::fit) fn farthest_point(&self) -> f64 {
         let points = self.cloud.points().into_iter();

@@ -171,9 +171,8 @@ fn split_points(all: &[Point3<f64>], necks: Necks) -> Split {
     let points: Vec<Point3<f64>> = order.iter().map(|&i| all[i as usize]).collect();
     let distinct = |i: &usize| *i == 0 || points[*i] != points[*i - 1];
     // What stands at one place over and over would carry every plane through it.
-    let mut once = points.clone();
-    once.dedup();
-    let plane = Plane::carrying(&once);
+    let once = (0..points.len()).filter(distinct).map(|i| points[i]);
+    let plane = Plane::carrying(&once.collect::<Vec<_>>());
     let is_above = |point: &Point3<f64>| {
         plane.is_none_or(|plane| !plane.carries(point) && !plane.hides(point))
     };
@@ -234,14 +233,13 @@ fn split_points(all: &[Point3<f64>], necks: Necks) -> Split {
     }
     let left = points.iter().zip(&owners);
     let left = left.filter(|(_, owner)| owner.is_none());
-    let (dust_points, plane_points): (Vec<_>, Vec<_>) =
-        left.partition(|(point, _)| is_above(point));
+    let dust_points = left.clone().filter(|(point, _)| is_above(point)).count();
     Split {
-        plane_points: plane_points.len(),
+        plane_points: left.count() - dust_points,
         plane,
         distance,
         dust: dust.len(),
-        dust_points: dust_points.len(),
+        dust_points,
         left_out: Vec::new(),
         grains: members
             .into_iter()

@@ -5,7 +5,7 @@
 
 use super::dust::LEAST_POINTS;
 use super::outline::Outline;
-use crate::polygon_hull::polygon_hull;
+use crate::polygon_hull::{hull_area, polygon_hull};
 use crate::sphere::{across, compass};
 use nalgebra::{Matrix2, Point3, Vector2, Vector3};
 use std::collections::BTreeMap;
@@ -117,7 +117,7 @@ impl Neck {
                 ..0 => &mut below,
                 1.. => &mut above,
             };
-            *largest = largest.max(area(&polygon_hull(places)));
+            *largest = largest.max(hull_area(&polygon_hull(places)));
         }
         own < OUTLINED * below.min(above)
     }
@@ -257,12 +257,6 @@ fn are_two(points: &[Point3<f64>], beyond: &[bool]) -> bool {
         one += whole.distance(point).powi(2);
     }
     two < TWO * TWO * one
-}
-
-/// The area of a polygon, its corners counter-clockwise.
-fn area(corners: &[Vector2<f64>]) -> f64 {
-    let edges = corners.iter().zip(corners.iter().cycle().skip(1));
-    edges.map(|(from, to)| 0.5 * from.perp(to)).sum()
 }
 
 /// The smallest section along an axis between larger ones.
