@@ -69,8 +69,10 @@ fn main() -> Result<(), Box<dyn Error>> {
 }
 
 fn print_head() {
-    println!("| bodies | points | noise | forces told | depth | volume | curvature | force |");
-    println!("|---|---|---|---|---|---|---|---|");
+    println!(
+        "| bodies | points | noise | forces told | depth | volume | curvature | force | force by volume |"
+    );
+    println!("|---|---|---|---|---|---|---|---|---|");
 }
 
 fn print_row(name: &str, (points, noise): (usize, f64), found: &Found) {

@@ -1,7 +1,7 @@
 //! Pairs of fitted grains beside pairs of the bodies that they were fitted to, placed alike.
 
 use grainform::contact::{
-    ContactBody, ContactRegion, KnownContact, contact_regions, reach, told_depth,
+    ContactBody, ContactRegion, KnownContact, VolumeLaw, contact_regions, reach, told_depth,
 };
 use grainform::model::{Grain, Surface};
 use grainform::shapes::Sampling;
@@ -46,6 +46,7 @@ pub(crate) struct Found {
     volume: Figure,
     curvature: Figure,
     force: Figure,
+    force_of_volume: Figure,
 }
 
 impl Found {
@@ -88,6 +89,12 @@ impl Found {
                 }
             }
         }
+        if told_depth(region.depth, depth_error).is_ok() {
+            let law = VolumeLaw::new([1.0; 2], 1.0, 1.0);
+            let [own, exact] = [region, known].map(|region| law.force_n(region).norm());
+            let error = VolumeLaw::force_share(region).map(|share| share * own);
+            self.force_of_volume.add(own, exact, error);
+        }
         if let (Some(own), Some(exact)) = (pressed(region), pressed(known)) {
             self.pressed += 1;
             self.force.add(own.0, exact.0, own.1);
@@ -97,13 +104,14 @@ impl Found {
     /// Columns of the table.
     pub(crate) fn columns(&self) -> String {
         format!(
-            "{} of {} | {} | {} | {} | {} |",
+            "{} of {} | {} | {} | {} | {} | {} |",
             self.pressed,
             self.placed,
             self.depth.told(),
             self.volume.told(),
             self.curvature.told(),
             self.force.told(),
+            self.force_of_volume.told(),
         )
     }
 }

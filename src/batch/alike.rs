@@ -14,6 +14,8 @@ pub(crate) fn doubts(first: &Lot, second: &Lot) -> Vec<String> {
         shared(first, second),
         copied(first, "first"),
         copied(second, "other"),
+        unread(first, "first"),
+        unread(second, "other"),
     ];
     found.into_iter().flatten().collect()
 }
@@ -55,6 +57,18 @@ fn copied(lot: &Lot, which: &str) -> Option<String> {
              take the grains as independent.",
             plural(lot.copies, "grain"),
             if lot.copies == 1 { "is" } else { "are" }
+        )
+    })
+}
+
+/// How many cells of a lot are passed over.
+fn unread(lot: &Lot, which: &str) -> Option<String> {
+    let cells = |(name, count): (&String, &usize)| format!("{count} of {name}");
+    let told: Vec<_> = lot.unread.iter().map(cells).collect();
+    (!told.is_empty()).then(|| {
+        format!(
+            "Cells of the {which} lot that hold no number are left out: {}.",
+            told.join(", ")
         )
     })
 }

@@ -25,6 +25,8 @@ pub(crate) struct Lot {
     pub scans: BTreeSet<(String, Option<i64>)>,
     /// How many more grains it has than scans.
     pub copies: usize,
+    /// Of a column of figures, how many cells hold something that is no finite number.
+    pub unread: BTreeMap<String, usize>,
 }
 
 /// Reads the figures in a folder of results, or in any table, as Parquet if it is so named, else as CSV.
@@ -103,6 +105,15 @@ impl Lot {
         true
     }
 
+    /// Takes the value of a cell: NaN is one that is not known.
+    fn take(&mut self, column: usize, value: f64) {
+        if value.is_finite() {
+            self.values[column].push(value);
+        } else if !value.is_nan() {
+            *self.unread.entry(self.names[column].clone()).or_default() += 1;
+        }
+    }
+
     /// Leaves out what is no figure of a grain.
     fn figures(mut self) -> Self {
         let is_figure = |name: &str| {
@@ -113,6 +124,8 @@ impl Lot {
         let (names, values) = columns
             .filter(|(name, values)| is_figure(name) && !values.is_empty())
             .unzip();
+        let names: Vec<String> = names;
+        self.unread.retain(|name, _| names.contains(name));
         Self {
             names,
             values,
@@ -134,8 +147,11 @@ fn of_csv(path: &Path) -> Result<Lot, TableError> {
         if !lot.hear(&names.iter().zip(&record).collect()) {
             continue;
         }
-        for (values, cell) in lot.values.iter_mut().zip(&record) {
-            values.extend(cell.parse::<f64>().ok().filter(|value| value.is_finite()));
+        for (at, cell) in record.iter().enumerate() {
+            match cell.trim() {
+                "" => {}
+                cell => lot.take(at, cell.parse().unwrap_or(f64::INFINITY)),
+            }
         }
     }
     Ok(lot)
@@ -162,9 +178,9 @@ fn of_parquet(path: &Path) -> Result<Lot, TableError> {
         if !lot.hear(&texts.collect()) {
             continue;
         }
-        for (values, (_, cell)) in lot.values.iter_mut().zip(row.get_column_iter()) {
+        for (at, (_, cell)) in row.get_column_iter().enumerate() {
             if let Field::Double(value) = cell {
-                values.extend(Some(*value).filter(|value| value.is_finite()));
+                lot.take(at, *value);
             }
         }
     }

@@ -195,7 +195,13 @@ impl BedSettings {
             zero_or_above("the damping along the normal", self.damping[0]),
             zero_or_above("the damping across the normal", self.damping[1]),
             above_zero("the gravity", self.gravity),
-            above_zero("the share of energy at rest", self.rest),
+            // More is a bed that moves.
+            (
+                "the share of energy at rest",
+                "above 0 and at most 0.01",
+                self.rest,
+                self.rest > 0.0 && self.rest <= 0.01,
+            ),
             above_zero("the longest time", self.most_seconds),
         ];
         match checks.into_iter().find(|check| !check.3) {

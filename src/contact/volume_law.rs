@@ -1,6 +1,6 @@
 //! A normal force that keeps energy whatever the shapes: the gradient of an energy of the volume that two bodies share.
 
-use super::{ContactRegion, KnownContact};
+use super::ContactRegion;
 use crate::measure::equivalent_radius;
 use nalgebra::Vector3;
 use std::f64::consts::PI;
@@ -46,11 +46,10 @@ impl VolumeLaw {
         self.stiffness_pa * region.volume.powf(EXPONENT) * self.metres_per_unit.powi(3)
     }
 
-    /// Standard error of the force at a region, as a share of it, where it is a lens between surfaces that tell theirs:
-    /// with V = pi R u² the force goes with R^(5/4) u^(3/2), R the effective radius where they touch.
+    /// Standard error of the force at a region, as a share of it, where both surfaces tell theirs: with V = pi R u² of a lens
+    /// the force goes with R^(5/4) u^(3/2), R the effective radius where they touch.
     pub fn force_share(region: &ContactRegion) -> Option<f64> {
-        let known = KnownContact::at(region.curvatures.as_ref()?, region.errors.as_ref()).ok()?;
-        let of_radius = known.share(|relative| relative.effective_radius().powf(EXPONENT))?;
+        let of_radius = region.radius_share(EXPONENT)?;
         Some(of_radius.hypot(1.5 * region.depth_error()? / region.depth))
     }
 

@@ -42,7 +42,7 @@ pub struct RegionsReport {
     /// Places of the surfaces that were evaluated beyond those of these triangles.
     pub places_evaluated: usize,
     /// Why these figures have no standard errors; `null` if they have.
-    pub no_standard_errors: Option<&'static str>,
+    pub no_standard_errors: Option<String>,
     /// What to know of these figures.
     pub warnings: Vec<String>,
 }
@@ -150,14 +150,14 @@ impl RegionsReport {
     }
 }
 
-/// Why a region has no standard errors.
-const NO_POINTS: &str = "No standard errors: in a region no two points were found whose line is normal to both surfaces, or flat sides lie on each other there.";
+/// Why a region has neither curvatures nor what follows from them.
+const NO_POINTS: &str = "in a region no two points were found whose line is normal to both surfaces, or flat sides lie on each other there";
 
-fn no_errors(regions: &[ContactRegion]) -> Option<&'static str> {
+fn no_errors(regions: &[ContactRegion]) -> Option<String> {
     let lack = regions.iter().filter(|region| region.errors.is_none());
     let reason = |region: &ContactRegion| match region.curvatures {
-        Some(_) => NO_ERRORS,
-        None => NO_POINTS,
+        Some(_) => NO_ERRORS.into(),
+        None => format!("No standard errors: {NO_POINTS}."),
     };
     lack.map(reason).next()
 }
@@ -183,7 +183,7 @@ impl NormalLaw {
             Self::Hertz(law) => law,
         };
         let Some(curvatures) = &region.curvatures else {
-            warnings.push("No force by Hertz: in a region no two points were found whose line is normal to both surfaces, or flat sides lie on each other there.".into());
+            warnings.push(format!("No force by Hertz: {NO_POINTS}."));
             return None;
         };
         let overlap = Overlap {
@@ -250,7 +250,7 @@ impl fmt::Display for RegionsReport {
             self.triangles,
             self.places_evaluated
         )?;
-        match self.no_standard_errors {
+        match &self.no_standard_errors {
             None => Ok(()),
             Some(reason) => write!(f, "\n{reason}"),
         }

@@ -42,6 +42,22 @@ fn lots_in_different_units_are_not_compared() {
 }
 
 #[test]
+fn cells_that_hold_no_number_are_told_and_left_out() {
+    let folder = folder();
+    let lot = |name: &str, cells: [&str; 4]| {
+        let rows = cells.map(|cell| format!("{cell}.ply,ok,{cell},bean\n"));
+        let table = format!("path,status,volume,variety\n{}", rows.concat());
+        std::fs::write(folder.path().join(name), table).unwrap();
+    };
+    lot("a.csv", ["1.5", "1;7", "1.9", "2.0"]);
+    lot("b.csv", ["1.5", " 1.7", "", "NaN"]);
+    let report = json(&folder, &["compare", "a.csv", "b.csv"]);
+    let told = "Cells of the first lot that hold no number are left out: 1 of volume.";
+    assert_eq!(report["warnings"], serde_json::json!([told]));
+    assert_eq!(report["measures"][0]["counts"], serde_json::json!([3, 2]));
+}
+
+#[test]
 fn lots_that_were_fitted_otherwise_or_share_grains_are_told_to_be() {
     let folder = folder();
     let lot = |name: &str, settings: &str, hashes: [&str; 3]| {

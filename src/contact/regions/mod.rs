@@ -19,7 +19,7 @@ mod pair;
 mod patch;
 mod sums;
 
-use super::{KnownContact, RelativeCurvature};
+use super::KnownContact;
 use crate::measure::Curvature;
 use crate::model::{LocalError, Surface};
 use cluster::{Cluster, Found};
@@ -108,12 +108,24 @@ impl ContactRegion {
         self.errors.as_ref().map(apart_error)
     }
 
-    /// Standard error of the volume, where both surfaces tell theirs: of the depth over the area of the region, and of the
-    /// effective radius, by which the volume of a lens goes.
+    /// Standard error of the volume, where both surfaces tell theirs: of the effective radius, and of the depth. The volume
+    /// of a lens goes with the square of that, so an overlap by less than its error may be many times larger: half of what
+    /// two errors of the depth add.
     pub fn volume_standard_error(&self) -> Option<f64> {
-        let known = KnownContact::at(self.curvatures.as_ref()?, self.errors.as_ref()).ok()?;
-        let of_radius = known.share(RelativeCurvature::effective_radius)? * self.volume;
-        Some(of_radius.hypot(self.area.norm() * self.depth_error()?))
+        let of_radius = self.radius_share(1.0)? * self.volume;
+        let error = self.depth_error()?;
+        let of_depth = self.area.norm() * error * (1.0 + error / self.depth);
+        Some(of_radius.hypot(of_depth))
+    }
+
+    /// Standard error, as a share, of the effective radius to a power, by which figures of a lens go. Where it is not told
+    /// from that of flat surfaces the rim of the lens may lie as far off, beside its middle, as two places of the surfaces
+    /// may.
+    pub(super) fn radius_share(&self, power: f64) -> Option<f64> {
+        match KnownContact::at(self.curvatures.as_ref()?, self.errors.as_ref()) {
+            Ok(known) => known.share(|relative| relative.effective_radius().powf(power)),
+            Err(_) => Some(power * 2.0_f64.sqrt() * self.depth_error()? / self.depth),
+        }
     }
 }
 

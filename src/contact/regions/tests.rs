@@ -240,12 +240,12 @@ fn pairs_are_followed_by_as_many_threads_as_there_are() {
     is_shared::<ContactPlace>();
 }
 
-/// A ball whose surface is known to a share of its radius, and its curvature to the same share.
-fn known_ball(radius: f64, share: f64) -> Grain {
+/// A ball whose surface is known to a share of its radius, and its curvature to another.
+fn known_ball(radius: f64, share: f64, bent: f64) -> Grain {
     let family = Whole::new(vec![radius * (4.0 * PI).sqrt()]).unwrap();
     let error = LocalError {
         place: share * radius,
-        curvature: share / radius,
+        curvature: bent / radius,
     };
     let grain = StarGrain::new(Frame::SCAN, Family::Whole(family)).unwrap();
     Grain::from(grain).with_local_errors(LocalErrors::new(vec![error; 864]))
@@ -253,7 +253,7 @@ fn known_ball(radius: f64, share: f64) -> Grain {
 
 #[test]
 fn a_pair_that_moves_has_the_errors_of_its_regions() {
-    let (one, two) = (known_ball(1.0, 1e-3), known_ball(0.5, 4e-3));
+    let (one, two) = (known_ball(1.0, 1e-3, 1e-3), known_ball(0.5, 4e-3, 4e-3));
     let bodies = [ContactBody::new(&one), ContactBody::new(&two)];
     let pose = Isometry3::new(Vector3::z() * 1.45, Vector3::x());
     let mut pair = ContactPair::new(&bodies[0], &bodies[1]);
@@ -270,13 +270,28 @@ fn a_pair_that_moves_has_the_errors_of_its_regions() {
     assert_eq!(region.depth_error(), Some(depth_error));
     assert_eq!(region.errors.as_ref(), place.errors());
     // Lenses share V = pi R u², and a ball's radius is off by its share over the root of two.
-    let of_depth = 2.0 * depth_error / region.depth;
+    let of_depth = ((1.0 + 2.0 * depth_error / region.depth).powi(2) - 1.0) / 2.0;
     let of_radius = 1e-3_f64.hypot(2.0 * 4e-3) / 3.0 / 2.0_f64.sqrt();
     let error = region.volume_standard_error().unwrap() / region.volume;
     assert_relative_eq!(error, of_depth.hypot(of_radius), max_relative = 0.02);
     let of_force = (1.5 * depth_error / region.depth).hypot(1.25 * of_radius);
     let share = VolumeLaw::force_share(region).unwrap();
     assert_relative_eq!(share, of_force, max_relative = 0.02);
+
+    // A curvature that may be none: the rim of the lens is as uncertain as two places are.
+    let bent = known_ball(0.5, 4e-3, 3.0);
+    let found = contact_regions(&bodies[0], &ContactBody::new(&bent), &pose).unwrap();
+    let region = &found.regions[0];
+    let error = region.volume_standard_error().unwrap() / region.volume;
+    let of_place = depth_error / region.depth;
+    let of_rim = 2.0_f64.sqrt() * of_place;
+    assert_relative_eq!(error, of_rim.hypot(of_depth), max_relative = 0.02);
+    let share = VolumeLaw::force_share(region).unwrap();
+    assert_relative_eq!(
+        share,
+        1.5_f64.hypot(1.25 * 2.0_f64.sqrt()) * of_place,
+        max_relative = 1e-9
+    );
 
     // One that tells none leaves it open.
     let exact = ball(0.5);
