@@ -38,6 +38,15 @@ pub(super) struct Cluster {
     is_whole: bool,
 }
 
+/// What comes of parts that are cut.
+pub(super) struct Cut {
+    /// Parts of which it is not known yet what they share.
+    pub(super) finer: Vec<Cluster>,
+    pub(super) found: Vec<Found>,
+    /// Of whole surfaces: whether most corners of one lie inside the other.
+    pub(super) is_mostly_inside: bool,
+}
+
 /// What is shared in one place.
 pub(super) struct Found {
     pub(super) sums: Sums,
@@ -100,7 +109,7 @@ impl Cluster {
         &self,
         bodies: &[Placed<'_>; 2],
         work: &mut RegionWork,
-    ) -> Result<(Vec<Self>, Vec<Found>), RegionError> {
+    ) -> Result<Cut, RegionError> {
         // With the surface along two axes, boxes are no thicker than it is bent.
         let turn = UnitQuaternion::rotation_between(
             &(bodies[0].pose * self.patches[0].area()),
@@ -121,9 +130,6 @@ impl Cluster {
             known: &self.patches[side].known,
         });
         let crossing = Crossing::new([&sides[0], &sides[1]], &near);
-        if self.is_whole && near.is_empty() && crossing.inside.iter().flatten().any(|is| *is) {
-            return Err(RegionError::Inside);
-        }
         let kept = Kept::new(&self.patches, &near, &crossing);
         if self.is_whole {
             work.skipped = work.triangles - kept.count();
@@ -175,7 +181,15 @@ impl Cluster {
                 is_whole: false,
             });
         }
-        Ok((finer, found))
+        let is_mostly_inside = |corners: &Vec<bool>| {
+            let inside = corners.iter().filter(|is_inside| **is_inside).count();
+            2 * inside > corners.len()
+        };
+        Ok(Cut {
+            finer,
+            found,
+            is_mostly_inside: self.is_whole && crossing.inside.iter().any(is_mostly_inside),
+        })
     }
 
     /// What is shared by some triangles of both surfaces, by the places where that hangs together.

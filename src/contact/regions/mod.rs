@@ -306,12 +306,17 @@ fn found_regions(
     let wholes = bodies.map(|body| &body.whole);
     let mut left = vec![Cluster::whole(wholes, &common.poses)];
     let mut regions = Vec::new();
+    let mut is_mostly_inside = false;
     while let Some(cluster) = left.pop() {
-        let (finer, found) = cluster.cut(&placed, &mut work)?;
-        left.extend(finer);
-        regions.extend(found);
+        let cut = cluster.cut(&placed, &mut work)?;
+        left.extend(cut.finer);
+        regions.extend(cut.found);
+        is_mostly_inside |= cut.is_mostly_inside;
     }
-    Ok((regions, work))
+    match regions.is_empty() && is_mostly_inside {
+        true => Err(RegionError::Inside),
+        false => Ok((regions, work)),
+    }
 }
 
 #[cfg(test)]

@@ -57,11 +57,14 @@ fn balls_share_a_lens() {
         let found = contact_regions(&one, &two, &pose).unwrap();
         assert_eq!(found.regions, []);
     }
-    let within = Isometry3::new(towards * 0.2, Vector3::zeros());
-    assert_eq!(
-        contact_regions(&one, &two, &within),
-        Err(RegionError::Inside)
-    );
+    // In the middle, and near the surface from within.
+    for distance in [0.2, 0.4, 0.49] {
+        let within = Isometry3::new(towards * distance, Vector3::zeros());
+        let found = contact_regions(&one, &two, &within);
+        assert_eq!(found, Err(RegionError::Inside), "{distance}");
+        let found = contact_regions(&two, &one, &within.inverse());
+        assert_eq!(found, Err(RegionError::Inside), "{distance}");
+    }
 }
 
 /// r = 1 - 0.4 z³: its rim is 0.641 high, and its middle 0.6.
