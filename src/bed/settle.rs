@@ -158,6 +158,12 @@ impl Bed {
         &self.kinds
     }
 
+    /// Whether the faces of a mesh are walls too.
+    pub fn has_mesh(&self) -> bool {
+        let mut walls = self.walls.iter();
+        walls.any(|wall| matches!(wall, Wall::Triangle { .. }))
+    }
+
     /// The grains.
     pub fn bodies(&self) -> &[Body] {
         &self.state.bodies

@@ -130,9 +130,17 @@ fn seeds_tell_errors_and_a_cylinder_and_a_mesh_hold() {
     assert!(quantiles.len() == 5 && quantiles[2]["error"].is_f64());
     let text = succeed(&folder, &words);
     assert!(
-        text.contains("runs          2") && text.contains("cylinder of diameter 12"),
+        text.contains("runs          2")
+            && text.contains("cylinder of diameter 12.0000 mm, and the faces of a mesh")
+            && text.contains("not told: how much of the container the mesh takes"),
         "{text}"
     );
+    // The room below the plate is none for grains.
+    for run in report["runs"].as_array().unwrap() {
+        let packing = &run["packing"];
+        assert!(packing["core"].is_null() && packing["whole"].is_null());
+        assert_eq!(packing["layers"], serde_json::json!([]));
+    }
     for seed in ["seed_0", "seed_1"] {
         let state = fs::read(folder.path().join("bed").join(seed).join("state.json")).unwrap();
         let state: serde_json::Value = serde_json::from_slice(&state).unwrap();

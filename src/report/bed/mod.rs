@@ -19,6 +19,8 @@ pub struct BedReport {
     pub kinds: Vec<BedKindRecord>,
     /// What was asked for or, where it was not, assumed.
     pub settings: BedSettings,
+    /// Whether the faces of a mesh are walls too.
+    pub has_mesh: bool,
     /// The figures over all beds.
     pub means: BedMeans,
     /// The beds.
@@ -53,7 +55,8 @@ pub struct BedRunRecord {
     pub seconds: f64,
     /// Steps of the simulation.
     pub steps: u64,
-    /// How densely it is packed; without fractions where grains overlap too much.
+    /// How densely it is packed; without fractions where grains overlap too much, and beside a mesh, for it is not known
+    /// how much of the container is room for grains.
     pub packing: Packing,
     /// Contacts, forces, directions.
     pub fabric: Fabric,
@@ -70,7 +73,7 @@ impl BedRunRecord {
             packing: packing(bed),
             fabric,
         };
-        if run.is_crushed() {
+        if run.is_crushed() || bed.has_mesh() {
             run.packing.core = None;
             run.packing.whole = None;
             run.packing.layers.clear();
@@ -90,13 +93,17 @@ impl BedReport {
             mass_kg: kind.mass(),
         });
         let settings = bed.settings().clone();
-        let warnings = runs.iter().flat_map(|run| run.warnings(&settings));
+        let has_mesh = bed.has_mesh();
+        let warnings = runs
+            .iter()
+            .flat_map(|run| run.warnings(&settings, has_mesh));
         Self {
             unit,
             kinds: kinds.collect(),
             means: BedMeans::of(&runs),
             warnings: warnings.collect(),
             settings,
+            has_mesh,
             runs,
         }
     }

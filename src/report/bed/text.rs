@@ -57,7 +57,11 @@ impl BedReport {
             Container::Cylinder(radius) => format!("cylinder of diameter {}", length(2.0 * radius)),
         };
         let settings = &self.settings;
-        writeln!(f, "container     {container}")?;
+        let mesh = match self.has_mesh {
+            true => ", and the faces of a mesh",
+            false => "",
+        };
+        writeln!(f, "container     {container}{mesh}")?;
         writeln!(
             f,
             "material      density {} kg/m³, Young's modulus {} MPa, Poisson's ratio {}, of walls too",
@@ -96,6 +100,9 @@ impl BedReport {
         let fraction = |figure: Option<BedMean>, place: &str| match figure {
             Some(fraction) => format!("packing fraction {fraction}, {place}"),
             None if crushed() => "not told: grains overlap too much".to_owned(),
+            None if self.has_mesh => {
+                "not told: how much of the container the mesh takes is not known".to_owned()
+            }
             None => "not told: the bed is too low or too narrow".to_owned(),
         };
         let means = &self.means;

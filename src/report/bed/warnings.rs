@@ -20,7 +20,7 @@ impl BedRunRecord {
     }
 
     /// In sentences.
-    pub(super) fn warnings(&self, settings: &BedSettings) -> Vec<String> {
+    pub(super) fn warnings(&self, settings: &BedSettings, has_mesh: bool) -> Vec<String> {
         let seed = self.seed;
         let mut warnings = Vec::new();
         if !self.is_at_rest {
@@ -53,10 +53,10 @@ impl BedRunRecord {
                 given(settings.youngs_modulus_pa / 1e6)
             ));
         }
-        if self.packing.core.is_none() && !self.is_crushed() {
+        if self.packing.core.is_none() && !self.is_crushed() && !has_mesh {
             warnings.push(format!(
-                "The bed of seed {seed} has no core: it is too low or too narrow for places two diameters off the \
-                 walls, 1.5 off the floor and one below its surface."
+                "The bed of seed {seed} has no core: two diameters off the walls, 1.5 off the floor and one below its \
+                 surface, less than half a diameter of height or one of width is left."
             ));
         }
         warnings
