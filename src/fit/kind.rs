@@ -1,7 +1,7 @@
 //! Which kind of surface a scan is given: a radius, or the position of points over the sphere.
 //!
-//! A radius first: it takes fewer coefficients where both do. Where it hides area, ends above its limit, or is steep,
-//! the position is fitted too, as far as it may still be better, and the one with fewer coefficients at the limit is kept.
+//! A radius first: it takes fewer coefficients where both do. Where it hides area, ends above its limit, is steep, or is far
+//! from points that lie on smooth surfaces with their neighbours, the position is fitted too, as far as it may still be better, and the one with fewer coefficients at the limit is kept.
 //! Of voxels the position alone, for a radius follows their steps as if they were texture.
 
 use super::context::Context;
@@ -10,6 +10,7 @@ use super::options::{FitOptions, Kind, Seams};
 use super::outcome::{Fitted, KindChoice, Rival};
 use super::positioned::positioned;
 use super::prepare::PreparedScan;
+use super::scatter::scatter;
 use super::warning::FitWarning;
 use crate::measure::{Deviation, feet};
 use crate::model::{Grain, StarSurface};
@@ -30,6 +31,17 @@ const LOOKED_AT: usize = 24;
 /// What a radius does not see is far from it in few places: the mean of all distances is then less than this share of
 /// their RMS. Of noise it is .80 (Geary 1935).
 const LONG_TAILS: f64 = 0.74;
+
+/// So many times farther off than points scatter a radius does not follow a smooth body. Of stones and of bodies with edges
+/// it is 1.0 at most, of a mushroom 1.9, of a banana 35.
+const FAR: f64 = 1.5;
+
+/// So many times larger than their scatter their noise is something else. Of bodies with noise it is 1.5 at most, of a
+/// blackberry whose bumps are taken for noise 2.1.
+const NOISY: f64 = 1.8;
+
+/// Most points of a scan of which that is looked at: more tell what a radius cannot follow by themselves.
+const MOST_WITH_SCATTER: usize = 30_000;
 
 /// A radius that hides area so counts as so many times farther off.
 const HIDING: f64 = 2.0;
@@ -72,7 +84,10 @@ pub fn fit_scan(
                     found => found,
                 },
             },
-            Ok(fitted) if is_free(options) && is_doubtful(&fitted) => {
+            Ok(fitted)
+                if is_free(options)
+                    && (is_doubtful(&fitted) || is_rougher(&fitted, scan, options)) =>
+            {
                 compared(scan, fitted, options, context)
             }
             found => found,
@@ -129,6 +144,25 @@ fn is_doubtful(fitted: &Fitted) -> bool {
     warns || steep as f64 > STEEP_SHARE * directions.len() as f64
 }
 
+/// Whether a radius does not follow a body that is smooth among neighbours: held-out points are much farther from it than
+/// from the surfaces through their neighbours, or what they scatter by is much less than the noise that is told.
+fn is_rougher(star: &Fitted, scan: &Scan, options: &FitOptions) -> bool {
+    let points = scan.points();
+    let is_far = |rms: f64, limit: f64| rms * held_out_over_fitted(star) > FAR * limit;
+    let good = options.tolerance.length(star.mean_radius);
+    if points.len() > MOST_WITH_SCATTER || !is_far(star.residuals.rms, good) {
+        return false;
+    }
+    let Some(scatter) = scatter(points) else {
+        return false;
+    };
+    let limit = scatter.max(good);
+    let is_noisy = star.search.noise.is_some_and(|noise| noise > NOISY * limit);
+    is_noisy
+        || is_far(star.residuals.rms, limit)
+            && is_far(normal_distances(&star.grain, scan).rms(), limit)
+}
+
 /// The better of a radius and of positions; the radius where no positions can be fitted.
 fn compared(
     scan: &Scan,
@@ -136,7 +170,8 @@ fn compared(
     options: &FitOptions,
     context: &Context<'_>,
 ) -> Result<Fitted, FitError> {
-    let limit = star.search.limit;
+    // Not the limit of its search: that is the laxer, the worse the estimate is.
+    let limit = options.tolerance.length(star.mean_radius);
     let distances = normal_distances(&star.grain, scan);
     let own = Rival {
         coefficients: star.grain.coefficient_count(),
@@ -208,4 +243,38 @@ fn normal_distances(grain: &Grain, scan: &Scan) -> Deviation {
     let some: Vec<_> = points.iter().step_by(every).copied().collect();
     let feet = feet(grain, &some);
     Deviation::of(feet.iter().map(|foot| (foot.distance, 1.0)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shapes::{Body, SynthOptions, synthesize};
+
+    /// Whether a fit of the maize of such a degree is rougher than its points, which have so much noise.
+    fn is_rough(degree: usize, noise: f64, told: Option<f64>) -> bool {
+        let options = SynthOptions::clean(Body::Maize)
+            .with_points(1538)
+            .with_noise(noise);
+        let scan = Scan::from_points(synthesize(&options).unwrap().points);
+        let own = FitOptions::default().with_segments(1).with_degree(degree);
+        let prepared = PreparedScan::new(&scan, Symmetry::NONE).unwrap();
+        let mut fitted = prepared.fit(&own, &Context::default()).unwrap();
+        if let Some(told) = told {
+            fitted.search.noise = Some(told * fitted.mean_radius);
+        }
+        is_rougher(&fitted, &scan, &FitOptions::default())
+    }
+
+    #[test]
+    fn a_radius_that_does_not_follow_smooth_points_is_rougher_than_these() {
+        assert!(is_rough(4, 0.0, None));
+        assert!(!is_rough(20, 0.0, None));
+        assert!(!is_rough(12, 0.02, None));
+    }
+
+    #[test]
+    fn noise_that_neighbours_do_not_have_is_none() {
+        assert!(is_rough(12, 0.02, Some(0.08)));
+        assert!(!is_rough(12, 0.02, Some(0.025)));
+    }
 }

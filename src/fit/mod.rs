@@ -32,6 +32,7 @@ mod positioned;
 mod prepare;
 mod repeated;
 mod samples;
+mod scatter;
 mod segments;
 mod sound;
 mod sparse;
