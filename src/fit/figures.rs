@@ -56,6 +56,19 @@ pub(super) fn by_size(extents: &Vector3<f64>) -> [usize; 3] {
     order
 }
 
+/// Squares of the standard errors of extents, the largest extent first, from those along each axis: of extents that are
+/// alike it is not known which is the larger, so that each may be any of them.
+pub(super) fn squares_by_size(extents: &Vector3<f64>, squares: &Vector3<f64>) -> Vector3<f64> {
+    let of_rank = |i: usize| {
+        let apart = extents.map(|extent| (extent - extents[i]).powi(2));
+        let all = apart.iter().zip(squares);
+        let alike = all.filter(|(apart, square)| **apart < *square + squares[i]);
+        let own = alike.map(|(apart, square)| apart + square);
+        own.fold(squares[i], f64::max)
+    };
+    Vector3::from(by_size(extents).map(of_rank))
+}
+
 /// Area, volume, centroid and inertia as a list, in this order.
 pub(super) type MassList = SVector<f64, INTEGRALS>;
 
@@ -139,5 +152,17 @@ mod tests {
     fn the_length_is_the_largest_extent() {
         assert_eq!(by_size(&Vector3::new(2.2, 2.3, 2.0)), [1, 0, 2]);
         assert_eq!(by_size(&Vector3::new(1.0, 2.0, 2.0)), [1, 2, 0]);
+    }
+
+    #[test]
+    fn extents_that_are_alike_are_each_as_uncertain_as_any_of_them() {
+        // A bar of square section: its sides are told anywhere between side and diagonal.
+        let extents = Vector3::new(40.0, 41.0, 42.0);
+        let squares = Vector3::new(0.01, 49.0, 36.0);
+        let ranked = squares_by_size(&extents, &squares);
+        assert_eq!(ranked, Vector3::new(50.0, 49.0, 50.0));
+        let apart = Vector3::new(0.01, 0.02, 0.03);
+        let ranked = squares_by_size(&extents, &apart);
+        assert_eq!(ranked, Vector3::new(0.03, 0.02, 0.01));
     }
 }

@@ -1,16 +1,24 @@
 //! Standard errors of a grain of which more is not known than the points leave open: its size, or parts of it.
 
 use super::figures::Figures;
+use crate::measure::equivalent_radius;
 use crate::model::StandardErrors;
 use nalgebra::SMatrix;
 
+/// By how much the centroid is off, in lengths, where half of a grain is larger by a length all over and the other half is
+/// not: of a ball.
+const OF_HALF: f64 = 0.75;
+
 impl StandardErrors {
-    /// With all lengths of a grain of these figures known to such a share only, all together.
+    /// With all lengths of a grain of these figures known to such a share only: all together or, for the centroid, of one
+    /// half alone.
     pub(super) fn with_scale(self, share: f64, figures: &Figures) -> Self {
         let [area, volume, moments] = [2.0, 3.0, 5.0].map(|power| power * share);
         let lacking = self.with_shares([area, volume, moments], figures);
+        let aside = OF_HALF * share * equivalent_radius(figures.volume);
         Self {
             dimensions: beside(self.dimensions, share, figures.dimensions),
+            centroid: self.centroid.map(|error| error.hypot(aside)),
             ..lacking
         }
     }
@@ -39,4 +47,22 @@ fn beside<const C: usize>(
     figures: SMatrix<f64, 3, C>,
 ) -> SMatrix<f64, 3, C> {
     errors.zip_map(&figures, |error, figure| error.hypot(share * figure))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+
+    #[test]
+    fn a_shell_on_one_half_moves_the_centroid() {
+        let figures = Figures::SOME;
+        let errors = StandardErrors::NONE.with_scale(0.01, &figures);
+        let radius = equivalent_radius(figures.volume);
+        // A half ball's shell of thickness t has the first moment pi R³ t, over the volume 3/4 t.
+        for error in &errors.centroid {
+            assert_relative_eq!(*error, 0.0075 * radius, max_relative = 1e-12);
+        }
+        assert_relative_eq!(errors.volume, 0.03 * figures.volume, max_relative = 1e-12);
+    }
 }

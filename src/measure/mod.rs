@@ -17,6 +17,7 @@ mod enclosing_ball;
 mod even_places;
 mod extents;
 mod feet;
+mod followed;
 mod form;
 mod four_triangles;
 mod hull;

@@ -23,7 +23,8 @@
 //! with n'' the transpose of n', radii r' in units of their mean m. k is larger where the radius is less well known, in
 //! proportion. Where the nearest points are [met](super::local) worse than noise is, both errors are as much larger, but not
 //! smaller where they are met better: on the tips of a needle noise is small, and the few points there are weighed against the
-//! prior as if it were not. A bump bends all directions alike, H = -a k of its height and sharpness: one that is missing, and the
+//! prior as if it were not. The prior, which is the same everywhere, also takes tips for noise: where the curvature of what the
+//! points tell without it differs by more than that, it is off by so much. A bump bends all directions alike, H = -a k of its height and sharpness: one that is missing, and the
 //! widest as far as points near by leave its height open, for which the prior, alike everywhere, leaves no room.
 
 use super::hole::Hole;
@@ -60,7 +61,10 @@ impl Estimate {
         let best = StarGrain::stretched(frame, self.stretch(), expansion).ok()?;
         let local: Vec<Vector3<f64>> = directions().iter().map(|n| self.plain(n)).collect();
         let towards: Vec<Vector3<f64>> = local.iter().map(|n| frame.axes * n).collect();
+        let unshrunk = Family::Whole(self.unshrunk());
+        let unshrunk = StarGrain::stretched(frame, self.stretch(), unshrunk).ok()?;
         let jets = best.jets(&towards).into_iter().zip(grain.jets(&towards));
+        let jets = jets.zip(unshrunk.jets(&towards));
         // What is smooth is taken once in a cell; how far the grain is from the estimate is not.
         let cells = CubeCell::uniform(LocalErrors::PARTS);
         let middles: Vec<Vector3<f64>> = cells.iter().map(CubeCell::middle).collect();
@@ -72,7 +76,7 @@ impl Estimate {
         // Second derivatives are larger where radii are less well known.
         let bending_per_value = bending_variance(&self.spectrum, &self.unlearnt)
             / variance(&self.spectrum, &self.unlearnt);
-        let square = |at: usize, best: &SurfaceJet, told: &SurfaceJet| {
+        let square = |at: usize, best: &SurfaceJet, told: &SurfaceJet, unshrunk: &SurfaceJet| {
             let (n, cell) = (&local[at], at / PER_CELL);
             let known = &locals[cell];
             let [height, bump] = unexpected[CubeCell::position(WIDE_PARTS, &middles[cell])];
@@ -81,6 +85,8 @@ impl Estimate {
             let apart = told.place.norm() - best.place.norm();
             let told = tensor(&Curvature::new(&towards[at], told));
             let difference = (told - exact).norm_squared();
+            let unshrunk = tensor(&Curvature::new(&towards[at], unshrunk));
+            let shrunk = (unshrunk - exact).norm_squared();
             let rounding = FLOOR * FLOOR * exact.norm_squared();
             let [first, second] = [0, 1].map(|i| frame.axes.tr_mul(&curvature.directions[i]));
             let normal = frame.axes.tr_mul(&curvature.normal);
@@ -93,13 +99,13 @@ impl Estimate {
                 place: (radius + rounding_of_place) * normal.dot(n).powi(2),
                 curvature: difference
                     + rounding
-                    + bending * bend.of_noise()
+                    + (bending * bend.of_noise()).max(shrunk)
                     + bump * bend.of_bump(),
             }
         };
         let jets = jets.enumerate();
         Some(
-            jets.map(|(at, (best, told))| square(at, &best, &told))
+            jets.map(|(at, ((best, told), unshrunk))| square(at, &best, &told, &unshrunk))
                 .collect(),
         )
     }

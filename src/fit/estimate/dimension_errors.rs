@@ -22,7 +22,7 @@ use super::outcome::Estimate;
 use super::outcome::{slope_variance, variance};
 use super::posterior::Conditioned;
 use super::tips::Tips;
-use crate::fit::figures::{INERTIA, by_size};
+use crate::fit::figures::{INERTIA, by_size, squares_by_size};
 use crate::fit::turn::{OF_RANGE, TURNS, are_apart, by_inertia};
 use crate::measure::PrincipalInertia;
 use crate::sphere::HarmonicBasis;
@@ -110,7 +110,7 @@ pub(super) fn dimensions(
     let ordered = |of: &Vector3<f64>| Vector3::from(order.map(|i| of[i]));
     Dimensions {
         lengths: ordered(&found.lengths),
-        variances: ordered(&found.variances),
+        variances: squares_by_size(&found.lengths, &found.variances),
         excess: ordered(&found.excess),
     }
 }

@@ -12,6 +12,9 @@ const RESOLVED: f64 = 0.1;
 /// ... or below this share of the mean radius.
 const LEAST_RESOLUTION: f64 = 1e-6;
 
+/// Of degrees of which the points tell less, what they tell is noise for the most part.
+const MOSTLY_TOLD: f64 = 0.5;
+
 impl Estimate {
     /// The linear map of the space in which the radius is expanded.
     pub(crate) fn stretch(&self) -> Stretch {
@@ -101,6 +104,17 @@ impl Estimate {
         let kept = &self.coefficients[..coefficient_count(degree.min(self.degree))];
         let scaled = kept.iter().map(|x| x * self.cloud.mean).collect();
         Whole::new(scaled).expect("finite radii give finite coefficients")
+    }
+
+    /// The expansion as the points tell it, without the pull of the prior, of the degrees that they tell for the most part.
+    pub(super) fn unshrunk(&self) -> Whole {
+        let told = self.unlearnt.iter().enumerate();
+        let whole = told.flat_map(|(l, unlearnt)| {
+            let share = (1.0 - unlearnt).max(MOSTLY_TOLD);
+            let own = &self.coefficients[l * l..(l + 1) * (l + 1)];
+            own.iter().map(move |x| x * self.cloud.mean / share)
+        });
+        Whole::new(whole.collect()).expect("finite radii give finite coefficients")
     }
 
     /// Root mean square, over all plain directions, of what the expansion up to a degree leaves out of the radius.

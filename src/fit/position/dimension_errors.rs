@@ -4,13 +4,12 @@
 //!
 //! - that the highest of many ripples is higher than the surface;
 //! - what points near the [ends](super::ends) tell, and at the ends of voxels what a function reaches;
-//! - the range of extents along axes that may lie anywhere, and what another axis of about this length is longer or shorter:
-//!   of lengths that are alike the longest found is one of those that are told too long.
+//! - the range of extents along axes that may lie anywhere, and what another axis of about this length is longer or shorter.
 
 use super::ends::Ends;
 use super::functionals::{End, FIGURES, FigureVector, Functionals};
 use super::functions::Functions;
-use crate::fit::figures::{INERTIA, INTEGRALS, by_size};
+use crate::fit::figures::{INERTIA, INTEGRALS, squares_by_size};
 use crate::fit::turn::{OF_RANGE, are_apart, by_inertia, entry_variance};
 use crate::measure::PrincipalInertia;
 use nalgebra::{Matrix6, SMatrix, Vector3};
@@ -41,14 +40,7 @@ impl Lengths<'_> {
     pub(super) fn squares(&self, ends: &Ends<'_>) -> Vector3<f64> {
         let lengths = Vector3::from_fn(|i, _| self.functionals.length(i));
         let squares = Vector3::from_fn(|i, _| self.along(i, lengths[i], ends));
-        let with_rivals = |i: usize| {
-            let apart = lengths.map(|length| (length - lengths[i]).powi(2));
-            let alike = apart.iter().zip(&squares);
-            let alike = alike.filter(|(apart, square)| **apart < *square + squares[i]);
-            let apart = alike.map(|(apart, _)| *apart);
-            squares[i] + apart.fold(0.0, f64::max)
-        };
-        Vector3::from(by_size(&lengths).map(with_rivals))
+        squares_by_size(&lengths, &squares)
     }
 
     /// The square along a principal axis.

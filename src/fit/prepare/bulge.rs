@@ -8,8 +8,9 @@ use std::f64::consts::FRAC_PI_4;
 /// Bend at an edge, in radians, from which on the body has an edge there.
 const SHARPEST: f64 = FRAC_PI_4;
 
-/// Volume between the faces and a smooth surface through their corners. Where faces of heights h and k bend by an angle a along an
-/// edge of length e it is a e (h² + k²) / 24, less where they bend inwards: so much lies beyond the faces of
+/// Volume between the faces and a smooth surface through their corners: the root of the squares of what is beyond the faces,
+/// and of what is within where they bend inwards, for the walls of a cup are not made up for by its inside. Where faces of heights h and k bend by an angle a along an
+/// edge of length e it is a e (h² + k²) / 24: so much lies beyond the faces of
 /// a cylinder, and beyond even triangles of a ball, to first order in a. Sharp bends are edges of the body.
 pub(super) fn bulge(mesh: &Mesh) -> f64 {
     let corner = |at: u32| mesh.vertices[at as usize].coords;
@@ -25,7 +26,7 @@ pub(super) fn bulge(mesh: &Mesh) -> f64 {
             .sum::<Vector3<f64>>()
             / 3.0
     };
-    let mut sum = 0.0;
+    let [mut beyond, mut within] = [0.0; 2];
     each_edge(mesh.vertices.len(), &mesh.triangles, |edge| {
         let Some([one, other]) = edge.pair() else {
             return;
@@ -37,10 +38,11 @@ pub(super) fn bulge(mesh: &Mesh) -> f64 {
         if bend < SHARPEST {
             let is_inwards = n.dot(&(middle(other) - middle(one))) > 0.0;
             let heights = (n.norm_squared() + m.norm_squared()) / length;
-            sum += if is_inwards { -bend } else { bend } * heights / 24.0;
+            let sum = if is_inwards { &mut within } else { &mut beyond };
+            *sum += bend * heights / 24.0;
         }
     });
-    sum
+    beyond.hypot(within)
 }
 
 #[cfg(test)]
@@ -57,11 +59,22 @@ mod tests {
             let ball = Mesh::radial(resolution, |_| 2.0);
             let exact = 4.0 / 3.0 * PI * 8.0 - mesh_properties(&ball).unwrap().volume;
             assert_relative_eq!(bulge(&ball), exact, max_relative = 0.03);
-            let mut hollow = ball;
+            let mut hollow = ball.clone();
             for corners in &mut hollow.triangles {
                 corners.reverse();
             }
-            assert_relative_eq!(bulge(&hollow), -exact, max_relative = 0.03);
+            assert_relative_eq!(bulge(&hollow), exact, max_relative = 0.03);
+            // The wall of a bowl, seen from a wall away: both bulge, and do not make up for each other.
+            let offset = ball.vertices.len() as u32;
+            let inner = hollow
+                .triangles
+                .iter()
+                .map(|corners| corners.map(|at| at + offset));
+            let both = Mesh {
+                triangles: ball.triangles.iter().copied().chain(inner).collect(),
+                vertices: [&ball.vertices[..], &hollow.vertices].concat(),
+            };
+            assert_relative_eq!(bulge(&both), 2.0_f64.sqrt() * exact, max_relative = 0.03);
         }
     }
 

@@ -8,6 +8,7 @@ mod unit_size;
 use super::bounds::ratio;
 use super::elements::Element;
 use super::extents::Extents;
+use super::followed::unfollowed;
 use super::nodes::nodes;
 use super::unit::Unit;
 use super::{
@@ -288,15 +289,19 @@ impl<'a> Survey<'a> {
         }))
     }
 
-    /// Standard error of the largest principal curvature, where the grain tells it.
+    /// Standard error of the largest principal curvature, where the grain tells it: also by how much it is more than the
+    /// surface turns there, for of all places the sharpest ripple is told.
     ///
     /// # Errors
     ///
     /// As [`Self::curvature`].
     pub fn largest_curvature_error(&self) -> Result<Option<f64>, SurveyError> {
         let sharpest = self.curvature()?.sharpest();
-        let error = self.body.curvature_error(&sharpest);
-        Ok(error.map(|error| error / self.unit.length))
+        let Some(error) = self.body.curvature_error(&sharpest) else {
+            return Ok(None);
+        };
+        let error = error.hypot(unfollowed(self.body.surface()?, &sharpest));
+        Ok(Some(error / self.unit.length))
     }
 
     /// Roundness of the corners, see [`CurvatureStatistics::roundness`].

@@ -1,10 +1,14 @@
 use super::*;
 use crate::fit::context::Context;
 use crate::fit::{FitOptions, Fitted, PreparedScan};
+use crate::measure::{Scheme, Survey};
 use crate::model::Radial;
 use crate::scan::Scan;
 use crate::shapes::{Body, Sampling, SynthOptions, synthesize};
 use crate::sphere::Symmetry;
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use rand_distr::{Distribution, StandardNormal};
 
 fn fitted(body: Body, noise: f64, points: usize, seed: u64) -> Fitted {
     let options = SynthOptions {
@@ -107,4 +111,35 @@ fn errors_of_places_and_of_curvature_cover_on_the_tips_of_a_needle() {
             assert!(error.curvature < 5.0, "{noise}: {error:?}");
         }
     }
+}
+
+/// A drop that is pointed at its top, where it is bent by 1.4/(0.9 w)² across x: its place over the sphere.
+fn drop(n: &Vector3<f64>) -> Vector3<f64> {
+    let width = 0.55 * (1.0 - 0.55 * n.z) * (1.0 + 0.25 * n.z * n.z);
+    Vector3::new(n.x * width, 0.9 * n.y * width, 1.4 * n.z)
+}
+
+#[test]
+fn the_sharpness_that_noise_takes_from_a_tip_is_in_its_error() {
+    let width = 0.55 * 0.45 * 1.25;
+    let exact = 1.4 / (0.9 * width * 0.9 * width);
+    let directions = Sampling::Fibonacci.directions(1538, 0).unwrap();
+    let deviations = [1, 2, 3].map(|seed| {
+        let mut random = ChaCha8Rng::seed_from_u64(seed);
+        let mut noise = || -> f64 { StandardNormal.sample(&mut random) };
+        let points = directions.iter().map(|n| {
+            let off = Vector3::from_fn(|_, _| 0.002 * noise());
+            (drop(n) + off).into()
+        });
+        let scan = Scan::from_points(points.collect());
+        let fitted = crate::fit(&scan, &FitOptions::default()).unwrap();
+        let grain = fitted.grain_with_errors();
+        let survey = Survey::of_grain(&grain, Scheme::Exact);
+        let told = survey.curvature().unwrap().larger().largest;
+        let error = survey.largest_curvature_error().unwrap().unwrap();
+        assert!(error < 0.25 * told, "{told} {error}");
+        (told - exact) / error
+    });
+    let mean = deviations.iter().sum::<f64>() / 3.0;
+    assert!(mean.abs() < 1.6, "{deviations:?}");
 }
