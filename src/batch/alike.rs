@@ -64,11 +64,11 @@ fn copied(lot: &Lot, which: &str) -> Option<String> {
 /// How many cells of a lot are passed over.
 fn unread(lot: &Lot, which: &str) -> Option<String> {
     let cells = |(name, count): (&String, &usize)| format!("{count} of {name}");
-    let told: Vec<_> = lot.unread.iter().map(cells).collect();
-    (!told.is_empty()).then(|| {
+    let cells: Vec<_> = lot.unread.iter().map(cells).collect();
+    (!cells.is_empty()).then(|| {
         format!(
             "Cells of the {which} lot that hold no number are left out: {}.",
-            told.join(", ")
+            cells.join(", ")
         )
     })
 }

@@ -17,7 +17,7 @@ impl ReferenceRecord {
         if is_of(ReferenceKind::Faces) {
             "the scan's own faces"
         } else if is_of(ReferenceKind::Voxels) {
-            "the faces between voxels, with their steps"
+            "the middles between voxels inside and outside, with their steps"
         } else if is_of(ReferenceKind::Crust) {
             "the middle of a crust of voxels around the points"
         } else {

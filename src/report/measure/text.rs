@@ -18,7 +18,7 @@ impl fmt::Display for MeasureReport {
         let labels = Labels(self.unit);
         let of = match self.of {
             Measured::Faces => "the scan's own faces",
-            Measured::Voxels => "the faces between voxels, with their steps",
+            Measured::Voxels => "the middles between voxels inside and outside, with their steps",
             Measured::Directions => "the points, triangulated by direction",
             Measured::Model => "the fitted model",
         };
