@@ -20,7 +20,7 @@ pub(crate) struct Settings {
     pub largest: bool,
     /// What is measured of the fits.
     pub measures: Vec<Measure>,
-    /// Unit of the scans' lengths.
+    /// Unit of the scans' lengths; without it that of each scan's own header, where that tells one.
     pub unit: Option<Unit>,
     /// The most bytes of a scan, packed or unpacked.
     pub max_bytes: u64,
@@ -39,7 +39,7 @@ impl Settings {
             ..
         } = &self.fit;
         let names: Vec<&str> = self.measures.iter().map(|measure| measure.name()).collect();
-        let unit = self.unit.map_or("none".into(), |unit| unit.to_string());
+        let unit = self.unit.map_or("header".into(), |unit| unit.to_string());
         let segments = segments.map_or("adaptive".into(), |segments| segments.to_string());
         format!(
             "tolerance={tolerance:?} segments={segments} largest={} extrapolate={} unit={unit} max_bytes={} only={}",
@@ -83,7 +83,7 @@ pub(super) fn grain(
     settings: &Settings,
     outputs: &Outputs,
 ) -> Result<Row, SaveError> {
-    let (mut fitted, warnings) = match scan.and_then(|scan| fit(scan, settings)) {
+    let (mut fitted, of_scan) = match scan.and_then(|scan| fit(scan, settings)) {
         Ok(found) => found,
         Err(reason) => {
             return Ok(Row {
@@ -102,11 +102,17 @@ pub(super) fn grain(
     Ok(Row {
         model_hash: outputs.model.as_ref().and_then(hash),
         mesh_hash: outputs.mesh.as_ref().and_then(hash),
-        ..row(&fitted, &warnings, settings)
+        ..row(&fitted, &of_scan, settings)
     })
 }
 
-fn fit(scan: Scan, settings: &Settings) -> Result<(Fitted, Vec<String>), String> {
+/// What is told of a scan beside its fit.
+struct OfScan {
+    warnings: Vec<String>,
+    unit: Option<String>,
+}
+
+fn fit(scan: Scan, settings: &Settings) -> Result<(Fitted, OfScan), String> {
     let unit = settings.unit.map_or(Ok(()), |unit| unit.check(scan.unit()));
     unit.map_err(|error| told(&error))?;
     let (scan, left_out) = whole_or_largest(scan, settings.largest);
@@ -114,7 +120,12 @@ fn fit(scan: Scan, settings: &Settings) -> Result<(Fitted, Vec<String>), String>
     let mut fitted =
         fit_scan(&scan, &settings.fit, &context).map_err(|error| scan.explained(told(&error)))?;
     fitted.warnings.extend(left_out);
-    Ok((fitted, scan.warnings().to_vec()))
+    let asked = settings.unit.map(|unit| unit.to_string());
+    let of_scan = OfScan {
+        warnings: scan.warnings().to_vec(),
+        unit: asked.or(scan.unit().map(str::to_owned)),
+    };
+    Ok((fitted, of_scan))
 }
 
 /// An error and what caused it, in one sentence.
@@ -125,7 +136,8 @@ pub(super) fn told(error: &dyn Error) -> String {
     }
 }
 
-fn row(fitted: &Fitted, warnings: &[String], settings: &Settings) -> Row {
+fn row(fitted: &Fitted, of_scan: &OfScan, settings: &Settings) -> Row {
+    let OfScan { warnings, unit } = of_scan;
     let survey = fitted.survey();
     let (name, options) = (String::new(), &settings.fit);
     let fit = FitReport::with_survey(name, None, fitted, &survey, options, warnings);
@@ -133,12 +145,13 @@ fn row(fitted: &Fitted, warnings: &[String], settings: &Settings) -> Row {
     let measured = MeasureReport::of_model(String::new(), &survey, &settings.measures, &withheld);
     // A number that JSON has not is null.
     let told = serde_json::to_value(&measured).unwrap_or(Value::Null);
+    let known = unit.as_ref().and_then(|unit| unit.parse().ok());
     let figures = figures(&settings.measures)
         .into_iter()
         .flat_map(|figure| cells(&figure, &told))
         .collect();
     Row {
-        unit: settings.unit.map(|unit| unit.to_string()),
+        unit: unit.clone(),
         points: Some(fit.points as u64),
         degree: Some(fit.degree as u64),
         segments: Some(fit.segments as u64),
@@ -154,7 +167,7 @@ fn row(fitted: &Fitted, warnings: &[String], settings: &Settings) -> Row {
             .map(|(names, reason)| format!("{names}: {reason}"))
             .collect(),
         no_standard_errors: fit.no_standard_errors,
-        warnings: sentences(warnings, &fitted.warnings, settings.unit),
+        warnings: sentences(warnings, &fitted.warnings, known),
         figures,
         ..Row::default()
     }

@@ -107,26 +107,9 @@ impl Journal {
             .create(true)
             .open(path)?;
         let mut known = HashMap::new();
-        let mut end = 0;
-        let mut lines = BufReader::new(&mut file);
-        let mut line = Vec::new();
-        loop {
-            line.clear();
-            let length = lines.read_until(b'\n', &mut line)? as u64;
-            if !line.ends_with(b"\n") {
-                break;
-            }
-            if let Some(row) = parse(&line)
-                && let Some(hash) = &row.hash
-            {
-                let place = Place {
-                    offset: end,
-                    length,
-                };
-                known.insert(key(&row.path, hash, &row.settings, &row.version), place);
-            }
-            end += length;
-        }
+        let end = read_rows(&mut file, |key, place, _| {
+            known.insert(key, place);
+        })?;
         file.set_len(end)?;
         Ok(Self {
             file,
@@ -170,6 +153,41 @@ impl Journal {
         let mut line = Vec::new();
         file.take(place.length).read_to_end(&mut line)?;
         parse(&line).ok_or_else(|| io::Error::other("the journal was changed by somebody else"))
+    }
+}
+
+/// The hash of the model that was saved with each row of a journal that is only read; none of what it was saved without.
+pub(super) fn saved_models(path: &Path) -> io::Result<HashMap<Key, Option<String>>> {
+    let mut models = HashMap::new();
+    read_rows(&mut File::open(path)?, |key, _, row| {
+        models.insert(key, row.model_hash);
+    })?;
+    Ok(models)
+}
+
+/// Hears every row whose scan could be read, in the order in which they were written; gives where the last whole line
+/// ends.
+fn read_rows(file: &mut File, mut hear: impl FnMut(Key, Place, Row)) -> io::Result<u64> {
+    let mut end = 0;
+    let mut lines = BufReader::new(file);
+    let mut line = Vec::new();
+    loop {
+        line.clear();
+        let length = lines.read_until(b'\n', &mut line)? as u64;
+        if !line.ends_with(b"\n") {
+            return Ok(end);
+        }
+        if let Some(row) = parse(&line)
+            && let Some(hash) = &row.hash
+        {
+            let place = Place {
+                offset: end,
+                length,
+            };
+            let key = key(&row.path, hash, &row.settings, &row.version);
+            hear(key, place, row);
+        }
+        end += length;
     }
 }
 

@@ -13,7 +13,7 @@ pub(super) const MODELS: &str = "models";
 pub(super) const MESHES: &str = "meshes";
 
 /// The file of the model that is called so, in the folder of results.
-pub(super) fn model(folder: &Path, name: &str) -> PathBuf {
+pub(crate) fn model(folder: &Path, name: &str) -> PathBuf {
     folder.join(MODELS).join(format!("{name}.json"))
 }
 

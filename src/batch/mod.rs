@@ -22,6 +22,7 @@ mod population;
 mod queue;
 mod results;
 mod run;
+mod saved;
 mod shown;
 mod table;
 
@@ -30,7 +31,9 @@ pub(crate) use columns::measures;
 pub(crate) use comparison::{Comparison, compare};
 pub(crate) use grain::Settings;
 pub(crate) use inputs::{Inputs, check_folder, inputs};
+pub(crate) use left_over::model;
 pub(crate) use names::names;
 pub(crate) use population::Population;
 pub(crate) use run::{Batch, run};
+pub(crate) use saved::{RowKey, SavedModels};
 pub(crate) use table::{read_lot, read_results};

@@ -4,20 +4,21 @@ use super::columns::{Column, FIRST};
 use super::journal::Row;
 use crate::spread::{median, robust_deviation};
 use serde::Serialize;
+use std::collections::BTreeSet;
 
-/// The measures by which grains are compared, as far as they are there.
-const MAIN: [&str; 11] = [
-    "area",
-    "volume",
-    "dimensions.length",
-    "dimensions.width",
-    "dimensions.thickness",
-    "form.elongation",
-    "form.flatness",
-    "sphericity.wadell",
-    "roundness",
-    "convexity.volume",
-    "heldout_rms",
+/// The measures by which grains are compared, as far as they are there, and whether they have a unit.
+const MAIN: [(&str, bool); 11] = [
+    ("area", true),
+    ("volume", true),
+    ("dimensions.length", true),
+    ("dimensions.width", true),
+    ("dimensions.thickness", true),
+    ("form.elongation", false),
+    ("form.flatness", false),
+    ("sphericity.wadell", false),
+    ("roundness", false),
+    ("convexity.volume", false),
+    ("heldout_rms", true),
 ];
 
 /// Quantiles that are told.
@@ -42,6 +43,13 @@ pub(crate) struct Population {
     pub correlations: Vec<Vec<Option<f64>>>,
     /// Grains that are worth a look.
     pub outliers: Vec<Outlier>,
+    /// What is odd about their units, and what is not told for it: whole sentences.
+    pub warnings: Vec<String>,
+    /// The units of length that are told of the grains, and how many tell none.
+    #[serde(skip)]
+    units: BTreeSet<String>,
+    #[serde(skip)]
+    unitless: usize,
     #[serde(skip)]
     paths: Vec<String>,
     /// Of every main measure, the values of all grains.
@@ -90,7 +98,7 @@ impl Population {
         let at = |name: &&str| columns.iter().position(|column| column.name == *name);
         let main: Vec<(&str, usize)> = MAIN
             .iter()
-            .filter_map(|name| Some((*name, at(name)?)))
+            .filter_map(|(name, _)| Some((*name, at(name)?)))
             .collect();
         Self {
             grains: 0,
@@ -106,6 +114,9 @@ impl Population {
                 .collect(),
             correlations: Vec::new(),
             outliers: Vec::new(),
+            warnings: Vec::new(),
+            units: BTreeSet::new(),
+            unitless: 0,
             paths: Vec::new(),
             values: vec![Vec::new(); main.len()],
             positions: main
@@ -119,6 +130,8 @@ impl Population {
     pub(super) fn add(&mut self, row: &Row) {
         self.grains += 1;
         self.paths.push(row.path.clone());
+        self.units.extend(row.unit.clone());
+        self.unitless += usize::from(row.unit.is_none());
         for (values, position) in self.values.iter_mut().zip(&self.positions) {
             values.push(match position {
                 Some(at) => row.figures.get(*at).copied().flatten(),
@@ -133,7 +146,8 @@ impl Population {
             let known: Vec<f64> = values.iter().flatten().copied().collect();
             statistics.take(known);
         }
-        self.measures_known();
+        self.warnings.extend(self.doubt());
+        self.keep_told();
         let pair = |one: &Vec<Option<f64>>| -> Vec<Option<f64>> {
             self.values
                 .iter()
@@ -146,17 +160,41 @@ impl Population {
             .collect();
     }
 
-    /// Leaves out measures that are known of no grain.
-    fn measures_known(&mut self) {
-        let is_known: Vec<bool> = self
-            .measures
-            .iter()
-            .map(|measure| measure.count > 0)
-            .collect();
-        let mut known = is_known.iter();
-        self.measures.retain(|_| *known.next().unwrap_or(&false));
-        let mut known = is_known.iter();
-        self.values.retain(|_| *known.next().unwrap_or(&false));
+    /// Whether a measure that is known is not told, for its values are in several units.
+    fn is_mixed(&self, measure: &Statistics) -> bool {
+        self.units.len() > 1
+            && measure.count > 0
+            && MAIN.contains(&(measure.measure.as_str(), true))
+    }
+
+    /// What is odd about the units of the grains.
+    fn doubt(&self) -> Option<String> {
+        let units = Vec::from_iter(self.units.iter().map(String::as_str));
+        let mixed = self.measures.iter().filter(|one| self.is_mixed(one));
+        let mixed: Vec<&str> = mixed.map(|one| one.measure.as_str()).collect();
+        match units[..] {
+            [unit] if self.unitless > 0 => Some(format!(
+                "No unit is told of {} of {} grains: lengths are taken to be in {unit} there too.",
+                self.unitless, self.grains
+            )),
+            [_, _, ..] if !mixed.is_empty() => Some(format!(
+                "Lengths are in {}, and these measures of all grains together are not told: {}. Run batch on the scans of \
+                 one unit.",
+                units.join(" and "),
+                mixed.join(", ")
+            )),
+            _ => None,
+        }
+    }
+
+    /// Leaves out measures that are known of no grain, or in several units.
+    fn keep_told(&mut self) {
+        let is_told = |measure: &Statistics| measure.count > 0 && !self.is_mixed(measure);
+        let is_told: Vec<bool> = self.measures.iter().map(is_told).collect();
+        let mut told = is_told.iter();
+        self.measures.retain(|_| *told.next().unwrap_or(&false));
+        let mut told = is_told.iter();
+        self.values.retain(|_| *told.next().unwrap_or(&false));
     }
 
     fn outlying(&self, at: usize) -> Vec<Outlier> {
@@ -247,6 +285,45 @@ mod tests {
     use super::*;
     use crate::batch::columns::columns;
     use crate::report::Measure;
+
+    /// Two grains of these units, with an area, a sphericity and a held-out error.
+    fn two(units: [Option<&str>; 2]) -> Population {
+        let columns = columns(&[Measure::Area, Measure::Sphericity]);
+        let mut population = Population::new(&columns);
+        for unit in units {
+            population.add(&Row {
+                unit: unit.map(str::to_owned),
+                figures: vec![Some(2.0), None, Some(0.9)],
+                heldout_rms: Some(0.1),
+                ..Row::default()
+            });
+        }
+        population.finish();
+        population
+    }
+
+    #[test]
+    fn what_is_in_several_units_is_not_told_together_and_why() {
+        let names = |found: &Population| -> Vec<String> {
+            let measures = found.measures.iter();
+            measures.map(|one| one.measure.clone()).collect()
+        };
+        let all = ["area", "sphericity.wadell", "heldout_rms"];
+        let mixed = two([Some("mm"), Some("um")]);
+        assert_eq!(names(&mixed), all[1..2]);
+        assert_eq!(mixed.correlations.len(), 1);
+        let [warning] = mixed.warnings.as_slice() else {
+            panic!("{:?}", mixed.warnings);
+        };
+        assert!(warning.contains("in mm and um") && warning.contains("area, heldout_rms"));
+        let partly = two([Some("mm"), None]);
+        assert_eq!(names(&partly), all);
+        assert!(partly.warnings[0].starts_with("No unit is told of 1 of 2 grains"));
+        for unit in [None, Some("mm")] {
+            let alike = two([unit; 2]);
+            assert_eq!((names(&alike).len(), alike.warnings.len()), (3, 0));
+        }
+    }
 
     #[test]
     fn a_population_has_the_statistics_worked_out_by_hand() {

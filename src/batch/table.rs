@@ -3,9 +3,11 @@
 use super::columns::FIRST;
 use super::error::TableError;
 use super::queue::without_label;
+use crate::digits::plural;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::Field;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::fmt::Display;
 use std::fs::File;
 use std::path::{Path, PathBuf};
 
@@ -19,6 +21,8 @@ pub(crate) struct Lot {
     pub values: Vec<Vec<f64>>,
     /// The units of length that are told of them; none where none is.
     pub units: BTreeSet<String>,
+    /// How many of the grains tell none.
+    pub unitless: usize,
     /// How its grains were fitted: the values of each setting, and the versions that fitted them.
     pub settings: BTreeMap<String, BTreeSet<String>>,
     /// Its scans: the hash of each, and the label of a grain in an image.
@@ -90,7 +94,10 @@ impl Lot {
         if cell("status") == Some("failed") {
             return false;
         }
-        self.units.extend(cell("unit").map(str::to_owned));
+        match cell("unit") {
+            Some(unit) => drop(self.units.insert(unit.into())),
+            None => self.unitless += 1,
+        }
         let settings = cell("settings").unwrap_or_default().split(' ');
         let settings = settings.filter_map(|setting| setting.split_once('='));
         let version = cell("version").map(|version| ("version", version));
@@ -103,6 +110,15 @@ impl Lot {
             self.copies += usize::from(!self.scans.insert((hash.into(), label)));
         }
         true
+    }
+
+    /// What is taken for granted of grains that tell no unit, where the others of the lot tell one.
+    pub(crate) fn taken_unit(&self, shown: impl Display) -> Option<String> {
+        let unit = self.units.first().filter(|_| self.unitless > 0)?;
+        let grains = plural(self.unitless, "grain");
+        Some(format!(
+            "{shown} tells no unit of {grains}: lengths are taken to be in {unit} there too."
+        ))
     }
 
     /// Takes the value of a cell: NaN is one that is not known.

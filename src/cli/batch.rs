@@ -71,6 +71,7 @@ pub(super) fn run(args: BatchArgs, console: Console) -> Result<()> {
         console.note("note", &kept);
     }
     tell(&done.population, console)?;
+    console.warn(&done.population.warnings);
     for path in &done.files {
         console.wrote(&path.display().to_string())?;
     }
@@ -139,6 +140,9 @@ fn tell_left_out(paths: &[PathBuf], console: Console) {
 
 /// What the grains are like together.
 fn tell(population: &Population, console: Console) -> Result<()> {
+    if population.measures.is_empty() {
+        return Ok(());
+    }
     let mut table = Table::new();
     table.load_style(NOTHING).set_header([
         "measure",

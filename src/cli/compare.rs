@@ -26,7 +26,10 @@ pub(super) fn run(args: CompareArgs, console: Console) -> Result<()> {
         .collect();
     if units.len() > 1 {
         let units = Vec::from_iter(units).join(" and ");
-        bail!("lots in {units} are not to be compared: run batch with the same --unit");
+        bail!(
+            "lots in {units} are not to be compared, for nothing is converted: compare scans in one unit, or run batch \
+             again where --unit was wrong"
+        );
     }
     let [first, second] = &lots;
     let unitless = [(first, &args.first), (second, &args.second)]
@@ -38,7 +41,13 @@ pub(super) fn run(args: CompareArgs, console: Console) -> Result<()> {
             format!("{path} tells no unit: its lengths are taken to be in {unit}, as those of the other lot.")
         })
     });
-    let warnings = taken.into_iter().flatten().chain(doubts(first, second));
+    let in_part = [
+        first.taken_unit(args.first.display()),
+        second.taken_unit(args.second.display()),
+    ];
+    let taken = taken.into_iter().flatten();
+    let taken = taken.chain(in_part.into_iter().flatten());
+    let warnings = taken.chain(doubts(first, second));
     let compared = Compared {
         warnings: warnings.collect(),
         measures: compare(first, second),

@@ -72,6 +72,9 @@ pub(super) fn run(args: ReportArgs, console: Console) -> Result<()> {
     {
         console.wrote(&outputs::name(path))?;
     }
+    for lot in &page.lots {
+        console.warn(lot.warnings());
+    }
     Ok(())
 }
 

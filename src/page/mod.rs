@@ -6,11 +6,15 @@
 mod assemble;
 mod bench;
 mod definitions;
+mod error;
 mod grain;
 mod lot;
 mod measures;
 mod packed;
 mod search;
+mod surfaces;
+mod table;
+mod truth;
 
 pub(crate) use assemble::write_page;
 pub(crate) use bench::BenchPart;

@@ -294,6 +294,7 @@ fn a_scan_is_a_clump_in_the_sizes_of_a_batch() {
         told.contains("are in um³, and are converted to mm³"),
         "{told}"
     );
+    assert!(told.contains("tells no unit of 1 grain"), "{told}");
     let both = "path,unit,volume\na.ply,um,4e9\nb.ply,mm,14\n";
     fs::write(folder.path().join("results_um.csv"), both).unwrap();
     let refused = errors(&grainform(&folder, &small));

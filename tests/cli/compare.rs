@@ -42,6 +42,16 @@ fn lots_in_different_units_are_not_compared() {
 }
 
 #[test]
+fn grains_without_a_unit_among_others_are_told() {
+    let folder = folder();
+    let table = "path,status,unit,volume\na.ply,ok,mm,1.5\nb.ply,ok,,1.7\nc.ply,failed,,\n";
+    std::fs::write(folder.path().join("t.csv"), table).unwrap();
+    let report = json(&folder, &["compare", "t.csv", "t.csv"]);
+    let told = "t.csv tells no unit of 1 grain: lengths are taken to be in mm there too.";
+    assert_eq!(report["warnings"], serde_json::json!([told, told]));
+}
+
+#[test]
 fn cells_that_hold_no_number_are_told_and_left_out() {
     let folder = folder();
     let lot = |name: &str, cells: [&str; 4]| {

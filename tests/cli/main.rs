@@ -17,6 +17,7 @@ mod mesh;
 mod model_errors;
 mod positions;
 mod report;
+mod report_lots;
 mod search;
 #[cfg(unix)]
 mod signals;

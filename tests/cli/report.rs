@@ -61,7 +61,7 @@ fn page() -> (TempDir, String) {
 }
 
 /// What a page shows.
-fn record(text: &str) -> Value {
+pub(super) fn record(text: &str) -> Value {
     let start = text.find("application/json\">").unwrap() + "application/json\">".len();
     let record = text[start..].split("</script>").next().unwrap();
     serde_json::from_str(record).unwrap()
@@ -218,51 +218,6 @@ fn a_browser_shows_it_all_without_an_error() {
             "{found}"
         );
     }
-}
-
-/// A folder with a table of results in its folder `lot`.
-fn results(table: &str) -> tempfile::TempDir {
-    let folder = folder();
-    fs::create_dir(folder.path().join("lot")).unwrap();
-    fs::write(folder.path().join("lot/results.csv"), table).unwrap();
-    folder
-}
-
-/// The exit code, and what is told on standard error, of a report of these results beside a table of truths.
-fn beside(folder: &tempfile::TempDir, truth: &str) -> (Option<i32>, String) {
-    fs::write(folder.path().join("truth.csv"), truth).unwrap();
-    let words = ["report", "lot", "--truth", "truth.csv", "-o", "r.html"];
-    let output = grainform(folder, &words);
-    (output.status.code(), errors(&output))
-}
-
-#[test]
-fn a_truth_that_tells_nothing_of_the_results_is_refused() {
-    let folder = results("path,status,degree,area,area_se,volume\na/one.ply,ok,3,2.5,0.1,7\n");
-    let told = |truth: &str| beside(&folder, truth);
-    let (code, message) = told("file,mesh_area\none.ply,2.4\n");
-    assert_eq!(code, Some(2));
-    assert!(
-        message.ends_with("as these are: area, volume\n"),
-        "{message}"
-    );
-    let (code, message) = told("file,area\nanother.ply,2.4\n");
-    assert_eq!(code, Some(2));
-    assert!(message.contains("such as one.ply"), "{message}");
-    assert_eq!(told("file,mesh_area,area\none.ply,2.4,2.4\n").0, Some(0));
-}
-
-#[test]
-fn a_truth_is_told_by_path_where_names_are_there_twice() {
-    let folder = results("path,status,area\na/one.ply,ok,2.5\nb/one.ply,ok,3.5\n");
-    let told = |truth: &str| beside(&folder, truth);
-    let (code, message) = told("file,area\none.ply,2.4\n");
-    assert_eq!(code, Some(2));
-    assert!(message.contains("such as a/one.ply"), "{message}");
-    let by_path = "file,area\nb/one.ply,3.4\na/one.ply,2.4\n";
-    assert_eq!(told(by_path), (Some(0), String::new()));
-    let page = fs::read_to_string(folder.path().join("r.html")).unwrap();
-    assert!(page.contains("[[\"a/one.ply\",\"2.4\"],[\"b/one.ply\",\"3.4\"]]"));
 }
 
 #[test]

@@ -1,4 +1,6 @@
 use super::{errors, folder, grain, grainform, json, succeed};
+use serde_json::Value;
+use tempfile::TempDir;
 
 const QUICK: [&str; 2] = ["--tolerance", "5%"];
 
@@ -69,4 +71,62 @@ fn a_bare_tolerance_is_told_as_the_length_that_it_is() {
         "{text}"
     );
     assert_eq!(json(&folder, &words)["tolerance"], 0.5);
+}
+
+/// A ball of radius 6 in voxels of side 1, as NRRD whose header says this unit.
+fn ball(folder: &TempDir, name: &str, unit: &str) {
+    let head = format!(
+        "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 20 20 20\nencoding: raw\nspacings: 1 1 1\n\
+         space units: \"{unit}\" \"{unit}\" \"{unit}\"\n\n"
+    );
+    let square = |at: u32| (f64::from(at) - 9.6).powi(2);
+    let holds = |x, y, z| square(x) + square(y) + square(z) < 36.0;
+    let voxels = (0..20).flat_map(|z| (0..20).map(move |y| (z, y)));
+    let voxels = voxels.flat_map(|(z, y)| (0..20).map(move |x| u8::from(holds(x, y, z))));
+    let bytes: Vec<u8> = head.into_bytes().into_iter().chain(voxels).collect();
+    std::fs::write(folder.path().join(name), bytes).unwrap();
+}
+
+#[test]
+fn a_batch_tells_the_units_of_headers_and_no_mean_over_several() {
+    let folder = folder();
+    for (name, unit) in [("a.nrrd", "mm"), ("b.nrrd", "mm"), ("c.nrrd", "micron")] {
+        ball(&folder, name, unit);
+    }
+    std::fs::copy(folder.path().join("c.nrrd"), folder.path().join("d.nrrd")).unwrap();
+    let batch = |output: &str, scans: &[&str]| {
+        let only = ["-o", output, "--only", "volume,sphericity"];
+        errors(&grainform(&folder, &[&["batch"], scans, &only].concat()))
+    };
+    let told = batch("r", &["a.nrrd", "c.nrrd"]);
+    let rows = super::batch::rows(&folder.path().join("r/results.csv"));
+    assert_eq!([&rows[0]["unit"], &rows[1]["unit"]], ["mm", "um"]);
+    let summary = std::fs::read(folder.path().join("r/summary.json")).unwrap();
+    let summary: Value = serde_json::from_slice(&summary).unwrap();
+    let measures = summary["measures"].as_array().unwrap().iter();
+    let measures: Vec<_> = measures.map(|one| one["measure"].as_str()).collect();
+    assert_eq!(measures, [Some("sphericity.wadell")]);
+    assert_eq!(summary["correlations"].as_array().unwrap().len(), 1);
+    let warning = summary["warnings"][0].as_str().unwrap();
+    assert!(
+        warning.starts_with("Lengths are in mm and um, "),
+        "{warning}"
+    );
+    assert!(
+        warning.contains("not told: volume, heldout_rms."),
+        "{warning}"
+    );
+    assert!(told.contains(&format!("warning: {warning}\n")), "{told}");
+    let output = grainform(&folder, &["report", "r", "-o", "r.html"]);
+    assert!(errors(&output).contains("Lengths in r are in mm and um"));
+    let bed = "bed a.json --sizes r --spheres 3 --grains 9 --box 60,60 --unit mm -o bed";
+    let bed: Vec<&str> = bed.split(' ').collect();
+    assert!(errors(&grainform(&folder, &bed)).contains("more than one unit"));
+
+    for (output, scans) in [("mm", ["a.nrrd", "b.nrrd"]), ("um", ["c.nrrd", "d.nrrd"])] {
+        assert!(!batch(output, &scans).contains("Lengths"));
+    }
+    let refused = grainform(&folder, &["compare", "mm", "um"]);
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(errors(&refused).contains("lots in mm and um are not to be compared"));
 }

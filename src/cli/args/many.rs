@@ -86,7 +86,7 @@ pub(in crate::cli) struct BatchArgs {
     #[arg(long)]
     pub(in crate::cli) largest: bool,
 
-    /// Unit of the scans' lengths, told beside them: um, mm, cm or m
+    /// Unit of the scans' lengths, told beside them: um, mm, cm or m; without it, what the header of an image says
     #[arg(long, value_name = "UNIT", help_heading = OUTPUT)]
     pub(in crate::cli) unit: Option<Unit>,
 

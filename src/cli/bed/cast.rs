@@ -31,7 +31,7 @@ impl Cast {
             }
             (None, diameter) => diameter.map(|diameter| Sizes {
                 diameters: vec![diameter * metres],
-                remark: None,
+                remarks: Vec::new(),
             }),
         };
         let mut cast = Self {
@@ -41,7 +41,7 @@ impl Cast {
             warnings: Vec::new(),
         };
         if let Some(sizes) = &sizes {
-            cast.warnings.extend(sizes.remark.clone());
+            cast.warnings.extend(sizes.remarks.clone());
         }
         for grain in &args.grains {
             let name = inputs::name(&grain.path);

@@ -16,8 +16,8 @@ const GOLDEN: f64 = 0.618_033_988_749_894_9;
 pub(super) struct Sizes {
     /// Diameters of balls of their volumes, in metres.
     pub(super) diameters: Vec<f64>,
-    /// The unit that they were taken to be in, as a sentence where it was not that of the bed, or was not told.
-    pub(super) remark: Option<String>,
+    /// The unit that they were taken to be in, as sentences where it was not that of the bed, or was not told.
+    pub(super) remarks: Vec<String>,
 }
 
 impl Sizes {
@@ -63,7 +63,7 @@ impl Sizes {
         let diameter = |at| 2.0 * equivalent_radius(quantile(at)) * unit.metres();
         Ok(Self {
             diameters: order.into_iter().map(diameter).collect(),
-            remark,
+            remarks: remark.into_iter().chain(lot.taken_unit(shown)).collect(),
         })
     }
 }

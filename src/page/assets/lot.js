@@ -91,7 +91,7 @@ function lotPart(lot, grid) {
     shownRows.forEach((shown, at) => shown.classList.toggle('chosen', at === row));
     const cells = lot.columns.map((name, at) => [name, lot.rows[row][at]]).filter(([, cell]) => cell);
     detail.replaceChildren(el('h3', {}, nameOf(row)), el('div', { class: 'row' },
-      el('figure', { class: 'view small' }, lot.surfaces[row] ? canvas : el('p', { class: 'note' }, 'There is no model of this grain: batch --models saves them.')),
+      el('figure', { class: 'view small' }, lot.surfaces[row] ? canvas : el('p', { class: 'note' }, lot.no_surface[row])),
       el('div', { class: 'wide' }, el('table', {}, el('tbody', {}, cells.map(([name, cell]) =>
         el('tr', {}, el('td', {}, name), el('td', {}, Number.isFinite(Number(cell)) ? told(Number(cell)) : cell))))))));
     if (lot.surfaces[row]) showSurface(viewer, floatsOf(lot.surfaces[row]), corners);
@@ -147,6 +147,7 @@ function lotPart(lot, grid) {
   const failed = all.filter((row) => lot.rows[row][lot.columns.indexOf('status')] === 'failed').length;
   return el('section', {}, el('h2', {}, lot.name),
     el('p', { class: 'note' }, `${all.length} scans, ${failed} of them without a result. A click on a heading sorts, one on a grain shows it.`),
+    lot.warnings.map((warning) => el('p', { class: 'warning' }, warning)),
     el('div', { class: 'wide' }, table), detail,
     numeric.length ? [el('h3', {}, 'Any two measures'), el('p', {}, 'across ', x, ' up ', y), plot] : [],
     lot.truth ? [el('h3', {}, 'Beside the truth'), truthPart(lot, all, number, nameOf)] : [],
