@@ -57,14 +57,16 @@ pub(super) fn by_size(extents: &Vector3<f64>) -> [usize; 3] {
 }
 
 /// Squares of the standard errors of extents, the largest extent first, from those along each axis: of extents that are
-/// alike it is not known which is the larger, so that each may be any of them.
+/// alike it is not known which is the larger, so that each may be any of them, and the longest found is one of those that are
+/// told too long.
 pub(super) fn squares_by_size(extents: &Vector3<f64>, squares: &Vector3<f64>) -> Vector3<f64> {
     let of_rank = |i: usize| {
-        let apart = extents.map(|extent| (extent - extents[i]).powi(2));
-        let all = apart.iter().zip(squares);
-        let alike = all.filter(|(apart, square)| **apart < *square + squares[i]);
-        let own = alike.map(|(apart, square)| apart + square);
-        own.fold(squares[i], f64::max)
+        let apart = |j: usize| (extents[j] - extents[i]).powi(2);
+        let is_alike = |j: &usize| *j == i || apart(*j) < squares[*j] + squares[i];
+        let alike: Vec<usize> = (0..3).filter(is_alike).collect();
+        let mean = alike.iter().map(|&j| squares[j]).sum::<f64>() / alike.len() as f64;
+        let farthest = alike.iter().map(|&j| apart(j)).fold(0.0, f64::max);
+        mean.max(squares[i]) + farthest
     };
     Vector3::from(by_size(extents).map(of_rank))
 }
@@ -158,9 +160,9 @@ mod tests {
     fn extents_that_are_alike_are_each_as_uncertain_as_any_of_them() {
         // A bar of square section: its sides are told anywhere between side and diagonal.
         let extents = Vector3::new(40.0, 41.0, 42.0);
-        let squares = Vector3::new(0.01, 49.0, 36.0);
+        let squares = Vector3::new(1.0, 49.0, 34.0);
         let ranked = squares_by_size(&extents, &squares);
-        assert_eq!(ranked, Vector3::new(50.0, 49.0, 50.0));
+        assert_eq!(ranked, Vector3::new(34.0 + 4.0, 49.0 + 1.0, 28.0 + 4.0));
         let apart = Vector3::new(0.01, 0.02, 0.03);
         let ranked = squares_by_size(&extents, &apart);
         assert_eq!(ranked, Vector3::new(0.03, 0.02, 0.01));

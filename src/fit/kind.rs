@@ -13,10 +13,10 @@ use super::prepare::PreparedScan;
 use super::scatter::scatter;
 use super::warning::FitWarning;
 use crate::measure::{Deviation, feet};
-use crate::model::{Grain, StarSurface};
+use crate::model::{Grain, StarSurface, Surface};
 use crate::scan::Scan;
 use crate::sphere::{Symmetry, cube_grid};
-use nalgebra::Vector3;
+use nalgebra::{Point3, Vector3};
 use std::sync::OnceLock;
 
 /// Cosine of the angle between a direction and the normal there below which a radius is steep, and ...
@@ -39,9 +39,6 @@ const FAR: f64 = 1.5;
 /// So many times larger than their scatter their noise is something else. Of bodies with noise it is 1.5 at most, of a
 /// blackberry whose bumps are taken for noise 2.1.
 const NOISY: f64 = 1.8;
-
-/// Most points of a scan of which that is looked at: more tell what a radius cannot follow by themselves.
-const MOST_WITH_SCATTER: usize = 30_000;
 
 /// A radius that hides area so counts as so many times farther off.
 const HIDING: f64 = 2.0;
@@ -85,8 +82,7 @@ pub fn fit_scan(
                 },
             },
             Ok(fitted)
-                if is_free(options)
-                    && (is_doubtful(&fitted) || is_rougher(&fitted, scan, options)) =>
+                if is_free(options) && (is_doubtful(&fitted) || is_rougher(&fitted, options)) =>
             {
                 compared(scan, fitted, options, context)
             }
@@ -146,21 +142,28 @@ fn is_doubtful(fitted: &Fitted) -> bool {
 
 /// Whether a radius does not follow a body that is smooth among neighbours: held-out points are much farther from it than
 /// from the surfaces through their neighbours, or what they scatter by is much less than the noise that is told.
-fn is_rougher(star: &Fitted, scan: &Scan, options: &FitOptions) -> bool {
-    let points = scan.points();
+fn is_rougher(star: &Fitted, options: &FitOptions) -> bool {
     let is_far = |rms: f64, limit: f64| rms * held_out_over_fitted(star) > FAR * limit;
     let good = options.tolerance.length(star.mean_radius);
-    if points.len() > MOST_WITH_SCATTER || !is_far(star.residuals.rms, good) {
+    if !is_far(star.residuals.rms, good) {
         return false;
     }
+    let estimate = star.posterior.as_ref();
+    let Some(points) = estimate.and_then(|estimate| estimate.points()) else {
+        return false;
+    };
+    let frame = star.grain.frame();
+    let in_scan: Vec<_> = points.iter().map(|point| frame.to_scan(point)).collect();
     let Some(scatter) = scatter(points) else {
         return false;
     };
-    let limit = scatter.max(good);
+    // So far faces lie within a smooth surface through their corners.
+    let sag = star.reference.bulge / star.reference.area;
+    let limit = scatter.max(sag).max(good);
     let is_noisy = star.search.noise.is_some_and(|noise| noise > NOISY * limit);
     is_noisy
         || is_far(star.residuals.rms, limit)
-            && is_far(normal_distances(&star.grain, scan).rms(), limit)
+            && is_far(normal_distances(&star.grain, &in_scan).rms(), limit)
 }
 
 /// The better of a radius and of positions; the radius where no positions can be fitted.
@@ -172,7 +175,7 @@ fn compared(
 ) -> Result<Fitted, FitError> {
     // Not the limit of its search: that is the laxer, the worse the estimate is.
     let limit = options.tolerance.length(star.mean_radius);
-    let distances = normal_distances(&star.grain, scan);
+    let distances = normal_distances(&star.grain, scan.points());
     let own = Rival {
         coefficients: star.grain.coefficient_count(),
         rms: distances.rms() * held_out_over_fitted(&star),
@@ -236,9 +239,8 @@ fn held_out_over_fitted(star: &Fitted) -> f64 {
     }
 }
 
-/// Distances of a scan's points from a surface, along its normals.
-fn normal_distances(grain: &Grain, scan: &Scan) -> Deviation {
-    let points = scan.points();
+/// Distances of points from a surface, along its normals.
+fn normal_distances(grain: &Grain, points: &[Point3<f64>]) -> Deviation {
     let every = points.len().div_ceil(MOST_COMPARED).max(1);
     let some: Vec<_> = points.iter().step_by(every).copied().collect();
     let feet = feet(grain, &some);
@@ -262,7 +264,7 @@ mod tests {
         if let Some(told) = told {
             fitted.search.noise = Some(told * fitted.mean_radius);
         }
-        is_rougher(&fitted, &scan, &FitOptions::default())
+        is_rougher(&fitted, &FitOptions::default())
     }
 
     #[test]

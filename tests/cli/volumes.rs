@@ -158,7 +158,7 @@ fn the_steps_between_voxels_are_no_texture() {
     assert_eq!(measured["of"], "voxels");
     let warning = measured["warnings"][0].as_str().unwrap();
     assert!(
-        warning.contains("their steps make the area larger"),
+        warning.contains("their steps make the area of a round grain larger"),
         "{warning}"
     );
 }

@@ -68,6 +68,14 @@ impl Estimate {
         self.cloud.mean * away.fold(0.0, f64::max)
     }
 
+    /// The points that it rests on, in the grain's own frame; none where these are means of patches.
+    pub(in crate::fit) fn points(&self) -> Option<Vec<Vector3<f64>>> {
+        let plain =
+            |point: Vector3<f64>| point.component_div(&self.cloud.stretch) * self.cloud.mean;
+        let points = self.cloud.points().into_iter().map(plain);
+        self.dense.is_none().then(|| points.collect())
+    }
+
     /// Whether no more than a gap that chance leaves lies between a ray of the grain's own frame and a point.
     pub(in crate::fit) fn is_among_points(&self, ray: &Vector3<f64>) -> bool {
         let directions = self.cloud.directions.iter();
