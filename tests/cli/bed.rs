@@ -246,8 +246,7 @@ fn overlaps_are_told_and_packing_fractions_that_they_spoil_are_not() {
 fn a_scan_is_a_clump_in_the_sizes_of_a_batch() {
     let folder = folder();
     // Volumes of balls of 2, 3 and 4 mm.
-    let table =
-        "path,volume,volume_se\na.ply,4.18879,0.1\nb.ply,14.13717,0.1\nc.ply,33.51032,0.1\n";
+    let table = "path,volume,volume_se\na.ply,4.18879,0.1\nb.ply,14.13717,0.1\nc.ply,33.51032,0.1\nd.ply,much,\n";
     fs::write(folder.path().join("results.csv"), table).unwrap();
     let words =
         "--sizes results.csv --spheres 3 --grains 9 --box 12,12 --unit mm --seconds 0.05 -o bed";
@@ -271,6 +270,10 @@ fn a_scan_is_a_clump_in_the_sizes_of_a_batch() {
     assert!(told.contains("is a clump of 3 spheres here"), "{told}");
     assert!(
         told.contains("tells no unit: its volumes are taken to be in mm³"),
+        "{told}"
+    );
+    assert!(
+        told.contains("results.csv has 1 cell of volume without a number"),
         "{told}"
     );
     // The same grains in micrometres, in another folder.

@@ -1,6 +1,7 @@
 //! The sizes of a mixture: those of the grains in results of `batch`.
 
 use crate::batch::read_lot;
+use crate::digits::plural;
 use crate::measure::equivalent_radius;
 use crate::report::Unit;
 use anyhow::{Result, bail};
@@ -61,9 +62,14 @@ impl Sizes {
         let place = |at: &usize| (*at as f64 * GOLDEN).fract();
         order.sort_by(|one, other| place(one).total_cmp(&place(other)));
         let diameter = |at| 2.0 * equivalent_radius(quantile(at)) * unit.metres();
+        let unread = lot.unread.get("volume").map(|count| {
+            let cells = plural(*count, "cell");
+            format!("{shown} has {cells} of volume without a number, not counted here.")
+        });
+        let remarks = remark.into_iter().chain(lot.taken_unit(shown));
         Ok(Self {
             diameters: order.into_iter().map(diameter).collect(),
-            remarks: remark.into_iter().chain(lot.taken_unit(shown)).collect(),
+            remarks: remarks.chain(unread).collect(),
         })
     }
 }
