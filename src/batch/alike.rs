@@ -63,8 +63,8 @@ fn copied(lot: &Lot, which: &str) -> Option<String> {
 
 /// How many cells of a lot are passed over.
 fn unread(lot: &Lot, which: &str) -> Option<String> {
-    let cells = |(name, count): (&String, &usize)| format!("{count} of {name}");
-    let cells: Vec<_> = lot.unread.iter().map(cells).collect();
+    let of_column = |(name, count): (&String, &usize)| format!("{count} of {name}");
+    let cells: Vec<_> = lot.unread.iter().map(of_column).collect();
     (!cells.is_empty()).then(|| {
         format!(
             "Cells of the {which} lot that hold no number are left out: {}.",

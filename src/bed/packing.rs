@@ -117,6 +117,18 @@ impl Tally {
     }
 }
 
+impl Packing {
+    /// That of a bed whose fractions mean nothing.
+    pub fn without_fractions(bed: &Bed) -> Self {
+        Self {
+            core: None,
+            whole: None,
+            surface: surface(bed.bodies()),
+            layers: Vec::new(),
+        }
+    }
+}
+
 /// How densely a bed is packed.
 pub fn packing(bed: &Bed) -> Packing {
     let grid = Grid::new(bed);

@@ -152,18 +152,19 @@ fn is_rougher(star: &Fitted, options: &FitOptions) -> bool {
     let Some(points) = estimate.and_then(|estimate| estimate.points()) else {
         return false;
     };
-    let frame = star.grain.frame();
-    let in_scan: Vec<_> = points.iter().map(|point| frame.to_scan(point)).collect();
-    let Some(scatter) = scatter(points) else {
+    let Some(scatter) = scatter(&points) else {
         return false;
     };
     // So far faces lie within a smooth surface through their corners.
     let sag = star.reference.bulge / star.reference.area;
     let limit = scatter.max(sag).max(good);
     let is_noisy = star.search.noise.is_some_and(|noise| noise > NOISY * limit);
-    is_noisy
-        || is_far(star.residuals.rms, limit)
-            && is_far(normal_distances(&star.grain, &in_scan).rms(), limit)
+    if is_noisy || !is_far(star.residuals.rms, limit) {
+        return is_noisy;
+    }
+    let frame = star.grain.frame();
+    let points: Vec<_> = points.iter().map(|point| frame.to_scan(point)).collect();
+    is_far(normal_distances(&star.grain, &points).rms(), limit)
 }
 
 /// The better of a radius and of positions; the radius where no positions can be fitted.

@@ -2,8 +2,8 @@
 //! noise, texture and edges, but not where a surface fails to follow a smooth body.
 
 use super::neighbours::Neighbours;
+use crate::scan::by_coordinates;
 use nalgebra::{Const, DVector, Dyn, Matrix3, OMatrix, Vector3};
-use std::cmp::Ordering;
 
 /// Points that are looked at, evenly spread along an axis; ...
 const MOST_LOOKED_AT: usize = 300;
@@ -16,14 +16,9 @@ const NUMBERS: usize = 6;
 
 /// The root mean square distance of points from quadrics through their neighbours, in the scan's unit, as of single points:
 /// what a quadric takes up of their scatter is put back. `None` of fewer points than it takes.
-pub(super) fn scatter(mut places: Vec<Vector3<f64>>) -> Option<f64> {
-    places.sort_unstable_by(|one, other| {
-        let pairs = one.iter().zip(other.iter());
-        let mut orders = pairs.map(|(own, other)| own.total_cmp(other));
-        orders
-            .find(|order| order.is_ne())
-            .unwrap_or(Ordering::Equal)
-    });
+pub(super) fn scatter(places: &[Vector3<f64>]) -> Option<f64> {
+    let mut places = places.to_vec();
+    places.sort_unstable_by(|one, other| by_coordinates(&(*one).into(), &(*other).into()));
     let neighbours = Neighbours::new(&places);
     let every = places.len().div_ceil(MOST_LOOKED_AT).max(1);
     let (mut squares, mut count) = (0.0, 0.0);
@@ -86,8 +81,8 @@ mod tests {
                 .with_points(6146)
                 .with_noise(noise);
             let found = synthesize(&options).unwrap();
-            let places = found.points.iter().map(|point| point.coords).collect();
-            scatter(places).unwrap() / found.truth.mean_radius
+            let places: Vec<_> = found.points.iter().map(|point| point.coords).collect();
+            scatter(&places).unwrap() / found.truth.mean_radius
         };
         assert_relative_eq!(of_noise(0.005), 0.005, max_relative = 0.1);
         assert!(of_noise(0.0) < 3e-4, "{}", of_noise(0.0));
@@ -95,8 +90,8 @@ mod tests {
 
     #[test]
     fn few_points_and_points_in_one_place_are_no_surface() {
-        assert_eq!(scatter(Vec::new()), None);
-        assert_eq!(scatter(vec![Vector3::zeros(); 6]), None);
-        assert_eq!(scatter(vec![Vector3::new(1.0, 2.0, 3.0); 40]), Some(0.0));
+        assert_eq!(scatter(&[]), None);
+        assert_eq!(scatter(&[Vector3::zeros(); 6]), None);
+        assert_eq!(scatter(&[Vector3::new(1.0, 2.0, 3.0); 40]), Some(0.0));
     }
 }

@@ -2,7 +2,6 @@
 
 use super::curvature::Curvature;
 use crate::model::Surface;
-use crate::sphere::tangents;
 use nalgebra::Vector3;
 
 /// Where normals turn over a radius of curvature to both sides they do so by this share of it, at least: of a parabola by .70
@@ -22,10 +21,10 @@ pub(super) fn unfollowed(surface: &dyn Surface, n: &Vector3<f64>) -> f64 {
     let step = curvature.turn(&(curvature.directions[0] / sharpest));
     let ways = [step, -step].map(|step| {
         let aside = (n + step).normalize();
-        let (place, slopes) = surface.place_and_slopes(&aside);
-        let [s, t] = tangents(&aside);
-        let normal = (slopes * s).cross(&(slopes * t));
-        [normal.angle(&curvature.normal), (place - here.place).norm()]
+        let there = surface.jet(&aside);
+        let normal = Curvature::new(&aside, &there).normal;
+        let way = (there.place - here.place).norm();
+        [normal.angle(&curvature.normal), way]
     });
     let [turn, way] = [0, 1].map(|i| ways[0][i] + ways[1][i]);
     (sharpest - turn / way / FOLLOWED).max(0.0)
@@ -36,7 +35,6 @@ mod tests {
     use super::*;
     use crate::model::{Derivatives, Radial, StarSurface};
     use crate::shapes::Ellipsoid;
-
     use nalgebra::Matrix3;
 
     #[test]

@@ -14,7 +14,7 @@ pub(crate) fn drawn(points: &[Point3<f64>], most: usize) -> Vec<Point3<f64>> {
 }
 
 /// By x, then y, then z.
-pub(super) fn by_coordinates(one: &Point3<f64>, other: &Point3<f64>) -> Ordering {
+pub(crate) fn by_coordinates(one: &Point3<f64>, other: &Point3<f64>) -> Ordering {
     let compare = |axis: usize| (one[axis] + 0.0).total_cmp(&(other[axis] + 0.0));
     compare(0).then_with(|| compare(1)).then_with(|| compare(2))
 }

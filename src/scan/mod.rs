@@ -27,7 +27,7 @@ use std::path::Path;
 use crate::mesh::Mesh;
 use nalgebra::Point3;
 
-pub(crate) use drawn::drawn;
+pub(crate) use drawn::{by_coordinates, drawn};
 pub use error::{ParseError, Place, ReadError};
 use format::Format;
 pub(crate) use repeated::distinct;

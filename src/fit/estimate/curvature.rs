@@ -24,8 +24,9 @@
 //! proportion. Where the nearest points are [met](super::local) worse than noise is, both errors are as much larger, but not
 //! smaller where they are met better: on the tips of a needle noise is small, and the few points there are weighed against the
 //! prior as if it were not. The prior, which is the same everywhere, also takes tips for noise: where the curvature of what the
-//! points tell without it differs by more than that, it is off by so much. A bump bends all directions alike, H = -a k of its height and sharpness: one that is missing, and the
-//! widest as far as points near by leave its height open, for which the prior, alike everywhere, leaves no room.
+//! points tell without it differs by more than that, it is off by so much. A bump bends all directions alike, H = -a k of its
+//! height and sharpness: one that is missing, and the widest as far as points near by leave its height open, for which the
+//! prior, alike everywhere, leaves no room.
 
 use super::hole::Hole;
 use super::left_out::LeftOut;

@@ -63,17 +63,18 @@ impl Estimate {
 
     /// How far from the centre the farthest of its points is, in the scan's unit.
     pub(in crate::fit) fn farthest_point(&self) -> f64 {
-        let points = self.cloud.points().into_iter();
-        let away = points.map(|point| point.component_div(&self.cloud.stretch).norm());
-        self.cloud.mean * away.fold(0.0, f64::max)
+        let away = self.plain_points().map(|point| point.norm());
+        away.fold(0.0, f64::max)
     }
 
     /// The points that it rests on, in the grain's own frame; none where these are means of patches.
     pub(in crate::fit) fn points(&self) -> Option<Vec<Vector3<f64>>> {
-        let plain =
-            |point: Vector3<f64>| point.component_div(&self.cloud.stretch) * self.cloud.mean;
-        let points = self.cloud.points().into_iter().map(plain);
-        self.dense.is_none().then(|| points.collect())
+        self.dense.is_none().then(|| self.plain_points().collect())
+    }
+
+    fn plain_points(&self) -> impl Iterator<Item = Vector3<f64>> {
+        let points = self.cloud.points().into_iter();
+        points.map(|point| point.component_div(&self.cloud.stretch) * self.cloud.mean)
     }
 
     /// Whether no more than a gap that chance leaves lies between a ray of the grain's own frame and a point.

@@ -9,9 +9,9 @@ use std::f64::consts::FRAC_PI_4;
 const SHARPEST: f64 = FRAC_PI_4;
 
 /// Volume between the faces and a smooth surface through their corners: the root of the squares of what is beyond the faces,
-/// and of what is within where they bend inwards, for the walls of a cup are not made up for by its inside. Where faces of heights h and k bend by an angle a along an
-/// edge of length e it is a e (h² + k²) / 24: so much lies beyond the faces of
-/// a cylinder, and beyond even triangles of a ball, to first order in a. Sharp bends are edges of the body.
+/// and of what is within where they bend inwards, for the walls of a cup are not made up for by its inside. Where faces of
+/// heights h and k bend by an angle a along an edge of length e it is a e (h² + k²) / 24: so much lies beyond the faces of a
+/// cylinder, and beyond even triangles of a ball, to first order in a. Sharp bends are edges of the body.
 pub(super) fn bulge(mesh: &Mesh) -> f64 {
     let corner = |at: u32| mesh.vertices[at as usize].coords;
     // Its length is twice the area.

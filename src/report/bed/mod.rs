@@ -70,13 +70,11 @@ impl BedRunRecord {
             is_at_rest,
             seconds,
             steps,
-            packing: packing(bed),
+            packing: Packing::without_fractions(bed),
             fabric,
         };
-        if run.is_crushed() || bed.has_mesh() {
-            run.packing.core = None;
-            run.packing.whole = None;
-            run.packing.layers.clear();
+        if !run.is_crushed() && !bed.has_mesh() {
+            run.packing = packing(bed);
         }
         run
     }
