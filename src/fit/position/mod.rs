@@ -34,6 +34,8 @@ use map::spherical_map;
 use nalgebra::Point3;
 use search::search;
 
+pub(super) use search::MOST_COEFFICIENTS;
+
 /// A fitted surface, and what is known of it.
 #[derive(Debug, Clone)]
 pub struct PositionFit {

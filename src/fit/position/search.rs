@@ -30,6 +30,9 @@ const POINTS_PER_FUNCTION: f64 = 3.0;
 /// Most functions where nothing else is asked for, and the points are enough for them: some seconds of work.
 const MOST_FUNCTIONS: usize = 1000;
 
+/// So many coefficients they have.
+pub(in crate::fit) const MOST_COEFFICIENTS: usize = 3 * MOST_FUNCTIONS;
+
 /// Cells are split as long as held-out distances fall at least with this power of the number of functions.
 const LEAST_GAIN: f64 = 0.12;
 
