@@ -172,6 +172,7 @@ fn cut(estimate: &Estimate, options: &FitOptions, limit: f64) -> Result<Outcome,
         segments: options.segments,
         max_segments: options.most_segments(),
         limit,
+        is_textured: estimate.is_rough(),
     };
     let radius = estimate.stretched_radius();
     blended::approximate(&Plain { estimate, radius }, &settings).ok_or(FitError::NoEstimate)

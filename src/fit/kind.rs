@@ -137,8 +137,7 @@ fn is_doubtful(fitted: &Fitted) -> bool {
     let is_far = |warning: &FitWarning| matches!(warning, FitWarning::LimitNotMet { .. });
     let hidden = hidden_share(fitted);
     let warns = hidden > 0.0 || fitted.warnings.iter().any(is_far);
-    let is_outnumbered = fitted.grain.coefficient_count() > MOST_COEFFICIENTS;
-    if hidden > HIDDEN_SHARE || warns && !is_outnumbered {
+    if hidden > HIDDEN_SHARE || warns && !is_outnumbered(fitted) {
         return true;
     }
     let Some(star) = fitted.grain.star() else {
@@ -153,12 +152,17 @@ fn is_doubtful(fitted: &Fitted) -> bool {
     steep as f64 > STEEP_SHARE * directions.len() as f64
 }
 
+/// Whether a radius has more coefficients than positions may have: they are then farther off, unless it does not see all.
+fn is_outnumbered(fitted: &Fitted) -> bool {
+    fitted.grain.coefficient_count() > MOST_COEFFICIENTS
+}
+
 /// Whether a radius does not follow a body that is smooth among neighbours: held-out points are much farther from it than
 /// from the surfaces through their neighbours, or what they scatter by is much less than the noise that is told.
 fn is_rougher(star: &Fitted, options: &FitOptions) -> bool {
     let is_far = |rms: f64, limit: f64| rms * held_out_over_fitted(star) > FAR * limit;
     let good = options.tolerance.length(star.mean_radius);
-    if !is_far(star.residuals.rms, good) {
+    if is_outnumbered(star) || !is_far(star.residuals.rms, good) {
         return false;
     }
     let estimate = star.posterior.as_ref();

@@ -45,6 +45,8 @@ pub(crate) struct Settings {
     pub(crate) max_segments: usize,
     /// Root of the mean squared difference from the target that is good enough, a length.
     pub(crate) limit: f64,
+    /// Whether the target has detail as small as the cells.
+    pub(crate) is_textured: bool,
 }
 
 #[cfg(test)]
@@ -57,6 +59,7 @@ impl Settings {
             segments: None,
             max_segments: usize::MAX,
             limit,
+            is_textured: false,
         }
     }
 }

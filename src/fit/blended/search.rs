@@ -23,8 +23,14 @@ const WIDE_OF_THE_LIMIT: f64 = 0.7;
 const MOST_ROUNDS: usize = 8;
 
 /// Squared error of the joint fit per sum of the squared errors of the cells' own fits, before a fit has
-/// told: .1 to .35 on smooth grains and texture.
+/// told: .1 to .35 on smooth grains ...
 const FIRST_RATIO: f64 = 0.25;
+
+/// ... and .34 to .63 on texture.
+const FIRST_RATIO_OF_TEXTURE: f64 = 0.45;
+
+/// Covers of other trees may come to this share of the least ratio told so far: 0.89 and more on stones and kernels.
+const LEAST_OF_RATIO: f64 = 0.85;
 
 /// Squared error between the directions of a fit per squared error at them, before it is known.
 const FIRST_UNSEEN: f64 = 1.05;
@@ -56,6 +62,8 @@ pub(super) struct Search<'a> {
     best: Option<Found>,
     /// Squared error between the directions of a fit per squared error at them.
     unseen: f64,
+    /// The least squared error of a joint fit per sum of its cells' own that a fit has told.
+    least_ratio: f64,
 }
 
 /// A quadtree and what is known of its covers.
@@ -103,6 +111,7 @@ impl<'a> Search<'a> {
             rounds: Vec::new(),
             best: None,
             unseen: FIRST_UNSEEN,
+            least_ratio: f64::INFINITY,
         }
     }
 
@@ -171,7 +180,11 @@ impl<'a> Search<'a> {
 
     fn add_tree(&mut self, parts: u16, is_fixed: bool, degrees: RangeInclusive<usize>) {
         let mut forest = Forest::new(self.target, &mut self.fits, parts, is_fixed, degrees);
-        let (goal, bounds) = (AIM * self.goal() / FIRST_RATIO, self.bounds());
+        let ratio = match self.settings.is_textured {
+            true => FIRST_RATIO_OF_TEXTURE,
+            false => FIRST_RATIO,
+        };
+        let (goal, bounds) = (AIM * self.goal() / ratio, self.bounds());
         let plan = forest.within(self.target, &mut self.fits, goal, &bounds);
         self.trees.push(Tree {
             forest,
@@ -181,17 +194,30 @@ impl<'a> Search<'a> {
     }
 
     /// The tree with the cheapest cover that is worth a fit. Covers that the bounds keep from being good
-    /// enough come last.
+    /// enough come last, the nearest first, and none that cannot win.
     fn cheapest(&self) -> Option<usize> {
         let met = self.best.as_ref().filter(|found| self.is_met(found.rms));
         let most = met.map(|found| (1.0 - LEAST_SAVING) * found.coefficients as f64);
         let open = self.trees.iter().enumerate().filter(|(_, tree)| {
             let is_new = !tree.fitted.contains(&tree.plan);
             let is_cheap = most.is_none_or(|most| (tree.plan.coefficients as f64) < most);
-            is_new && is_cheap
+            is_new && is_cheap && (tree.plan.is_enough || self.may_win(&tree.plan))
         });
-        let rank = |tree: &Tree| (!tree.plan.is_enough, tree.plan.coefficients);
-        open.min_by_key(|(_, tree)| rank(tree)).map(|(at, _)| at)
+        let by_need = |one: &Plan, other: &Plan| match (one.is_enough, other.is_enough) {
+            (true, true) => one.coefficients.cmp(&other.coefficients),
+            (false, false) => one.error.total_cmp(&other.error),
+            (is_enough, _) => (!is_enough).cmp(&is_enough),
+        };
+        open.min_by(|(_, one), (_, other)| by_need(&one.plan, &other.plan))
+            .map(|(at, _)| at)
+    }
+
+    /// Whether a cover that is not forecast to be good enough may come nearer than the best so far.
+    fn may_win(&self, plan: &Plan) -> bool {
+        self.best.as_ref().is_none_or(|best| {
+            let least = LEAST_OF_RATIO * self.least_ratio * plan.error;
+            !self.is_met(best.rms) && least < 4.0 * PI * best.rms * best.rms
+        })
     }
 
     fn is_met(&self, rms: f64) -> bool {
@@ -208,6 +234,7 @@ impl<'a> Search<'a> {
         self.trees[at].fitted.push(plan);
         if error > 0.0 {
             let ratio = 4.0 * PI * rms * rms / error;
+            self.least_ratio = self.least_ratio.min(ratio);
             let degrees = self.trees[at].forest.degrees();
             for (other, tree) in self.trees.iter_mut().enumerate() {
                 let is_alike = tree.fitted.is_empty() && tree.forest.degrees() == degrees;

@@ -20,6 +20,9 @@ pub(super) struct PolarTable {
     columns: Vec<f64>,
 }
 
+/// Columns that are added up at once: two of either parity.
+const AT_ONCE: usize = 4;
+
 /// Terms of one order, for cosines and for sines: the sums of a ring's and its mirror image's (0), and their differences (1).
 struct Halves {
     cosine: [Vec<f64>; 2],
@@ -90,24 +93,20 @@ impl PolarTable {
         vectorize(
             #[inline(always)]
             || {
+                let mut halves = self.halves();
                 let mut pairs = Vec::with_capacity(self.degree + 1);
                 for m in 0..=self.degree {
                     pairs.clear();
                     pairs.extend((m..=self.degree).map(|l| pair(coefficients, l, m)));
-                    let columns = self.columns(m);
-                    let [cosine, sine] = terms.of_order_mut(m);
-                    for from in (0..self.rows).step_by(LANES) {
-                        let [even, odd] = sums(&columns[from..], self.rows, &pairs);
-                        for (own, [even, odd]) in [&mut *cosine, &mut *sine]
-                            .into_iter()
-                            .zip([[even[0], odd[0]], [even[1], odd[1]]])
+                    halves.add_up(&pairs, self.columns(m), self.rows);
+                    let Halves { cosine, sine } = &halves;
+                    let orders = terms.of_order_mut(m).into_iter();
+                    for (own, [even, odd]) in orders.zip([cosine, sine]) {
+                        let (north, south) = own.split_at_mut(self.rows);
+                        let halves = even.iter().zip(odd);
+                        for ((north, south), (even, odd)) in north.iter_mut().zip(south).zip(halves)
                         {
-                            let (north, south) = own.split_at_mut(self.rows);
-                            let [north, south] =
-                                [north, south].map(|half| &mut half[from..][..LANES]);
-                            for i in 0..LANES {
-                                (north[i], south[i]) = (even[i] + odd[i], even[i] - odd[i]);
-                            }
+                            (*north, *south) = (even + odd, even - odd);
                         }
                     }
                 }
@@ -157,20 +156,39 @@ impl PolarTable {
     }
 }
 
-/// Sums over the degrees of an order, on some rings: of every other degree from the first on, and from the second on; of
-/// each that with the first numbers of the pairs, and that with the second. The columns begin `stride` apart.
-#[inline(always)]
-fn sums(columns: &[f64], stride: usize, pairs: &[[f64; 2]]) -> [[[f64; LANES]; 2]; 2] {
-    let mut sums = [[[0.0; LANES]; 2]; 2];
-    let columns = columns.chunks(stride).map(|column| &column[..LANES]);
-    for (at, (pair, column)) in pairs.iter().zip(columns).enumerate() {
-        for (sum, factor) in sums[at % 2].iter_mut().zip(pair) {
-            for i in 0..LANES {
-                sum[i] += factor * column[i];
+impl Halves {
+    /// The sums over the degrees of an order: of every other degree from the first on (0), and from the second on (1). Four
+    /// columns at once, in the order in which they stand in memory.
+    #[inline(always)]
+    fn add_up(&mut self, pairs: &[[f64; 2]], columns: &[f64], rows: usize) {
+        let Self {
+            cosine: [even_cosine, odd_cosine],
+            sine: [even_sine, odd_sine],
+        } = self;
+        for half in [&mut *even_cosine, odd_cosine, even_sine, odd_sine] {
+            half.fill(0.0);
+        }
+        for (pairs, columns) in pairs.chunks(AT_ONCE).zip(columns.chunks(AT_ONCE * rows)) {
+            let mut four = [[0.0; 2]; AT_ONCE];
+            four[..pairs.len()].copy_from_slice(pairs);
+            let column = |at: usize| {
+                let own = columns.get(at * rows..(at + 1) * rows);
+                own.unwrap_or(&columns[..rows])
+            };
+            let [first, second, third, fourth] = [0, 1, 2, 3].map(column);
+            let halves = even_cosine.iter_mut().zip(even_sine.iter_mut());
+            let halves = halves.zip(odd_cosine.iter_mut().zip(odd_sine.iter_mut()));
+            let columns = first.iter().zip(third).zip(second.iter().zip(fourth));
+            for (((even_cosine, even_sine), (odd_cosine, odd_sine)), columns) in halves.zip(columns)
+            {
+                let ((first, third), (second, fourth)) = columns;
+                *even_cosine += four[0][0] * first + four[2][0] * third;
+                *even_sine += four[0][1] * first + four[2][1] * third;
+                *odd_cosine += four[1][0] * second + four[3][0] * fourth;
+                *odd_sine += four[1][1] * second + four[3][1] * fourth;
             }
         }
     }
-    sums
 }
 
 /// The coefficients of the cosine and the sine of degree l and order m.
