@@ -25,7 +25,7 @@ mod xyz;
 use std::path::Path;
 
 use crate::mesh::Mesh;
-use nalgebra::Point3;
+use nalgebra::{Matrix3, Point3};
 
 pub(crate) use drawn::{by_coordinates, drawn};
 pub use error::{ParseError, Place, ReadError};
@@ -53,9 +53,8 @@ pub struct Scan {
     pub(crate) topology: Option<Topology>,
     /// See [`Self::scatter`].
     pub(crate) scatter: f64,
-    /// Of voxels the standard deviation of their volume from that of the grain, over the root of the grain's area; else
-    /// zero.
-    pub(crate) miscount: f64,
+    /// Of voxels the steps from one to the next along each axis, in columns.
+    pub(crate) steps: Option<Matrix3<f64>>,
     /// See [`Self::unit`].
     pub(crate) unit: Option<String>,
     pub(crate) warnings: Vec<String>,
@@ -183,7 +182,7 @@ impl Scan {
     pub(crate) fn part(&self, mesh: Mesh) -> Self {
         let mut part = Self {
             scatter: self.scatter,
-            miscount: self.miscount,
+            steps: self.steps,
             unit: self.unit.clone(),
             ..Self::of_mesh(mesh)
         };

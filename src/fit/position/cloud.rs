@@ -4,6 +4,7 @@ mod feet;
 
 use super::on_mesh::OnMesh;
 use super::on_sphere::{middles, spherical_area};
+use super::voxels::Voxels;
 use crate::fit::neighbours::Neighbours;
 use crate::mesh::Mesh;
 use nalgebra::Vector3;
@@ -38,8 +39,8 @@ pub(super) struct Cloud<'a> {
     inside: Vec<OnMesh>,
     /// Whether they are the points of the scan, and the vertices are none.
     is_of_points: bool,
-    /// Of the middles between voxels the standard deviation of the volume that they tell, over the root of the area.
-    pub(super) miscount: f64,
+    /// Those between which the points are the middles.
+    pub(super) voxels: Option<Voxels>,
     /// Of the ellipsoid of equal moments.
     pub(super) semi_axes: Vector3<f64>,
     /// Every so many of the vertices, in order of height on the sphere, and the places in triangles that touch them; or
@@ -65,7 +66,7 @@ impl<'a> Cloud<'a> {
             weights: Vec::new(),
             inside: Vec::new(),
             is_of_points: false,
-            miscount: 0.0,
+            voxels: None,
             semi_axes: Vector3::repeat(1.0),
             mesh,
             directions: map.clone(),

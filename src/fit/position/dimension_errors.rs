@@ -3,12 +3,13 @@
 //! To first order by the covariances of its ends and of the inertia tensor that turns its axes. To it are added, as squares,
 //!
 //! - that the highest of many ripples is higher than the surface;
-//! - what points near the [ends](super::ends) tell, and at the ends of voxels what a function reaches;
+//! - what points near the [ends](super::ends) tell, and what [voxels](super::voxels) hide there;
 //! - the range of extents along axes that may lie anywhere, and what another axis of about this length is longer or shorter.
 
 use super::ends::Ends;
 use super::functionals::{End, FIGURES, FigureVector, Functionals};
 use super::functions::Functions;
+use super::voxels::Hidden;
 use crate::fit::figures::{INERTIA, INTEGRALS, squares_by_size};
 use crate::fit::turn::{OF_RANGE, are_apart, by_inertia, entry_variance};
 use crate::measure::PrincipalInertia;
@@ -31,8 +32,10 @@ pub(super) struct Lengths<'a> {
     pub(super) inertia: Matrix6<f64>,
     /// Root mean square of what is not resolved.
     pub(super) unresolved: f64,
-    /// Square of what voxels hide at an end.
-    pub(super) miscounted: f64,
+    /// What voxels hide.
+    pub(super) hidden: Option<&'a Hidden>,
+    /// Functions of which the points decide.
+    pub(super) told: f64,
 }
 
 impl Lengths<'_> {
@@ -51,9 +54,11 @@ impl Lengths<'_> {
         for end in &self.functionals.ends[axis] {
             higher += self.higher(end);
             squares += ends.square(end);
+            let hidden = self.hidden.map(|hidden| hidden.square(end, self.told));
+            squares += hidden.unwrap_or(0.0);
         }
         let least = self.functions.cover().map_or(FLOOR, |_| FLOOR_OF_CELLS);
-        squares + higher * higher + (least * length).powi(2) + 2.0 * self.miscounted
+        squares + higher * higher + (least * length).powi(2)
     }
 
     /// By how much the highest of the ripples near an end is higher than the surface.

@@ -15,8 +15,7 @@
 //!   leave more than noise; and the same of held-out points, which see what the surface does between the others, as far
 //!   as it is more than they scatter; and the same of the vertices alone, for the body bulges over faces that are chords;
 //!   and of points without faces the same by the area that is nearest to each, for where they are sparse each tells more;
-//! - of voxels, that the volume of those inside is not that of the grain: as if all of the surface moved, and at the ends
-//!   of lengths what a function reaches of it;
+//! - of [voxels](super::voxels), that those inside are not the grain: flat sides may lie anywhere between two layers;
 //! - what is [not resolved](Solved::unresolved): a part of it is taken to have the same sign everywhere;
 //! - of the area what second order brings: ripples of noise that the surface has, and of the grain that it has not;
 //!
@@ -30,6 +29,7 @@ use super::ends::Ends;
 use super::functionals::{FIGURES, FigureVector, Functionals, by_move};
 use super::functions::{Functions, Rows};
 use super::least_squares::values;
+use super::voxels::Hidden;
 use crate::fit::figures::{INERTIA, INTEGRALS, derivatives, form, mass, unlist};
 use crate::fit::linear::BlockFactor;
 use crate::fit::neighbours::Neighbours;
@@ -75,7 +75,16 @@ impl Solved<'_> {
         let jacobian = derivatives(&functionals.moments);
         let block = covariance.fixed_view::<INTEGRALS, INTEGRALS>(0, 0);
         let mut of_mass = jacobian * block * jacobian.transpose();
-        of_mass += self.left(&jacobian, &distances, unresolved);
+        let voxels = self.cloud.voxels.as_ref();
+        let hidden = voxels
+            .map(|voxels| voxels.hidden(self.functions, self.surface, functionals.moments.area));
+        if let Some(hidden) = &hidden {
+            of_mass += jacobian * hidden.covariance() * jacobian.transpose();
+            of_mass[(0, 0)] += hidden.edges().powi(2);
+        }
+        let miscounted = hidden.as_ref().map_or(0.0, Hidden::miscounted);
+        let one_sided = (ONE_SIDED * unresolved).hypot(miscounted);
+        of_mass += self.left(&jacobian, &distances, one_sided);
         of_mass[(0, 0)] += self.ripples(unresolved).iter().map(|x| x * x).sum::<f64>();
         let errors = unlist(&of_mass.diagonal());
         let axes = &functionals.principal.axes;
@@ -92,7 +101,8 @@ impl Solved<'_> {
             jacobian: &jacobian,
             inertia: inertia.into_owned(),
             unresolved,
-            miscounted: self.miscounted().powi(2) * self.told(),
+            hidden: hidden.as_ref(),
+            told: self.told(),
         };
         let dimensions = lengths.squares(&Ends::new(self.cloud, &feet, &distances, self.rms[0]));
         let root = |x: f64| x.max(0.0).sqrt();
@@ -157,12 +167,12 @@ impl Solved<'_> {
     }
 
     /// Squares and products of the changes of the figures if the surface moved to the samples, to those held out, to the
-    /// vertices alone, or to what is not resolved; `jacobian` leads from the integrals to the figures.
+    /// vertices alone, or all of it to one side; `jacobian` leads from the integrals to the figures.
     fn left(
         &self,
         jacobian: &SMatrix<f64, INTEGRALS, INTEGRALS>,
         distances: &[f64],
-        unresolved: f64,
+        one_sided: f64,
     ) -> SMatrix<f64, INTEGRALS, INTEGRALS> {
         let cloud = self.cloud;
         let without = self.distances(&self.feet(self.other));
@@ -201,7 +211,6 @@ impl Solved<'_> {
         let square = |x: SVector<f64, INTEGRALS>| x * x.transpose();
         let mut squares = square(fitted * (all * self.held_out()));
         squares += square(by_area * self.held_out());
-        let one_sided = (ONE_SIDED * unresolved).hypot(self.miscounted());
         squares += square(even * (all * one_sided));
         if weights[2] > 0.0 {
             squares += square(at_vertices * vertices);
@@ -211,11 +220,6 @@ impl Solved<'_> {
             squares[(at, at)] += beyond[(at, at)].max(0.0);
         }
         squares
-    }
-
-    /// Standard deviation of the height of a surface between voxels, on average over all of it.
-    fn miscounted(&self) -> f64 {
-        self.cloud.miscount / self.cloud.area().sqrt()
     }
 
     /// Functions of which the roughness leaves the points to decide.

@@ -2,6 +2,7 @@
 //! equal volume has the radius 1.
 
 use super::cloud::Cloud;
+use super::voxels::Voxels;
 use crate::fit::crust::surface_of_points;
 use crate::fit::error::FitError;
 use crate::fit::prepare::{
@@ -13,7 +14,7 @@ use crate::measure::{Unit, equivalent_radius, mesh_properties};
 use crate::mesh::Mesh;
 use crate::model::Frame;
 use crate::scan::Scan;
-use nalgebra::{Point3, Vector3};
+use nalgebra::{Matrix3, Point3, Vector3};
 use std::borrow::Cow;
 
 /// Closed faces in their own place and size, and the way back to the scan.
@@ -23,8 +24,8 @@ pub(super) struct LocalFaces {
     points: Option<Vec<Vector3<f64>>>,
     /// Of the ellipsoid of equal moments.
     semi_axes: Vector3<f64>,
-    /// [Miscount](Cloud::miscount) of voxels.
-    miscount: f64,
+    /// From one voxel to the next, if the points are the middles between some.
+    steps: Option<Matrix3<f64>>,
     /// Centroid and principal axes, in the scan's unit.
     pub(super) frame: Frame,
     /// Of the ball of equal volume, in the scan's unit.
@@ -73,7 +74,9 @@ impl LocalFaces {
         Ok(Self {
             points,
             semi_axes: semi_axes(&properties, &at_unit_frame) / size,
-            miscount: scan.miscount / (radius * radius),
+            steps: scan
+                .steps
+                .map(|steps| at_unit_frame.axes.tr_mul(&steps) / radius),
             frame: Frame {
                 centre: unit.point(&at_unit_frame.centre),
                 ..at_unit_frame
@@ -100,7 +103,7 @@ impl LocalFaces {
             None => Cloud::new(&self.mesh, directions),
         };
         cloud.semi_axes = self.semi_axes;
-        cloud.miscount = self.miscount;
+        cloud.voxels = self.steps.as_ref().and_then(Voxels::new);
         cloud
     }
 

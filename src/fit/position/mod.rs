@@ -19,6 +19,7 @@ mod on_mesh;
 mod on_sphere;
 mod rounds;
 mod search;
+mod voxels;
 
 use super::context::Context;
 use super::error::FitError;

@@ -9,7 +9,6 @@ mod border;
 mod error;
 mod lattice;
 mod metaimage;
-mod miscount;
 mod nifti;
 mod npy;
 mod nrrd;
@@ -370,7 +369,7 @@ fn voxel_scan(grid: &Grid, first: Point3<f64>, steps: &Matrix3<f64>) -> Result<S
     let mut scan = Scan::of_mesh(mesh);
     inspect::inspect(&mut scan);
     scan.scatter = scatter;
-    scan.miscount = miscount::miscount(steps);
+    scan.steps = Some(*steps);
     Ok(scan)
 }
 

@@ -1,0 +1,110 @@
+use super::*;
+use crate::sphere::coefficient_count;
+use approx::assert_relative_eq;
+
+/// A position of degree 1: the ellipsoid of such semi-axes.
+fn ellipsoid(axes: [f64; 3]) -> (Functions, Position) {
+    let functions = Functions::whole(1);
+    let mut coefficients = vec![0.0; 3 * coefficient_count(1)];
+    let of_one = (4.0 * PI / 3.0).sqrt();
+    // x, y and z are the harmonics 3, 1 and 2.
+    for (axis, harmonic) in [3, 1, 2].into_iter().enumerate() {
+        coefficients[3 * harmonic + axis] = of_one * axes[axis];
+    }
+    (functions, Position::whole(coefficients).unwrap())
+}
+
+/// The standard deviation of the volume of a body's voxels, and the share of its square that is of flat sides.
+fn hidden_volume(spacing: &Vector3<f64>, axes: [f64; 3], area: f64) -> (f64, f64) {
+    let voxels = Voxels::new(&Matrix3::from_diagonal(spacing)).unwrap();
+    let (functions, surface) = ellipsoid(axes);
+    let hidden = voxels.hidden(&functions, &surface, area);
+    let flat = hidden.covariance()[(1, 1)];
+    let all = flat + (hidden.miscounted() * area).powi(2);
+    (all.sqrt(), flat / all)
+}
+
+/// The root of the mean square difference of the volume of a body from that of its voxels, in many places.
+fn miscounted(spacing: &Vector3<f64>, axes: &Vector3<f64>) -> f64 {
+    let volume = 4.0 / 3.0 * PI * axes.product();
+    let voxels = |middle: Vector3<f64>| {
+        let at = |i: i32, axis: usize| (f64::from(i) * spacing[axis] - middle[axis]) / axes[axis];
+        let reach = |axis: usize| {
+            let most = (axes[axis] / spacing[axis]) as i32 + 2;
+            -most..=most
+        };
+        let mut count = 0;
+        for i in reach(0) {
+            for j in reach(1) {
+                let across = at(i, 0).powi(2) + at(j, 1).powi(2);
+                count += reach(2)
+                    .filter(|k| across + at(*k, 2).powi(2) < 1.0)
+                    .count();
+            }
+        }
+        count as f64 * spacing.product()
+    };
+    let rounds = 400;
+    let share = |round: i32, step: f64| (f64::from(round) * step).fract();
+    let squares = (0..rounds).map(|round| {
+        let place = Vector3::new(
+            share(round, 0.754_877_666),
+            share(round, 0.569_840_291),
+            share(round, 0.245_122_334),
+        );
+        (voxels(place.component_mul(spacing)) - volume).powi(2)
+    });
+    (squares.sum::<f64>() / f64::from(rounds)).sqrt()
+}
+
+#[test]
+fn the_voxels_of_smooth_bodies_scatter_as_told() {
+    let spacing = Vector3::new(1.0, 0.8, 0.5);
+    for (axes, area) in [([7.3, 7.3, 7.3], 669.7), ([9.0, 7.0, 5.0], 607.2)] {
+        let (told, flat) = hidden_volume(&spacing, axes, area);
+        assert_relative_eq!(told, miscounted(&spacing, &axes.into()), max_relative = 0.3);
+        assert!(flat < 0.1, "{flat}");
+    }
+}
+
+/// A lens lies in the layers, with flat sides of half its area, and a needle along them.
+#[test]
+fn the_voxels_of_flat_bodies_scatter_at_most_as_told() {
+    let spacing = Vector3::new(1.0, 1.0, 1.0);
+    for (axes, area) in [([60.0, 60.0, 2.1], 22_690.0), ([60.0, 2.3, 2.3], 1362.0)] {
+        let (told, flat) = hidden_volume(&spacing, axes, area);
+        let found = miscounted(&spacing, &axes.into());
+        assert!(
+            (0.8 * found..3.0 * found).contains(&told) && flat > 0.3,
+            "{told} {found} {flat}"
+        );
+    }
+}
+
+/// A side that is flat moves by a twelfth of a layer's square, and the area with it by the outline of the side.
+#[test]
+fn a_flat_side_moves_as_a_whole() {
+    let layer = Vector3::new(0.0, 0.0, 2.0);
+    let place = |x: f64, z: f64, area: Vector3<f64>, bend: f64| Place {
+        point: Vector3::new(x, 0.0, z),
+        area,
+        changes: list_of(bend),
+    };
+    let mut places: Vec<Place> = (0..100)
+        .map(|i| place(f64::from(i), 3.0 + 1e-3 * f64::from(i), Vector3::z(), 0.0))
+        .collect();
+    // Its edge, as a rounding of which 20 of area face upwards, and the side below.
+    places.push(place(0.0, 2.0, Vector3::new(0.0, 0.0, 20.0), 2.0));
+    places.push(place(0.0, -3.0, -Vector3::z() * 100.0, 0.0));
+    let flat = Flat::of(&layer, &places).unwrap();
+    assert_relative_eq!(flat.area, 100.0);
+    assert_relative_eq!(flat.changes[1], 100.0 / 2.0);
+    assert_relative_eq!(flat.changes[0], 2.0 * 20.0 * (100.0 / 120.0) / 2.0);
+}
+
+fn list_of(bend: f64) -> SVector<f64, INTEGRALS> {
+    let mut changes = SVector::zeros();
+    changes[0] = bend;
+    changes[1] = 1.0;
+    changes
+}
