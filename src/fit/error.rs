@@ -175,10 +175,9 @@ pub enum FitError {
     },
     /// Too many points do not belong to the surface that the others draw.
     #[error(
-        "{:.0} % of the points stand apart from their neighbours by more than a tenth of the \
-         radius; a scan of one grain has below 1 % of such outliers: remove the background, or cut \
-         one grain out (grainform split); points of a body more than some 30 times as long as it is wide or thick stand apart so \
-         too, and only a mesh of it can be measured",
+        "seen from the centre, {:.0} % of the points stand apart from those in neighbouring directions by more than a tenth of the \
+         radius; of a grain that its centre sees whole below 1 % do: remove the background, or cut one grain out (grainform \
+         split); of a body with folds, or more than some 30 times as long as it is wide or thick, only a mesh can be measured",
         100.0 * share
     )]
     Strays {
@@ -187,9 +186,9 @@ pub enum FitError {
     },
     /// Points stand apart from the surface that the others draw, and yet close to each other.
     #[error(
-        "{:.1} % of the points stand apart from the surface by more than a tenth of the radius, and yet close to each other, as \
-         outliers do not: a table under the grain, the wall of a hole, a second body, a thin stalk, or the rim of a thin plate; cut \
-         the grain out (grainform split, or a mesh editor)",
+        "{:.1} % of the points stand apart from the surface that the centre sees by more than a tenth of the radius, and yet close \
+         to each other, as outliers do not: a table under the grain, the wall of a hole, a fold, a second body, a thin stalk, or \
+         the rim of a thin plate; cut the grain out (grainform split, or a mesh editor)",
         100.0 * share
     )]
     SecondSurface {

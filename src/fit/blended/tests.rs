@@ -368,3 +368,20 @@ fn chosen_degrees_need_fewer_coefficients_than_degree_3() {
     let ratio = ((chosen - given) / 15.0).exp();
     assert!(ratio < 0.85, "{ratio}");
 }
+
+#[test]
+fn covers_that_cannot_win_are_not_tried() {
+    let settings = Settings {
+        max_segments: 60,
+        is_textured: true,
+        ..Settings::within(1e-5)
+    };
+    let outcome = found(&texture(20), &settings);
+    assert!(!outcome.met);
+    // Six quadtrees have a cover within the bounds.
+    assert!(
+        (1..=3).contains(&outcome.rounds.len()),
+        "{:?}",
+        outcome.rounds
+    );
+}
