@@ -30,6 +30,7 @@ mod minimum_box;
 mod nodes;
 mod oriented_box;
 mod outline;
+mod peaks;
 mod projection;
 mod rings;
 mod roundness;
