@@ -23,6 +23,7 @@ mod four_triangles;
 mod hull;
 mod inscribed_ball;
 mod integrals;
+mod largest_ball;
 mod mass;
 mod medial;
 mod mesh;
