@@ -31,8 +31,10 @@ const NARROW: f64 = 0.1;
 /// change it by less.
 const LEAST: f64 = 1e-6;
 
-/// Rounds of steps of one climb.
-const MAX_ROUNDS: usize = 300;
+/// Rounds of steps of one climb at most, and after how many it ends where these have led no higher than by the tolerance:
+/// along a ridge that is bent sharply steps are short.
+const MAX_ROUNDS: usize = 120;
+const SLOW: usize = 8;
 
 /// A place from which no small step leads higher.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -118,7 +120,8 @@ impl<S: Surface + ?Sized, V: Fn([f64; 2]) -> f64> Climb<'_, S, V> {
         let spacing = start.area.sqrt();
         let mut steps = [spacing; 2];
         let mut here = self.stands(&[start.n])[0];
-        for _ in 0..MAX_ROUNDS {
+        let mut before = f64::NEG_INFINITY;
+        for round in 0..MAX_ROUNDS {
             let around = self.stands(&WAYS.map(|way| here.beside(steps, way)));
             let tolerance = TOLERANCE * here.value.abs().max(self.low);
             let change = |stands: &[Stand]| {
@@ -128,6 +131,12 @@ impl<S: Surface + ?Sized, V: Fn([f64; 2]) -> f64> Climb<'_, S, V> {
             let most = change(&around);
             if most <= tolerance {
                 break;
+            }
+            if round % SLOW == 0 {
+                if here.value - before <= tolerance {
+                    break;
+                }
+                before = here.value;
             }
             let is_hopeless = |peak: &Peak| {
                 let is_passed = (here.place - peak.place).norm() < spacing;
