@@ -3,6 +3,7 @@
 use super::bounds::{OutOfBounds, ratio};
 use super::clearance::largest_from;
 use super::convex_polygon::ConvexPolygon;
+use super::largest_ball::Obstacles;
 use super::medial::{Foot, deepest};
 use super::roundness::roundness;
 use super::triangle_tree::TriangleTree;
@@ -13,6 +14,9 @@ use std::f64::consts::PI;
 
 /// Edges from which circles of the medial axis are found, at most.
 const FEET: usize = 100;
+
+/// Share of its radius by which a larger circle may be inside than the one that is told.
+const TOLERANCE: f64 = 3e-4;
 
 /// A closed curve in the plane and what is measured on it. Lengths are in the body's unit.
 #[derive(Debug, Clone, PartialEq)]
@@ -34,8 +38,8 @@ pub struct Outline {
     pub smallest_feret: f64,
     /// Diameter Dc of the smallest circle that holds the outline.
     pub enclosing_diameter: f64,
-    /// Diameter Di of the largest circle inside: the largest of those that cannot be made larger by shifting
-    /// them a little, found from circles that touch the outline in two places.
+    /// Diameter Di of the largest circle inside: it cannot be made larger by shifting it a little, and none is
+    /// larger by more than 3e-4, by branch and bound.
     pub inscribed_diameter: f64,
     /// Roundness, in (0, 1] (Wadell 1935): mean radius of the corners over the inscribed radius Di/2. A
     /// corner is a stretch where the radius of curvature is less than Di/2; its radius is its length over
@@ -45,7 +49,7 @@ pub struct Outline {
 }
 
 impl Outline {
-    /// Measures a polygon that is star-shaped about the origin and counter-clockwise. `None` if it has no
+    /// Measures a polygon that does not cross itself and is counter-clockwise. `None` if it has no
     /// area or is not finite.
     pub(super) fn of(points: Vec<Vector2<f64>>) -> Option<Self> {
         let edges = || points.iter().zip(points.iter().cycle().skip(1));
@@ -170,8 +174,17 @@ fn inscribed_circle(points: &[Vector2<f64>], largest: f64) -> Option<Ball> {
             corners.iter(),
         ))
     });
-    let is_inside = |ball: &Ball| polygon_winding_number(points, &ball.centre.coords.xy()) > 0.5;
-    largest_from(nearest, &deepest(feet.collect(), nearest, is_inside))
+    let holds = |place: &Vector3<f64>| polygon_winding_number(points, &place.xy()) > 0.5;
+    let obstacles = Obstacles {
+        nearest,
+        is_outside: |place: &Vector3<f64>| !holds(place),
+        is_inside: |ball: &Ball| holds(&ball.centre.coords),
+        is_flat: true,
+        bounds: edges.corners(),
+    };
+    let starts = deepest(feet.collect(), nearest, obstacles.is_inside);
+    let found = largest_from(nearest, &starts)?;
+    Some(obstacles.largest(found, TOLERANCE))
 }
 
 fn in_space(point: &Vector2<f64>) -> Point3<f64> {
@@ -255,6 +268,20 @@ mod tests {
         assert_relative_eq!(square.circle_ratio(), 0.5_f64.sqrt(), max_relative = 1e-9);
         assert_relative_eq!(square.circularity(), PI / 4.0);
         assert!(square.roundness < 0.25);
+    }
+
+    #[test]
+    fn the_largest_circle_of_a_plus_is_in_its_middle_however_long_its_arms_are() {
+        for arm in [1.5, 4.0, 20.0] {
+            let quarter = [[0.5, -arm], [0.5, -0.5], [arm, -0.5]].map(Vector2::from);
+            let turned = |turns: usize| {
+                let turn = |p: Vector2<f64>| (0..turns).fold(p, |p, _| Vector2::new(-p.y, p.x));
+                quarter.map(turn)
+            };
+            let plus = Outline::of((0..4).flat_map(turned).collect()).unwrap();
+            assert_relative_eq!(plus.area, 4.0 * arm - 1.0, max_relative = 1e-12);
+            assert_relative_eq!(plus.inscribed_diameter, 2.0_f64.sqrt(), max_relative = 1e-9);
+        }
     }
 
     #[test]

@@ -1,18 +1,13 @@
 //! The outline of a closed mesh projected along an axis.
 
 use super::Outline;
-use super::coverage::covered_area;
+use super::silhouette::Silhouette;
 use crate::Mesh;
-use nalgebra::{Matrix2, Point3, Vector2, Vector3};
-use std::f64::consts::TAU;
+use nalgebra::{Point3, Vector2, Vector3};
 use thiserror::Error;
 
-/// Azimuths at which an outline is found, in a plane in which it is about round. Of an ellipse the area is low by
-/// (2 pi / n)²/6, or 3e-6; the corner farthest out between two azimuths is added.
-pub const OUTLINE_AZIMUTHS: usize = 1440;
-
-/// Share of an outline's area that the body may leave open. Covered areas are found to 0.3 %.
-const LARGEST_OVERHANG: f64 = 0.01;
+/// Share of an outline's area that holes may have, as rounding leaves them.
+const LARGEST_HOLE: f64 = 1e-6;
 
 /// Why a mesh has no outline.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
@@ -27,24 +22,16 @@ pub enum ProjectionError {
     /// The axis has no direction, or a coordinate is not finite, or the outline has no area.
     #[error("the projection has no area, or a coordinate is not finite")]
     NoArea,
-    /// Seen along the axis, the centre is beside the body: a bent body, or a ring.
-    #[error("its centroid lies beside it, seen from there")]
-    CentreOutside,
-    /// A ray from the centre leaves the outline and enters it again: what is between is not the body's.
-    #[error("{:.1} % of its outline would be hollow: it bends back, or has a hole", 100.0 * share)]
-    Overhang {
+    /// Seen along the axis, the body has a hole.
+    #[error("{:.2} % of its outline would be hollow: it has a hole, seen from there", 100.0 * share)]
+    Hole {
         /// Share of the area that the outline would have and the body does not cover.
         share: f64,
     },
 }
 
-/// The outline of a closed mesh projected along `axis`, seen from its tip, about `centre`, which must be
-/// inside the outline.
-///
-/// The projection of a body that is star-shaped about the centre is star-shaped about the projected
-/// centre, so in each of [`OUTLINE_AZIMUTHS`] equally spaced azimuths the outline is the farthest
-/// intersection with a projected edge. Of other bodies what is between two places where a ray leaves the
-/// projection is filled, up to 1 % of the area; with more there is no outline.
+/// The outline of a closed mesh projected along `axis`, seen from its tip, about `centre`: the border of
+/// what all its triangles cover together, to rounding.
 ///
 /// # Errors
 ///
@@ -54,6 +41,11 @@ pub fn project(
     axis: &Vector3<f64>,
     centre: &Point3<f64>,
 ) -> Result<Outline, ProjectionError> {
+    let is_missing = |corner: &u32| *corner as usize >= mesh.vertices.len();
+    let is_broken = |corners: &[u32; 3]| corners.iter().any(is_missing);
+    if let Some(triangle) = mesh.triangles.iter().position(is_broken) {
+        return Err(ProjectionError::MissingVertex { triangle });
+    }
     let axis = axis.try_normalize(0.0).ok_or(ProjectionError::NoArea)?;
     let across = axis.cross(&Vector3::ith(axis.iamin(), 1.0));
     let u = across.try_normalize(0.0).ok_or(ProjectionError::NoArea)?;
@@ -62,166 +54,23 @@ pub fn project(
     let seen: Vec<Vector2<f64>> = seen
         .map(|ray| Vector2::new(u.dot(&ray), v.dot(&ray)))
         .collect();
-    let rounding = Rounding::of(&seen).ok_or(ProjectionError::NoArea)?;
-    let places: Vec<Place> = seen
+    // In units of the farthest, which neither overflow nor vanish.
+    let size = seen.iter().map(|place| place.amax()).fold(0.0, f64::max);
+    let places: Vec<Vector2<f64>> = seen.iter().map(|place| place / size).collect();
+    if !places
         .iter()
-        .map(|place| Place::of(rounding.round * place))
-        .collect();
-    let directions: Vec<Vector2<f64>> = (0..OUTLINE_AZIMUTHS)
-        .map(|azimuth| (TAU * azimuth as f64 / OUTLINE_AZIMUTHS as f64).sin_cos())
-        .map(|(sin, cos)| Vector2::new(cos, sin))
-        .collect();
-    let mut radii = vec![0.0_f64; OUTLINE_AZIMUTHS];
-    for (triangle, corners) in mesh.triangles.iter().enumerate() {
-        let [Some(a), Some(b), Some(c)] = corners.map(|i| places.get(i as usize)) else {
-            return Err(ProjectionError::MissingVertex { triangle });
-        };
-        // The outline of a closed mesh is made of edges of triangles that are seen from in front.
-        if (b.position - a.position).perp(&(c.position - a.position)) <= 0.0 {
-            continue;
-        }
-        for (from, to) in [(a, b), (b, c), (c, a)] {
-            // Each edge of a closed mesh is walked both ways: once counter-clockwise.
-            if let Some(span) = from.span_to(to) {
-                for azimuth in span {
-                    let azimuth = azimuth % OUTLINE_AZIMUTHS;
-                    let radius = &mut radii[azimuth];
-                    if from.distance.max(to.distance) > *radius {
-                        *radius = radius.max(from.crossing(to, &directions[azimuth]));
-                    }
-                }
-            }
-        }
-    }
-    let rays = directions.iter().zip(&radii);
-    let samples: Vec<Vector2<f64>> = rays
-        .map(|(direction, radius)| direction * *radius)
-        .collect();
-    if radii.iter().all(|radius| *radius == 0.0) {
+        .all(|place| place.iter().all(|x| x.is_finite()))
+    {
         return Err(ProjectionError::NoArea);
     }
-    if radii.contains(&0.0) {
-        return Err(ProjectionError::CentreOutside);
-    }
-    let corners = with_corners(&samples, &places).into_iter();
-    let corners = corners.map(|corner| rounding.back * corner).collect();
-    let outline = Outline::of(corners).ok_or(ProjectionError::NoArea)?;
-    if is_star_shaped(mesh, centre) {
-        return Ok(outline);
-    }
-    let share = 1.0 - covered_area(&seen, &mesh.triangles) / outline.area;
-    match share > LARGEST_OVERHANG {
-        true => Err(ProjectionError::Overhang { share }),
+    let found = Silhouette::new(&places, &mesh.triangles).ok_or(ProjectionError::NoArea)?;
+    let border = found.border.iter().map(|corner| corner * size).collect();
+    let outline = Outline::of(border).ok_or(ProjectionError::NoArea)?;
+    let share = found.holes / (outline.area / size / size);
+    match share > LARGEST_HOLE {
+        true => Err(ProjectionError::Hole { share }),
         false => Ok(outline),
     }
-}
-
-/// A linear map of the plane after which places scatter alike in all directions: of a slender outline equal azimuths would
-/// miss the tips. It keeps what is star-shaped so.
-struct Rounding {
-    round: Matrix2<f64>,
-    back: Matrix2<f64>,
-}
-
-impl Rounding {
-    /// `None` where the places are not finite, or lie on one line.
-    fn of(places: &[Vector2<f64>]) -> Option<Self> {
-        // In units of the farthest, whose squares neither overflow nor vanish.
-        let size = places.iter().map(|place| place.amax()).fold(0.0, f64::max);
-        let squares = places.iter().map(|place| place / size);
-        let moments: Matrix2<f64> = squares.map(|place| place * place.transpose()).sum();
-        if !moments.iter().all(|moment| moment.is_finite()) {
-            return None;
-        }
-        let scatter = (moments / places.len() as f64).symmetric_eigen();
-        let mut widths = scatter
-            .eigenvalues
-            .map(|square| size * square.max(0.0).sqrt());
-        let mut axes = scatter.eigenvectors;
-        if axes.determinant() < 0.0 {
-            axes.swap_columns(0, 1);
-            widths.swap_rows(0, 1);
-        }
-        (widths.min() > 0.0).then(|| Self {
-            round: Matrix2::from_diagonal(&widths.map(f64::recip)) * axes.transpose(),
-            back: axes * Matrix2::from_diagonal(&widths),
-        })
-    }
-}
-
-/// Whether the centre sees all triangles from inside.
-fn is_star_shaped(mesh: &Mesh, centre: &Point3<f64>) -> bool {
-    mesh.triangles.iter().all(|corners| {
-        let [a, b, c] = corners.map(|corner| mesh.vertices[corner as usize] - centre);
-        a.cross(&b).dot(&c) > 0.0
-    })
-}
-
-/// A projected vertex.
-struct Place {
-    position: Vector2<f64>,
-    /// From the centre.
-    distance: f64,
-    /// In steps of the azimuths, from 0 up to their number.
-    azimuth: f64,
-}
-
-impl Place {
-    fn of(position: Vector2<f64>) -> Self {
-        let turns = position.y.atan2(position.x) / TAU;
-        let turns = if turns < 0.0 { turns + 1.0 } else { turns };
-        Self {
-            position,
-            distance: position.norm(),
-            azimuth: turns * OUTLINE_AZIMUTHS as f64,
-        }
-    }
-
-    /// The azimuths from here to another place, which may be counted beyond the last; `None` if it lies
-    /// clockwise from here.
-    fn span_to(&self, other: &Self) -> Option<std::ops::RangeInclusive<usize>> {
-        let round = OUTLINE_AZIMUTHS as f64;
-        let ahead = other.azimuth - self.azimuth;
-        let end = if ahead < -round / 2.0 {
-            other.azimuth + round
-        } else if (0.0..=round / 2.0).contains(&ahead) {
-            other.azimuth
-        } else {
-            return None;
-        };
-        Some(self.azimuth.ceil() as usize..=end.floor() as usize)
-    }
-
-    /// Distance from the centre at which a ray crosses the edge to another place, no farther than the
-    /// farther end.
-    fn crossing(&self, other: &Self, direction: &Vector2<f64>) -> f64 {
-        let farther = self.distance.max(other.distance);
-        let edge = other.position - self.position;
-        let radius = self.position.perp(&edge) / direction.perp(&edge);
-        if radius.is_finite() {
-            radius.min(farther)
-        } else {
-            farther
-        }
-    }
-}
-
-/// The outline through the samples and the vertices farthest outside it, one between two samples.
-fn with_corners(samples: &[Vector2<f64>], places: &[Place]) -> Vec<Vector2<f64>> {
-    let after = |azimuth: usize| samples[(azimuth + 1) % samples.len()];
-    let mut corners: Vec<Option<(f64, Vector2<f64>)>> = vec![None; samples.len()];
-    for place in places {
-        let azimuth = place.azimuth as usize % samples.len();
-        let sample = samples[azimuth];
-        let excess = (place.position - sample).perp(&(after(azimuth) - sample));
-        if excess > corners[azimuth].map_or(0.0, |corner| corner.0) {
-            corners[azimuth] = Some((excess, place.position));
-        }
-    }
-    let with_corner = samples.iter().zip(corners);
-    with_corner
-        .flat_map(|(sample, corner)| std::iter::once(*sample).chain(corner.map(|corner| corner.1)))
-        .collect()
 }
 
 #[cfg(test)]
@@ -231,7 +80,7 @@ mod tests {
     use approx::assert_relative_eq;
     use nalgebra::{Matrix3, Rotation3};
     use proptest::prelude::*;
-    use std::f64::consts::PI;
+    use std::f64::consts::{PI, TAU};
 
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(12))]
@@ -306,6 +155,90 @@ mod tests {
             2.0 * (8.0_f64 / 3.0).sqrt(),
             max_relative = 1e-9
         );
+    }
+
+    /// A plate with this outline, of height one, over a fan about its first corner where that sees all others.
+    fn plate(corners: &[[f64; 2]], caps: &[[u32; 3]]) -> Mesh {
+        let count = corners.len() as u32;
+        let at = |z: f64| corners.iter().map(move |[x, y]| Point3::new(*x, *y, z));
+        let below = caps.iter().map(|&[a, b, c]| [a, c, b]);
+        let above = caps
+            .iter()
+            .map(|corners| corners.map(|corner| corner + count));
+        let walls = (0..count).flat_map(|from| {
+            let to = (from + 1) % count;
+            [[from, to, to + count], [from, to + count, from + count]]
+        });
+        Mesh {
+            vertices: at(0.0).chain(at(1.0)).collect(),
+            triangles: below.chain(above).chain(walls).collect(),
+        }
+    }
+
+    #[test]
+    fn outlines_that_bend_back_are_those_of_the_body() {
+        // A U whose arms are 1 wide, 4 long and 1 apart: its centroid lies beside it.
+        let corners = [
+            [0.0, 0.0],
+            [3.0, 0.0],
+            [3.0, 4.0],
+            [2.0, 4.0],
+            [2.0, 1.0],
+            [1.0, 1.0],
+            [1.0, 4.0],
+            [0.0, 4.0],
+        ];
+        let caps = [
+            [0, 1, 4],
+            [0, 4, 5],
+            [1, 2, 3],
+            [1, 3, 4],
+            [0, 5, 7],
+            [5, 6, 7],
+        ];
+        let mesh = plate(&corners, &caps);
+        let centre = Point3::new(1.5, 1.7, 0.5);
+        let above = project(&mesh, &Vector3::z(), &centre).unwrap();
+        assert_relative_eq!(above.area, 9.0, max_relative = 1e-12);
+        assert_relative_eq!(above.perimeter, 20.0, max_relative = 1e-12);
+        assert_relative_eq!(above.hull_area, 12.0, max_relative = 1e-12);
+        // In a corner of the bend, where it touches both outer sides and the inner corner.
+        let radius = 2.0 - 2.0_f64.sqrt();
+        assert_relative_eq!(above.inscribed_diameter, 2.0 * radius, max_relative = 1e-6);
+        let beside = project(&mesh, &Vector3::x(), &centre).unwrap();
+        assert_relative_eq!(beside.area, 4.0, max_relative = 1e-12);
+        assert_relative_eq!(beside.perimeter, 10.0, max_relative = 1e-12);
+    }
+
+    #[test]
+    fn holes_are_refused_where_they_are_seen() {
+        let ring = |i: u32, j: u32| {
+            let angle = |part: u32| TAU * f64::from(part % 24) / 24.0;
+            let ((sin, cos), (up, out)) = (angle(i).sin_cos(), angle(j).sin_cos());
+            Point3::new((3.0 + out) * cos, (3.0 + out) * sin, up)
+        };
+        let at = |i: u32, j: u32| (i % 24) * 24 + j % 24;
+        let cell = |i: u32, j: u32| {
+            [
+                [at(i, j), at(i + 1, j), at(i + 1, j + 1)],
+                [at(i, j), at(i + 1, j + 1), at(i, j + 1)],
+            ]
+        };
+        let all = || (0..24).flat_map(|i| (0..24).map(move |j| (i, j)));
+        let torus = Mesh {
+            vertices: all().map(|(i, j)| ring(i, j)).collect(),
+            triangles: all().flat_map(|(i, j)| cell(i, j)).collect(),
+        };
+        let Err(ProjectionError::Hole { share }) =
+            project(&torus, &Vector3::z(), &Point3::origin())
+        else {
+            panic!("a hole");
+        };
+        assert_relative_eq!(share, 0.25, epsilon = 1e-9);
+        // Of a stadium, by the polygon of 24 corners.
+        let side = project(&torus, &Vector3::x(), &Point3::origin()).unwrap();
+        let half = 12.0 * (TAU / 24.0).sin();
+        assert_relative_eq!(side.area, 12.0 + half, max_relative = 1e-9);
     }
 
     #[test]

@@ -3,6 +3,10 @@
 use crate::Mesh;
 use crate::mesh::{Bounds, BoundsTree};
 use nalgebra::{Point3, Vector3};
+use std::f64::consts::PI;
+
+/// Share by which squared distances to the same corner of several triangles may differ.
+const SAME_PLACE: f64 = 1e-9;
 
 /// Triangles, in the order of a tree of their boxes.
 pub(super) struct TriangleTree {
@@ -46,6 +50,48 @@ impl TriangleTree {
         });
         best.1
     }
+
+    /// Corners of the box of the mesh.
+    pub(super) fn corners(&self) -> [Vector3<f64>; 2] {
+        self.tree
+            .bounds()
+            .map_or([Vector3::zeros(); 2], Bounds::corners)
+    }
+
+    /// Whether a place off a closed mesh that is wound counter-clockwise from outside is outside: by the normal where it is
+    /// nearest, on edges and at corners the sum of those of the triangles there, weighed by their angles (Bærentzen and
+    /// Aanæs 2005). One of a mesh that goes through itself may be told wrong.
+    pub(super) fn is_outside(&self, place: &Vector3<f64>) -> bool {
+        let Some(nearest) = self.nearest(place, f64::INFINITY) else {
+            return true;
+        };
+        let limit = (place - nearest).norm_squared() * (1.0 + SAME_PLACE);
+        let mut normal = Vector3::zeros();
+        self.tree.near(&Point3::from(*place), limit, |span| {
+            for triangle in &self.triangles[span] {
+                let point = nearest_in_triangle(triangle, place);
+                if (place - point).norm_squared() <= limit {
+                    normal += weighed_normal(triangle, &point);
+                }
+            }
+            limit
+        });
+        normal.dot(&(place - nearest)) > 0.0
+    }
+}
+
+/// The unit normal of a triangle times the angle of its part of a small disc round a point of it.
+fn weighed_normal(triangle: &[Vector3<f64>; 3], point: &Vector3<f64>) -> Vector3<f64> {
+    let [a, b, c] = triangle;
+    let normal = (b - a).cross(&(c - a)).try_normalize(0.0);
+    let angle = match triangle.iter().position(|corner| corner == point) {
+        Some(at) => {
+            let [ahead, behind] = [1, 2].map(|step| triangle[(at + step) % 3] - point);
+            ahead.angle(&behind)
+        }
+        None => PI,
+    };
+    normal.unwrap_or_default() * angle
 }
 
 /// The point of a triangle nearest to p (Ericson 2005, section 5.1.5).
@@ -85,6 +131,7 @@ pub(super) fn nearest_in_triangle([a, b, c]: &[Vector3<f64>; 3], p: &Vector3<f64
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::mesh::winding_number;
     use crate::shapes::{Body, Sampling};
     use approx::assert_relative_eq;
 
@@ -124,6 +171,24 @@ mod tests {
             });
             assert_relative_eq!(found, all.fold(f64::MAX, f64::min), epsilon = 1e-14);
             assert_eq!(tree.nearest(&place, 0.999 * found), None);
+        }
+    }
+
+    #[test]
+    fn places_are_outside_where_rays_leave_nothing_behind() {
+        // Beside edges and corners of a cube with a pit, from within and from without.
+        let pit = |n: &Vector3<f64>| if n.z > 0.95 { 0.3 } else { 1.0 / n.amax() };
+        let mesh = Mesh::radial(6, pit);
+        let tree = TriangleTree::new(&mesh);
+        for (i, n) in Sampling::Fibonacci
+            .directions(2000, 0)
+            .unwrap()
+            .iter()
+            .enumerate()
+        {
+            let place = n * (1.8 * (i as f64 * 0.618_034).fract());
+            let is_inside = winding_number(&mesh, &place.into()) > 0.5;
+            assert_eq!(tree.is_outside(&place), !is_inside, "{place:?}");
         }
     }
 

@@ -58,6 +58,11 @@ impl Bounds {
         (self.high - self.low).norm()
     }
 
+    /// The lowest corner and the highest.
+    pub(crate) fn corners(&self) -> [Vector3<f64>; 2] {
+        [self.low, self.high].map(|corner| corner.coords)
+    }
+
     fn squared_distance(&self, place: &Point3<f64>) -> f64 {
         let outside = (self.low - place).sup(&(place - self.high));
         outside.sup(&Vector3::zeros()).norm_squared()

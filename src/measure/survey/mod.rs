@@ -9,7 +9,6 @@ use super::bounds::ratio;
 use super::elements::Element;
 use super::extents::Extents;
 use super::followed::unfollowed;
-use super::nodes::nodes;
 use super::unit::Unit;
 use super::{
     Ball, Convexity, CurvatureStatistics, EquivalentEllipsoid, Form, MassProperties, OrientedBox,
@@ -283,10 +282,9 @@ impl<'a> Survey<'a> {
     /// [`SurveyError::Flat`] of a mesh.
     pub fn curvature(&self) -> Result<&CurvatureStatistics, SurveyError> {
         let surface = self.body.surface()?;
-        Ok(self.curvature.get_or_init(|| {
-            let nodes = nodes(surface);
-            CurvatureStatistics::new(surface, &nodes).in_unit(self.unit.length)
-        }))
+        Ok(self
+            .curvature
+            .get_or_init(|| CurvatureStatistics::new(surface).in_unit(self.unit.length)))
     }
 
     /// Standard error of the largest principal curvature, where the grain tells it: also by how much it is more than the

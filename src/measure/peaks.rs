@@ -1,0 +1,319 @@
+//! Where on a surface something that is made of its curvatures is largest.
+//!
+//! Nodes of a quadrature miss a peak by up to half their spacing: on the tip of an ellipsoid 5 : 1 : 1 that takes 3 % of the
+//! curvature, on one of 20 : 1 : 1 a fifth. So the highest of them that are apart climb, along the principal directions, to
+//! where no small step leads higher.
+
+use super::Curvature;
+use super::nodes::CurvedNode;
+use crate::model::Surface;
+use nalgebra::Vector3;
+
+/// Nodes that climb, and how many spacings of nodes they are apart at least.
+const STARTS: usize = 8;
+const APART: f64 = 4.0;
+
+/// A climb ends where all steps change the value by at most this share of it, or of [`LOW`] times the largest there is.
+const TOLERANCE: f64 = 1e-5;
+const LOW: f64 = 1e-4;
+
+/// A climb is given up where a peak is known that is so many times as much higher as the largest of the changes by one step:
+/// nodes are a few steps from their peaks.
+const LEAPS: f64 = 4.0;
+
+/// Factor by which steps along a principal direction shrink where neither of them leads higher, and by which they grow, to the
+/// spacing at most, where one does or both change the value by less than this share of the tolerance.
+const SHRINK: f64 = 0.25;
+const GROW: f64 = 2.0;
+const NARROW: f64 = 0.1;
+
+/// Share of the spacing below which steps that still change the value tell that it has no bound: on tips steps of a hundredth
+/// change it by less.
+const LEAST: f64 = 1e-6;
+
+/// Rounds of steps of one climb at most, and after how many it ends where these have led no higher than by the tolerance:
+/// along a ridge that is bent sharply steps are short.
+const MAX_ROUNDS: usize = 120;
+const SLOW: usize = 8;
+
+/// A place from which no small step leads higher.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Peak {
+    /// Its direction; a zero without any node.
+    pub n: Vector3<f64>,
+    pub place: Vector3<f64>,
+    /// Infinite where it grows without bound.
+    pub value: f64,
+}
+
+/// The highest peak of a value of the principal curvatures that is found from the highest of the nodes over a surface, to
+/// 1e-5 of itself.
+pub(super) fn highest(
+    surface: &(impl Surface + ?Sized),
+    nodes: &[CurvedNode],
+    value: impl Fn([f64; 2]) -> f64,
+) -> Peak {
+    let heights: Vec<f64> = nodes.iter().map(|node| value(node.principal)).collect();
+    let sizes = heights.iter().map(|height| height.abs());
+    let low = LOW * sizes.filter(|size| size.is_finite()).fold(0.0, f64::max);
+    let mut peaks: Vec<Peak> = Vec::new();
+    for start in starts(nodes, &heights) {
+        let climb = Climb {
+            surface,
+            value: &value,
+            low,
+        };
+        peaks.extend(climb.from(&nodes[start], &peaks));
+    }
+    let none = Peak {
+        n: Vector3::zeros(),
+        place: Vector3::zeros(),
+        value: f64::NEG_INFINITY,
+    };
+    let higher = |best: Peak, peak: Peak| if peak.value > best.value { peak } else { best };
+    peaks.into_iter().fold(none, higher)
+}
+
+/// The highest nodes that are apart, by their positions.
+fn starts(nodes: &[CurvedNode], heights: &[f64]) -> Vec<usize> {
+    let mut is_left: Vec<bool> = heights.iter().map(|height| height.is_finite()).collect();
+    let mut starts = Vec::new();
+    while starts.len() < STARTS {
+        let left = (0..nodes.len()).filter(|&at| is_left[at]);
+        let Some(best) = left.reduce(|best, at| {
+            if heights[at] > heights[best] {
+                at
+            } else {
+                best
+            }
+        }) else {
+            break;
+        };
+        let near = APART * APART * nodes[best].area;
+        for (is_left, node) in is_left.iter_mut().zip(nodes) {
+            *is_left &= (node.place - nodes[best].place).norm_squared() > near;
+        }
+        is_left[best] = false;
+        starts.push(best);
+    }
+    starts
+}
+
+struct Climb<'a, S: ?Sized, V> {
+    surface: &'a S,
+    value: &'a V,
+    low: f64,
+}
+
+/// A place on the way.
+#[derive(Clone, Copy)]
+struct Stand {
+    n: Vector3<f64>,
+    place: Vector3<f64>,
+    curvature: Curvature,
+    value: f64,
+}
+
+impl<S: Surface + ?Sized, V: Fn([f64; 2]) -> f64> Climb<'_, S, V> {
+    /// The peak above a node; none where it is not higher than those that are known.
+    fn from(&self, start: &CurvedNode, known: &[Peak]) -> Option<Peak> {
+        let spacing = start.area.sqrt();
+        let mut steps = [spacing; 2];
+        let mut here = self.stands(&[start.n])[0];
+        let mut before = f64::NEG_INFINITY;
+        for round in 0..MAX_ROUNDS {
+            let around = self.stands(&WAYS.map(|way| here.beside(steps, way)));
+            let tolerance = TOLERANCE * here.value.abs().max(self.low);
+            let change = |stands: &[Stand]| {
+                let changes = stands.iter().map(|stand| (stand.value - here.value).abs());
+                changes.fold(0.0, f64::max)
+            };
+            let most = change(&around);
+            if most <= tolerance {
+                break;
+            }
+            if round % SLOW == 0 {
+                if here.value - before <= tolerance {
+                    break;
+                }
+                before = here.value;
+            }
+            let is_hopeless = |peak: &Peak| {
+                let is_passed = (here.place - peak.place).norm() < spacing;
+                let promised = if is_passed { 0.0 } else { LEAPS * most };
+                here.value + promised <= peak.value
+            };
+            if known.iter().any(is_hopeless) {
+                return None;
+            }
+            let changes = [0, 1].map(|axis| change(&around[2 * axis..2 * axis + 2]));
+            let vertex = here.vertex(&around);
+            let within = self.stands(&[here.beside(steps, vertex)])[0];
+            let (mut best, mut way) = (here, [0.0; 2]);
+            for (stand, towards) in around.iter().zip(WAYS).chain([(&within, vertex)]) {
+                if stand.value > best.value {
+                    (best, way) = (*stand, towards);
+                }
+            }
+            for axis in [0, 1] {
+                let is_wide = changes[axis] > tolerance;
+                if is_wide && steps[axis] < LEAST * spacing {
+                    best.value = f64::INFINITY;
+                }
+                if way[axis].abs() == 1.0 || changes[axis] <= NARROW * tolerance {
+                    steps[axis] = (GROW * steps[axis]).min(spacing);
+                } else if is_wide {
+                    steps[axis] *= SHRINK;
+                }
+            }
+            here = best;
+            if here.value == f64::INFINITY {
+                break;
+            }
+        }
+        Some(Peak {
+            n: here.n,
+            place: here.place,
+            value: here.value,
+        })
+    }
+
+    fn stands(&self, directions: &[Vector3<f64>]) -> Vec<Stand> {
+        let jets = self.surface.jets(directions);
+        let stand = |(n, jet): (&Vector3<f64>, _)| {
+            let curvature = Curvature::new(n, &jet);
+            Stand {
+                n: *n,
+                place: jet.place,
+                curvature,
+                value: (self.value)(curvature.principal),
+            }
+        };
+        directions.iter().zip(jets).map(stand).collect()
+    }
+}
+
+/// Steps along the two principal directions: opposite ones follow each other.
+const WAYS: [[f64; 2]; 8] = [
+    [1.0, 0.0],
+    [-1.0, 0.0],
+    [0.0, 1.0],
+    [0.0, -1.0],
+    [1.0, 1.0],
+    [-1.0, -1.0],
+    [1.0, -1.0],
+    [-1.0, 1.0],
+];
+
+impl Stand {
+    /// The direction of the place that is so many steps away along the principal directions.
+    fn beside(&self, steps: [f64; 2], way: [f64; 2]) -> Vector3<f64> {
+        let [first, second] = self.curvature.directions;
+        let step = first * (steps[0] * way[0]) + second * (steps[1] * way[1]);
+        (self.n + self.curvature.turn(&step)).normalize()
+    }
+
+    /// Where the parabolas through the values one step away along each principal direction are highest, in steps.
+    fn vertex(&self, around: &[Stand]) -> [f64; 2] {
+        [0, 1].map(|at| {
+            let [ahead, behind] = [&around[2 * at], &around[2 * at + 1]].map(|stand| stand.value);
+            let slope = 0.5 * (ahead - behind);
+            let bend = 2.0 * self.value - ahead - behind;
+            match bend > slope.abs() {
+                true => slope / bend,
+                false => slope.signum(),
+            }
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::nodes::curved_nodes;
+    use super::*;
+    use crate::model::{Frame, Radial, Superquadric, SuperquadricGrain};
+    use crate::shapes::{Body, Ellipsoid, Sampling};
+    use approx::assert_relative_eq;
+    use nalgebra::Rotation3;
+
+    /// An ellipsoid as the superquadric it is, turned so that no node lies on its tips.
+    fn ellipsoid(semi_axes: [f64; 3]) -> SuperquadricGrain {
+        let turn = Rotation3::from_euler_angles(0.3, 0.5, 0.7).into_inner();
+        let frame = Frame {
+            axes: turn,
+            ..Frame::SCAN
+        };
+        SuperquadricGrain::single(frame, Superquadric::single(semi_axes, 2.0, 2.0).unwrap())
+            .unwrap()
+    }
+
+    #[test]
+    fn tips_of_ellipsoids_have_their_closed_form() {
+        for [a, b, c] in [
+            [3.0, 2.0, 1.0],
+            [5.0, 1.0, 1.0],
+            [20.0, 1.0, 1.0],
+            [2.0, 2.0, 1.0],
+            [9.0, 8.0, 1.0],
+        ] {
+            let grain = ellipsoid([a, b, c]);
+            let nodes = curved_nodes(&grain);
+            let sharpest = highest(&grain, &nodes, |[larger, _]| larger);
+            assert_relative_eq!(sharpest.value, a / (c * c), max_relative = TOLERANCE);
+            let gaussian = highest(&grain, &nodes, |[larger, smaller]| larger * smaller);
+            assert_relative_eq!(
+                gaussian.value,
+                (a / (b * c)).powi(2),
+                max_relative = TOLERANCE
+            );
+            let flattest = highest(&grain, &nodes, |[_, smaller]| -smaller);
+            assert_relative_eq!(-flattest.value, c / (a * a), max_relative = TOLERANCE);
+            if a > b {
+                assert_relative_eq!(sharpest.place.norm(), a, max_relative = 1e-4);
+            }
+        }
+    }
+
+    #[test]
+    fn no_place_of_the_maize_kernel_is_higher() {
+        let surface = Body::Maize.surface();
+        let surface = Radial(surface.as_ref());
+        let nodes = curved_nodes(&surface);
+        for sign in [1.0, -1.0] {
+            let found = highest(&surface, &nodes, |[larger, smaller]| {
+                sign * larger * smaller
+            });
+            let dense = Sampling::Fibonacci.directions(100_000, 0).unwrap();
+            let sampled = dense
+                .iter()
+                .map(|n| sign * Curvature::new(n, &surface.jet(n)).gaussian());
+            let sampled = sampled.fold(f64::NEG_INFINITY, f64::max);
+            assert!(
+                sampled <= found.value + TOLERANCE * found.value.abs(),
+                "{sampled} {found:?}"
+            );
+            assert!(
+                sampled > found.value - 0.01 * found.value.abs(),
+                "{sampled} {found:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn what_grows_without_bound_is_infinite_and_what_is_alike_everywhere_is_met_at_once() {
+        let edged = Superquadric::single([1.0; 3], 1.5, 1.5).unwrap();
+        let edged = SuperquadricGrain::single(Frame::SCAN, edged).unwrap();
+        let found = highest(&edged, &curved_nodes(&edged), |[larger, _]| larger);
+        assert_eq!(found.value, f64::INFINITY);
+        let sphere = Ellipsoid {
+            semi_axes: Vector3::repeat(2.0),
+        };
+        let sphere = Radial(&sphere);
+        let found = highest(&sphere, &curved_nodes(&sphere), |[larger, _]| larger);
+        assert_relative_eq!(found.value, 0.5, max_relative = 1e-12);
+        assert_eq!(
+            highest(&sphere, &[], |[larger, _]| larger).value,
+            f64::NEG_INFINITY
+        );
+    }
+}

@@ -1,0 +1,106 @@
+//! The border of what a closed mesh covers, seen from one side: of any shape, exactly.
+//!
+//! The triangles that are seen from in front cover it all, some places more than once. What is not an edge between two of them
+//! is their border: closed lines, which go round each place as often as it is covered. So the border of the union of all
+//! triangles is that of what these few lines go round, and this is left to the crate `i_overlay`, on integers of 64 bits.
+
+use crate::predicates::orient2d;
+use i_overlay::core::fill_rule::FillRule;
+use i_overlay::float::simplify::SimplifyShape;
+use nalgebra::Vector2;
+
+/// What a mesh covers.
+pub(super) struct Silhouette {
+    /// The outer border, counter-clockwise.
+    pub border: Vec<Vector2<f64>>,
+    /// The area of the holes inside of it.
+    pub holes: f64,
+}
+
+impl Silhouette {
+    /// That of the triangles of a closed mesh over places, of which those that are wound counter-clockwise cover all; if
+    /// several parts lie apart, of the largest. `None` if they cover nothing. All triangles must name places that exist.
+    pub(super) fn new(places: &[Vector2<f64>], triangles: &[[u32; 3]]) -> Option<Self> {
+        let lines: Vec<Vec<[f64; 2]>> = closed_lines(border_edges(places, triangles))
+            .into_iter()
+            .map(|line| line.iter().map(|&at| places[at as usize].into()).collect())
+            .collect();
+        let parts = lines.simplify_shape_as::<i64>(FillRule::NonZero);
+        let outer = |part: &Vec<Vec<[f64; 2]>>| part.first().map_or(0.0, |line| area(line));
+        let largest = parts
+            .iter()
+            .max_by(|one, other| outer(one).total_cmp(&outer(other)))?;
+        let (border, holes) = largest.split_first()?;
+        Some(Self {
+            border: border.iter().copied().map(Vector2::from).collect(),
+            holes: -holes.iter().map(|line| area(line)).sum::<f64>(),
+        })
+    }
+}
+
+/// The edges of the triangles that are wound counter-clockwise, from end to end, without those that two of them walk in
+/// opposite senses: these are most, and those between corners that no other triangle has are not even looked at.
+fn border_edges(places: &[Vector2<f64>], triangles: &[[u32; 3]]) -> Vec<[u32; 2]> {
+    let is_in_front =
+        |corners: &&[u32; 3]| orient2d(corners.map(|corner| places[corner as usize])) > 0.0;
+    let (in_front, behind): (Vec<&[u32; 3]>, Vec<&[u32; 3]>) =
+        triangles.iter().partition(is_in_front);
+    let mut is_border = vec![false; places.len()];
+    for corner in behind.into_iter().flatten() {
+        is_border[*corner as usize] = true;
+    }
+    // The ends in order, and whether they are walked that way.
+    let mut walked: Vec<(u32, u32, bool)> = in_front
+        .into_iter()
+        .flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]])
+        .filter(|ends| ends.iter().all(|&end| is_border[end as usize]))
+        .map(|[from, to]| (from.min(to), from.max(to), from < to))
+        .collect();
+    walked.sort_unstable();
+    let same =
+        |one: &(u32, u32, bool), other: &(u32, u32, bool)| (one.0, one.1) == (other.0, other.1);
+    let mut edges = Vec::new();
+    for walks in walked.chunk_by(same) {
+        let back = walks.partition_point(|walk| !walk.2);
+        let forth = walks.len() - back;
+        let (low, high, _) = walks[0];
+        let (times, edge) = match forth > back {
+            true => (forth - back, [low, high]),
+            false => (back - forth, [high, low]),
+        };
+        edges.extend(std::iter::repeat_n(edge, times));
+    }
+    edges
+}
+
+/// Closed lines through edges, each of which is walked once: at every place as many end as begin.
+fn closed_lines(mut edges: Vec<[u32; 2]>) -> Vec<Vec<u32>> {
+    edges.sort_unstable();
+    let first = |from: u32| edges.partition_point(|edge| edge[0] < from);
+    let mut is_walked = vec![false; edges.len()];
+    let mut lines = Vec::new();
+    for start in 0..edges.len() {
+        let (mut line, mut at) = (Vec::new(), start);
+        while !is_walked[at] {
+            is_walked[at] = true;
+            let [from, to] = edges[at];
+            line.push(from);
+            let onward = (first(to)..edges.len()).take_while(|&next| edges[next][0] == to);
+            at = onward
+                .into_iter()
+                .find(|&next| !is_walked[next])
+                .unwrap_or(start);
+        }
+        if line.len() > 2 {
+            lines.push(line);
+        }
+    }
+    lines
+}
+
+/// The area of a closed line, above zero where it is counter-clockwise.
+fn area(line: &[[f64; 2]]) -> f64 {
+    let next = line.iter().cycle().skip(1);
+    let doubles = line.iter().zip(next).map(|([x, y], [u, v])| x * v - y * u);
+    doubles.sum::<f64>() / 2.0
+}
