@@ -217,7 +217,7 @@ mod tests {
     #[test]
     fn where_the_surface_is_off_to_the_side_of_far_points_all_around_they_are_texture() {
         let directions = fibonacci(3000);
-        let is_far = |at: usize| at % 25 == 0;
+        let is_far = |at: usize| at.is_multiple_of(25);
         let sides: Vec<i8> = (0..3000).map(|at| i8::from(is_far(at))).collect();
         let with_others_at = |others: f64| {
             let residuals: Vec<f64> = (0..3000)
