@@ -53,7 +53,7 @@ impl Outline {
     /// area or is not finite.
     pub(super) fn of(points: Vec<Vector2<f64>>) -> Option<Self> {
         let edges = || points.iter().zip(points.iter().cycle().skip(1));
-        let area = edges().map(|(p, q)| p.perp(q)).sum::<f64>() / 2.0;
+        let area = signed_area(&points);
         if !(area > 0.0 && area.is_finite()) {
             return None;
         }
@@ -189,6 +189,12 @@ fn inscribed_circle(points: &[Vector2<f64>], largest: f64) -> Option<Ball> {
 
 fn in_space(point: &Vector2<f64>) -> Point3<f64> {
     Point3::new(point.x, point.y, 0.0)
+}
+
+/// The area of a closed line, above zero where it is counter-clockwise.
+pub(super) fn signed_area(corners: &[Vector2<f64>]) -> f64 {
+    let edges = corners.iter().zip(corners.iter().cycle().skip(1));
+    edges.map(|(p, q)| p.perp(q)).sum::<f64>() / 2.0
 }
 
 #[cfg(test)]

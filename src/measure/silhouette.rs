@@ -4,6 +4,7 @@
 //! is their border: closed lines, which go round each place as often as it is covered. So the border of the union of all
 //! triangles is that of what these few lines go round, and this is left to the crate `i_overlay`, on integers of 64 bits.
 
+use super::outline::signed_area;
 use crate::predicates::orient2d;
 use i_overlay::core::fill_rule::FillRule;
 use i_overlay::float::simplify::SimplifyShape;
@@ -25,15 +26,18 @@ impl Silhouette {
             .into_iter()
             .map(|line| line.iter().map(|&at| places[at as usize].into()).collect())
             .collect();
+        let corners = |line: Vec<[f64; 2]>| line.into_iter().map(Vector2::from).collect();
+        let part = |lines: Vec<_>| lines.into_iter().map(corners).collect();
         let parts = lines.simplify_shape_as::<i64>(FillRule::NonZero);
-        let outer = |part: &Vec<Vec<[f64; 2]>>| part.first().map_or(0.0, |line| area(line));
+        let parts: Vec<Vec<Vec<Vector2<f64>>>> = parts.into_iter().map(part).collect();
+        let outer = |part: &Vec<Vec<_>>| part.first().map_or(0.0, |line| signed_area(line));
         let largest = parts
-            .iter()
+            .into_iter()
             .max_by(|one, other| outer(one).total_cmp(&outer(other)))?;
-        let (border, holes) = largest.split_first()?;
+        let mut lines = largest.into_iter();
         Some(Self {
-            border: border.iter().copied().map(Vector2::from).collect(),
-            holes: -holes.iter().map(|line| area(line)).sum::<f64>(),
+            border: lines.next()?,
+            holes: -lines.map(|line| signed_area(&line)).sum::<f64>(),
         })
     }
 }
@@ -96,11 +100,4 @@ fn closed_lines(mut edges: Vec<[u32; 2]>) -> Vec<Vec<u32>> {
         }
     }
     lines
-}
-
-/// The area of a closed line, above zero where it is counter-clockwise.
-fn area(line: &[[f64; 2]]) -> f64 {
-    let next = line.iter().cycle().skip(1);
-    let doubles = line.iter().zip(next).map(|([x, y], [u, v])| x * v - y * u);
-    doubles.sum::<f64>() / 2.0
 }

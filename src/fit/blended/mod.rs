@@ -19,6 +19,7 @@ mod patch;
 mod search;
 #[cfg(test)]
 mod tests;
+mod unseen;
 
 use crate::model::Blended;
 use nalgebra::Vector3;

@@ -3,7 +3,8 @@
 use super::forest::{Bounds, Forest, Plan};
 use super::joint::{Joint, Solved};
 use super::local_fit::LocalFits;
-use super::nodes::{Sampler, Samples, nodes_per_side};
+use super::nodes::{Sampler, nodes_per_side};
+use super::unseen::Unseen;
 use super::{Blend, Outcome, Round, Settings, Target};
 use crate::fit::MAX_COEFFICIENTS;
 use crate::model::Blended;
@@ -81,14 +82,6 @@ struct Found {
     rms: f64,
     max: f64,
     /// Integrals of the squared error over the cells.
-    squares: Vec<f64>,
-}
-
-/// The error of a surface at directions that its fit has not used.
-struct Unseen {
-    rms: f64,
-    max: f64,
-    /// Integrals of its square over the cells.
     squares: Vec<f64>,
 }
 
@@ -203,13 +196,15 @@ impl<'a> Search<'a> {
             let is_cheap = most.is_none_or(|most| (tree.plan.coefficients as f64) < most);
             is_new && is_cheap && (tree.plan.is_enough || self.may_win(&tree.plan))
         });
-        let by_need = |one: &Plan, other: &Plan| match (one.is_enough, other.is_enough) {
-            (true, true) => one.coefficients.cmp(&other.coefficients),
-            (false, false) => one.error.total_cmp(&other.error),
-            (is_enough, _) => (!is_enough).cmp(&is_enough),
+        let rank = |tree: &Tree| match tree.plan.is_enough {
+            true => (0, tree.plan.coefficients as f64),
+            false => (1, tree.plan.error),
         };
-        open.min_by(|(_, one), (_, other)| by_need(&one.plan, &other.plan))
-            .map(|(at, _)| at)
+        open.min_by(|(_, one), (_, other)| {
+            let [(late, own), (later, others)] = [one, other].map(|tree| rank(tree));
+            late.cmp(&later).then(own.total_cmp(&others))
+        })
+        .map(|(at, _)| at)
     }
 
     /// Whether a cover that is not forecast to be good enough may come nearer than the best so far.
@@ -336,7 +331,7 @@ impl<'a> Search<'a> {
         let mut rms = seen * self.unseen.sqrt();
         let mut unseen = None;
         if self.is_met(seen) || self.best.is_none() {
-            let found = self.unseen_error(&surface, &sides);
+            let found = Unseen::of(&surface, self.target, &mut self.sampler, &sides);
             rms = found.rms;
             unseen = Some(found);
             if seen > 0.0 {
@@ -357,7 +352,8 @@ impl<'a> Search<'a> {
                     (met, is_met) => is_met || (!met && rms < best.rms),
                 });
         if is_better {
-            let unseen = unseen.unwrap_or_else(|| self.unseen_error(&surface, &sides));
+            let unseen = unseen
+                .unwrap_or_else(|| Unseen::of(&surface, self.target, &mut self.sampler, &sides));
             rms = unseen.rms;
             self.best = Some(Found {
                 surface,
@@ -368,38 +364,5 @@ impl<'a> Search<'a> {
             });
         }
         Some(rms)
-    }
-
-    /// The error at the nodes of other Gauss rules.
-    fn unseen_error(&mut self, surface: &Blended, sides: &[(CubeCell, usize)]) -> Unseen {
-        let sides: Vec<(CubeCell, usize)> = sides.iter().map(|(c, side)| (*c, side - 1)).collect();
-        self.sampler.sample(self.target, &sides);
-        let samples = sides
-            .iter()
-            .map(|(cell, side)| self.sampler.of(cell, *side));
-        let directions: Vec<_> = samples
-            .clone()
-            .flat_map(|samples| &samples.directions)
-            .copied()
-            .collect();
-        let mut found = surface.radii_and_gradients(&directions).into_iter();
-        let mut max = 0.0_f64;
-        let square = |samples: &Samples| {
-            let weights = samples.weights.iter().zip(&samples.solid_angles);
-            let known = samples.radii.iter().zip(weights);
-            let squares = known.zip(&mut found);
-            let squares = squares.map(|((exact, (weight, solid_angle)), (radius, _))| {
-                let squared = weight * (radius - exact).powi(2);
-                max = max.max(squared / solid_angle);
-                squared
-            });
-            squares.sum::<f64>()
-        };
-        let squares: Vec<f64> = samples.map(square).collect();
-        Unseen {
-            rms: (squares.iter().sum::<f64>() / (4.0 * PI)).sqrt(),
-            max: max.sqrt(),
-            squares,
-        }
     }
 }

@@ -2,9 +2,9 @@
 //! together they shift it.
 //!
 //! Noise and detail leave residuals on both sides. Where many more points are far outside the surface than far inside,
-//! or the reverse, and their neighbours are not on that side, points beyond three standard deviations are left out on both sides, and the
-//! estimate is made again. Of points 3 to 10 standard deviations outside, 5 % of 6146 and of 1538, the volume was 10 standard
-//! errors too large, and is within two.
+//! or the reverse, and their neighbours are not on that side, points beyond three standard deviations are left out on both
+//! sides, and the estimate is made again. Of points 3 to 10 standard deviations outside, 5 % of 6146 and of 1538, the volume
+//! was 10 standard errors too large, and is within two.
 //!
 //! What is left of such points is told by the middle of the residuals, which a few of them do not move: it is zero where these are
 //! alike on both sides (of kernels, stones and cement particles to 3 standard errors), and else by how much the

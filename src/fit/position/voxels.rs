@@ -53,7 +53,6 @@ impl Voxels {
             -most..=most
         };
         let mut sum = 4.0 * PI * steps.determinant().abs() / most;
-        let mut layers = Vec::new();
         for i in reach(0) {
             for j in reach(1) {
                 for k in reach(2) {
@@ -62,14 +61,16 @@ impl Voxels {
                     if squared > 0.0 && squared <= most * most {
                         sum += squared.powi(-2);
                     }
-                    if [i, j, k] != [0; 3] && [i, j, k].iter().all(|number| number.abs() <= 1) {
-                        layers.push(wave);
-                    }
                 }
             }
         }
+        let numbers =
+            (0..27).map(|at| Vector3::new(at % 3, at / 3 % 3, at / 9) - Vector3::repeat(1));
+        let layers = numbers.filter(|numbers| *numbers != Vector3::zeros());
         Some(Self {
-            layers,
+            layers: layers
+                .map(|numbers| dual * numbers.map(f64::from))
+                .collect(),
             miscount: sum / (8.0 * PI.powi(3)),
         })
     }
