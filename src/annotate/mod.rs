@@ -92,6 +92,13 @@ impl Annotated {
         self
     }
 
+    /// The share of the vertices at which the distance of a scan is not known, if it was asked for.
+    pub fn unseen_share(&self) -> Option<f64> {
+        let distances = self.field("deviation")?;
+        let unseen = distances.iter().filter(|distance| distance.is_nan());
+        Some(unseen.count() as f64 / distances.len() as f64)
+    }
+
     /// The values of a field, if it is there.
     pub fn field(&self, name: &str) -> Option<&[f64]> {
         let mut fields = self.fields.iter();

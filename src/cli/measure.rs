@@ -6,18 +6,13 @@ use super::{inputs, threads};
 use crate::fit::scanned_surface;
 use crate::measure::{Scheme, Survey, scanned_body, smoothed_area};
 use crate::mesh::Mesh;
-use crate::report::{Measure, MeasureReport, Measured, Withheld, percent, sentences};
+use crate::report::{Measure, MeasureReport, Measured, Unit, Withheld, percent, sentences, short};
 use crate::scan::Scan;
 use anyhow::{Context, Result, bail};
 use std::ops::RangeInclusive;
 
 /// What the roughness of points adds to the area of their polyhedron, where it is told all the same.
 const WORTH_A_WORD: RangeInclusive<f64> = 0.01..=0.05;
-
-/// What to know of faces between voxels.
-const STEPS: &str = "The faces go through the middles between voxels inside and outside: their steps make the area of a round \
-                     grain larger, by a tenth or, where voxels are longer than wide, by more, and they cut off the corners \
-                     of voxels, 2 to 3 % of a layer of them. Fit the volume, and measure the model.";
 
 pub(super) fn run(args: MeasureArgs, console: Console) -> Result<()> {
     threads::start(0, console)?;
@@ -61,13 +56,12 @@ fn measure_scan(
     }
     if let Some(scanned) = scanned_body(scan) {
         let mut warnings = scan.warnings.clone();
-        let of = match scan.scatter() > 0.0 {
-            true => Measured::Voxels,
-            false => Measured::Faces,
+        let voxels = scan.voxel_volume();
+        let of = match voxels {
+            Some(_) => Measured::Voxels,
+            None => Measured::Faces,
         };
-        if of == Measured::Voxels {
-            warnings.push(STEPS.into());
-        }
+        warnings.extend(voxels.map(|volume| between_voxels(volume, args.unit)));
         return Ok(MeasureReport::of_faces(
             input, &scanned, of, only, args.unit, warnings,
         ));
@@ -94,6 +88,17 @@ fn measure_scan(
         warnings,
     );
     Ok(report.in_unit(args.unit))
+}
+
+/// What to know of faces between voxels, which take up a volume.
+fn between_voxels(volume: f64, unit: Option<Unit>) -> String {
+    let unit = unit.map_or(String::new(), |unit| format!(" {unit}³"));
+    format!(
+        "The faces go through the middles between voxels inside and outside: their steps make the area of a round grain \
+         larger, by a tenth or, where voxels are longer than wide, by more, and they cut off the corners of voxels, whose \
+         volume is {}{unit}. Fit the volume, and measure the model.",
+        short(volume)
+    )
 }
 
 /// What the roughness of points adds to the area of their polyhedron, as a share.

@@ -7,7 +7,7 @@ use crate::annotate::{Annotated, ScanDeviation};
 use crate::export::{Detail, MeshFormat};
 use crate::model::{Grain, Surface};
 use crate::portrait::colours;
-use crate::report::Withheld;
+use crate::report::{Withheld, percent};
 use anyhow::{Result, bail};
 use std::path::Path;
 
@@ -21,6 +21,9 @@ const MOST_BYTES: u64 = 4_000_000_000;
 
 /// Bytes from which on it is told.
 const MANY_BYTES: u64 = 1_000_000_000;
+
+/// Share of the surface from which on it is told that a scan has no points near it.
+const UNSEEN: f64 = 0.01;
 
 pub(super) fn run(args: MeshArgs, console: Console) -> Result<()> {
     threads::start(0, console)?;
@@ -43,7 +46,7 @@ pub(super) fn run(args: MeshArgs, console: Console) -> Result<()> {
     let progress = console.progress();
     progress.stage("Meshing");
     let grain = inputs::parse_model(&args.model, &bytes)?;
-    let doubts = Withheld::of(&grain, false).sentences(&inputs::name(&args.model));
+    let mut doubts = Withheld::of(&grain, false).sentences(&inputs::name(&args.model));
     let resolution = args.meshing.resolution.into();
     let (vertices, triangles) = match format {
         MeshFormat::Stl | MeshFormat::Obj if args.scan.is_some() => {
@@ -59,6 +62,13 @@ pub(super) fn run(args: MeshArgs, console: Console) -> Result<()> {
         }
         MeshFormat::Ply | MeshFormat::Vtp | MeshFormat::Glb => {
             let surface = annotated(&args, &grain)?;
+            let unseen = surface.unseen_share().unwrap_or(0.0);
+            if unseen > UNSEEN {
+                doubts.push(format!(
+                    "The scan has no points near {} of the surface: no distance is told there.",
+                    percent(unseen)
+                ));
+            }
             let detail = Detail {
                 normals: &surface.normals,
                 fields: &surface.fields,
@@ -99,7 +109,14 @@ fn annotated(args: &MeshArgs, grain: &Grain) -> Result<Annotated> {
         },
     };
     let scan = inputs::scan(path, &input, None)?;
-    Ok(surface.with_deviation(&ScanDeviation::new(grain, &scan)))
+    let surface = surface.with_deviation(&ScanDeviation::new(grain, &scan));
+    if surface.unseen_share() == Some(1.0) {
+        bail!(
+            "no point of {} is near the surface of {name}: give the scan that the model was fitted to, or one in its place",
+            inputs::name(path)
+        );
+    }
+    Ok(surface)
 }
 
 impl MeshingArgs {

@@ -8,6 +8,9 @@ use rayon::prelude::*;
 use serde::Serialize;
 use std::f64::consts::PI;
 
+/// Share of the total curvature that nodes may miss of a surface whose curvature has no bound.
+const MISSED: f64 = 0.01;
+
 /// Curvatures at the nodes of a quadrature over a surface, with the areas that they stand for, and their extremes.
 #[derive(Debug, Clone)]
 pub struct CurvatureStatistics {
@@ -48,7 +51,7 @@ impl Kind {
 pub struct Distribution {
     /// Mean.
     pub mean: f64,
-    /// Standard deviation.
+    /// Standard deviation; NaN where the curvature has no bound, for then no nodes settle it.
     pub standard_deviation: f64,
     /// Least value of the surface itself, to 1e-5 of it: the lowest that is found by descent from the lowest nodes of the
     /// quadrature that are apart. Infinite where it falls without bound, as on the edges of some superquadrics.
@@ -126,6 +129,13 @@ impl CurvatureStatistics {
         self.integral(|k| Kind::Gaussian.of(k))
     }
 
+    /// Whether so much of the curvature lies on edges without a bound that the nodes miss some of it: means are not to be
+    /// told then.
+    pub(super) fn is_on_edges(&self) -> bool {
+        let [_, largest] = self.extremes[Kind::Larger as usize];
+        !largest.is_finite() && self.gauss_bonnet_error().abs() > MISSED
+    }
+
     /// Share of the area where the surface is convex: both principal curvatures above zero.
     pub fn convex_share(&self) -> f64 {
         let convex = |[_, second]: [f64; 2]| f64::from(second > 0.0);
@@ -161,9 +171,14 @@ impl CurvatureStatistics {
         let mean = self.integral(|k| kind.of(k)) / area;
         let variance = self.integral(|k| (kind.of(k) - mean).powi(2)) / area;
         let [least, largest] = self.extremes[kind as usize];
+        let is_settled = least.is_finite() && largest.is_finite();
         Distribution {
             mean,
-            standard_deviation: variance.sqrt(),
+            standard_deviation: if is_settled {
+                variance.sqrt()
+            } else {
+                f64::NAN
+            },
             least,
             largest,
         }
@@ -178,7 +193,7 @@ impl CurvatureStatistics {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::{Radial, StarSurface};
+    use crate::model::{Frame, Radial, StarSurface, Superquadric, SuperquadricGrain};
     use crate::shapes::{Body, Ellipsoid, Sphere};
     use approx::assert_relative_eq;
     use std::f64::consts::TAU;
@@ -232,6 +247,21 @@ mod tests {
             TAU * mean_width,
             max_relative = 1e-9
         );
+    }
+
+    #[test]
+    fn of_edges_without_a_bound_no_deviation_is_told_and_of_sharp_ones_nothing() {
+        let found = |n1, n2| {
+            let shape = Superquadric::single([3.0, 2.0, 1.5], n1, n2).unwrap();
+            CurvatureStatistics::new(&SuperquadricGrain::single(Frame::SCAN, shape).unwrap())
+        };
+        let rim = found(1.8, 2.0);
+        assert!(!rim.is_on_edges() && rim.larger().largest.is_infinite());
+        assert!(rim.larger().standard_deviation.is_nan());
+        assert!(rim.smaller().standard_deviation > 0.0);
+        assert!(found(1.2, 1.2).is_on_edges());
+        let rounded = found(6.0, 6.0);
+        assert!(!rounded.is_on_edges() && rounded.larger().standard_deviation > 0.0);
     }
 
     #[test]

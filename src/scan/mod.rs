@@ -25,7 +25,7 @@ mod xyz;
 use std::path::Path;
 
 use crate::mesh::Mesh;
-use nalgebra::{Matrix3, Point3};
+use nalgebra::Point3;
 
 pub(crate) use drawn::{by_coordinates, drawn};
 pub use error::{ParseError, Place, ReadError};
@@ -38,6 +38,7 @@ pub use topology::Topology;
 pub(crate) use topology::each_edge;
 #[cfg(feature = "cli")]
 pub(crate) use volume::Extent;
+pub(crate) use volume::VoxelLattice;
 pub use volume::{Volume, VolumeError, VoxelBody, parse_volume, voxel_file};
 
 /// What is told of points in one plane.
@@ -53,8 +54,8 @@ pub struct Scan {
     pub(crate) topology: Option<Topology>,
     /// See [`Self::scatter`].
     pub(crate) scatter: f64,
-    /// Of voxels the steps from one to the next along each axis, in columns.
-    pub(crate) steps: Option<Matrix3<f64>>,
+    /// Of a surface between voxels, where these lie.
+    pub(crate) lattice: Option<VoxelLattice>,
     /// See [`Self::unit`].
     pub(crate) unit: Option<String>,
     pub(crate) warnings: Vec<String>,
@@ -182,12 +183,19 @@ impl Scan {
     pub(crate) fn part(&self, mesh: Mesh) -> Self {
         let mut part = Self {
             scatter: self.scatter,
-            steps: self.steps,
+            lattice: self.lattice,
             unit: self.unit.clone(),
             ..Self::of_mesh(mesh)
         };
         inspect::inspect(&mut part);
         part
+    }
+
+    /// Of a segmented volume, what the voxels of the grain take up: their number times the volume of one. `None` of other
+    /// scans.
+    pub fn voxel_volume(&self) -> Option<f64> {
+        let lattice = self.lattice.as_ref()?;
+        Some(lattice.volume(&self.points))
     }
 
     /// Whether all points lie in one plane, or do not span one: they enclose nothing.

@@ -1,4 +1,4 @@
-use super::{deviation, folder, grain, json, succeed};
+use super::{deviation, errors, folder, grain, grainform, json, succeed};
 use grainform::scan::read_scan;
 use grainform::{Mesh, model};
 
@@ -85,4 +85,27 @@ fn a_mesh_holds_what_is_known_at_its_vertices() {
     }
     let scan = read_scan(&folder.path().join("m.ply")).unwrap();
     assert_eq!(scan.points().len(), 6 * 8 * 8 + 2);
+}
+
+#[test]
+fn a_scan_that_lies_elsewhere_is_told() {
+    let folder = folder();
+    let bean = grain("bean.ply");
+    succeed(&folder, &["fit", &bean, "-o", "m.json"]);
+    let other = ["synth", "bean", "--offset", "100,0,0", "-o", "other.ply"];
+    succeed(&folder, &other);
+    let words = ["mesh", "m.json", "-o", "m.ply", "--scan"];
+    let refused = errors(&grainform(&folder, &[&words[..], &["other.ply"]].concat()));
+    assert!(
+        refused.contains("no point of other.ply is near the surface of m.json"),
+        "{refused}"
+    );
+    assert!(!folder.path().join("m.ply").exists());
+    let half = ["synth", "bean", "--missing-cap", "85", "-o", "half.ply"];
+    succeed(&folder, &half);
+    let told = errors(&grainform(&folder, &[&words[..], &["half.ply"]].concat()));
+    assert!(
+        told.contains("no points near") && told.contains("% of the surface"),
+        "{told}"
+    );
 }

@@ -1,6 +1,7 @@
 //! Segmented volumes from the command line.
 
 use super::{errors, folder, grainform, json, names, number, piped, succeed};
+use std::cell::Cell;
 use std::io::Write;
 use std::path::Path;
 
@@ -258,19 +259,29 @@ fn a_neck_between_voxels_is_told_and_a_label_of_specks_is_left_out() {
 #[test]
 fn voxels_that_miss_inside_of_a_grain_are_hollows() {
     let folder = folder();
+    let (grain, pores) = (Cell::new(0), Cell::new(0));
     relabelled(folder.path(), "pores.nrrd", |at, old| {
         let place = [at % 80, at / 80 % 40, at / 3200];
         let is_within = (12..28).contains(&place[0]) && (12..28).contains(&place[1]);
         let is_deep = is_within && (6..14).contains(&place[2]);
         let is_pore = is_deep && place.iter().all(|i| i % 4 == 0);
+        grain.set(grain.get() + u32::from(old == 4));
+        pores.set(pores.get() + u32::from(old == 4 && is_pore));
         u8::from(old == 4 && !is_pore)
     });
     let warnings = json(&folder, &["fit", "pores.nrrd"])["warnings"].to_string();
-    assert!(warnings.contains("small hollows in it"), "{warnings}");
+    let share = 100.0 * f64::from(pores.get()) / f64::from(grain.get());
+    let told = format!("{} small hollows in it", pores.get());
+    assert!(warnings.contains(&told), "{warnings}");
+    let told = format!("these make {share:.2} % of its volume");
+    assert!(warnings.contains(&told), "{warnings}");
     assert!(!warnings.contains("detached"), "{warnings}");
     let words = ["measure", "pores.nrrd", "--only", "volume"];
     let warnings = json(&folder, &words)["warnings"].to_string();
     assert!(warnings.contains("(of hollows)"), "{warnings}");
+    let volume = 0.25 * f64::from(grain.get() - pores.get());
+    let told = format!("whose volume is {volume}");
+    assert!(warnings.contains(&told), "{warnings}");
 }
 
 #[test]

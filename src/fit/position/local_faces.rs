@@ -75,8 +75,8 @@ impl LocalFaces {
             points,
             semi_axes: semi_axes(&properties, &at_unit_frame) / size,
             steps: scan
-                .steps
-                .map(|steps| at_unit_frame.axes.tr_mul(&steps) / radius),
+                .lattice
+                .map(|lattice| at_unit_frame.axes.tr_mul(&lattice.steps) / radius),
             frame: Frame {
                 centre: unit.point(&at_unit_frame.centre),
                 ..at_unit_frame

@@ -27,15 +27,19 @@ pub(crate) struct Dust {
 }
 
 /// Several parts of a scan's faces.
-fn sizes(mesh: &Mesh) -> Vec<Size> {
+fn sizes(scan: &Scan, mesh: &Mesh) -> Vec<Size> {
     let size = |triangles: Vec<usize>| {
         let own = part(mesh, &triangles);
         let first = own.vertices[0];
-        let (mut area, mut volume) = (0.0, 0.0);
+        let (mut area, mut volume) = (0.0, 0.0_f64);
         for corners in &own.triangles {
             let [a, b, c] = corners.map(|i| own.vertices[i as usize] - first);
             area += (b - a).cross(&(c - a)).norm() / 2.0;
             volume += a.dot(&b.cross(&c)) / 6.0;
+        }
+        // The corners of voxels that their surface cuts off are most of a small hollow.
+        if let Some(lattice) = scan.lattice {
+            volume = lattice.volume(&own.vertices).copysign(volume);
         }
         Size {
             triangles,
@@ -50,7 +54,7 @@ fn sizes(mesh: &Mesh) -> Vec<Size> {
 /// The scan without parts that are too small for bodies, and what these are; `None` if there are none.
 pub(crate) fn without_dust(scan: &Scan) -> Option<(Scan, Dust)> {
     let mesh = scan.welded();
-    let mut sizes = sizes(&mesh);
+    let mut sizes = sizes(scan, &mesh);
     let vertices = mesh.vertices.len() as f64;
     let area: f64 = sizes.iter().map(|size| size.area).sum();
     let outer: f64 = sizes.iter().map(|size| size.volume.max(0.0)).sum();
@@ -77,7 +81,7 @@ pub(crate) fn without_dust(scan: &Scan) -> Option<(Scan, Dust)> {
 /// The part that encloses most, and how many others there are; `None` if there are no others.
 pub(crate) fn largest_part(scan: &Scan) -> Option<(Scan, usize)> {
     let mesh = scan.welded();
-    let sizes = sizes(&mesh);
+    let sizes = sizes(scan, &mesh);
     let order = |a: &&Size, b: &&Size| {
         let of_equal_volume = a.area.total_cmp(&b.area);
         let volumes = [a, b].map(|size| size.volume.abs());

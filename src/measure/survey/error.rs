@@ -76,6 +76,12 @@ pub enum SurveyError {
     /// The figure is too large or too small for a number of 64 bits.
     #[error("in this unit it is beyond the range of numbers: change the unit")]
     OutOfRange,
+    /// Much of the curvature lies on edges where it has no bound.
+    #[error("on its edges the curvature has no bound, and {:.0} % of it is missed there", 100.0 * missed)]
+    Edges {
+        /// Share of the total curvature.
+        missed: f64,
+    },
     /// Triangles have no curvature.
     #[error("triangles have no curvature: fit the scan, and measure the model")]
     Flat,

@@ -279,8 +279,19 @@ impl<'a> Survey<'a> {
     ///
     /// # Errors
     ///
-    /// [`SurveyError::Flat`] of a mesh.
+    /// [`SurveyError::Flat`] of a mesh, [`SurveyError::Edges`] of superquadrics with exponents below some 1.6.
     pub fn curvature(&self) -> Result<&CurvatureStatistics, SurveyError> {
+        let found = self.any_curvature()?;
+        match found.is_on_edges() {
+            true => Err(SurveyError::Edges {
+                missed: found.gauss_bonnet_error().abs(),
+            }),
+            false => Ok(found),
+        }
+    }
+
+    /// The same, whatever its edges.
+    fn any_curvature(&self) -> Result<&CurvatureStatistics, SurveyError> {
         let surface = self.body.surface()?;
         Ok(self
             .curvature
@@ -308,7 +319,7 @@ impl<'a> Survey<'a> {
     ///
     /// [`SurveyError::Flat`] of a mesh.
     pub fn roundness(&self) -> Result<f64, SurveyError> {
-        let found = self.curvature()?.roundness(self.inscribed()?.radius);
+        let found = self.any_curvature()?.roundness(self.inscribed()?.radius);
         Ok(ratio("roundness", found)?)
     }
 

@@ -215,10 +215,13 @@ impl MeasureReport {
         if let Some(curvature) = measures.curvature {
             let one = labels.curvature();
             let told = |distribution: Distribution, error: Option<f64>, unit: &str| {
+                let deviation = match distribution.standard_deviation {
+                    settled if settled.is_finite() => format!("{} SD, ", short(settled)),
+                    _ => String::new(),
+                };
                 format!(
-                    "{} mean, {} SD, {} to {}{unit}",
+                    "{} mean, {deviation}{} to {}{unit}",
                     short(distribution.mean),
-                    short(distribution.standard_deviation),
                     short(distribution.least),
                     with_error(distribution.largest, error)
                 )

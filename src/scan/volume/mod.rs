@@ -16,10 +16,12 @@ mod samples;
 mod scatter;
 mod tiff;
 mod unit;
+mod voxel_lattice;
 
 pub use bodies::VoxelBody;
 pub use error::VolumeError;
 pub(super) use lattice::filled as filled_lattice;
+pub(crate) use voxel_lattice::VoxelLattice;
 
 use super::check::check;
 use super::{ReadError, Scan, inspect, source};
@@ -369,7 +371,8 @@ fn voxel_scan(grid: &Grid, first: Point3<f64>, steps: &Matrix3<f64>) -> Result<S
     let mut scan = Scan::of_mesh(mesh);
     inspect::inspect(&mut scan);
     scan.scatter = scatter;
-    scan.steps = Some(*steps);
+    let steps = *steps;
+    scan.lattice = Some(VoxelLattice { first, steps });
     Ok(scan)
 }
 

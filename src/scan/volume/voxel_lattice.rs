@@ -1,0 +1,79 @@
+//! The lattice of an image's voxels, in which those within a surface are counted.
+
+use nalgebra::{Matrix3, Point3, Vector3};
+
+/// Where the voxels of an image lie.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct VoxelLattice {
+    /// The middle of a voxel.
+    pub(crate) first: Point3<f64>,
+    /// From one voxel to the next along each axis of the image, in columns.
+    pub(crate) steps: Matrix3<f64>,
+}
+
+impl VoxelLattice {
+    /// The volume of the voxels within a closed surface between voxels, of which these are the vertices: exact, where the
+    /// surface's own cuts off the corners of voxels.
+    ///
+    /// Along each row of voxels the surface is entered and left in turn, at vertices that lie between two of the row.
+    pub(crate) fn volume(&self, vertices: &[Point3<f64>]) -> f64 {
+        let Some(inverse) = self.steps.try_inverse() else {
+            return 0.0;
+        };
+        let places = vertices
+            .iter()
+            .map(|vertex| inverse * (vertex - self.first));
+        let is_in_row = |place: &Vector3<f64>| (place.x - place.x.floor() - 0.5).abs() < 0.25;
+        let mut crossings: Vec<[i64; 3]> = places
+            .filter(is_in_row)
+            .map(|place| {
+                [
+                    place.z.round() as i64,
+                    place.y.round() as i64,
+                    place.x.floor() as i64,
+                ]
+            })
+            .collect();
+        crossings.sort_unstable();
+        let voxels: i64 = crossings
+            .chunks_exact(2)
+            .map(|pair| pair[1][2] - pair[0][2])
+            .sum();
+        voxels as f64 * self.steps.determinant().abs()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::{Grid, contour};
+    use approx::assert_relative_eq;
+    use rand::SeedableRng;
+    use rand_chacha::ChaCha8Rng;
+    use rand_distr::{Bernoulli, Distribution};
+
+    /// Whatever they are, on a lattice that is askew.
+    #[test]
+    fn voxels_at_random_are_counted() {
+        let steps = Matrix3::new(-2.0, 0.3, 0.0, 0.1, 1.0, -0.2, 0.4, 0.0, 0.5);
+        let first = Point3::new(3.0, -7.0, 100.0);
+        for share in [0.1, 0.5, 0.9] {
+            let mut random = ChaCha8Rng::seed_from_u64(7);
+            let (mut grid, mut count) = (Grid::new([6, 7, 8]), 0);
+            for index in 0..6 * 7 * 8 {
+                if Bernoulli::new(share).unwrap().sample(&mut random) {
+                    grid.fill([index % 6, index / 6 % 7, index / 42]);
+                    count += 1;
+                }
+            }
+            let vertices: Vec<_> = contour(&grid, |_, _| 0.5)
+                .vertices
+                .iter()
+                .map(|vertex| first + steps * vertex.coords)
+                .collect();
+            let volume = VoxelLattice { first, steps }.volume(&vertices);
+            let expected = f64::from(count) * steps.determinant().abs();
+            assert_relative_eq!(volume, expected, max_relative = 1e-12);
+        }
+    }
+}
