@@ -47,14 +47,22 @@ fn of_measure(name: &str, values: [&[f64]; 2]) -> Option<Comparison> {
     let deviations = lots.map(|lot| lot.deviation);
     let difference = lots[1].mean - lots[0].mean;
     let scale = deviations[0].hypot(deviations[1]) / SQRT_2;
-    let found = intervals(lots);
+    // In a unit of their own, that their squares are within the range of numbers.
+    let in_unit = |lot: Sample| Sample {
+        mean: (lot.mean - lots[0].mean) / scale,
+        deviation: lot.deviation / scale,
+        ..lot
+    };
+    let found = (scale > 0.0)
+        .then(|| intervals(lots.map(in_unit)))
+        .flatten();
     Some(Comparison {
         measure: name.into(),
         counts: lots.map(|lot| lot.count),
         means: lots.map(|lot| lot.mean),
         deviations,
         difference,
-        difference_interval: found.map(|found| found.difference),
+        difference_interval: found.map(|found| found.difference.map(|end| scale * end)),
         effect: (scale > 0.0).then_some(difference / scale),
         effect_interval: found.map(|found| found.effect),
     })
@@ -126,5 +134,28 @@ mod tests {
         assert_eq!(found[0].effect, Some(2.0));
         let intervals = (found[0].difference_interval, found[0].effect_interval);
         assert_eq!(intervals, (None, None));
+    }
+
+    #[test]
+    fn effects_do_not_depend_on_the_unit() {
+        let in_unit = |unit: f64| {
+            let lots =
+                [[1.0, 2.0, 4.0], [3.0, 5.0, 9.0]].map(|values| lot(&values.map(|x| x * unit)));
+            compare(&lots[0], &lots[1]).remove(0)
+        };
+        let known = in_unit(1.0);
+        for unit in [1e-181, 1e181] {
+            let found = in_unit(unit);
+            assert_relative_eq!(
+                found.effect.unwrap(),
+                known.effect.unwrap(),
+                max_relative = 1e-12
+            );
+            let ends = |found: Comparison| found.difference_interval.unwrap();
+            let [low, high] = ends(found);
+            let expected = ends(known.clone()).map(|end| end * unit);
+            assert_relative_eq!(low, expected[0], max_relative = 1e-9);
+            assert_relative_eq!(high, expected[1], max_relative = 1e-9);
+        }
     }
 }

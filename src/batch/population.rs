@@ -245,10 +245,18 @@ pub(super) fn moments(values: &[f64]) -> (f64, Option<f64>) {
         Some(&value) if is_constant => value,
         _ => values.iter().sum::<f64>() / count.max(1.0),
     };
-    let squares: f64 = values.iter().map(|value| (value - mean).powi(2)).sum();
+    // Squares of moments of inertia in metres, and of some other figures, are beyond the range of numbers.
+    let largest = values
+        .iter()
+        .fold(0.0_f64, |most, value| most.max((value - mean).abs()));
+    let unit = if largest > 0.0 { largest } else { 1.0 };
+    let squares: f64 = values
+        .iter()
+        .map(|value| ((value - mean) / unit).powi(2))
+        .sum();
     (
         mean,
-        (count > 1.0).then(|| (squares / (count - 1.0)).sqrt()),
+        (count > 1.0).then(|| unit * (squares / (count - 1.0)).sqrt()),
     )
 }
 
@@ -271,12 +279,13 @@ fn correlation(one: &[Option<f64>], other: &[Option<f64>]) -> Option<f64> {
         return None;
     }
     let [(mean, deviation), (other_mean, other_deviation)] = [moments(&one), moments(&other)];
+    let (deviation, other_deviation) = (deviation?, other_deviation?);
     let products: f64 = one
         .iter()
         .zip(&other)
-        .map(|(one, other)| (one - mean) * (other - other_mean))
+        .map(|(one, other)| (one - mean) / deviation * ((other - other_mean) / other_deviation))
         .sum();
-    let found = products / (one.len() - 1) as f64 / (deviation? * other_deviation?);
+    let found = products / (one.len() - 1) as f64;
     found.is_finite().then_some(found.clamp(-1.0, 1.0))
 }
 

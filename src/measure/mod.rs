@@ -34,6 +34,7 @@ mod peaks;
 mod projection;
 mod rings;
 mod roundness;
+mod sag;
 mod scanned;
 mod seen;
 mod self_crossing;

@@ -134,7 +134,7 @@ impl FitWarning {
             Self::OneSided { points } => write!(
                 f,
                 "{points} points lie farther off the surface than noise puts them, most of them on one side, \
-                 and were left out as dust or glare; figures do not hold them if they are hairs or spines of the grain."
+                 and were left out as dust or glare; figures do not hold them if they are hairs, spines or edges of the grain."
             ),
             Self::Gap {
                 half_angle,

@@ -2,6 +2,7 @@
 
 use super::clip::{Crossing, Side, is_inside};
 use super::deepest::{DeepestPair, Placed};
+use super::farthest::Farthest;
 use super::kept::Kept;
 use super::lens::lens;
 use super::patch::Patch;
@@ -51,8 +52,8 @@ pub(super) struct Cut {
 pub(super) struct Found {
     pub(super) sums: Sums,
     pub(super) volume_error: f64,
-    /// Its extent along its normal.
-    pub(super) extent: f64,
+    /// The largest distance of a point of one surface in the other from that, by its triangles.
+    pub(super) distance: f64,
     pub(super) deepest: Option<DeepestPair>,
 }
 
@@ -65,7 +66,7 @@ impl Found {
             depth: self
                 .deepest
                 .as_ref()
-                .map_or(self.extent, DeepestPair::depth),
+                .map_or(self.distance, DeepestPair::depth),
             curvatures: self.deepest.map(|pair| pair.curvatures),
             errors: self.deepest.and_then(|pair| pair.errors),
             point: centre + middle,
@@ -157,8 +158,9 @@ impl Cluster {
                     return Err(RegionError::Unresolved);
                 }
                 let all = regions.iter().zip(&sums).map(|(region, sums)| {
-                    let (extent, starts) = self.deepest(region, &crossing, &placed);
-                    self.found(bodies, sums, extent, starts, is_fine)
+                    let triangles = &region.triangles;
+                    let farthest = Farthest::new(&self.patches, triangles, &crossing, &placed);
+                    self.found(bodies, sums, &farthest, is_fine)
                 });
                 if let Some(all) = all.collect::<Option<Vec<_>>>().filter(|_| is_closed) {
                     found.extend(all);
@@ -228,58 +230,16 @@ impl Cluster {
         regions.into_values().filter(Region::is_solid).collect()
     }
 
-    /// How far a region goes along its normal, and directions of a point of each surface deep in the other.
-    fn deepest(
-        &self,
-        region: &Region,
-        crossing: &Crossing,
-        placed: &[Vec<Point3<f64>>; 2],
-    ) -> (f64, [Vector3<f64>; 2]) {
-        let normal = region.sums.area.normalize();
-        let heights = |side: usize| {
-            let rims = region.triangles[side].iter();
-            rims.flat_map(move |&triangle| crossing.rim(side, triangle))
-                .map(move |[p, _]| p.coords.dot(&normal))
-        };
-        let high = heights(0).fold(f64::NEG_INFINITY, f64::max);
-        let low = heights(1).fold(f64::INFINITY, f64::min);
-        let starts = [0, 1].map(|side| {
-            let towards = [1.0, -1.0][side];
-            let corners = region.triangles[side]
-                .iter()
-                .flat_map(|&triangle| self.patches[side].triangles[triangle as usize]);
-            let depth = |corner: &u32| {
-                let at = *corner as usize;
-                let is_inside = crossing.inside[side][at];
-                (is_inside, towards * placed[side][at].coords.dot(&normal))
-            };
-            let deepest = corners.max_by(|a, b| {
-                let ((a_in, a_deep), (b_in, b_deep)) = (depth(a), depth(b));
-                a_in.cmp(&b_in)
-                    .then(a_deep.total_cmp(&b_deep))
-                    .then(b.cmp(a))
-            });
-            deepest.map_or(normal, |corner| {
-                self.patches[side].directions[corner as usize]
-            })
-        });
-        (high - low, starts)
-    }
-
     /// What is shared in a region: by its lens if that agrees with its triangles, and by these if they are fine.
     fn found(
         &self,
         bodies: &[Placed<'_>; 2],
         sums: &Sums,
-        extent: f64,
-        starts: [Vector3<f64>; 2],
+        farthest: &Farthest,
         is_fine: bool,
     ) -> Option<Found> {
         let (sums, volume_error) = self.extrapolated(sums);
-        let deepest = DeepestPair::settled(bodies, starts).filter(|pair| {
-            pair.normal.dot(&sums.area) > 0.0
-                && (0.5 * extent..2.0 * extent).contains(&pair.depth())
-        });
+        let deepest = farthest.deepest(bodies, &sums.area);
         let lens = deepest
             .as_ref()
             .and_then(|pair| lens(bodies, pair))
@@ -292,7 +252,7 @@ impl Cluster {
         Some(Found {
             sums,
             volume_error,
-            extent,
+            distance: farthest.distance,
             deepest,
         })
     }

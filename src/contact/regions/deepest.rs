@@ -15,6 +15,9 @@ const LAST: f64 = 1e-7;
 /// The largest step, in radians.
 const LARGEST: f64 = 0.2;
 
+/// Rounding of second derivatives, as a share of the largest.
+const ROUNDED: f64 = 1e-6;
+
 /// A surface that was moved.
 #[derive(Clone, Copy)]
 pub(super) struct Placed<'a> {
@@ -114,6 +117,27 @@ impl DeepestPair {
             }
         }
         None
+    }
+
+    /// Whether the surfaces part in all directions from there, or run beside each other: else they are deeper in each other
+    /// near by.
+    pub(super) fn parts(&self) -> bool {
+        let bent = self.parting().symmetric_eigenvalues();
+        bent.min() >= -ROUNDED * bent.amax()
+    }
+
+    /// How fast the surfaces part, as second derivatives of their distance along the normal in the plane of its
+    /// [tangents].
+    pub(super) fn parting(&self) -> Matrix2<f64> {
+        let [s, t] = tangents(&self.normal);
+        let mut bend = Matrix2::zeros();
+        for curvature in &self.curvatures {
+            for (along, bent) in curvature.directions.iter().zip(curvature.principal) {
+                let along = Vector2::new(along.dot(&s), along.dot(&t));
+                bend += along * along.transpose() * bent;
+            }
+        }
+        bend
     }
 
     /// How far the bodies overlap there; below zero, how far they are apart.

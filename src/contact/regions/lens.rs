@@ -78,14 +78,7 @@ impl Plane {
     /// `None` where the gap opens all round.
     fn new(pair: &DeepestPair) -> Option<Self> {
         let [s, t] = tangents(&pair.normal);
-        let mut bend = Matrix2::zeros();
-        for curvature in &pair.curvatures {
-            for (along, bent) in curvature.directions.iter().zip(curvature.principal) {
-                let along = Vector2::new(along.dot(&s), along.dot(&t));
-                bend += along * along.transpose() * bent;
-            }
-        }
-        let bend = bend.symmetric_eigen();
+        let bend = pair.parting().symmetric_eigen();
         let most = bend.eigenvalues.max();
         let lengths = bend
             .eigenvalues

@@ -12,6 +12,7 @@
 mod clip;
 mod cluster;
 mod deepest;
+mod farthest;
 mod kept;
 mod lens;
 mod near;
@@ -83,8 +84,9 @@ pub struct ContactRegion {
     pub point: Point3<f64>,
     /// The unit normal, from the first body to the second: that along which what they share grows fastest.
     pub normal: Vector3<f64>,
-    /// How far they overlap: of two points, one of each surface, whose line is normal to both; or, where there is no such
-    /// pair, the extent of what they share along the normal.
+    /// How far they overlap: that of the deepest of the pairs of points whose line is normal to both surfaces, and from
+    /// which these part in all directions. Where none is as deep as the triangles tell, as where a point of one surface is
+    /// as far from two places of the other, it is the largest distance that these tell, to some percent.
     pub depth: f64,
     /// The volume they share.
     pub volume: f64,

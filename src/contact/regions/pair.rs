@@ -173,7 +173,7 @@ impl<'a> ContactPair<'a> {
             let found = Found {
                 sums,
                 volume_error,
-                extent: place.depth,
+                distance: place.depth,
                 deepest: place.deepest,
             };
             return Ok(found.told(&common.centre));

@@ -1,11 +1,14 @@
 use super::*;
 use crate::contact::VolumeLaw;
+use crate::measure::feet;
 use crate::model::{
     Derivatives, Family, Frame, Grain, LocalErrors, Radial, StarGrain, StarSurface, Whole,
 };
 use crate::shapes::{Ellipsoid, Solid};
 use approx::assert_relative_eq;
 use nalgebra::{Matrix3, UnitQuaternion};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
 use std::f64::consts::PI;
 
 fn ball(radius: f64) -> Ellipsoid {
@@ -317,4 +320,64 @@ fn gaps_within_a_margin_are_found() {
     };
     assert_relative_eq!(gap.depth, -0.003, max_relative = 1e-9);
     assert_relative_eq!(gap.point.y, 1.0015, max_relative = 1e-9);
+}
+
+/// A ball with bumps of a tenth of its radius.
+fn bumpy() -> Grain {
+    let mut random = ChaCha8Rng::seed_from_u64(4);
+    let coefficients = (0..121).map(|at| match at {
+        0 => (4.0 * PI).sqrt(),
+        1..25 => 0.0,
+        _ => random.random_range(-0.04..0.04),
+    });
+    let family = Whole::new(coefficients.collect()).unwrap();
+    StarGrain::new(Frame::SCAN, Family::Whole(family))
+        .unwrap()
+        .into()
+}
+
+#[test]
+fn of_many_pairs_of_points_the_deepest_is_told_whichever_body_is_the_first() {
+    let grain = bumpy();
+    let body = ContactBody::new(&grain);
+    let vertices = grain.mesh(48).vertices;
+    let mut told = 0;
+    for seed in 0..10 {
+        let turn = Vector3::new(0.7, 0.3, 0.5) * f64::from(seed);
+        let towards = UnitQuaternion::new(turn) * Vector3::x();
+        let pose = Isometry3::new(towards * 1.8, turn);
+        let alone = |pose: &Isometry3<f64>| {
+            let mut regions = contact_regions(&body, &body, pose).unwrap().regions;
+            (regions.len() == 1).then(|| regions.remove(0))
+        };
+        let Some((one, two)) = alone(&pose).zip(alone(&pose.inverse())) else {
+            continue;
+        };
+        assert_relative_eq!(one.depth, two.depth, max_relative = 1e-6);
+        // What of each lies in the other, in the frame of the first.
+        let within = |pose: &Isometry3<f64>| -> Vec<Point3<f64>> {
+            let points: Vec<Point3<f64>> = vertices.iter().map(|vertex| pose * vertex).collect();
+            let all = points.iter().zip(feet(&grain, &points));
+            let inside = all.filter(|(_, foot)| foot.distance < 0.0);
+            inside.map(|(point, _)| *point).collect()
+        };
+        let others = within(&pose);
+        let own = within(&pose.inverse()).into_iter();
+        let own: Vec<Point3<f64>> = own.map(|point| pose * point).collect();
+        let nearest = |point: &Point3<f64>, to: &[Point3<f64>]| {
+            let distances = to.iter().map(|other| (other - point).norm());
+            distances.fold(f64::INFINITY, f64::min)
+        };
+        let farthest = own
+            .iter()
+            .map(|point| nearest(point, &others))
+            .fold(0.0, f64::max);
+        assert!(
+            (-0.02..0.07).contains(&(one.depth / farthest - 1.0)),
+            "{seed}: {} {farthest}",
+            one.depth
+        );
+        told += usize::from(one.curvatures.is_some());
+    }
+    assert!(told >= 5, "{told}");
 }

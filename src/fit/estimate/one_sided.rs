@@ -32,6 +32,10 @@ const FAR: f64 = 3.0;
 /// Far points are on one side if these outnumber those on the other by so many standard deviations of chance: 25 to none.
 const MORE_THAN_CHANCE: f64 = 5.0;
 
+/// Share of the far points on one side that are lone, at least: of dust on 7 scans, 2 to 20 % of the points, it is .77 or more, of the
+/// edges of an octahedron below a half.
+const MOSTLY_LONE: f64 = 0.65;
+
 /// Points by which that is told, at most.
 const LOOKED_AT: usize = 30_000;
 
@@ -68,8 +72,14 @@ pub(super) fn one_sided(samples: &[Sample], estimate: &Estimate) -> Vec<usize> {
     if !is_more_than_chance(&sides) {
         return Vec::new();
     }
-    let far = far(&looked_at, &directions, &sides);
-    if !is_more_than_chance(&lone(&far)) || are_of_texture(&far) {
+    let mut far = far(&looked_at, &directions, &sides);
+    let lone = lone(&far);
+    if !is_more_than_chance(&lone) {
+        return Vec::new();
+    }
+    let are_outside = lone.iter().map(|side| i32::from(*side)).sum::<i32>() > 0;
+    far.retain(|point| (point.side > 0) == are_outside);
+    if !are_mostly_lone(&far) || are_of_texture(&far) {
         return Vec::new();
     }
     let (_, all) = residuals(samples);
@@ -94,6 +104,12 @@ struct Far {
     around: f64,
 }
 
+impl Far {
+    fn is_lone(&self) -> bool {
+        self.company < COMPANY
+    }
+}
+
 /// The far points of a cloud with such residuals.
 fn far(residuals: &[f64], directions: &[Vector3<f64>], sides: &[i8]) -> Vec<Far> {
     let neighbours = Neighbours::new(directions);
@@ -116,19 +132,21 @@ fn far(residuals: &[f64], directions: &[Vector3<f64>], sides: &[i8]) -> Vec<Far>
 
 /// The sides of far points without [`COMPANY`]: along an edge or a crease neighbours are far too.
 fn lone(far: &[Far]) -> Vec<i8> {
-    let lone = far.iter().filter(|point| point.company < COMPANY);
+    let lone = far.iter().filter(|point| point.is_lone());
     lone.map(|point| point.side).collect()
 }
 
-/// Whether far points of the side that has more of them are texture: most of their neighbours then lie on the same side, where
-/// those of dust lie on the other, for dust has drawn the surface to itself.
+/// Whether nearly all far points of a side are lone: those beside an edge are so here and there.
+fn are_mostly_lone(far: &[Far]) -> bool {
+    let lone = far.iter().filter(|point| point.is_lone());
+    lone.count() as f64 > MOSTLY_LONE * far.len() as f64
+}
+
+/// Whether the far points of a side are texture: most of their neighbours then lie on the same side, where those of dust lie on
+/// the other, for dust has drawn the surface to itself.
 fn are_of_texture(far: &[Far]) -> bool {
-    let sum: i32 = far.iter().map(|point| i32::from(point.side)).sum();
-    let fuller = far.iter().filter(|point| i32::from(point.side) * sum > 0);
-    let (alike, all) = fuller.fold((0, 0), |(alike, all), point| {
-        (alike + usize::from(point.around > 0.0), all + 1)
-    });
-    2 * alike > all
+    let alike = far.iter().filter(|point| point.around > 0.0);
+    2 * alike.count() > far.len()
 }
 
 #[cfg(test)]
@@ -227,6 +245,7 @@ mod tests {
         };
         let (dust, texture) = (with_others_at(-0.2), with_others_at(0.2));
         assert!(lone(&dust).len() == 120 && lone(&texture).len() == 120);
+        assert!(are_mostly_lone(&dust) && are_mostly_lone(&texture));
         assert!(!are_of_texture(&dust) && are_of_texture(&texture));
     }
 
@@ -244,5 +263,12 @@ mod tests {
         };
         assert_eq!(lone_of(&near), [0_i8; 0]);
         assert_eq!(lone_of(&[near[0], near[1], 100]), [-1; 3]);
+        let with = |company| Far {
+            side: 1,
+            company,
+            around: 0.0,
+        };
+        assert!(are_mostly_lone(&[0, 0, 1, 7].map(with)));
+        assert!(!are_mostly_lone(&[0, 0, 2, 7].map(with)));
     }
 }

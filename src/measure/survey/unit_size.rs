@@ -5,6 +5,7 @@ use super::body::Body;
 use super::error::SurveyError;
 use crate::Mesh;
 use crate::measure::extents::{Extents, RESOLUTION, Reach};
+use crate::measure::sag::finer_resolution;
 use crate::measure::{
     Ball, EquivalentEllipsoid, MassProperties, OrientedBox, PrincipalInertia, SolidProperties,
     convex_hull, enclosing_ball, extents, inscribed_ball, minimum_box,
@@ -129,8 +130,21 @@ impl Survey<'_> {
         }
     }
 
-    /// The mesh, or that of the grain.
+    /// The mesh, or one of the surface that is as fine as this is rough.
     pub(super) fn mesh(&self) -> &Mesh {
+        let coarse = self.coarse_mesh();
+        let Ok(surface) = self.body.surface() else {
+            return coarse;
+        };
+        let finer = || Some(surface.mesh(finer_resolution(coarse, RESOLUTION)?));
+        self.finer_mesh
+            .get_or_init(finer)
+            .as_ref()
+            .unwrap_or(coarse)
+    }
+
+    /// The mesh, or one of the surface of the resolution [`RESOLUTION`].
+    fn coarse_mesh(&self) -> &Mesh {
         match &self.body {
             Body::Mesh(mesh, _) => mesh,
             Body::Grain(grain, _) => self.mesh.get_or_init(|| grain.mesh(RESOLUTION)),
@@ -141,7 +155,7 @@ impl Survey<'_> {
     /// The surface, if it has a formula, and where it reaches to.
     pub(super) fn reach(&self) -> Option<Reach<'_>> {
         let surface = self.body.surface().ok()?;
-        let mesh = self.mesh();
+        let mesh = self.coarse_mesh();
         Some(Reach { surface, mesh })
     }
 

@@ -1,0 +1,177 @@
+//! Where two surfaces are farthest in each other, by the triangles round what they share.
+//!
+//! Surfaces with bumps have many pairs of points whose line is normal to both. The depth is the largest distance of a point
+//! of one in the other from that, so pairs are looked for from the corners that have it.
+
+use super::clip::Crossing;
+use super::deepest::{DeepestPair, Placed};
+use super::patch::Patch;
+use kiddo::{ImmutableKdTree, SquaredEuclidean};
+use nalgebra::{Point3, Vector3};
+use std::cmp::Ordering;
+use std::collections::BTreeMap;
+
+/// Places that are looked at, at most, and how far they are apart, as a share of the size of what is shared.
+const PLACES: usize = 12;
+const APART: f64 = 0.08;
+
+/// Share of the largest distance that a place has at least.
+const FAR: f64 = 0.85;
+
+/// The depth of a pair may differ from the distance that its place has by so large a share, over the number of corners that
+/// lie inside, and by [`LEAST_SLACK`] at least: a pair that differs by more is one of another place, or slants through both
+/// bodies.
+const SLACK: f64 = 8.0;
+const LEAST_SLACK: f64 = 0.02;
+
+/// The places where two surfaces are farthest in each other.
+pub(super) struct Farthest {
+    /// Of any corner of one in the other.
+    pub(super) distance: f64,
+    /// By how much that may be off, as a share.
+    slack: f64,
+    /// That of the farthest first.
+    places: Vec<Place>,
+}
+
+/// A corner of one surface in the other, and the corner of that which is nearest to it.
+struct Place {
+    distance: f64,
+    at: Point3<f64>,
+    directions: [Vector3<f64>; 2],
+}
+
+impl Farthest {
+    /// Of some triangles of both surfaces, moved.
+    pub(super) fn new(
+        patches: &[Patch; 2],
+        triangles: &[Vec<u32>; 2],
+        crossing: &Crossing,
+        placed: &[Vec<Point3<f64>>; 2],
+    ) -> Self {
+        let sides = [0, 1].map(|side| Side::new(&patches[side], &triangles[side], &placed[side]));
+        let mut places = Vec::new();
+        for side in 0..2 {
+            let is_inside = |corner: &&Corner| crossing.inside[side][corner.number as usize];
+            for corner in sides[side].corners.iter().filter(is_inside) {
+                let Some(nearest) = sides[1 - side].nearest(&corner.point) else {
+                    continue;
+                };
+                let mut directions = [corner.number, nearest.number].map(|number| number as usize);
+                directions.rotate_left(side);
+                places.push(Place {
+                    distance: nearest.normal.dot(&(nearest.point - corner.point)),
+                    at: corner.point,
+                    directions: [0, 1].map(|side| patches[side].directions[directions[side]]),
+                });
+            }
+        }
+        places.sort_by(|one, other| {
+            let coordinates = |place: &Place| <[f64; 3]>::from(place.at);
+            let by_place = || coordinates(one).partial_cmp(&coordinates(other));
+            let by_distance = other.distance.total_cmp(&one.distance);
+            by_distance.then_with(|| by_place().unwrap_or(Ordering::Equal))
+        });
+        Self {
+            distance: places.first().map_or(0.0, |place| place.distance),
+            slack: (SLACK / places.len() as f64).max(LEAST_SLACK),
+            places: apart(places),
+        }
+    }
+
+    /// Of the pairs of points near these places whose line is normal to both surfaces, and from which the surfaces part in
+    /// all directions, the deepest. `area`: of the first body's surface in the second.
+    pub(super) fn deepest(
+        &self,
+        bodies: &[Placed<'_>; 2],
+        area: &Vector3<f64>,
+    ) -> Option<DeepestPair> {
+        let mut deepest: Option<DeepestPair> = None;
+        for place in &self.places {
+            let most = (1.0 + self.slack) * place.distance;
+            let best = deepest.as_ref().map_or(0.0, DeepestPair::depth);
+            if best >= most {
+                break;
+            }
+            let known = best.max((1.0 - self.slack) * place.distance)..most;
+            let pair = DeepestPair::settled(bodies, place.directions)
+                .filter(|pair| pair.normal.dot(area) > 0.0 && known.contains(&pair.depth()))
+                .filter(DeepestPair::parts);
+            deepest = pair.or(deepest);
+        }
+        deepest
+    }
+}
+
+/// The farthest of some places, in their order, that are apart.
+fn apart(places: Vec<Place>) -> Vec<Place> {
+    let Some(first) = places.first() else {
+        return places;
+    };
+    let (least, start) = (FAR * first.distance, (first.at, first.at));
+    let (low, high) = places.iter().fold(start, |(low, high), place| {
+        (low.inf(&place.at), high.sup(&place.at))
+    });
+    let reach = APART * (high - low).norm();
+    let mut kept: Vec<Place> = Vec::new();
+    for place in places {
+        if kept.len() == PLACES || place.distance < least {
+            break;
+        }
+        if kept
+            .iter()
+            .all(|other| (other.at - place.at).norm() > reach)
+        {
+            kept.push(place);
+        }
+    }
+    kept
+}
+
+/// A corner and the surface's outward unit normal there.
+struct Corner {
+    number: u32,
+    point: Point3<f64>,
+    normal: Vector3<f64>,
+}
+
+/// The corners of one surface's triangles.
+struct Side {
+    corners: Vec<Corner>,
+    tree: Option<ImmutableKdTree<f64, 3>>,
+}
+
+impl Side {
+    fn new(patch: &Patch, triangles: &[u32], placed: &[Point3<f64>]) -> Self {
+        let mut areas: BTreeMap<u32, Vector3<f64>> = BTreeMap::new();
+        for &triangle in triangles {
+            let corners = patch.triangles[triangle as usize];
+            let [a, b, c] = corners.map(|corner| placed[corner as usize]);
+            for corner in corners {
+                *areas.entry(corner).or_default() += (b - a).cross(&(c - a));
+            }
+        }
+        let corners: Vec<Corner> = areas
+            .into_iter()
+            .map(|(number, area)| Corner {
+                number,
+                point: placed[number as usize],
+                normal: area.try_normalize(0.0).unwrap_or_default(),
+            })
+            .collect();
+        let places: Vec<[f64; 3]> = corners.iter().map(|corner| corner.point.into()).collect();
+        Self {
+            tree: ImmutableKdTree::new_from_slice(&places)
+                .ok()
+                .filter(|_| !places.is_empty()),
+            corners,
+        }
+    }
+
+    fn nearest(&self, point: &Point3<f64>) -> Option<&Corner> {
+        let query: [f64; 3] = (*point).into();
+        let nearest = self.tree.as_ref()?.query(&query);
+        let hit = nearest.nearest_one::<SquaredEuclidean<f64>>().execute();
+        self.corners.get(hit.item as usize)
+    }
+}
