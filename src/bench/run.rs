@@ -110,7 +110,7 @@ impl<'a> Bench<'a> {
             }
             Asked::Superquadric(form) => {
                 let points = self.prepared.points();
-                let (fitted, seconds) = timed(|| fit_superquadric(points, form, &context));
+                let (fitted, seconds) = timed(|| fit_superquadric(points, None, form, &context));
                 // What else it refuses was refused when the scan was prepared.
                 let found = fitted
                     .ok()

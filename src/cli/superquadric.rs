@@ -91,14 +91,16 @@ fn fitted_to(
         warnings: sentences(&scan.warnings, &of_fit, unit),
     };
     let context = FitContext::default();
+    let lattice = scan.voxel_lattice();
     match form {
         SuperquadricArg::Single(form) => {
-            let found = fit_superquadric(points, form, &context).with_context(failed)?;
+            let found = fit_superquadric(points, lattice, form, &context).with_context(failed)?;
             let report = SuperquadricReport::of_single(fitted, &found);
             Ok((found.grain()?, report))
         }
         SuperquadricArg::Multi(most) => {
-            let found = fit_multi_superquadric(points, most, &context).with_context(failed)?;
+            let found =
+                fit_multi_superquadric(points, lattice, most, &context).with_context(failed)?;
             let report = SuperquadricReport::of_multi(fitted, &found);
             Ok((found.grain()?, report))
         }

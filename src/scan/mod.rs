@@ -38,8 +38,7 @@ pub use topology::Topology;
 pub(crate) use topology::each_edge;
 #[cfg(feature = "cli")]
 pub(crate) use volume::Extent;
-pub(crate) use volume::VoxelLattice;
-pub use volume::{Volume, VolumeError, VoxelBody, parse_volume, voxel_file};
+pub use volume::{Volume, VolumeError, VoxelBody, VoxelLattice, parse_volume, voxel_file};
 
 /// What is told of points in one plane.
 const FLAT: &str = "All points lie in one plane: they do not enclose a body.";
@@ -189,6 +188,11 @@ impl Scan {
         };
         inspect::inspect(&mut part);
         part
+    }
+
+    /// Of a segmented volume, where its voxels lie: the points are half-way between two of them. `None` of other scans.
+    pub fn voxel_lattice(&self) -> Option<&VoxelLattice> {
+        self.lattice.as_ref()
     }
 
     /// Of a segmented volume, what the voxels of the grain take up: their number times the volume of one. `None` of other

@@ -1,6 +1,7 @@
 //! The points about their mean, in units of their mean distance from it.
 
 use super::error::SuperquadricFitError;
+use crate::scan::VoxelLattice;
 use crate::sphere::{cube_place, part};
 use crate::spread::{covariance, principal};
 use nalgebra::{Matrix3, Point3, Vector3};
@@ -29,11 +30,23 @@ pub(super) struct Cloud {
     pub(super) axes: Matrix3<f64>,
     /// Standard deviations along the axes.
     pub(super) deviations: Vector3<f64>,
+    /// The voxels that the points lie between.
+    pub(super) voxels: Option<Voxels>,
+}
+
+/// Voxels in the unit of a cloud.
+#[derive(Debug, Clone)]
+pub(super) struct Voxels {
+    /// From one to the next along each axis of the image, in columns.
+    pub(super) steps: Matrix3<f64>,
+    /// The axis along which each point lies between two.
+    pub(super) axes: Vec<Option<usize>>,
 }
 
 impl Cloud {
     pub(super) fn new(
         points: &[Point3<f64>],
+        lattice: Option<&VoxelLattice>,
         parameters: usize,
     ) -> Result<Self, SuperquadricFitError> {
         let least = 3 * parameters;
@@ -61,6 +74,10 @@ impl Cloud {
         if !(size.is_normal() && (1e-100..1e100).contains(&size)) {
             return Err(SuperquadricFitError::NoVolume);
         }
+        let voxels = lattice.map(|lattice| Voxels {
+            steps: lattice.steps / size,
+            axes: lattice.axes(points),
+        });
         let points: Vec<_> = points.iter().map(|p| (p - centre) / size).collect();
         let (axes, deviations) = principal_axes(&points).ok_or(SuperquadricFitError::NoVolume)?;
         Ok(Self {
@@ -69,6 +86,7 @@ impl Cloud {
             points,
             axes,
             deviations,
+            voxels,
         })
     }
 

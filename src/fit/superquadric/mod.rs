@@ -4,6 +4,7 @@
 //! closed form, bounds, and a loss that large distances do not dominate (Cauchy's, or Welsch's where many points are
 //! astray).
 
+mod between_voxels;
 mod bodies;
 mod cloud;
 mod clusters;

@@ -14,6 +14,7 @@ use crate::fit::context::Context;
 use crate::model::{
     Frame, Grain, InvalidGrain, MultiSuperquadric, NoInterval, Part, SuperquadricGrain,
 };
+use crate::scan::VoxelLattice;
 use nalgebra::{Point3, Vector3};
 
 /// The most parts that can be asked for.
@@ -67,12 +68,13 @@ impl MultiFit {
     }
 }
 
-/// Fits a union of as many superquadrics as held-out points ask for, `most` at most.
+/// Fits a union of as many superquadrics as held-out points ask for, `most` at most. `lattice`: as of [`fit_superquadric`](super::fit_superquadric).
 ///
 /// # Errors
 /// [`SuperquadricFitError`] if there are too few points for so many parts, or they enclose no volume.
 pub fn fit_multi_superquadric(
     points: &[Point3<f64>],
+    lattice: Option<&VoxelLattice>,
     most: usize,
     context: &Context<'_>,
 ) -> Result<MultiFit, SuperquadricFitError> {
@@ -82,7 +84,7 @@ pub fn fit_multi_superquadric(
             most: MAX_UNION_PARTS,
         });
     }
-    let cloud = Cloud::new(points, most * Form::Single.parameters())?;
+    let cloud = Cloud::new(points, lattice, most * Form::Single.parameters())?;
     context.run(|| {
         let (chosen, held_out) = chosen(&cloud, most, context)?;
         let weighing = weighed(&chosen.bodies, &cloud.points, &chosen.weighing);

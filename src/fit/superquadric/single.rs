@@ -9,6 +9,7 @@ use super::standard_errors::{ParameterErrors, standard_errors};
 use crate::fit::Residuals;
 use crate::fit::context::Context;
 use crate::model::{Frame, Grain, InvalidGrain, NoInterval, Superquadric, SuperquadricGrain};
+use crate::scan::VoxelLattice;
 use nalgebra::Point3;
 
 /// A superquadric fitted to points.
@@ -44,16 +45,18 @@ impl SuperquadricFit {
 ///
 /// The fit begins with the second moments of the points, in the three orders of axes that make different bodies, goes on
 /// with the best of these turned and, of octants that differ, leaning to all sides, and keeps the best. The result does
-/// not depend on where the points lie, how they are turned or scaled.
+/// not depend on where the points lie, how they are turned or scaled. `lattice`: of points between voxels, where these
+/// lie ([`Scan::voxel_lattice`](crate::Scan::voxel_lattice)): standard errors then hold what their steps hide.
 ///
 /// # Errors
 /// [`SuperquadricFitError`] if there are too few points, or they enclose no volume.
 pub fn fit_superquadric(
     points: &[Point3<f64>],
+    lattice: Option<&VoxelLattice>,
     form: Form,
     context: &Context<'_>,
 ) -> Result<SuperquadricFit, SuperquadricFitError> {
-    let cloud = Cloud::new(points, form.parameters())?;
+    let cloud = Cloud::new(points, lattice, form.parameters())?;
     context.run(|| {
         let found = best(&cloud, form, context)?;
         let distances = distances(&found.bodies, &cloud.points);

@@ -3,8 +3,9 @@
 //! A superquadric misses a grain in whole regions, so distances of neighbouring points are alike, and errors from
 //! single points would be far too small. Gradients are therefore added up in regions first: with A the matrix of the
 //! normal equations and s_k the gradient of region k, the covariance is A⁻¹ (sum s_k s_kᵀ) A⁻¹ (Liang and Zeger
-//! 1986). Of errors that are independent it is the usual one.
+//! 1986). Of errors that are independent it is the usual one. What the steps [between voxels](super::between_voxels) hide is added.
 
+use super::between_voxels::between_voxels;
 use super::bodies::Body;
 use super::cloud::Cloud;
 use super::distance::ReadyBody;
@@ -132,6 +133,7 @@ fn covariance(cloud: &Cloud, found: &Minimum) -> Option<DMatrix<f64>> {
         return None;
     }
     let mut matrix = whole.matrix;
+    let mut is_held = vec![false; parameters];
     let ties = weighing.form.ties();
     for (index, body) in found.bodies.iter().enumerate() {
         // Numbers at a bound are known, as far as the others are concerned.
@@ -139,14 +141,12 @@ fn covariance(cloud: &Cloud, found: &Minimum) -> Option<DMatrix<f64>> {
             let place = index * weighing.form.parameters() + ties[number];
             matrix.row_mut(place).fill(0.0);
             matrix.column_mut(place).fill(0.0);
-            matrix[(place, place)] = f64::INFINITY;
+            is_held[place] = true;
         }
     }
-    for i in 0..parameters {
-        if matrix[(i, i)].is_infinite() {
-            matrix[(i, i)] = 1.0;
-            regions.values_mut().for_each(|sum| sum[i] = 0.0);
-        }
+    for i in (0..parameters).filter(|&i| is_held[i]) {
+        matrix[(i, i)] = 1.0;
+        regions.values_mut().for_each(|sum| sum[i] = 0.0);
     }
     let factor = Cholesky::new(matrix)?;
     let few = count as f64 / (count - 1) as f64;
@@ -156,5 +156,5 @@ fn covariance(cloud: &Cloud, found: &Minimum) -> Option<DMatrix<f64>> {
             let step = factor.solve(region);
             sum + &step * step.transpose()
         });
-    Some(spread * few)
+    Some(spread * few + between_voxels(cloud, found, &factor, &is_held))
 }

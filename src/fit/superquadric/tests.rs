@@ -4,9 +4,10 @@ use super::*;
 use crate::fit::Context;
 use crate::measure::superquadric_properties;
 use crate::model::{StarSurface, Superquadric};
+use crate::scan::VoxelLattice;
 use crate::shapes::{Body, SynthOptions, synthesize};
 use approx::assert_relative_eq;
-use nalgebra::{Point3, Rotation3, Vector3};
+use nalgebra::{Matrix3, Point3, Rotation3, Vector3};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal, Uniform, UnitSphere};
@@ -41,7 +42,7 @@ fn volume(shape: &Superquadric) -> f64 {
 }
 
 fn fitted(points: &[Point3<f64>], form: Form) -> SuperquadricFit {
-    fit_superquadric(points, form, &Context::default()).unwrap()
+    fit_superquadric(points, None, form, &Context::default()).unwrap()
 }
 
 /// A grain's points.
@@ -184,14 +185,14 @@ fn grains_are_fitted_as_well_as_so_few_numbers_can() {
 #[test]
 fn a_dent_asks_for_four_parts() {
     let points = grain(Body::Bean);
-    let cloud = cloud::Cloud::new(&points, 1).unwrap();
+    let cloud = cloud::Cloud::new(&points, None, 1).unwrap();
     let dent = -cloud.axes.column(1);
     let dented = cloud.points.iter().map(|p| {
         let angle = p.normalize().dot(&dent).clamp(-1.0, 1.0).acos();
         Point3::from(p * (1.0 - 0.3 * (-(angle / 0.45).powi(2)).exp()))
     });
     let dented: Vec<_> = dented.collect();
-    let found = fit_multi_superquadric(&dented, 4, &Context::default()).unwrap();
+    let found = fit_multi_superquadric(&dented, None, 4, &Context::default()).unwrap();
     assert_eq!(found.union.parts().len(), 4);
     let share = found.residuals.rms / found.mean_radius;
     assert!(share < 0.013, "{share}");
@@ -206,7 +207,7 @@ fn a_dent_asks_for_four_parts() {
 #[test]
 fn what_is_no_body_is_refused() {
     let context = Context::default();
-    let refused = |points: &[Point3<f64>]| fit_superquadric(points, Form::Single, &context);
+    let refused = |points: &[Point3<f64>]| fit_superquadric(points, None, Form::Single, &context);
     let flat: Vec<_> = (0..100)
         .map(|i| Point3::new(f64::from(i), f64::from(i * i % 17), 0.0))
         .collect();
@@ -225,6 +226,49 @@ fn what_is_no_body_is_refused() {
         refused(&odd),
         Err(SuperquadricFitError::NotFinite { index: 5 })
     );
-    let none = fit_multi_superquadric(&odd, 0, &context);
+    let none = fit_multi_superquadric(&odd, None, 0, &context);
     assert!(matches!(none, Err(SuperquadricFitError::Parts { .. })));
+}
+
+/// The middles between voxels inside and outside of a body, of voxels of side 1.
+fn between_voxels_of(shape: &Superquadric, centre: Vector3<f64>) -> Vec<Point3<f64>> {
+    let is_inside = |voxel: Vector3<f64>| {
+        let from_centre = voxel - centre;
+        from_centre.norm() < shape.radius(&from_centre.normalize())
+    };
+    let side = || -16..16;
+    let voxels = side().flat_map(|x| side().flat_map(move |y| side().map(move |z| [x, y, z])));
+    voxels
+        .map(|voxel| Vector3::from(voxel.map(f64::from)))
+        .flat_map(|voxel| (0..3).map(move |axis| (voxel, Vector3::ith(axis, 1.0))))
+        .filter(|(voxel, step)| is_inside(*voxel) != is_inside(voxel + step))
+        .map(|(voxel, step)| Point3::from(voxel + 0.5 * step))
+        .collect()
+}
+
+#[test]
+fn errors_hold_flat_sides_that_lie_along_the_layers_of_voxels() {
+    let lattice = VoxelLattice {
+        first: Point3::origin(),
+        steps: Matrix3::identity(),
+    };
+    let (mut misses, mut unheld) = (Vec::new(), Vec::new());
+    for c in [8.05, 8.2, 8.35, 8.45] {
+        let shape = Superquadric::single([11.3, 7.4, c], 12.0, 2.0).unwrap();
+        let points = between_voxels_of(&shape, Vector3::new(0.1, 0.3, 0.45));
+        let miss = |lattice| {
+            let context = Context::default();
+            let found = fit_superquadric(&points, lattice, Form::Single, &context).unwrap();
+            let nearest = |i: usize| (found.shape.semi_axes()[i][0] - c).abs();
+            let axis = (0..3)
+                .min_by(|&i, &j| nearest(i).total_cmp(&nearest(j)))
+                .unwrap();
+            nearest(axis) / found.errors.semi_axes[axis][0].unwrap()
+        };
+        misses.push(miss(Some(&lattice)));
+        unheld.push(miss(None));
+    }
+    let most = |misses: &[f64]| misses.iter().copied().fold(0.0, f64::max);
+    assert!(most(&misses) < 3.5, "{misses:?}");
+    assert!(most(&unheld) > 8.0, "{unheld:?}");
 }

@@ -21,7 +21,7 @@ mod voxel_lattice;
 pub use bodies::VoxelBody;
 pub use error::VolumeError;
 pub(super) use lattice::filled as filled_lattice;
-pub(crate) use voxel_lattice::VoxelLattice;
+pub use voxel_lattice::VoxelLattice;
 
 use super::check::check;
 use super::{ReadError, Scan, inspect, source};

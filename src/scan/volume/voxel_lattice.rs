@@ -2,16 +2,34 @@
 
 use nalgebra::{Matrix3, Point3, Vector3};
 
+/// Points this near to the middle between two voxels, in steps, are there.
+const HALF_WAY: f64 = 0.01;
+
 /// Where the voxels of an image lie.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct VoxelLattice {
+#[non_exhaustive]
+pub struct VoxelLattice {
     /// The middle of a voxel.
-    pub(crate) first: Point3<f64>,
+    pub first: Point3<f64>,
     /// From one voxel to the next along each axis of the image, in columns.
-    pub(crate) steps: Matrix3<f64>,
+    pub steps: Matrix3<f64>,
 }
 
 impl VoxelLattice {
+    /// The axis along which each of some points lies half-way between two voxels; `None` of those that do along none.
+    pub(crate) fn axes(&self, points: &[Point3<f64>]) -> Vec<Option<usize>> {
+        let Some(inverse) = self.steps.try_inverse() else {
+            return vec![None; points.len()];
+        };
+        let axis = |point: &Point3<f64>| {
+            let place = inverse * (point - self.first);
+            let from_middle = place.map(|x| (x - x.floor() - 0.5).abs());
+            let axis = from_middle.imin();
+            (from_middle[axis] < HALF_WAY).then_some(axis)
+        };
+        points.iter().map(axis).collect()
+    }
+
     /// The volume of the voxels within a closed surface between voxels, of which these are the vertices: exact, where the
     /// surface's own cuts off the corners of voxels.
     ///
