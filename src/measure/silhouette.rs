@@ -10,6 +10,10 @@ use i_overlay::core::fill_rule::FillRule;
 use i_overlay::float::simplify::SimplifyShape;
 use nalgebra::Vector2;
 
+/// Triangles are seen edge-on that cover no larger share of the square over their longest side, and take no part: on flat walls
+/// chance tells which of them are in front, and lines round thousands of slivers cross each other.
+const EDGE_ON: f64 = 1e-7;
+
 /// What a mesh covers.
 pub(super) struct Silhouette {
     /// The outer border, counter-clockwise.
@@ -45,8 +49,13 @@ impl Silhouette {
 /// The edges of the triangles that are wound counter-clockwise, from end to end, without those that two of them walk in
 /// opposite senses: these are most, and those between corners that no other triangle has are not even looked at.
 fn border_edges(places: &[Vector2<f64>], triangles: &[[u32; 3]]) -> Vec<[u32; 2]> {
-    let is_in_front =
-        |corners: &&[u32; 3]| orient2d(corners.map(|corner| places[corner as usize])) > 0.0;
+    let is_in_front = |corners: &&[u32; 3]| {
+        let [a, b, c] = corners.map(|corner| places[corner as usize]);
+        let longest = [b - a, c - b, a - c]
+            .map(|side| side.norm_squared())
+            .into_iter();
+        orient2d([a, b, c]) > EDGE_ON * longest.fold(0.0, f64::max)
+    };
     let (in_front, behind): (Vec<&[u32; 3]>, Vec<&[u32; 3]>) =
         triangles.iter().partition(is_in_front);
     let mut is_border = vec![false; places.len()];
