@@ -32,9 +32,9 @@ pub enum FitError {
     SegmentsNotOfCube {
         /// The number asked for.
         segments: usize,
-        /// The nearest possible number below.
+        /// The nearest possible number below, 6 at least.
         below: usize,
-        /// The nearest possible number above.
+        /// The next one above that.
         above: usize,
     },
     /// Segments are asked for, and mirrors too.

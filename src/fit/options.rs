@@ -312,9 +312,10 @@ impl FitOptions {
         if parts > 0 && 6 * parts * parts == segments {
             return Ok(());
         }
+        let parts = parts.max(1);
         Err(FitError::SegmentsNotOfCube {
             segments,
-            below: (6 * parts * parts).max(1),
+            below: 6 * parts * parts,
             above: 6 * (parts + 1) * (parts + 1),
         })
     }

@@ -197,14 +197,14 @@ impl Fitted {
 
     /// Standard error of a length, as a share of it, for what lies between flat faces and a surface that goes through
     /// their corners. Scanners put these on the surface, and the faces are too small a body; what thins meshes out keeps
-    /// the faces about it, and puts the corners outside. The true volume is as likely to be anywhere in between: of
-    /// quadric edge collapses it is about half-way. Where faces are large, the fit is drawn to them, and a body that is smooth is
-    /// larger by their bulge.
+    /// the faces about it, and puts the corners outside. The true volume is as likely to be anywhere in between, and the fit
+    /// at one end: of quadric edge collapses it is about half-way, of meshes that keep their volume at the other end. Where
+    /// faces are large, the fit is drawn to them, and a body that is smooth is larger by their bulge.
     fn beside_faces(&self, told: &MassProperties) -> f64 {
         if self.reference.kind != ReferenceKind::Faces {
             return 0.0;
         }
-        let larger = (told.volume - self.reference.volume).max(0.0) / 12.0_f64.sqrt();
+        let larger = (told.volume - self.reference.volume).max(0.0) / 3.0_f64.sqrt();
         let smaller = self.reference.bulge / 3.0_f64.sqrt();
         larger.hypot(smaller) / told.volume / 3.0
     }
@@ -302,8 +302,8 @@ mod tests {
     use approx::assert_relative_eq;
     use std::f64::consts::PI;
 
-    /// Of a mesh whose corners lie as far outside a body as its faces lie within it, errors are 3^-1/2 of what it is too large
-    /// by: those of a distribution that is even between faces and fit.
+    /// Of a mesh whose corners lie as far outside a body as its faces lie within it, errors are 3^-1/2 of twice what it is too
+    /// large by: how far from the fit a volume is that may be anywhere between faces and fit.
     #[test]
     fn errors_hold_that_corners_may_lie_outside() {
         let mut mesh = Mesh::radial(12, |n| 1.0 + 0.2 * n.z);
@@ -322,7 +322,7 @@ mod tests {
         let (told, dimensions, found) = errors(&Scan::from_mesh(mesh).unwrap());
         let too_large = told.volume / truth - 1.0;
         assert_relative_eq!(too_large, 3.0 * (scale - 1.0), max_relative = 0.02);
-        let own = too_large / 3.0 / 3.0_f64.sqrt();
+        let own = 2.0 * too_large / 3.0 / 3.0_f64.sqrt();
         // What the points leave open comes to it: next to nothing of the volume, more of lengths.
         let same = |error: f64, expected: f64| {
             let share = error / expected;

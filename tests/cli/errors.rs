@@ -132,7 +132,7 @@ fn settings_out_of_range_are_refused_before_work() {
     fit("--segments", "7", "7 segments cannot be blended");
     fit("--segments", "7", "6 n^2 cells on the faces of a cube");
     fit("--segments", "7", "such as 6 or 24");
-    fit("--segments", "5", "such as 1 or 6");
+    fit("--segments", "5", "such as 6 or 24");
     for expected in [
         "7 segments cannot be made: both angles are cut in k equal parts",
         "4 or 9",

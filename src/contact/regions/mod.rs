@@ -192,7 +192,7 @@ pub enum RegionError {
 /// that meet there and of deep overlaps, as the error of each tells. A depth below 1e-7 of the bodies' size may pass unseen.
 ///
 /// Takes 4 to 20 ms of bodies that touch, and the longer the deeper they lie in each other: .05 to .12 s of smooth ones where
-/// they share a tenth and more, up to 1 s of rough ones. Moving bodies are followed faster by a [`ContactPair`].
+/// they share a tenth and more, up to 2 s of rough ones and of those that graze each other. Moving bodies are followed faster by a [`ContactPair`].
 ///
 /// # Errors
 ///
