@@ -82,15 +82,7 @@ impl Mesh {
 
     /// Unit normals at the vertices: of the triangles round each, by their areas. Zero where there are none.
     pub(crate) fn normals(&self) -> Vec<Vector3<f64>> {
-        let mut sums = vec![Vector3::zeros(); self.vertices.len()];
-        for corners in &self.triangles {
-            let [a, b, c] = corners.map(|corner| self.vertices[corner as usize]);
-            let area = (b - a).cross(&(c - a));
-            corners.iter().for_each(|&i| sums[i as usize] += area);
-        }
-        sums.iter()
-            .map(|sum| sum.try_normalize(0.0).unwrap_or_default())
-            .collect()
+        normals(&self.vertices, &self.triangles)
     }
 
     /// Checks that the mesh is one closed, consistently oriented, manifold surface of the topology
@@ -132,4 +124,17 @@ impl Mesh {
 
 fn edges(&[a, b, c]: &[u32; 3]) -> [(u32, u32); 3] {
     [(a, b), (b, c), (c, a)]
+}
+
+/// As [`Mesh::normals`], of some triangles between vertices.
+pub(crate) fn normals(vertices: &[Point3<f64>], triangles: &[[u32; 3]]) -> Vec<Vector3<f64>> {
+    let mut sums = vec![Vector3::zeros(); vertices.len()];
+    for corners in triangles {
+        let [a, b, c] = corners.map(|corner| vertices[corner as usize]);
+        let area = (b - a).cross(&(c - a));
+        corners.iter().for_each(|&i| sums[i as usize] += area);
+    }
+    sums.iter()
+        .map(|sum| sum.try_normalize(0.0).unwrap_or_default())
+        .collect()
 }

@@ -47,22 +47,14 @@ fn of_measure(name: &str, values: [&[f64]; 2]) -> Option<Comparison> {
     let deviations = lots.map(|lot| lot.deviation);
     let difference = lots[1].mean - lots[0].mean;
     let scale = deviations[0].hypot(deviations[1]) / SQRT_2;
-    // In a unit of their own, that their squares are within the range of numbers.
-    let in_unit = |lot: Sample| Sample {
-        mean: (lot.mean - lots[0].mean) / scale,
-        deviation: lot.deviation / scale,
-        ..lot
-    };
-    let found = (scale > 0.0)
-        .then(|| intervals(lots.map(in_unit)))
-        .flatten();
+    let found = intervals(lots);
     Some(Comparison {
         measure: name.into(),
         counts: lots.map(|lot| lot.count),
         means: lots.map(|lot| lot.mean),
         deviations,
         difference,
-        difference_interval: found.map(|found| found.difference.map(|end| scale * end)),
+        difference_interval: found.map(|found| found.difference),
         effect: (scale > 0.0).then_some(difference / scale),
         effect_interval: found.map(|found| found.effect),
     })

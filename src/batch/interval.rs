@@ -54,6 +54,13 @@ pub(super) fn intervals(lots: [Sample; 2]) -> Option<Intervals> {
     if lots.iter().any(|lot| lot.deviation <= 0.0) {
         return None;
     }
+    // In a unit of their own, that their squares are within the range of numbers.
+    let unit = lots[0].deviation.max(lots[1].deviation);
+    let lots = lots.map(|lot| Sample {
+        mean: (lot.mean - lots[0].mean) / unit,
+        deviation: lot.deviation / unit,
+        ..lot
+    });
     let [first, second] = lots.map(|lot| variances(&lot));
     let cases: Vec<Case> = first
         .iter()
@@ -73,7 +80,7 @@ pub(super) fn intervals(lots: [Sample; 2]) -> Option<Intervals> {
         })
     };
     Some(Intervals {
-        difference: interval(below, difference, own.error)?,
+        difference: interval(below, difference, own.error)?.map(|end| unit * end),
         effect: interval(effect_below, difference / own.scale, own.error / own.scale)?,
     })
 }

@@ -62,13 +62,7 @@ pub(super) fn run(args: MeshArgs, console: Console) -> Result<()> {
         }
         MeshFormat::Ply | MeshFormat::Vtp | MeshFormat::Glb => {
             let surface = annotated(&args, &grain)?;
-            let unseen = surface.unseen_share().unwrap_or(0.0);
-            if unseen > UNSEEN {
-                doubts.push(format!(
-                    "The scan has no points near {} of the surface: no distance is told there.",
-                    percent(unseen)
-                ));
-            }
+            doubts.extend(unseen(&args, &surface)?);
             let detail = Detail {
                 normals: &surface.normals,
                 fields: &surface.fields,
@@ -109,14 +103,26 @@ fn annotated(args: &MeshArgs, grain: &Grain) -> Result<Annotated> {
         },
     };
     let scan = inputs::scan(path, &input, None)?;
-    let surface = surface.with_deviation(&ScanDeviation::new(grain, &scan));
-    if surface.unseen_share() == Some(1.0) {
+    Ok(surface.with_deviation(&ScanDeviation::new(grain, &scan)))
+}
+
+/// Tells of a scan that has no points near part of the surface, and refuses one that has none near any of it.
+fn unseen(args: &MeshArgs, surface: &Annotated) -> Result<Option<String>> {
+    let (Some(path), Some(share)) = (&args.scan, surface.unseen_share()) else {
+        return Ok(None);
+    };
+    if share == 1.0 {
         bail!(
-            "no point of {} is near the surface of {name}: give the scan that the model was fitted to, or one in its place",
-            inputs::name(path)
+            "no point of {} is near the surface of {}: give the scan that the model was fitted to, or one in its place",
+            inputs::name(path),
+            inputs::name(&args.model)
         );
     }
-    Ok(surface)
+    let told = || {
+        let share = percent(share);
+        format!("The scan has no points near {share} of the surface: no distance is told there.")
+    };
+    Ok((share > UNSEEN).then(told))
 }
 
 impl MeshingArgs {

@@ -6,10 +6,11 @@
 use super::clip::Crossing;
 use super::deepest::{DeepestPair, Placed};
 use super::patch::Patch;
+use crate::mesh::normals;
+use crate::scan::by_coordinates;
 use kiddo::{ImmutableKdTree, SquaredEuclidean};
 use nalgebra::{Point3, Vector3};
-use std::cmp::Ordering;
-use std::collections::BTreeMap;
+use std::collections::BTreeSet;
 
 /// Places that are looked at, at most, and how far they are apart, as a share of the size of what is shared.
 const PLACES: usize = 12;
@@ -57,20 +58,18 @@ impl Farthest {
                 let Some(nearest) = sides[1 - side].nearest(&corner.point) else {
                     continue;
                 };
-                let mut directions = [corner.number, nearest.number].map(|number| number as usize);
+                let mut directions = [corner.direction, nearest.direction];
                 directions.rotate_left(side);
                 places.push(Place {
                     distance: nearest.normal.dot(&(nearest.point - corner.point)),
                     at: corner.point,
-                    directions: [0, 1].map(|side| patches[side].directions[directions[side]]),
+                    directions,
                 });
             }
         }
         places.sort_by(|one, other| {
-            let coordinates = |place: &Place| <[f64; 3]>::from(place.at);
-            let by_place = || coordinates(one).partial_cmp(&coordinates(other));
             let by_distance = other.distance.total_cmp(&one.distance);
-            by_distance.then_with(|| by_place().unwrap_or(Ordering::Equal))
+            by_distance.then_with(|| by_coordinates(&one.at, &other.at))
         });
         Self {
             distance: places.first().map_or(0.0, |place| place.distance),
@@ -131,6 +130,7 @@ fn apart(places: Vec<Place>) -> Vec<Place> {
 /// A corner and the surface's outward unit normal there.
 struct Corner {
     number: u32,
+    direction: Vector3<f64>,
     point: Point3<f64>,
     normal: Vector3<f64>,
 }
@@ -143,22 +143,17 @@ struct Side {
 
 impl Side {
     fn new(patch: &Patch, triangles: &[u32], placed: &[Point3<f64>]) -> Self {
-        let mut areas: BTreeMap<u32, Vector3<f64>> = BTreeMap::new();
-        for &triangle in triangles {
-            let corners = patch.triangles[triangle as usize];
-            let [a, b, c] = corners.map(|corner| placed[corner as usize]);
-            for corner in corners {
-                *areas.entry(corner).or_default() += (b - a).cross(&(c - a));
-            }
-        }
-        let corners: Vec<Corner> = areas
-            .into_iter()
-            .map(|(number, area)| Corner {
-                number,
-                point: placed[number as usize],
-                normal: area.try_normalize(0.0).unwrap_or_default(),
-            })
-            .collect();
+        let own = triangles.iter().map(|&at| patch.triangles[at as usize]);
+        let own: Vec<[u32; 3]> = own.collect();
+        let normals = normals(placed, &own);
+        let numbers: BTreeSet<u32> = own.as_flattened().iter().copied().collect();
+        let corner = |number: u32| Corner {
+            number,
+            direction: patch.directions[number as usize],
+            point: placed[number as usize],
+            normal: normals[number as usize],
+        };
+        let corners: Vec<Corner> = numbers.into_iter().map(corner).collect();
         let places: Vec<[f64; 3]> = corners.iter().map(|corner| corner.point.into()).collect();
         Self {
             tree: ImmutableKdTree::new_from_slice(&places)

@@ -5,19 +5,18 @@
 //! wherever the lattice may lie, the teeth are summed as their Fourier series: with u the crossing in steps along an axis,
 //!
 //! ```text
-//! tooth(u) = sum over k of sin(2 pi k u) / (pi k),   covariance = sum over k of |sum of g exp(2 pi i k u)|² / (2 pi² k²)
+//! tooth(u) = sum over k of sin(2 pi k u) / (pi k),   variance = sum over k of |sum of g exp(2 pi i k u)|² / (2 pi² k²)
 //! ```
 //!
-//! g being what a step of a point does to the numbers of the fit. Sides that face each other are summed on their own: how far
-//! apart they are is what the fit followed the teeth in. Of a curved surface the terms cancel but for those that scatter gives
-//! too.
+//! g being the gradient by a step of a point. Sides that face each other are summed on their own: how far apart they are is
+//! what the fit followed the teeth in. Of a curved surface the terms cancel but for those that scatter gives too.
 
-use super::cloud::Cloud;
-use super::distance::{ReadyBody, TOUCHED};
-use super::least_squares::Minimum;
-use super::loss::LossSum;
+use super::bodies::Body;
+use super::cloud::Voxels;
+use super::distance::TOUCHED;
+use super::form::Form;
 use super::soft_minimum::SoftMinimum;
-use nalgebra::{DMatrix, DVector, Dyn, Vector3, linalg::Cholesky};
+use nalgebra::{DVector, Vector3};
 use std::f64::consts::{PI, TAU};
 
 /// Terms of the series: the others have a twentieth of the variance of one tooth.
@@ -29,62 +28,62 @@ const SIDES: usize = 6;
 /// The numbers that a distance depends on last: the centre along the body's axes.
 const CENTRE_FROM: usize = TOUCHED - 3;
 
-/// The covariance of all parameters that the lattice makes, zero where there is none. `factor`: of the normal equations;
-/// `is_held`: which parameters are at a bound.
-pub(super) fn between_voxels(
-    cloud: &Cloud,
-    found: &Minimum,
-    factor: &Cholesky<f64, Dyn>,
-    is_held: &[bool],
-) -> DMatrix<f64> {
-    let parameters = is_held.len();
-    let mut covariance = DMatrix::zeros(parameters, parameters);
-    let Some(voxels) = &cloud.voxels else {
-        return covariance;
-    };
-    let weighing = &found.weighing;
-    let ready: Vec<_> = found.bodies.iter().map(ReadyBody::new).collect();
-    let mut sums = vec![[(); 2].map(|()| DVector::<f64>::zeros(parameters)); SIDES * TERMS];
-    let mut distance = SoftMinimum::new();
-    let mut loss = LossSum::new(weighing.loss);
-    for (point, axis) in cloud.points.iter().zip(&voxels.axes) {
-        distance.set(&ready, weighing.sharpness, point);
-        let weight = loss.add(distance.value);
-        let Some(axis) = *axis else { continue };
-        let step = voxels.steps.column(axis).into_owned();
+/// The series of a fit, side by side.
+pub(super) struct Teeth<'a> {
+    voxels: &'a Voxels,
+    bodies: &'a [Body],
+    form: Form,
+    /// Sums with the cosine and the sine of each term of each side.
+    sums: Vec<[DVector<f64>; 2]>,
+}
+
+impl<'a> Teeth<'a> {
+    pub(super) fn new(voxels: &'a Voxels, bodies: &'a [Body], form: Form) -> Self {
+        let none = || DVector::zeros(bodies.len() * form.parameters());
+        Self {
+            voxels,
+            bodies,
+            form,
+            sums: vec![[none(), none()]; SIDES * TERMS],
+        }
+    }
+
+    /// Adds a point of the cloud, which has this distance and weight.
+    pub(super) fn add(&mut self, point: usize, distance: &SoftMinimum, weight: f64) {
+        let Some(axis) = self.voxels.axes[point] else {
+            return;
+        };
+        let step = self.voxels.steps.column(axis).into_owned();
         // As the centre goes one way, a point goes the other.
         let along: f64 = distance
             .entries
             .iter()
             .map(|entry| {
                 let by_centre = Vector3::from_column_slice(&entry.slopes[CENTRE_FROM..]);
-                -by_centre.dot(&found.bodies[entry.body].axes.tr_mul(&step))
+                -by_centre.dot(&self.bodies[entry.body].axes.tr_mul(&step))
             })
             .sum();
         if along == 0.0 {
-            continue;
+            return;
         }
         let crossing = -distance.value / along;
         let side = 2 * axis + usize::from(along > 0.0);
         for term in 0..TERMS {
             let (sin, cos) = (TAU * (term + 1) as f64 * crossing).sin_cos();
-            let [of_cos, of_sin] = &mut sums[TERMS * side + term];
+            let [of_cos, of_sin] = &mut self.sums[TERMS * side + term];
             let entries = distance.entries.iter();
-            for (place, slope) in entries.flat_map(|entry| entry.placed(weighing.form)) {
+            for (place, slope) in entries.flat_map(|entry| entry.placed(self.form)) {
                 of_cos[place] += weight * along * slope * cos;
                 of_sin[place] += weight * along * slope * sin;
             }
         }
     }
-    for (at, sums) in sums.into_iter().enumerate() {
-        let share = 1.0 / (2.0 * (PI * (at % TERMS + 1) as f64).powi(2));
-        for mut sum in sums {
-            for (value, _) in sum.iter_mut().zip(is_held).filter(|(_, is_held)| **is_held) {
-                *value = 0.0;
-            }
-            let moved = factor.solve(&sum);
-            covariance += &moved * moved.transpose() * share;
-        }
+
+    /// Gradients that are as likely as their opposites.
+    pub(super) fn gradients(self) -> impl Iterator<Item = DVector<f64>> {
+        self.sums.into_iter().enumerate().flat_map(|(at, sums)| {
+            let deviation = 1.0 / (2.0_f64.sqrt() * PI * (at % TERMS + 1) as f64);
+            sums.map(|sum| sum * deviation)
+        })
     }
-    covariance
 }

@@ -5,7 +5,7 @@
 //! normal equations and s_k the gradient of region k, the covariance is A⁻¹ (sum s_k s_kᵀ) A⁻¹ (Liang and Zeger
 //! 1986). Of errors that are independent it is the usual one. What the steps [between voxels](super::between_voxels) hide is added.
 
-use super::between_voxels::between_voxels;
+use super::between_voxels::Teeth;
 use super::bodies::Body;
 use super::cloud::Cloud;
 use super::distance::ReadyBody;
@@ -114,9 +114,11 @@ fn covariance(cloud: &Cloud, found: &Minimum) -> Option<DMatrix<f64>> {
     let parameters = whole.gradient.len();
     let ready: Vec<_> = found.bodies.iter().map(ReadyBody::new).collect();
     let mut regions: BTreeMap<[usize; 3], DVector<f64>> = BTreeMap::new();
+    let voxels = cloud.voxels.as_ref();
+    let mut teeth = voxels.map(|voxels| Teeth::new(voxels, &found.bodies, weighing.form));
     let mut distance = SoftMinimum::new();
     let mut loss = LossSum::new(weighing.loss);
-    for point in &cloud.points {
+    for (index, point) in cloud.points.iter().enumerate() {
         let region = cloud.cell(point, REGIONS);
         let sum = regions
             .entry(region)
@@ -127,13 +129,18 @@ fn covariance(cloud: &Cloud, found: &Minimum) -> Option<DMatrix<f64>> {
         for (place, slope) in entries.flat_map(|entry| entry.placed(weighing.form)) {
             sum[place] += weight * distance.value * slope;
         }
+        if let Some(teeth) = &mut teeth {
+            teeth.add(index, &distance, weight);
+        }
     }
     let count = regions.len();
     if count <= parameters {
         return None;
     }
+    let few = (count as f64 / (count - 1) as f64).sqrt();
+    let mut gradients: Vec<_> = regions.into_values().map(|sum| sum * few).collect();
+    gradients.extend(teeth.into_iter().flat_map(Teeth::gradients));
     let mut matrix = whole.matrix;
-    let mut is_held = vec![false; parameters];
     let ties = weighing.form.ties();
     for (index, body) in found.bodies.iter().enumerate() {
         // Numbers at a bound are known, as far as the others are concerned.
@@ -141,20 +148,14 @@ fn covariance(cloud: &Cloud, found: &Minimum) -> Option<DMatrix<f64>> {
             let place = index * weighing.form.parameters() + ties[number];
             matrix.row_mut(place).fill(0.0);
             matrix.column_mut(place).fill(0.0);
-            is_held[place] = true;
+            matrix[(place, place)] = 1.0;
+            gradients.iter_mut().for_each(|sum| sum[place] = 0.0);
         }
     }
-    for i in (0..parameters).filter(|&i| is_held[i]) {
-        matrix[(i, i)] = 1.0;
-        regions.values_mut().for_each(|sum| sum[i] = 0.0);
-    }
     let factor = Cholesky::new(matrix)?;
-    let few = count as f64 / (count - 1) as f64;
-    let spread = regions
-        .values()
-        .fold(DMatrix::zeros(parameters, parameters), |sum, region| {
-            let step = factor.solve(region);
-            sum + &step * step.transpose()
-        });
-    Some(spread * few + between_voxels(cloud, found, &factor, &is_held))
+    let none = DMatrix::zeros(parameters, parameters);
+    Some(gradients.iter().fold(none, |sum, gradient| {
+        let step = factor.solve(gradient);
+        sum + &step * step.transpose()
+    }))
 }

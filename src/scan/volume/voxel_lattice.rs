@@ -22,10 +22,8 @@ impl VoxelLattice {
             return vec![None; points.len()];
         };
         let axis = |point: &Point3<f64>| {
-            let place = inverse * (point - self.first);
-            let from_middle = place.map(|x| (x - x.floor() - 0.5).abs());
-            let axis = from_middle.imin();
-            (from_middle[axis] < HALF_WAY).then_some(axis)
+            let (axis, off) = between(&(inverse * (point - self.first)));
+            (off < HALF_WAY).then_some(axis)
         };
         points.iter().map(axis).collect()
     }
@@ -41,9 +39,8 @@ impl VoxelLattice {
         let places = vertices
             .iter()
             .map(|vertex| inverse * (vertex - self.first));
-        let is_in_row = |place: &Vector3<f64>| (place.x - place.x.floor() - 0.5).abs() < 0.25;
         let mut crossings: Vec<[i64; 3]> = places
-            .filter(is_in_row)
+            .filter(|place| between(place).0 == 0)
             .map(|place| {
                 [
                     place.z.round() as i64,
@@ -59,6 +56,13 @@ impl VoxelLattice {
             .sum();
         voxels as f64 * self.steps.determinant().abs()
     }
+}
+
+/// The axis along which a place, in steps, is nearest to the middle between two voxels, and how far from it.
+fn between(place: &Vector3<f64>) -> (usize, f64) {
+    let off = place.map(|x| (x - x.floor() - 0.5).abs());
+    let axis = off.imin();
+    (axis, off[axis])
 }
 
 #[cfg(test)]
