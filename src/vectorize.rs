@@ -21,8 +21,19 @@ pub(crate) fn vectorize<T>(kernel: impl FnMut() -> T) -> T {
     pulp::Arch::new().dispatch(Kernel(kernel))
 }
 
-/// Sums of a scalar product that are made side by side.
-const LANES: usize = 8;
+/// Numbers that are taken side by side.
+pub(crate) const LANES: usize = 8;
+
+/// Numbers in blocks, the last one filled up with zeros.
+pub(crate) fn blocks(values: impl Iterator<Item = f64>) -> Vec<[f64; LANES]> {
+    let values: Vec<f64> = values.collect();
+    let block = |values: &[f64]| {
+        let mut block = [0.0; LANES];
+        block[..values.len()].copy_from_slice(values);
+        block
+    };
+    values.chunks(LANES).map(block).collect()
+}
 
 /// A scalar product.
 #[inline(always)]

@@ -1,7 +1,7 @@
 //! Where errors of a grain's surface are taken: some places in each cell of [`LocalErrors`].
 
 use crate::measure::Curvature;
-use crate::model::{Grain, LocalError, LocalErrors, Stretch, Surface};
+use crate::model::{Grain, LocalError, LocalErrors, Stretch, Surface, SurfaceJet};
 use crate::sphere::CubeCell;
 use nalgebra::{Matrix3, Vector3};
 
@@ -40,11 +40,7 @@ pub(super) fn of_cells(grain: &Grain) -> Vec<Vector3<f64>> {
 /// From the squared errors in these directions, and a share by which the size of the grain may be off; `None` if they are
 /// not finite.
 pub(super) fn errors(squares: &[Squares], of_size: f64, grain: &Grain) -> Option<LocalErrors> {
-    let towards = of_cells(grain);
-    let away = grain.jets(&towards).into_iter().zip(&towards);
-    let off: Vec<f64> = away
-        .map(|(jet, n)| (of_size * Curvature::new(n, &jet).normal.dot(&jet.place)).powi(2))
-        .collect();
+    let off = squares_of_size(of_size, grain);
     let root_mean = |sum: f64| round((sum / PER_CELL as f64).sqrt());
     let cells = squares
         .chunks_exact(PER_CELL)
@@ -59,6 +55,17 @@ pub(super) fn errors(squares: &[Squares], of_size: f64, grain: &Grain) -> Option
         curvature: root_mean(own.iter().map(|squares| squares.curvature).sum()),
     };
     LocalErrors::new(cells.map(of_cell).collect())
+}
+
+/// Squares of how far the surface is off in these directions if the size is by a share.
+fn squares_of_size(share: f64, grain: &Grain) -> Vec<f64> {
+    let towards = of_cells(grain);
+    if share == 0.0 {
+        return vec![0.0; towards.len()];
+    }
+    let jets = grain.jets(&towards).into_iter().zip(&towards);
+    let off = |jet: &SurfaceJet, n| share * Curvature::new(n, jet).normal.dot(&jet.place);
+    jets.map(|(jet, n)| off(&jet, n).powi(2)).collect()
 }
 
 /// To three digits: an error needs no more.

@@ -10,6 +10,7 @@
 //! below 1e-13 up to degree 64.
 
 mod expansion;
+mod polar_parts;
 
 use nalgebra::Vector3;
 use std::f64::consts::PI;

@@ -12,10 +12,12 @@
 //! rounding, about 1e-13 of the norm of the coefficients.
 
 use super::azimuth_fft::AzimuthFft;
-use super::{GaussLegendre, HarmonicBasis, harmonic_index};
+use super::{GaussLegendre, HarmonicBasis, coefficient_count, harmonic_index};
+use crate::vectorize::{self, vectorize};
 use nalgebra::Vector3;
 use realfft::num_complex::Complex;
 use std::f64::consts::PI;
+use std::ops::Range;
 
 /// Gauss-Legendre rings with equispaced azimuths, for expansions in harmonics up to a degree.
 pub(crate) struct RingGrid {
@@ -29,9 +31,24 @@ struct Ring {
     sin: f64,
     /// Weight of each of its nodes.
     weight: f64,
-    /// Per order m = 0, ..., L and within it degree l = m, ..., L: the harmonic at phi = 0 and its
-    /// derivative with respect to theta.
-    polar: Vec<[f64; 2]>,
+    /// The harmonics at phi = 0 by [order](by_order), ...
+    polar: Vec<f64>,
+    /// ... and their derivatives with respect to theta.
+    slopes: Vec<f64>,
+}
+
+/// Degrees and orders of a list by order m = 0, ..., L, and within it by degree l = m, ..., L.
+fn by_order(degree: usize) -> impl Iterator<Item = (usize, usize)> {
+    (0..=degree).flat_map(move |m| (m..=degree).map(move |l| (l, m)))
+}
+
+/// The ranges of the orders in such a list.
+fn orders(degree: usize) -> impl Iterator<Item = Range<usize>> {
+    (0..=degree).scan(0, move |start, m| {
+        let own = *start..*start + degree + 1 - m;
+        *start = own.end;
+        Some(own)
+    })
 }
 
 /// The series of the azimuth, or values, on one ring: of the function and of its derivatives to the
@@ -60,6 +77,9 @@ impl RingGrid {
         let rule = GaussLegendre::new(rings);
         let basis = HarmonicBasis::new(degree);
         let mut values = vec![0.0; (degree + 1) * (degree + 1)];
+        let below: Vec<f64> = by_order(degree)
+            .map(|(l, m)| of_degree_below(l, m))
+            .collect();
         let per_node = PI / rings as f64;
         Self {
             degree,
@@ -68,11 +88,14 @@ impl RingGrid {
                 .map(|(cos, weight)| {
                     let sin = ((1.0 - cos) * (1.0 + cos)).sqrt();
                     basis.evaluate(&Vector3::new(sin, 0.0, cos), &mut values);
+                    let at = |(l, m): (usize, usize)| values[harmonic_index(l, m as isize)];
+                    let polar: Vec<f64> = by_order(degree).map(at).collect();
                     Ring {
                         cos,
                         sin,
                         weight: weight * per_node,
-                        polar: polar_parts(degree, cos, sin, &values),
+                        slopes: slopes(degree, cos, sin, &polar, &below),
+                        polar,
                     }
                 })
                 .collect(),
@@ -95,13 +118,14 @@ impl RingGrid {
     /// If there are fewer than (degree + 1)² coefficients.
     pub(crate) fn synthesis(&self, coefficients: &[f64]) -> Vec<(f64, Vector3<f64>)> {
         let points = self.fft.points();
+        let ordered = Ordered::new(self.degree, coefficients);
         let mut terms = Parts::new(Complex::ZERO, self.degree + 1);
         let mut values = Parts::new(0.0, points);
         let mut workspace = self.fft.workspace();
         let frames: Vec<_> = self.frames().collect();
         let mut out = Vec::with_capacity(self.rings.len() * points);
         for ring in &self.rings {
-            ring.sum(coefficients, &mut terms);
+            ring.sum(&ordered, &mut terms);
             for (terms, values) in [
                 (&terms.value, &mut values.value),
                 (&terms.south, &mut values.south),
@@ -117,35 +141,43 @@ impl RingGrid {
         out
     }
 
-    /// The sums over all nodes i of `of_values`\[i\] Y_j(n_i) + `of_gradients`\[i\] . grad Y_j(n_i):
-    /// the exact transpose. Parts of `of_gradients` along n do not count.
+    /// The sums over all nodes i of `of_values`\[i\] Y_j(n_i) + `of_gradients`\[i\] . grad Y_j(n_i), or of the first part
+    /// alone: the exact transpose. Parts of `of_gradients` along n do not count.
     ///
     /// # Panics
     /// If there are fewer values or gradients than nodes.
-    pub(crate) fn adjoint(&self, of_values: &[f64], of_gradients: &[Vector3<f64>]) -> Vec<f64> {
+    pub(crate) fn adjoint(
+        &self,
+        of_values: &[f64],
+        of_gradients: Option<&[Vector3<f64>]>,
+    ) -> Vec<f64> {
         let points = self.fft.points();
         let mut terms = Parts::new(Complex::ZERO, self.degree + 1);
         let mut values = Parts::new(0.0, points);
         let mut workspace = self.fft.workspace();
         let frames: Vec<_> = self.frames().collect();
-        let mut out = vec![0.0; (self.degree + 1) * (self.degree + 1)];
+        let mut sums = Ordered::zeros(self.degree);
         for (i, ring) in self.rings.iter().enumerate() {
             let nodes = i * points..(i + 1) * points;
             values.value.copy_from_slice(&of_values[nodes.clone()]);
-            for (t, (frame, gradient)) in frames.iter().zip(&of_gradients[nodes]).enumerate() {
-                values.south[t] = frame.south(ring).dot(gradient);
-                values.east[t] = frame.east().dot(gradient);
+            self.fft
+                .adjoint(&mut values.value, &mut terms.value, &mut workspace);
+            if let Some(gradients) = of_gradients {
+                for (t, (frame, gradient)) in frames.iter().zip(&gradients[nodes]).enumerate() {
+                    values.south[t] = frame.south(ring).dot(gradient);
+                    values.east[t] = frame.east().dot(gradient);
+                }
+                for (values, terms) in [
+                    (&mut values.south, &mut terms.south),
+                    (&mut values.east, &mut terms.east),
+                ] {
+                    self.fft.adjoint(values, terms, &mut workspace);
+                }
+                ring.add_slopes(&mut terms, &mut sums);
             }
-            for (values, terms) in [
-                (&mut values.value, &mut terms.value),
-                (&mut values.south, &mut terms.south),
-                (&mut values.east, &mut terms.east),
-            ] {
-                self.fft.adjoint(values, terms, &mut workspace);
-            }
-            ring.add_transposed(&terms, &mut out);
+            ring.add(&terms.value, &ring.polar, &mut sums);
         }
-        out
+        sums.coefficients(self.degree)
     }
 
     fn frames(&self) -> impl Iterator<Item = Frame> + '_ {
@@ -158,41 +190,97 @@ impl RingGrid {
 
 impl Ring {
     /// The terms of an expansion's azimuth series.
-    fn sum(&self, coefficients: &[f64], terms: &mut Parts<Complex<f64>>) {
+    fn sum(&self, coefficients: &Ordered, terms: &mut Parts<Complex<f64>>) {
         let degree = terms.value.len() - 1;
-        let mut polar = self.polar.iter();
-        for m in 0..=degree {
-            let (mut value, mut south) = (Complex::ZERO, Complex::ZERO);
-            for (l, [part, slope]) in (m..=degree).zip(polar.by_ref()) {
-                let middle = l * (l + 1);
-                let term = Complex::new(coefficients[middle + m], coefficients[middle - m]);
-                value += part * term;
-                south += slope * term;
-            }
+        for (m, own) in orders(degree).enumerate() {
+            let [cosine, sine] =
+                [&coefficients.cosine, &coefficients.sine].map(|of| &of[own.clone()]);
+            let sums = |polar: &[f64]| {
+                let polar = &polar[own.clone()];
+                Complex::new(dot(polar, cosine), dot(polar, sine))
+            };
+            let value = sums(&self.polar);
             let order = m as f64 / self.sin;
             terms.value[m] = value;
-            terms.south[m] = south;
+            terms.south[m] = sums(&self.slopes);
             terms.east[m] = order * Complex::new(value.im, -value.re);
         }
     }
 
-    /// The transpose of [`Self::sum`].
-    fn add_transposed(&self, terms: &Parts<Complex<f64>>, coefficients: &mut [f64]) {
-        let degree = terms.value.len() - 1;
-        let mut polar = self.polar.iter();
-        for m in 0..=degree {
-            let order = m as f64 / self.sin;
-            let east = terms.east[m];
-            let value = terms.value[m] + order * Complex::new(-east.im, east.re);
-            for (l, [part, slope]) in (m..=degree).zip(polar.by_ref()) {
-                let term = part * value + slope * terms.south[m];
-                coefficients[harmonic_index(l, m as isize)] += term.re;
-                if m > 0 {
-                    coefficients[harmonic_index(l, -(m as isize))] += term.im;
-                }
-            }
+    /// Adds what terms give to the coefficients, by the polar parts or their slopes.
+    fn add(&self, terms: &[Complex<f64>], polar: &[f64], sums: &mut Ordered) {
+        for (term, own) in terms.iter().zip(orders(terms.len() - 1)) {
+            let polar = &polar[own.clone()];
+            add(&mut sums.cosine[own.clone()], term.re, polar);
+            add(&mut sums.sine[own], term.im, polar);
         }
     }
+
+    /// Adds what derivatives to the south give, and to the terms of the values what those to the east do: with
+    /// [`Self::add`] of these, the transpose of [`Self::sum`].
+    fn add_slopes(&self, terms: &mut Parts<Complex<f64>>, sums: &mut Ordered) {
+        self.add(&terms.south, &self.slopes, sums);
+        for (m, (value, east)) in terms.value.iter_mut().zip(&terms.east).enumerate() {
+            let order = m as f64 / self.sin;
+            *value += order * Complex::new(-east.im, east.re);
+        }
+    }
+}
+
+/// Coefficients [by order](by_order): those of the cosine and those of the sine, which are zero at order 0.
+struct Ordered {
+    cosine: Vec<f64>,
+    sine: Vec<f64>,
+}
+
+impl Ordered {
+    fn zeros(degree: usize) -> Self {
+        let zeros = vec![0.0; by_order(degree).count()];
+        Self {
+            cosine: zeros.clone(),
+            sine: zeros,
+        }
+    }
+
+    fn new(degree: usize, coefficients: &[f64]) -> Self {
+        let of = |(l, m), sign| coefficients[harmonic_index(l, sign * m as isize)];
+        Self {
+            cosine: by_order(degree).map(|at| of(at, 1)).collect(),
+            sine: by_order(degree)
+                .map(|at| if at.1 > 0 { of(at, -1) } else { 0.0 })
+                .collect(),
+        }
+    }
+
+    fn coefficients(&self, degree: usize) -> Vec<f64> {
+        let mut coefficients = vec![0.0; coefficient_count(degree)];
+        let parts = self.cosine.iter().zip(&self.sine);
+        for ((l, m), (cosine, sine)) in by_order(degree).zip(parts) {
+            coefficients[harmonic_index(l, m as isize)] = *cosine;
+            if m > 0 {
+                coefficients[harmonic_index(l, -(m as isize))] = *sine;
+            }
+        }
+        coefficients
+    }
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    vectorize(
+        #[inline(always)]
+        || vectorize::dot(a, b),
+    )
+}
+
+fn add(sums: &mut [f64], factor: f64, parts: &[f64]) {
+    vectorize(
+        #[inline(always)]
+        || {
+            for (sum, part) in sums.iter_mut().zip(parts) {
+                *sum += factor * part;
+            }
+        },
+    );
 }
 
 /// An azimuth.
@@ -215,22 +303,21 @@ impl Frame {
     }
 }
 
-/// Polar parts and their derivatives, by order, from the harmonics at phi = 0.
-fn polar_parts(degree: usize, cos: f64, sin: f64, values: &[f64]) -> Vec<[f64; 2]> {
-    let at = |l: usize, m: usize| values[harmonic_index(l, m as isize)];
-    let slope = |l: usize, m: usize| {
-        let (degree, order) = (l as f64, m as f64);
-        let below = match l > m {
-            true => at(l - 1, m) * (degree * degree - order * order).sqrt(),
-            false => 0.0,
-        };
-        let ratio = ((2.0 * degree + 1.0) / (2.0 * degree - 1.0).abs()).sqrt();
-        (degree * cos * at(l, m) - ratio * below) / sin
-    };
-    (0..=degree)
-        .flat_map(|m| (m..=degree).map(move |l| (l, m)))
-        .map(|(l, m)| [at(l, m), slope(l, m)])
-        .collect()
+/// The factor of the harmonic of degree l - 1 in the derivative of that of degree l.
+fn of_degree_below(l: usize, m: usize) -> f64 {
+    let (l, m) = (l as f64, m as f64);
+    ((2.0 * l + 1.0) * (l * l - m * m) / (2.0 * l - 1.0).abs()).sqrt()
+}
+
+/// The derivatives of polar parts with respect to theta, from the factors of those of one degree less.
+fn slopes(degree: usize, cos: f64, sin: f64, polar: &[f64], below: &[f64]) -> Vec<f64> {
+    let mut slopes = Vec::with_capacity(polar.len());
+    let mut before = 0.0;
+    for ((l, _), (part, factor)) in by_order(degree).zip(polar.iter().zip(below)) {
+        slopes.push((l as f64 * cos * part - factor * before) / sin);
+        before = *part;
+    }
+    slopes
 }
 
 #[cfg(test)]

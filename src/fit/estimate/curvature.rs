@@ -60,7 +60,8 @@ impl Estimate {
         let frame = grain.frame();
         let expansion = Family::Whole(self.expansion(self.degree));
         let best = StarGrain::stretched(frame, self.stretch(), expansion).ok()?;
-        let local: Vec<Vector3<f64>> = directions().iter().map(|n| self.plain(n)).collect();
+        let places = directions();
+        let local: Vec<Vector3<f64>> = places.iter().map(|n| self.plain(n)).collect();
         let towards: Vec<Vector3<f64>> = local.iter().map(|n| frame.axes * n).collect();
         let unshrunk = Family::Whole(self.unshrunk());
         let unshrunk = StarGrain::stretched(frame, self.stretch(), unshrunk).ok()?;
@@ -70,7 +71,9 @@ impl Estimate {
         let cells = CubeCell::uniform(LocalErrors::PARTS);
         let middles: Vec<Vector3<f64>> = cells.iter().map(CubeCell::middle).collect();
         let plain: Vec<Vector3<f64>> = middles.iter().map(|n| self.plain(n)).collect();
-        let locals = self.locals(&plain);
+        let locals = self.locals(&plain, |given, middles| {
+            given.cell_variances(middles, &places, PER_CELL)
+        });
         let unexpected = self.unexpected(&posterior);
         let left_out = is_rough.then(|| LeftOut::new(self, &posterior, &residuals, true));
         let beside = self.beside(left_out.as_ref(), &plain);

@@ -18,6 +18,7 @@ use super::left_out::LeftOut;
 use super::outcome::Estimate;
 use crate::measure::support_near;
 use crate::model::{Radial, StarSurface, Whole};
+use crate::vectorize::{LANES, blocks, vectorize};
 use nalgebra::{Matrix3, Vector3};
 
 /// An extent.
@@ -51,18 +52,56 @@ pub(super) struct Reach {
     surface: Whole,
     stretch: Vector3<f64>,
     mean: f64,
-    /// Directions and radii in the stretched space, close enough to find the highest of several summits.
-    starts: Vec<(Vector3<f64>, f64)>,
+    starts: Starts,
+}
+
+/// Points in the stretched space, close enough to find the highest of several summits.
+struct Starts {
+    directions: Vec<Vector3<f64>>,
+    /// Component by component.
+    points: [Vec<[f64; LANES]>; 3],
+}
+
+impl Starts {
+    /// From directions and radii.
+    fn new(rays: &[(Vector3<f64>, f64)]) -> Self {
+        let component = |axis: usize| blocks(rays.iter().map(|(n, r)| r * n[axis]));
+        Self {
+            directions: rays.iter().map(|(n, _)| *n).collect(),
+            points: [0, 1, 2].map(component),
+        }
+    }
+
+    /// The direction of the farthest point.
+    fn farthest(&self, towards: &Vector3<f64>) -> Option<Vector3<f64>> {
+        let (mut highest, mut at) = ([f64::NEG_INFINITY; LANES], [0; LANES]);
+        vectorize(
+            #[inline(always)]
+            || {
+                let [x, y, z] = &self.points;
+                for (block, ((x, y), z)) in x.iter().zip(y).zip(z).enumerate() {
+                    for i in 0..LANES {
+                        let height = x[i] * towards.x + y[i] * towards.y + z[i] * towards.z;
+                        if height > highest[i] {
+                            (highest[i], at[i]) = (height, block);
+                        }
+                    }
+                }
+            },
+        );
+        let lane = (0..LANES).max_by(|&i, &j| highest[i].total_cmp(&highest[j]))?;
+        self.directions.get(at[lane] * LANES + lane).copied()
+    }
 }
 
 impl Reach {
-    /// `None` if the coefficients are not finite.
-    pub(super) fn new(estimate: &Estimate, starts: Vec<(Vector3<f64>, f64)>) -> Option<Self> {
+    /// `starts` are directions and radii in the stretched space. `None` if the coefficients are not finite.
+    pub(super) fn new(estimate: &Estimate, starts: &[(Vector3<f64>, f64)]) -> Option<Self> {
         Some(Self {
             surface: Whole::new(estimate.coefficients.clone()).ok()?,
             stretch: estimate.cloud.stretch,
             mean: estimate.cloud.mean,
-            starts,
+            starts: Starts::new(starts),
         })
     }
 
@@ -84,11 +123,7 @@ impl Reach {
 
     /// The end along `towards`; heights are multiplied by `scale`.
     fn end(&self, towards: &Vector3<f64>, scale: f64) -> End {
-        let highest = self
-            .starts
-            .iter()
-            .max_by(|(n, r), (q, s)| (r * n.dot(towards)).total_cmp(&(s * q.dot(towards))));
-        let start = highest.map_or(*towards, |(n, _)| *n);
+        let start = self.starts.farthest(towards).unwrap_or(*towards);
         let found = support_near(&Radial(&self.surface), towards, &start);
         let n = found.direction;
         let along = n.dot(towards);

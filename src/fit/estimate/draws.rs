@@ -8,7 +8,8 @@
 //! dx = C (Y'W^1/2 e / s + V^-1/2 e'),   e, e' standard normal
 //! ```
 //!
-//! (perturb and optimise: Papandreou, Yuille 2010). With 32 draws a standard deviation is good to 12 %.
+//! (perturb and optimise: Papandreou, Yuille 2010). With 32 draws a standard deviation is good to 12 %. In the mean over
+//! cells of 7.5 degrees, which hold one to ten independent values, 12 draws are as good: to 10 to 15 %.
 
 use super::posterior::Conditioned;
 use crate::sphere::{HarmonicBasis, ScatteredHarmonics};
@@ -17,24 +18,27 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 
-/// Number of draws.
+/// Number of draws for single directions, ...
 const DRAWS: usize = 32;
+
+/// ... and for means over cells.
+const CELL_DRAWS: usize = 12;
 
 /// Directions whose variances are found at once.
 const BLOCK: usize = 256;
 
 /// Surfaces drawn from a posterior, less its mean.
-pub(super) struct Draws {
+struct Draws {
     degree: usize,
     draws: Vec<Vec<f64>>,
 }
 
 impl Draws {
-    pub(super) fn new(given: &Conditioned<'_>) -> Self {
+    fn new(given: &Conditioned<'_>, count: usize) -> Self {
         let mut random = ChaCha8Rng::seed_from_u64(0);
         let posterior = given.posterior;
         let scale = given.noise.sqrt();
-        let rights: Vec<Vec<f64>> = (0..DRAWS)
+        let rights: Vec<Vec<f64>> = (0..count)
             .map(|_| {
                 let mut normal = || -> f64 { StandardNormal.sample(&mut random) };
                 let weights = posterior.cloud.weights.iter();
@@ -53,7 +57,7 @@ impl Draws {
     }
 
     /// Variances in directions, in squares of the mean radius.
-    pub(super) fn variances(&self, directions: &[Vector3<f64>]) -> Vec<f64> {
+    fn variances(&self, directions: &[Vector3<f64>]) -> Vec<f64> {
         let harmonics = ScatteredHarmonics::new(self.degree, directions);
         let mut radii = vec![0.0; directions.len()];
         let mut sums = vec![0.0; directions.len()];
@@ -68,6 +72,28 @@ impl Draws {
 }
 
 impl Conditioned<'_> {
+    /// Variances in directions, in squares of the mean radius.
+    pub(super) fn directional_variances(&self, directions: &[Vector3<f64>]) -> Vec<f64> {
+        let exact = self.exact_variances(directions);
+        exact.unwrap_or_else(|| Draws::new(self, DRAWS).variances(directions))
+    }
+
+    /// Variances of cells, which are given by their middles and by `per_cell` places in each.
+    pub(super) fn cell_variances(
+        &self,
+        middles: &[Vector3<f64>],
+        places: &[Vector3<f64>],
+        per_cell: usize,
+    ) -> Vec<f64> {
+        self.exact_variances(middles).unwrap_or_else(|| {
+            let variances = Draws::new(self, CELL_DRAWS).variances(places);
+            let cells = variances.chunks(per_cell);
+            cells
+                .map(|cell| cell.iter().sum::<f64>() / cell.len() as f64)
+                .collect()
+        })
+    }
+
     /// Variances in directions, in squares of the mean radius, where the matrix is factored.
     pub(super) fn exact_variances(&self, directions: &[Vector3<f64>]) -> Option<Vec<f64>> {
         let factor = self.factor.as_ref()?;

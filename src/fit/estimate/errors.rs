@@ -164,7 +164,7 @@ impl Best {
 
         let nodes = surface.nodes.iter().zip(&surface.radii);
         let starts: Vec<_> = nodes.map(|((n, _), (r, _))| (*n, *r)).collect();
-        let reach = Reach::new(estimate, starts)?;
+        let reach = Reach::new(estimate, &starts)?;
         let sd = |i: usize, j: usize| {
             entry_variance(&of_inertia(&covariance), &principal.axes, i, j).sqrt()
         };

@@ -194,9 +194,8 @@ impl RingSurface {
             }
         }
         let scales = self.scales();
-        let none = vec![Vector3::zeros(); count];
         std::array::from_fn(|at| {
-            let slopes = if at == 0 { &by_slope } else { &none };
+            let slopes = (at == 0).then_some(&by_slope[..]);
             let mut gradient = self.grid.adjoint(&by_radius[at], slopes);
             gradient.iter_mut().for_each(|g| *g *= scales[at]);
             gradient

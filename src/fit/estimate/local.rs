@@ -12,7 +12,6 @@
 //! the variances of the surface and of a new point: without, flat parts would be told too unsurely, and creases too surely.
 //! By how much the model differs from the estimate is known, and added as a square.
 
-use super::draws::Draws;
 use super::outcome::Estimate;
 use super::posterior::{Conditioned, Posterior};
 use crate::fit::neighbours::Neighbours;
@@ -47,28 +46,6 @@ fn standardised(estimate: &Estimate, posterior: &Posterior<'_>) -> Vec<f64> {
     errors.collect()
 }
 
-/// Where the variances of the surface come from.
-enum Variances<'a> {
-    Exact(&'a Conditioned<'a>),
-    Drawn(Draws),
-}
-
-impl<'a> Variances<'a> {
-    fn new(given: &'a Conditioned<'a>) -> Self {
-        match given.factor {
-            Some(_) => Self::Exact(given),
-            None => Self::Drawn(Draws::new(given)),
-        }
-    }
-
-    fn at(&self, directions: &[Vector3<f64>]) -> Vec<f64> {
-        match self {
-            Self::Exact(given) => given.exact_variances(directions).unwrap_or_default(),
-            Self::Drawn(draws) => draws.variances(directions),
-        }
-    }
-}
-
 /// How well the radius of the stretched space is known in a direction.
 pub(super) struct Local {
     /// Variance of the estimate, in squares of the mean.
@@ -88,9 +65,10 @@ impl Estimate {
         directions: &[Vector3<f64>],
     ) -> Vec<RadiusError> {
         let noise = self.spectrum.noise().powi(2);
-        let known = self.locals(directions).into_iter();
+        let known = self.locals(directions, |given, n| given.directional_variances(n));
         let differences = self.differences(grain, directions).into_iter();
         known
+            .into_iter()
             .zip(differences)
             .map(|(local, difference)| RadiusError {
                 surface: difference.hypot(local.scatter(local.variance)),
@@ -110,17 +88,21 @@ impl Estimate {
             .collect()
     }
 
-    /// How well the radius is known in directions of the grain's own frame.
-    pub(super) fn locals(&self, directions: &[Vector3<f64>]) -> Vec<Local> {
+    /// How well the radius is known in directions of the grain's own frame. `variances` tells those of the estimate in the
+    /// same directions of the stretched space.
+    pub(super) fn locals(
+        &self,
+        directions: &[Vector3<f64>],
+        variances: impl Fn(&Conditioned<'_>, &[Vector3<f64>]) -> Vec<f64>,
+    ) -> Vec<Local> {
         let posterior = self.posterior();
         let given = self.given(&posterior);
-        let variances = Variances::new(&given);
         let errors = standardised(self, &posterior);
         let neighbours = Neighbours::new(&self.cloud.directions);
 
         let mapped: Vec<Vector3<f64>> = directions.iter().map(|n| self.stretched(n)).collect();
         let unit: Vec<Vector3<f64>> = mapped.iter().map(Vector3::normalize).collect();
-        let known = variances.at(&unit);
+        let known = variances(&given, &unit);
         mapped
             .iter()
             .zip(&unit)

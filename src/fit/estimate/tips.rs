@@ -20,16 +20,18 @@
 //! and cusps that are nearly as likely. Without, lengths of apple seeds, almonds and lentils came out 2 to 2.6 errors short in the
 //! mean.
 
+mod sums;
+
 use super::bump::{AT_POLE, LegendreBump, cusp_falls, falls};
-use super::cloud::Cloud;
 use super::outcome::Estimate;
 use super::posterior::Posterior;
 use nalgebra::Vector3;
+use sums::Points;
 
-/// k of the bumps, each twice the one before: Gaussians of 20, 14, 10, 7, 5 and 3.5 degrees.
+/// k of the [bumps](Points::bumps), each twice the one before: Gaussians of 20, 14, 10, 7, 5 and 3.5 degrees.
 const SHARPNESSES: [f64; 6] = [8.0, 16.0, 32.0, 64.0, 128.0, 256.0];
 
-/// k of the cusps.
+/// k of the [cusps](Points::cusps), likewise.
 const STEEPNESSES: [f64; 4] = [4.0, 8.0, 16.0, 32.0];
 
 /// Squared standard deviations of the height of a bump beside which cusps are looked for ...
@@ -40,9 +42,6 @@ const LIKELY: f64 = 0.5;
 
 /// Standard deviation of heights, in units of the mean radius, before a point is seen: that of beaks.
 const EXPECTED: f64 = 0.1;
-
-/// A bump is nothing where it is below this.
-const LEAST: f64 = 1e-7;
 
 /// What is missing at an end.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -78,9 +77,8 @@ impl Missing {
 }
 
 /// The points with what the estimate leaves of them.
-pub(super) struct Tips<'a> {
-    cloud: &'a Cloud,
-    residuals: Vec<f64>,
+pub(super) struct Tips {
+    points: Points,
     noise: f64,
     bumps: [Bump; SHARPNESSES.len()],
     cusps: [Bump; STEEPNESSES.len()],
@@ -119,11 +117,13 @@ impl Bump {
     }
 }
 
-impl<'a> Tips<'a> {
-    pub(super) fn new(estimate: &Estimate, posterior: &Posterior<'a>) -> Self {
+impl Tips {
+    pub(super) fn new(estimate: &Estimate, posterior: &Posterior<'_>) -> Self {
         Self {
-            cloud: posterior.cloud,
-            residuals: posterior.residuals(&estimate.coefficients),
+            points: Points::new(
+                posterior.cloud,
+                &posterior.residuals(&estimate.coefficients),
+            ),
             noise: estimate.spectrum.noise().powi(2),
             bumps: SHARPNESSES.map(|k| Bump::new(k, &falls(k), &estimate.unlearnt)),
             cusps: STEEPNESSES.map(|k| Bump::new(k, &cusp_falls(k), &estimate.unlearnt)),
@@ -162,33 +162,13 @@ impl<'a> Tips<'a> {
 
     /// Each bump about an end.
     fn likely(&self, end: &Vector3<f64>) -> [Missing; SHARPNESSES.len()] {
-        let sums: [_; SHARPNESSES.len()] =
-            self.sums(|n| (SHARPNESSES[0] * (n.dot(end) - 1.0)).exp());
+        let sums: [_; SHARPNESSES.len()] = self.points.bumps(end);
         std::array::from_fn(|at| self.bumps[at].told(sums[at], self.noise))
     }
 
     fn likely_cusps(&self, end: &Vector3<f64>) -> [Missing; STEEPNESSES.len()] {
-        let sums: [_; STEEPNESSES.len()] =
-            self.sums(|n| (-STEEPNESSES[0] * (n - end).norm()).exp());
+        let sums: [_; STEEPNESSES.len()] = self.points.cusps(end);
         std::array::from_fn(|at| self.cusps[at].told(sums[at], self.noise))
-    }
-
-    /// Sums of b w e and of w b² of bumps, of which each is the square of the one before.
-    fn sums<const N: usize>(&self, first: impl Fn(&Vector3<f64>) -> f64) -> [[f64; 2]; N] {
-        let mut sums = [[0.0; 2]; N];
-        let weighted = self.residuals.iter().zip(&self.cloud.weights);
-        for (n, (e, w)) in self.cloud.directions.iter().zip(weighted) {
-            let mut height = first(n);
-            for [of_residuals, of_squares] in &mut sums {
-                if height < LEAST {
-                    break;
-                }
-                *of_residuals += w * height * e;
-                height *= height;
-                *of_squares += w * height;
-            }
-        }
-        sums
     }
 }
 

@@ -3,8 +3,7 @@
 use super::azimuth::{AzimuthSeries, AzimuthTerms, IMAGES};
 use super::kept::Kept;
 use super::polar::PolarTable;
-use crate::sphere::{GaussLegendre, HarmonicBasis, harmonic_index};
-use nalgebra::Vector3;
+use crate::sphere::{GaussLegendre, HarmonicBasis};
 use std::f64::consts::PI;
 use std::sync::Arc;
 
@@ -39,22 +38,11 @@ impl GaussGrid {
         let rule = GaussLegendre::new(exact / 2 + 1);
         let series = AzimuthSeries::new(degree + 1, exact + 1);
         let rings = rule.len();
+        let northern = rule.on(1.0, -1.0).take(rings.div_ceil(2));
+        let cosines: Vec<f64> = northern.map(|(cos, _)| cos).collect();
         let basis = HarmonicBasis::new(degree);
-        let mut values = vec![0.0; (degree + 1) * (degree + 1)];
-        let northern: Vec<Vec<f64>> = rule
-            .on(1.0, -1.0)
-            .take(rings.div_ceil(2))
-            .map(|(cos, _)| {
-                let sin = ((1.0 - cos) * (1.0 + cos)).sqrt();
-                basis.evaluate(&Vector3::new(sin, 0.0, cos), &mut values);
-                values.clone()
-            })
-            .collect();
-        let polar = PolarTable::new(degree, rings, |l, m, column| {
-            for (entry, values) in column.iter_mut().zip(&northern) {
-                *entry = values[harmonic_index(l, m as isize)];
-            }
-        });
+        let columns = basis.polar_parts(&cosines, PolarTable::rows(rings));
+        let polar = PolarTable::new(degree, rings, columns);
         let per_node = 2.0 * PI / series.points() as f64;
         Self {
             polar,

@@ -9,10 +9,10 @@
 //! Entries: error below 1e-13.
 
 use super::kernel::KernelTransform;
-use super::polar::{PolarTable, add};
-use crate::sphere::{HarmonicBasis, harmonic_index};
-use crate::vectorize::vectorize;
-use nalgebra::Vector3;
+use super::polar::PolarTable;
+use crate::sphere::HarmonicBasis;
+use faer::linalg::matmul::matmul;
+use faer::{Accum, Mat, MatMut, MatRef, Par};
 use std::f64::consts::PI;
 
 /// The table for a kernel of a width, and a grid of n = `around` points along a meridian and back, and
@@ -26,78 +26,80 @@ pub(super) fn oversampled(
     let rings = around / 2 + 1;
     let rows = PolarTable::rows(rings);
     let transform = KernelTransform::new(width);
-    let basis = HarmonicBasis::new(degree);
-    let theta = |i: usize| PI * (i as f64 + 0.5) / (degree + 1) as f64;
-    let mut values = vec![0.0; (degree + 1) * (degree + 1)];
-    let at_midpoints: Vec<Vec<f64>> = (0..(degree + 1).div_ceil(2))
-        .map(|i| {
-            let (sin, cos) = theta(i).sin_cos();
-            basis.evaluate(&Vector3::new(sin, 0.0, cos), &mut values);
-            values.clone()
-        })
-        .collect();
-    let filters = [(0, 0), (0, 1), (1, 0), (1, 1)]
-        .map(|(m, l)| Filter::new(degree, around, rows, &transform, m, l));
-    let per_order: Vec<f64> = (0..=degree)
-        .map(|m| 1.0 / transform.at(m, azimuths))
-        .collect();
-    PolarTable::new(degree, rings, |l, m, column| {
-        let filter = &filters[2 * (m % 2) + l % 2];
-        let values = at_midpoints
-            .iter()
-            .map(|values| per_order[m] * values[harmonic_index(l, m as isize)]);
-        filter.apply(&values.collect::<Vec<_>>(), column);
-    })
+    let northern = (degree + 1).div_ceil(2);
+    let cosines: Vec<f64> = (0..northern).map(|i| midpoint(degree, i).cos()).collect();
+    let at_midpoints = HarmonicBasis::new(degree).polar_parts(&cosines, northern);
+    let filters = [0, 1].map(|m| [0, 1].map(|l| filter(degree, around, &transform, [m, l])));
+    let mut columns = vec![0.0; (degree + 1) * (degree + 2) / 2 * rows];
+    let (mut from, mut to) = (&at_midpoints[..], &mut columns[..]);
+    for m in 0..=degree {
+        let degrees = degree + 1 - m;
+        let (own, others) = from.split_at(degrees * northern);
+        let (out, later) = to.split_at_mut(degrees * rows);
+        let per_order = 1.0 / transform.at(m, azimuths);
+        for (offset, filter) in (0..2.min(degrees)).map(|at| (at, &filters[m % 2][(m + at) % 2])) {
+            let count = (degrees - offset).div_ceil(2);
+            let (own, out) = (&own[offset * northern..], &mut out[offset * rows..]);
+            matmul(
+                MatMut::from_column_major_slice_with_stride_mut(
+                    out,
+                    filter.nrows(),
+                    count,
+                    2 * rows,
+                ),
+                Accum::Replace,
+                filter.as_ref(),
+                MatRef::from_column_major_slice_with_stride(own, northern, count, 2 * northern),
+                per_order,
+                Par::Seq,
+            );
+        }
+        (from, to) = (others, later);
+    }
+    PolarTable::new(degree, rings, columns)
+}
+
+/// The polar angle of a midpoint, from the pole on.
+fn midpoint(degree: usize, at: usize) -> f64 {
+    PI * (at as f64 + 0.5) / (degree + 1) as f64
 }
 
 /// From a polar part at the midpoints of the northern hemisphere to its quotient at the northern
-/// rings, for one parity of the order and one of the degree: the discrete transform to cosines or
+/// rings, for a parity of the order and one of the degree: the discrete transform to cosines or
 /// sines, the division and the sum of the series, in one matrix.
-struct Filter {
-    rows: usize,
-    /// A column of `rows` for each midpoint.
-    columns: Vec<f64>,
-}
-
-impl Filter {
-    fn new(
-        degree: usize,
-        around: usize,
-        rows: usize,
-        transform: &KernelTransform,
-        order_parity: usize,
-        degree_parity: usize,
-    ) -> Self {
-        let midpoints = degree + 1;
-        let wave = |angle: f64| match order_parity {
-            0 => angle.cos(),
-            _ => angle.sin(),
-        };
-        let rings = (around / 2 + 1).div_ceil(2);
-        let mut columns = vec![0.0; midpoints.div_ceil(2) * rows];
-        for k in (degree_parity..midpoints).step_by(2) {
-            let factor =
-                if k == 0 { 2.0 } else { 4.0 } / midpoints as f64 / transform.at(k, around);
-            let at_rings: Vec<f64> = (0..rings)
-                .map(|i| factor * wave(2.0 * PI * (k * i) as f64 / around as f64))
-                .collect();
-            for (i, column) in columns.chunks_exact_mut(rows).enumerate() {
-                let share = if 2 * i + 1 == midpoints { 0.5 } else { 1.0 };
-                let angle = PI * k as f64 * (i as f64 + 0.5) / midpoints as f64;
-                add(column, share * wave(angle), &at_rings);
-            }
-        }
-        Self { rows, columns }
-    }
-
-    fn apply(&self, values: &[f64], out: &mut [f64]) {
-        vectorize(
-            #[inline(always)]
-            || {
-                for (&value, column) in values.iter().zip(self.columns.chunks_exact(self.rows)) {
-                    add(out, value, column);
-                }
-            },
-        );
-    }
+fn filter(
+    degree: usize,
+    around: usize,
+    transform: &KernelTransform,
+    [order_parity, degree_parity]: [usize; 2],
+) -> Mat<f64> {
+    let midpoints = degree + 1;
+    let wave = |angle: f64| match order_parity {
+        0 => angle.cos(),
+        _ => angle.sin(),
+    };
+    let frequencies: Vec<usize> = (degree_parity..midpoints).step_by(2).collect();
+    let rings = (around / 2 + 1).div_ceil(2);
+    let factor = |&k: &usize| {
+        let times = if k == 0 { 2.0 } else { 4.0 };
+        times / midpoints as f64 / transform.at(k, around)
+    };
+    let factors: Vec<f64> = frequencies.iter().map(factor).collect();
+    let at_rings = Mat::from_fn(rings, frequencies.len(), |i, at| {
+        factors[at] * wave(2.0 * PI * (frequencies[at] * i) as f64 / around as f64)
+    });
+    let at_midpoints = Mat::from_fn(frequencies.len(), midpoints.div_ceil(2), |at, i| {
+        let share = if 2 * i + 1 == midpoints { 0.5 } else { 1.0 };
+        share * wave(frequencies[at] as f64 * midpoint(degree, i))
+    });
+    let mut filter = Mat::zeros(rings, midpoints.div_ceil(2));
+    matmul(
+        &mut filter,
+        Accum::Replace,
+        &at_rings,
+        &at_midpoints,
+        1.0,
+        Par::Seq,
+    );
+    filter
 }

@@ -30,19 +30,11 @@ struct Halves {
 }
 
 impl PolarTable {
-    /// The table of a degree for `rings` rings; `fill` writes the polar part of degree l and order m at the
-    /// northern ones, from the pole on.
-    pub(super) fn new(
-        degree: usize,
-        rings: usize,
-        mut fill: impl FnMut(usize, usize, &mut [f64]),
-    ) -> Self {
+    /// The table of a degree for `rings` rings, from its columns: the polar part of degree l and order m at the northern
+    /// rings, from the pole on, and zeros up to a [column's length](Self::rows).
+    pub(super) fn new(degree: usize, rings: usize, columns: Vec<f64>) -> Self {
         let rows = Self::rows(rings);
-        let mut columns = vec![0.0; (degree + 1) * (degree + 2) / 2 * rows];
-        let of_orders = (0..=degree).flat_map(|m| (m..=degree).map(move |l| (l, m)));
-        for ((l, m), column) in of_orders.zip(columns.chunks_exact_mut(rows)) {
-            fill(l, m, column);
-        }
+        debug_assert_eq!(columns.len(), (degree + 1) * (degree + 2) / 2 * rows);
         Self {
             degree,
             rings,
@@ -197,11 +189,4 @@ fn pair(coefficients: &[f64], l: usize, m: usize) -> [f64; 2] {
     let middle = l * (l + 1);
     let sine = if m > 0 { coefficients[middle - m] } else { 0.0 };
     [coefficients[middle + m], sine]
-}
-
-#[inline(always)]
-pub(super) fn add(sum: &mut [f64], factor: f64, column: &[f64]) {
-    for (sum, entry) in sum.iter_mut().zip(column) {
-        *sum += factor * entry;
-    }
 }

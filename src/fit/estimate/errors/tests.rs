@@ -242,9 +242,9 @@ fn extents_change_by_their_ends_and_their_axes() {
     let of = |estimate: &Estimate| {
         let surface = RingSurface::new(estimate);
         let nodes = surface.nodes.iter().zip(&surface.radii);
-        let starts = nodes.map(|((n, _), (r, _))| (*n, *r)).collect();
+        let starts: Vec<_> = nodes.map(|((n, _), (r, _))| (*n, *r)).collect();
         let principal = mass(&surface.moments()).1.unwrap();
-        (Reach::new(estimate, starts).unwrap(), principal, surface)
+        (Reach::new(estimate, &starts).unwrap(), principal, surface)
     };
     let (reach, principal, surface) = of(&estimate);
     let jacobian = derivatives(&surface.moments());
