@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, SymmetricEigen, Vector3};
 
 /// Standard deviation over median absolute deviation of a normal distribution.
-const PER_MEDIAN: f64 = 1.4826;
+pub(crate) const PER_MEDIAN: f64 = 1.4826;
 
 /// Standard deviation of values round zero, told by the median of their sizes.
 pub(crate) fn robust_deviation(values: impl Iterator<Item = f64>) -> f64 {
@@ -67,6 +67,12 @@ pub(crate) fn principal(matrix: &Matrix3<f64>) -> Option<(Vector3<f64>, Matrix3<
 pub(crate) fn median(values: &mut [f64]) -> Option<f64> {
     let middle = values.len() / 2;
     (!values.is_empty()).then(|| *values.select_nth_unstable_by(middle, f64::total_cmp).1)
+}
+
+/// The value that a quarter of them are below.
+pub(crate) fn lower_quartile(values: &mut [f64]) -> Option<f64> {
+    let at = values.len() / 4;
+    (!values.is_empty()).then(|| *values.select_nth_unstable_by(at, f64::total_cmp).1)
 }
 
 /// Of values that are not negative the one of which those that are less have half of the sum: many small ones hardly move it.

@@ -2,7 +2,7 @@
 
 use super::columns::{Column, FIRST};
 use super::journal::Row;
-use crate::spread::{median, robust_deviation};
+use crate::spread::PER_MEDIAN;
 use serde::Serialize;
 use std::collections::BTreeSet;
 
@@ -199,10 +199,11 @@ impl Population {
 
     fn outlying(&self, at: usize) -> Vec<Outlier> {
         let values = &self.values[at];
-        let mut known: Vec<f64> = values.iter().flatten().copied().collect();
-        let middle = median(&mut known).unwrap_or(0.0);
-        let deviation = robust_deviation(known.iter().map(|value| value - middle));
-        if known.len() < LEAST_GRAINS || deviation <= 0.0 {
+        let known: Vec<f64> = values.iter().flatten().copied().collect();
+        let count = known.len();
+        let middle = median(known.iter().copied());
+        let deviation = PER_MEDIAN * median(known.iter().map(|value| (value - middle).abs()));
+        if count < LEAST_GRAINS || deviation <= 0.0 {
             return Vec::new();
         }
         let measure = &self.measures[at].measure;
@@ -260,6 +261,13 @@ pub(super) fn moments(values: &[f64]) -> (f64, Option<f64>) {
     )
 }
 
+/// Of an even number of values the mean of the two in the middle.
+fn median(values: impl Iterator<Item = f64>) -> f64 {
+    let mut values: Vec<f64> = values.collect();
+    values.sort_unstable_by(f64::total_cmp);
+    quantile(&values, 0.5)
+}
+
 fn quantile(sorted: &[f64], share: f64) -> f64 {
     let at = share * sorted.len().saturating_sub(1) as f64;
     let (low, high) = (at.floor() as usize, at.ceil() as usize);
@@ -309,6 +317,28 @@ mod tests {
         }
         population.finish();
         population
+    }
+
+    /// Of these areas the median is 7, and half of them are within 4.5 of it.
+    #[test]
+    fn deviations_are_from_the_mean_of_the_two_values_in_the_middle() {
+        let mut population = Population::new(&columns(&[Measure::Area]));
+        for area in [1.0, 2.0, 3.0, 4.0, 10.0, 11.0, 12.0, 60.0] {
+            population.add(&Row {
+                path: format!("{area}"),
+                figures: vec![Some(area)],
+                ..Row::default()
+            });
+        }
+        population.finish();
+        let [outlier] = population.outliers.as_slice() else {
+            panic!("{:?}", population.outliers);
+        };
+        assert!(
+            (outlier.z - 53.0 / (1.4826 * 4.5)).abs() < 1e-9,
+            "{}",
+            outlier.z
+        );
     }
 
     #[test]

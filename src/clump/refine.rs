@@ -1,6 +1,6 @@
 //! Spheres fitted to the parts of the surface that they stand for.
 
-use crate::measure::{Ball, EvenPlace};
+use crate::measure::{Ball, EvenPlace, TriangleTree};
 use nalgebra::{Matrix4, Vector3, Vector4};
 use rayon::prelude::*;
 
@@ -15,28 +15,30 @@ const DAMPING: f64 = 1e-3;
 const AFTER_NEARER: f64 = 0.5;
 const AFTER_OTHER: f64 = 4.0;
 
-/// No sphere becomes larger than so many times the largest that the body holds: flat parts of a surface are those of
-/// endless spheres.
-const OVERHANG: f64 = 1.5;
+/// No sphere becomes larger than so many times the largest that the body holds about its centre: flat parts of a surface are
+/// those of endless spheres, and through a tip one may leave the body with nothing in its way.
+const OVERHANG: f64 = 2.0;
 
 /// In each round every place goes to the sphere that is nearest to it, and each sphere takes a step of Levenberg and
 /// Marquardt to the least sum of squared distances from its places: the hard union's own distances, for those of
-/// a smoothed one would shrink the spheres. Steps after which the sum over all is no less are taken back. `largest` is
-/// the radius of the largest sphere that the body holds.
-pub(super) fn refine(places: &[EvenPlace], spheres: Vec<Ball>, largest: f64) -> Vec<Ball> {
-    let largest = OVERHANG * largest;
-    let within = |ball: Ball| Ball {
-        radius: ball.radius.clamp(0.0, largest),
-        ..ball
+/// a smoothed one would shrink the spheres. Steps after which the sum over all is no less are taken back, and those of
+/// spheres that would leave the body.
+pub(super) fn refine(places: &[EvenPlace], spheres: Vec<Ball>, body: &TriangleTree) -> Vec<Ball> {
+    let within = |(from, to): (&Ball, Ball)| {
+        let most = OVERHANG * body.depth(&to.centre.coords);
+        match most > 0.0 {
+            true => Ball {
+                radius: to.radius.clamp(0.0, most),
+                ..to
+            },
+            false => *from,
+        }
     };
-    let assigned = |spheres: Vec<Ball>| {
-        let spheres = spheres.into_iter().map(within).collect();
-        Assigned::new(places, spheres)
-    };
-    let mut best = assigned(spheres);
+    let mut best = Assigned::new(places, spheres);
     let mut damping = DAMPING;
     for _ in 0..ROUNDS {
-        let next = assigned(step(places, &best, damping));
+        let steps = best.spheres.par_iter().zip(step(places, &best, damping));
+        let next = Assigned::new(places, steps.map(within).collect());
         match next.sum < best.sum {
             true => {
                 best = next;

@@ -6,7 +6,7 @@ use super::gap::root_mean_square;
 use super::refine::refine;
 use super::union_volume::union_volume;
 use crate::Mesh;
-use crate::measure::{Ball, EvenPlace, even_places, medial_balls};
+use crate::measure::{Ball, EvenPlace, TriangleTree, even_places, medial_balls};
 use nalgebra::{Point3, Vector3};
 use std::f64::consts::PI;
 
@@ -66,6 +66,7 @@ pub(super) fn at_unit_size(mesh: &Mesh, centre: &Point3<f64>, radius: f64) -> Me
 /// A grain of unit size, and what its clumps are made from.
 pub(super) struct Search {
     cover: Cover,
+    body: TriangleTree,
     fitted: Vec<EvenPlace>,
     judged: Vec<EvenPlace>,
 }
@@ -90,6 +91,7 @@ impl Search {
             true => Err(ClumpError::NoInside),
             false => Ok(Self {
                 cover: Cover::new(&covered, candidates),
+                body: TriangleTree::new(mesh),
                 fitted: even_places(mesh, FITTED),
                 judged: even_places(mesh, JUDGED),
             }),
@@ -112,7 +114,7 @@ impl Search {
     /// So many spheres, or fewer where some lie in others.
     fn fit(&self, count: usize) -> Judged {
         let spheres = self.cover.of_count(count);
-        let spheres = with_volume(refine(&self.fitted, spheres, self.cover.largest()));
+        let spheres = with_volume(refine(&self.fitted, spheres, &self.body));
         let spheres = without_swallowed(spheres);
         let rms = root_mean_square(&self.judged, &spheres);
         (spheres, rms)

@@ -47,6 +47,34 @@ fn ellipsoid(semi_axes: [f64; 3]) -> Mesh {
     mesh
 }
 
+/// The fit of a sphere sees no harm in leaving through a tip, beyond which there is no surface.
+#[test]
+fn spheres_stay_in_a_tetrahedron() {
+    let corners = [
+        [1.0, 1.0, 1.0],
+        [1.0, -1.0, -1.0],
+        [-1.0, 1.0, -1.0],
+        [-1.0, -1.0, 1.0],
+    ];
+    let mesh = Mesh {
+        vertices: corners.map(Point3::from).to_vec(),
+        triangles: vec![[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]],
+    };
+    for (count, error) in [(5, 0.35), (20, 0.15), (40, 0.1)] {
+        let clump = found(&mesh, ClumpTarget::Spheres(count));
+        assert!(clump.rms < error * clump.equivalent_radius(), "{count}");
+        for ball in &clump.spheres {
+            // The faces are x + y - z = 1 and the like.
+            let [x, y, z] = ball.centre.coords.into();
+            let beyond = [x + y - z, x - y + z, -x + y + z, -x - y - z];
+            assert!(
+                beyond.iter().all(|height| *height < 1.0),
+                "{count} {ball:?}"
+            );
+        }
+    }
+}
+
 #[test]
 fn needles_and_plates_have_more_spheres_and_less_error_the_more_are_asked_for() {
     for semi_axes in [[50.0, 1.0, 1.0], [20.0, 1.0, 1.0], [20.0, 20.0, 1.0]] {

@@ -93,4 +93,5 @@ pub use superquadric::{
 pub(crate) use support::support_near;
 pub use support::{Support, support};
 pub use survey::{Scheme, Survey, SurveyError};
+pub(crate) use triangle_tree::TriangleTree;
 pub(crate) use unit::Unit;

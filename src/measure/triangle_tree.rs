@@ -9,14 +9,14 @@ use std::f64::consts::PI;
 const SAME_PLACE: f64 = 1e-9;
 
 /// Triangles, in the order of a tree of their boxes.
-pub(super) struct TriangleTree {
+pub(crate) struct TriangleTree {
     triangles: Vec<[Vector3<f64>; 3]>,
     tree: BoundsTree,
 }
 
 impl TriangleTree {
     /// The tree of a mesh whose triangles all name vertices that exist.
-    pub(super) fn new(mesh: &Mesh) -> Self {
+    pub(crate) fn new(mesh: &Mesh) -> Self {
         let corners = |t: &[u32; 3]| t.map(|corner| mesh.vertices[corner as usize]);
         let triangles = mesh.triangles.iter();
         let boxes = triangles.map(|t| Bounds::new(corners(t), 0.0));
@@ -56,6 +56,17 @@ impl TriangleTree {
         self.tree
             .bounds()
             .map_or([Vector3::zeros(); 2], Bounds::corners)
+    }
+
+    /// How deep a place lies in a closed mesh, less than zero outside of it: as [`Self::is_outside`] tells.
+    pub(crate) fn depth(&self, place: &Vector3<f64>) -> f64 {
+        let nearest = self.nearest(place, f64::INFINITY);
+        let distance = nearest.map_or(f64::INFINITY, |nearest| (place - nearest).norm());
+        if self.is_outside(place) {
+            -distance
+        } else {
+            distance
+        }
     }
 
     /// Whether a place off a closed mesh that is wound counter-clockwise from outside is outside: by the normal where it is

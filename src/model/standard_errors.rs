@@ -75,8 +75,8 @@ pub enum NoInterval {
         /// Half-angle in radians, in the stretched space.
         half_angle: f64,
     },
-    /// Residuals are not those of noise, but of edges, and the body is alike on both sides of its centre or has flat
-    /// sides: what they hide may be all of one sign.
+    /// Residuals are not those of noise, but of edges, or the points are too few to tell, and the body is alike on both
+    /// sides of its centre or has flat sides: what edges hide may be all of one sign.
     Unresolved {
         /// Kurtosis of the residuals: 3 of normal noise.
         kurtosis: f64,

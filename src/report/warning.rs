@@ -227,8 +227,9 @@ impl fmt::Display for NoInterval {
             Self::Hole { half_angle } => Unseen::Hole { half_angle }.fmt(f),
             Self::Unresolved { .. } => write!(
                 f,
-                "the points stand off from the estimate as those beside edges do, or dust, and not as noise does, and the body is \
-                 alike on both sides of its centre or has flat sides: what edges hide may be all of one sign"
+                "the points stand off from the estimate as those beside edges do, or dust, and not as noise does, or they are too \
+                 few to tell whether there are edges, and the body is alike on both sides of its centre or has flat sides: what \
+                 edges hide may be all of one sign"
             ),
             Self::NotFinite => write!(f, "the figures are not finite"),
             Self::OutOfRange => write!(

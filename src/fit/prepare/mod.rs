@@ -92,7 +92,7 @@ impl<'a> PreparedScan<'a> {
         // Steps of voxels face anywhere.
         let without_steps = (scan.scatter > 0.0).then(|| relaxed(&mesh, ROUNDS_OVER_STEPS));
         let seen = without_steps.as_ref().unwrap_or(&mesh);
-        let centre = star_centre(seen, properties.centroid, &mut surface.warnings)?;
+        let centre = star_centre(seen, properties.centroid, symmetry, &mut surface.warnings)?;
         let frame = Frame {
             centre: unit.point(&centre),
             axes: match symmetry {
@@ -164,16 +164,20 @@ impl<'a> PreparedScan<'a> {
     }
 }
 
-/// The centroid if it sees the whole surface, else the centre that sees most of it.
+/// The centroid if it sees the whole surface, else the centre on the mirror planes through it that sees most.
 fn star_centre(
     mesh: &Mesh,
     centroid: Point3<f64>,
+    symmetry: Symmetry,
     warnings: &mut Vec<FitWarning>,
 ) -> Result<Point3<f64>, FitError> {
     let mut centre = centroid;
     let mut share = facing_away_share(mesh, &centroid);
     if share > NEGLIGIBLE_SHARE {
-        let deepest = deepest_centre(mesh, &centroid);
+        let mut deepest = deepest_centre(mesh, &centroid);
+        for axis in symmetry.normals() {
+            deepest[axis] = centroid[axis];
+        }
         let deepest_share = facing_away_share(mesh, &deepest);
         if deepest_share < share {
             (centre, share) = (deepest, deepest_share);

@@ -1,7 +1,7 @@
 //! Points that stand apart from their neighbours: outliers of the scan.
 
 use crate::mesh::Mesh;
-use crate::spread::{median, robust_deviation};
+use crate::spread::{lower_quartile, median, robust_deviation};
 use nalgebra::{Point3, Vector3};
 
 /// A point is a stray when its radius differs from the median of its neighbours' by more than this
@@ -17,7 +17,8 @@ const NEAR: f64 = 0.15;
 const SCATTERS: f64 = 8.0;
 
 /// ... and by more than this many times the spread of the neighbours' own radii: where the surface
-/// runs steeply across the rays, neighbours differ by nature.
+/// runs steeply across the rays, neighbours differ by nature. So do they beside a rim, from which the surface falls off on both
+/// sides: there it counts how much it goes on falling beyond three neighbours of four.
 const SPREADS: f64 = 3.0;
 
 /// How the radii of neighbours differ.
@@ -64,10 +65,28 @@ pub(crate) fn find_strays(mesh: &Mesh, centre: &Point3<f64>) -> Strays {
         let least = LEAST_STRAY * c.distance;
         least.max(SCATTERS * scatter).max(SPREADS * c.spread)
     };
-    let is_stray = |c: &Comparison| c.deviation > limit(c);
+    let stands_apart: Vec<bool> = comparisons.iter().map(|c| c.deviation > limit(c)).collect();
+    let near = |of: usize| {
+        let around = neighbours[of].iter().copied();
+        around.filter(|&i| !stands_apart[i])
+    };
+    // From the neighbours on, away from the point.
+    let fall = |own: usize, from: usize| {
+        let beyond = near(from).filter(|to| !neighbours[own].contains(to));
+        let side = (radii[own] - radii[from]).signum();
+        let falls = beyond.map(|to| side * (radii[from] - radii[to]) / radii[from]);
+        falls.fold(0.0, f64::max)
+    };
+    let flank = |own: usize| {
+        let mut falls: Vec<f64> = near(own).map(|from| fall(own, from)).collect();
+        lower_quartile(&mut falls).unwrap_or(0.0)
+    };
+    let is_stray =
+        |&own: &usize| stands_apart[own] && comparisons[own].deviation > SPREADS * flank(own);
     Strays {
-        indices: (0..radii.len() as u32)
-            .filter(|&i| is_stray(&comparisons[i as usize]))
+        indices: (0..radii.len())
+            .filter(is_stray)
+            .map(|own| own as u32)
             .collect(),
         scatter,
     }
@@ -89,5 +108,46 @@ fn compare(around: &mut [f64], radius: f64) -> Comparison {
         deviation: (radius - middle).abs() / middle,
         spread: median(around).unwrap_or(0.0),
         distance: 1.0,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shapes::Sampling;
+    use crate::sphere::triangulate_directions;
+
+    fn strays(
+        directions: &[Vector3<f64>],
+        radius: impl Fn(usize, &Vector3<f64>) -> f64,
+    ) -> Vec<u32> {
+        let places = directions.iter().enumerate().map(|(i, n)| n * radius(i, n));
+        let mesh = Mesh {
+            triangles: triangulate_directions(directions).unwrap(),
+            vertices: places.map(Point3::from).collect(),
+        };
+        find_strays(&mesh, &Point3::origin()).indices
+    }
+
+    /// Two flat cones on each other: all points of the rim stand out from those above and below. Single ones that stand out as
+    /// far, two of them side by side, are strays.
+    #[test]
+    fn a_rim_is_no_row_of_strays() {
+        for sampling in [Sampling::Cube, Sampling::Rings] {
+            let directions = sampling.directions(1538, 0).unwrap();
+            let bicone = |n: &Vector3<f64>| 1.0 / (n.xy().norm() / 2.0 + n.z.abs());
+            let found = strays(&directions, |_, n| bicone(n));
+            assert!(found.is_empty(), "{sampling:?} {found:?}");
+            let lifted = [700, 701, 1200];
+            let radius = |i: usize, n: &Vector3<f64>| match lifted.contains(&i) {
+                true => 1.3,
+                false => 1.0 + 0.01 * n.x,
+            };
+            assert_eq!(
+                strays(&directions, radius),
+                lifted.map(|i| i as u32),
+                "{sampling:?}"
+            );
+        }
     }
 }

@@ -31,6 +31,12 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Volume, VolumeError> {
         return Err(VolumeError::Unsupported { what });
     }
     let size = [42, 44, 46].map(|at| usize::try_from(header.short(at)).unwrap_or(0));
+    let [slope, offset] = [112, 116].map(|at| header.float(at));
+    if slope.is_finite() && slope != 0.0 && [slope, offset] != [1.0, 0.0] {
+        let what =
+            format!("a NIfTI image of scaled numbers (scl_slope {slope}, scl_inter {offset})");
+        return Err(VolumeError::Unsupported { what });
+    }
     let kind = match header.short(70) {
         2 => Kind::U8,
         4 => Kind::I16,

@@ -73,9 +73,10 @@ impl Points {
                         }
                     }
                     for _ in 0..SQUARINGS {
-                        for i in 0..LANES {
-                            heights[i] *= heights[i];
-                        }
+                        heights = heights.map(
+                            #[inline(always)]
+                            |height| height * height,
+                        );
                     }
                     for [of_residuals, of_squares] in &mut sums {
                         for i in 0..LANES {

@@ -192,6 +192,25 @@ fn grey_values_and_files_elsewhere_are_refused() {
     ));
 }
 
+/// A slope of one, or one that says nothing, leaves labels as they are.
+#[test]
+fn scaled_numbers_of_nifti_are_refused() {
+    let (_, plain, _) = formats().swap_remove(2);
+    for (slope, offset, is_read) in [
+        (0.0, 5.0, true),
+        (1.0, 0.0, true),
+        (f32::NAN, 0.0, true),
+        (10.0, 0.0, false),
+        (1.0, -1.0, false),
+    ] {
+        let mut bytes = plain.clone();
+        bytes[112..116].copy_from_slice(&f32::to_le_bytes(slope));
+        bytes[116..120].copy_from_slice(&f32::to_le_bytes(offset));
+        let found = parse_volume(Path::new("a.nii"), &bytes, 1 << 24);
+        assert_eq!(found.is_ok(), is_read, "{slope} {offset}");
+    }
+}
+
 #[test]
 fn what_headers_do_not_tell_or_tell_in_another_unit_is_warned_of() {
     let [width, height, depth] = SIZE;
