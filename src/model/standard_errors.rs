@@ -81,6 +81,8 @@ pub enum NoInterval {
         /// Kurtosis of the residuals: 3 of normal noise.
         kurtosis: f64,
     },
+    /// There are fewer points than coefficients of positions.
+    FewPoints,
     /// The points have a neck: if these are two grains that touch, a radius rounds off what lies between them.
     Neck,
     /// The figures are not finite.

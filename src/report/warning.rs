@@ -231,6 +231,10 @@ impl fmt::Display for NoInterval {
                  few to tell whether there are edges, and the body is alike on both sides of its centre or has flat sides: what \
                  edges hide may be all of one sign"
             ),
+            Self::FewPoints => write!(
+                f,
+                "there are fewer points than coefficients, and no point tells what lies between them"
+            ),
             Self::NotFinite => write!(f, "the figures are not finite"),
             Self::OutOfRange => write!(
                 f,

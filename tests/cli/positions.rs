@@ -133,3 +133,24 @@ fn points_that_no_kind_fits_are_told_why_for_both() {
         assert!(refused.contains(part), "{refused}");
     }
 }
+
+/// What lies between few points is the roughness's, of which no error tells.
+#[test]
+fn positions_of_fewer_points_than_coefficients_have_no_errors() {
+    let folder = folder();
+    for (points, is_told) in [("100", false), ("800", true)] {
+        succeed(
+            &folder,
+            &[
+                "synth", "bean", "--points", points, "--noise", "0.005", "-o", "bean.xyz",
+            ],
+        );
+        let report = json(&folder, &["fit", "bean.xyz", "--surface", "position"]);
+        assert_eq!(report["standard_errors"].is_object(), is_told, "{points}");
+        let why = report["no_standard_errors"].as_str();
+        assert_eq!(
+            why.is_some_and(|why| why.contains("fewer points")),
+            !is_told
+        );
+    }
+}
