@@ -118,6 +118,9 @@ fn worst(own: &[Squares]) -> Squares {
     }
 }
 
+/// Iterations allowed for singular values, which take fewer than ten each.
+const MOST_ROUNDS: usize = 1000;
+
 /// What samples round a place of a surface tell.
 struct Quadric {
     /// Of its distance from the place, and the variance of that.
@@ -143,7 +146,11 @@ fn quadric(near: &[Vector3<f64>], at: &Curvature) -> Option<Quadric> {
         rows.row_mut(i).copy_from_slice(&row);
         heights[i] = step.dot(&at.normal) / reach;
     }
-    let svd = rows.clone().svd(true, true);
+    let is_finite = rows.iter().chain(&heights).all(|entry| entry.is_finite());
+    is_finite.then_some(())?;
+    let svd = rows
+        .clone()
+        .try_svd(true, true, f64::EPSILON, MOST_ROUNDS)?;
     if svd.rank(RANK * svd.singular_values.max()) < NUMBERS {
         return None;
     }

@@ -53,8 +53,10 @@ impl PositionGrain {
             return Err(InvalidGrain::OutOfRange);
         }
         let place = |i: u32| found[i as usize].0 / size;
-        let normal =
-            |i: u32| area_normal(&directions[i as usize], &found[i as usize].1).normalize();
+        let normal = |i: u32| {
+            let tangents = found[i as usize].1 / size;
+            area_normal(&directions[i as usize], &tangents).normalize()
+        };
         let mut volume = 0.0;
         for &[i, j, k] in &triangles {
             let [a, b, c] = [i, j, k].map(place);

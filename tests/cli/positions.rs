@@ -154,3 +154,37 @@ fn positions_of_fewer_points_than_coefficients_have_no_errors() {
         );
     }
 }
+
+/// Products of lengths, and of curvatures, are beyond the range of numbers.
+#[test]
+fn positions_of_any_size_are_fitted() {
+    let folder = folder();
+    succeed(
+        &folder,
+        &["synth", "bean", "--points", "800", "-o", "bean.xyz"],
+    );
+    let text = std::fs::read_to_string(folder.path().join("bean.xyz")).unwrap();
+    let volume = |scale: f64| {
+        let scaled = |word: &str| word.parse::<f64>().unwrap() * scale;
+        let line = |line: &str| {
+            let words = line.split_whitespace().map(scaled);
+            words.map(|x| format!("{x:e} ")).collect::<String>() + "\n"
+        };
+        let points: String = text.lines().map(line).collect();
+        std::fs::write(folder.path().join("scaled.xyz"), points).unwrap();
+        let words = [
+            "fit",
+            "scaled.xyz",
+            "--surface",
+            "position",
+            "-o",
+            "scaled.json",
+        ];
+        let report = json(&folder, &words);
+        number(&report, "volume") / scale / scale / scale
+    };
+    let whole = volume(1.0);
+    for scale in [1e-90, 1e90] {
+        assert!((volume(scale) / whole - 1.0).abs() < 1e-3, "{scale}");
+    }
+}
