@@ -149,8 +149,8 @@ pub enum FitError {
     },
     /// The surface goes far beyond the points.
     #[error(
-        "the surface holds {times:.1} times the volume of the polyhedron of its points: they may not be of one grain; look \
-         for several bodies, or what the grain stands on; grainform split cuts one grain out"
+        "the surface holds {times:.1} times the volume of the polyhedron of its points: they may be too few, or not of one \
+         grain; scan it more densely, or look for several bodies, or what the grain stands on; grainform split cuts one grain out"
     )]
     FarBeyondPoints {
         /// Its volume over that of the polyhedron.

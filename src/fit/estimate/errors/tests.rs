@@ -136,30 +136,6 @@ fn holes_and_edges_are_told() {
     }
 }
 
-/// Few points on a lattice fit edges as well as anything, and leave nothing; of an ellipsoid they tell all, if there are enough.
-#[test]
-fn few_points_of_made_bodies_do_not_tell_whether_there_are_edges() {
-    let ellipsoid = |n: &Vector3<f64>| (n.x / 3.0).hypot(n.yz().norm()).recip();
-    // Those of the polyhedron of few points.
-    let axes = Vector3::new(2.6, 1.0, 1.0);
-    let octahedron = |n: &Vector3<f64>| n.abs().sum().recip();
-    for (points, radius, axes, is_told) in [
-        (
-            500,
-            &octahedron as &dyn Fn(&Vector3<f64>) -> f64,
-            Vector3::repeat(1.0),
-            false,
-        ),
-        (50, &ellipsoid, axes, false),
-        (300, &ellipsoid, axes, true),
-    ] {
-        let samples = samples(&fibonacci(points), radius, 0.0);
-        let estimate = estimated(&samples, axes);
-        let hides = estimate.hides_edges(estimate.is_rough());
-        assert_eq!(hides, !is_told, "{points} {}", estimate.deviation());
-    }
-}
-
 /// A ball cut by a larger one of radius 3: no estimate resolves the edge, and the errors tell what it takes from the figures.
 #[test]
 fn errors_beside_an_edge_are_those_of_the_points_left_out() {
