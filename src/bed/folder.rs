@@ -1,6 +1,7 @@
 //! A bed settles, and a folder keeps what it needs to go on after it was stopped at any moment.
 
 use super::former;
+use super::names::{FRAMES, STATE};
 use super::rest::Rest;
 use super::settings::{BedError, BedSettings};
 use super::settle::{Bed, State};
@@ -17,10 +18,6 @@ const SAVED: Duration = Duration::from_secs(10);
 
 /// Simulated seconds between two frames.
 const FRAME: f64 = 0.05;
-
-/// The names of what a bed goes on from, and of the folder of its frames.
-pub(super) const STATE: &str = "state.json";
-pub(super) const FRAMES: &str = "frames";
 
 /// A folder of a bed: `state.json`, which is how it is now and all that it needs to go on; `frames`, a LAMMPS dump for
 /// each twentieth of a second; and at the end `bed.vtk`.

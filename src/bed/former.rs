@@ -1,6 +1,6 @@
 //! What a former bed has left in a folder.
 
-use super::folder::{FRAMES, STATE};
+use super::names::{FRAMES, STATE};
 use std::fs;
 use std::io::{self, ErrorKind};
 use std::path::Path;

@@ -12,6 +12,7 @@ mod folder;
 mod former;
 mod grain;
 mod link;
+mod names;
 mod neighbours;
 mod pace;
 mod packing;

@@ -3,7 +3,7 @@
 use super::args::ContactArgs;
 use super::console::Console;
 use super::{inputs, placed, threads};
-use crate::contact::{Material, TouchError, effective_modulus_pa, touch};
+use crate::contact::{TouchError, touch};
 use crate::model::Grain;
 use crate::report::{ContactReport, Load, TouchRecord, Withheld};
 use anyhow::{Context, Result, anyhow, bail};
@@ -19,22 +19,6 @@ pub(super) fn run(args: ContactArgs, console: Console) -> Result<()> {
     console.tell(&report, args.json, None, &report.warnings)
 }
 
-/// Why there is no force where neither body gives.
-pub(super) const RIGID: &str = "both bodies are rigid, so that no force presses them together: give one of them a lower Young's \
-                     modulus, or a Poisson's ratio above -1";
-
-impl ContactArgs {
-    /// The materials of the grain, of this Young's modulus, and of what it touches.
-    pub(super) fn materials(&self, modulus_mpa: f64) -> Result<[Material; 2]> {
-        let own = Material::new(1e6 * modulus_mpa, self.poissons_ratio)?;
-        let other = Material::new(
-            1e6 * self.other_youngs_modulus_mpa.unwrap_or(modulus_mpa),
-            self.other_poissons_ratio.unwrap_or(self.poissons_ratio),
-        )?;
-        Ok([own, other])
-    }
-}
-
 fn contact(args: &ContactArgs) -> Result<ContactReport> {
     let (Some(unit), Some(indentation_um), Some(modulus_mpa)) =
         (args.unit, args.indentation_um, args.youngs_modulus_mpa)
@@ -47,15 +31,11 @@ fn contact(args: &ContactArgs) -> Result<ContactReport> {
     if let Some(radius) = args.edge_radius.filter(|r| !(*r > 0.0 && r.is_finite())) {
         bail!("the radius that rounds an edge must be above zero, not {radius} {unit}");
     }
-    let [own, other] = args.materials(modulus_mpa)?;
     let load = Load {
         unit,
-        effective_modulus_pa: effective_modulus_pa(&own, &other),
+        effective_modulus_pa: args.effective_modulus_pa(modulus_mpa)?,
         indentation_um,
     };
-    if !load.effective_modulus_pa.is_finite() {
-        bail!(RIGID);
-    }
     if inputs::is_stream(&args.model) && args.other.as_deref().is_some_and(inputs::is_stream) {
         bail!("standard input holds one model: read the other from a file");
     }

@@ -16,6 +16,7 @@ mod fitting;
 mod idle;
 mod inputs;
 mod lengths;
+mod materials;
 mod measure;
 mod mesh;
 mod negative;

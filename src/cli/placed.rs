@@ -3,11 +3,10 @@
 use super::args::ContactArgs;
 use super::console::Console;
 use super::values::{LawArg, PoseArg};
-use super::{contact, inputs, outputs, solid};
+use super::{inputs, outputs, solid};
 use crate::annotate::{self, ContactFrame};
 use crate::contact::{
-    ContactBody, RegionError, TOLD, VolumeLaw, contact_gaps, contact_regions, effective_modulus_pa,
-    reach, union_contacts,
+    ContactBody, RegionError, TOLD, VolumeLaw, contact_gaps, contact_regions, reach, union_contacts,
 };
 use crate::export::{Detail, MeshFormat};
 use crate::measure::{grain_properties, solid_properties};
@@ -157,11 +156,7 @@ fn law(args: &ContactArgs, grains: &[Grain; 2]) -> Result<Option<NormalLaw>> {
         (_, None, None) => return Ok(None),
         _ => bail!("a force needs --unit and --youngs-modulus-mpa"),
     };
-    let [own, other] = args.materials(modulus)?;
-    let effective_modulus_pa = effective_modulus_pa(&own, &other);
-    if !effective_modulus_pa.is_finite() {
-        bail!(contact::RIGID);
-    }
+    let effective_modulus_pa = args.effective_modulus_pa(modulus)?;
     let metres_per_unit = unit.metres();
     Ok(Some(match args.law.unwrap_or(LawArg::Hertz) {
         LawArg::Hertz => NormalLaw::Hertz(HertzLaw {

@@ -1,6 +1,6 @@
 //! Standard errors of figures, or why there are none.
 
-use super::measure::{Dimensions, rows};
+use super::measure::records::{Dimensions, rows};
 use crate::model::{NoInterval, StandardErrors};
 use serde::Serialize;
 

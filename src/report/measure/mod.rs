@@ -2,7 +2,7 @@
 
 mod faces;
 mod names;
-mod records;
+pub(super) mod records;
 mod text;
 mod withheld;
 
