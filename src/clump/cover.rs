@@ -41,6 +41,12 @@ impl Cover {
         }
     }
 
+    /// The radius of the largest candidate.
+    pub(super) fn largest(&self) -> f64 {
+        let radii = self.candidates.iter().map(|ball| ball.radius);
+        radii.fold(0.0, f64::max)
+    }
+
     /// At most so many balls that come as near to the surface as so many can.
     pub(super) fn of_count(&self, count: usize) -> Vec<Ball> {
         let (mut low, mut high) = (NEAREST, FARTHEST);

@@ -1,7 +1,7 @@
 //! Spheres fitted to the parts of the surface that they stand for.
 
-use crate::measure::{Ball, EvenPlace, TriangleTree};
-use nalgebra::{Matrix4, Vector3, Vector4};
+use crate::measure::{Ball, EvenPlace};
+use nalgebra::{Matrix4, Point3, Vector3, Vector4};
 use rayon::prelude::*;
 
 /// Rounds of assigning and fitting.
@@ -15,26 +15,33 @@ const DAMPING: f64 = 1e-3;
 const AFTER_NEARER: f64 = 0.5;
 const AFTER_OTHER: f64 = 4.0;
 
-/// No sphere becomes larger than so many times the largest that the body holds about its centre: flat parts of a surface are
-/// those of endless spheres, and through a tip one may leave the body with nothing in its way.
-const OVERHANG: f64 = 2.0;
+/// No sphere becomes larger than so many times the largest that the body holds: flat parts of a surface are those of
+/// endless spheres.
+const OVERHANG: f64 = 1.5;
+
+/// Lengths of a step that are tried, each half the one before, until the centre may be there.
+const HALVINGS: i32 = 4;
 
 /// In each round every place goes to the sphere that is nearest to it, and each sphere takes a step of Levenberg and
 /// Marquardt to the least sum of squared distances from its places: the hard union's own distances, for those of
-/// a smoothed one would shrink the spheres. Steps after which the sum over all is no less are taken back, and those of
-/// spheres that would leave the body.
-pub(super) fn refine(places: &[EvenPlace], spheres: Vec<Ball>, body: &TriangleTree) -> Vec<Ball> {
+/// a smoothed one would shrink the spheres. Steps after which the sum over all is no less are taken back, and those to where
+/// a centre may not be are shortened. `largest` is the radius of the largest sphere that the body holds.
+pub(super) fn refine(
+    places: &[EvenPlace],
+    spheres: &[Ball],
+    largest: f64,
+    may_be: impl Fn(&Point3<f64>) -> bool + Sync,
+) -> Vec<Ball> {
+    let largest = OVERHANG * largest;
     let within = |(from, to): (&Ball, Ball)| {
-        let most = OVERHANG * body.depth(&to.centre.coords);
-        match most > 0.0 {
-            true => Ball {
-                radius: to.radius.clamp(0.0, most),
-                ..to
-            },
-            false => *from,
+        let way = to.centre - from.centre;
+        let mut centres = (0..HALVINGS).map(|times| from.centre + way * 0.5_f64.powi(times));
+        Ball {
+            centre: centres.find(&may_be).unwrap_or(from.centre),
+            radius: to.radius.clamp(0.0, largest),
         }
     };
-    let mut best = Assigned::new(places, spheres);
+    let mut best = Assigned::new(places, spheres.to_vec());
     let mut damping = DAMPING;
     for _ in 0..ROUNDS {
         let steps = best.spheres.par_iter().zip(step(places, &best, damping));

@@ -28,6 +28,12 @@ const ROWS_TOLD: usize = 600;
 /// More spheres that come nearer by less than so many times bring nothing.
 const NEARER: f64 = 1.05;
 
+/// A sphere may have left the body if its centre is outside by more than this share of its radius, ...
+const OUTSIDE: f64 = 0.25;
+
+/// ... and has by more than this one.
+const ASTRAY: f64 = 0.75;
+
 /// How near to the grain's the volume of the clump is made, relative to it.
 const VOLUME_TOLERANCE: f64 = 1e-5;
 
@@ -111,13 +117,34 @@ impl Search {
         found
     }
 
-    /// So many spheres, or fewer where some lie in others.
+    /// So many spheres, or fewer where some lie in others. Through a tip one may leave the body with nothing in its way: then
+    /// all centres are kept inside, unless it has not gone far and that comes less near to the surface.
     fn fit(&self, count: usize) -> Judged {
-        let spheres = self.cover.of_count(count);
-        let spheres = with_volume(refine(&self.fitted, spheres, &self.body));
-        let spheres = without_swallowed(spheres);
+        let begin = self.cover.of_count(count);
+        let free = self.judged(&begin, |_| true);
+        if !self.has_left(&free.0, OUTSIDE) {
+            return free;
+        }
+        let inside = self.judged(&begin, |centre| !self.body.is_outside(&centre.coords));
+        match inside.1 <= free.1 || self.has_left(&free.0, ASTRAY) {
+            true => inside,
+            false => free,
+        }
+    }
+
+    fn judged(&self, begin: &[Ball], may_be: impl Fn(&Point3<f64>) -> bool + Sync) -> Judged {
+        let spheres = refine(&self.fitted, begin, self.cover.largest(), may_be);
+        let spheres = without_swallowed(with_volume(spheres));
         let rms = root_mean_square(&self.judged, &spheres);
         (spheres, rms)
+    }
+
+    /// Whether the centre of a sphere is outside of the body by more than a share of its radius.
+    fn has_left(&self, spheres: &[Ball], share: f64) -> bool {
+        spheres.iter().any(|ball| {
+            let centre = &ball.centre.coords;
+            self.body.is_outside(centre) && self.body.nearest(centre, share * ball.radius).is_none()
+        })
     }
 
     /// The fewest spheres found whose error is at most a share of the radius.

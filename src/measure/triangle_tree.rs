@@ -36,7 +36,7 @@ impl TriangleTree {
     }
 
     /// The point of the mesh nearest to a place, if it is nearer than `limit`: the search keeps to that ball.
-    pub(super) fn nearest(&self, place: &Vector3<f64>, limit: f64) -> Option<Vector3<f64>> {
+    pub(crate) fn nearest(&self, place: &Vector3<f64>, limit: f64) -> Option<Vector3<f64>> {
         let mut best = (limit * limit, None);
         self.tree.near(&Point3::from(*place), best.0, |span| {
             for triangle in &self.triangles[span] {
@@ -58,21 +58,10 @@ impl TriangleTree {
             .map_or([Vector3::zeros(); 2], Bounds::corners)
     }
 
-    /// How deep a place lies in a closed mesh, less than zero outside of it: as [`Self::is_outside`] tells.
-    pub(crate) fn depth(&self, place: &Vector3<f64>) -> f64 {
-        let nearest = self.nearest(place, f64::INFINITY);
-        let distance = nearest.map_or(f64::INFINITY, |nearest| (place - nearest).norm());
-        if self.is_outside(place) {
-            -distance
-        } else {
-            distance
-        }
-    }
-
     /// Whether a place off a closed mesh that is wound counter-clockwise from outside is outside: by the normal where it is
     /// nearest, on edges and at corners the sum of those of the triangles there, weighed by their angles (Bærentzen and
     /// Aanæs 2005). One of a mesh that goes through itself may be told wrong.
-    pub(super) fn is_outside(&self, place: &Vector3<f64>) -> bool {
+    pub(crate) fn is_outside(&self, place: &Vector3<f64>) -> bool {
         let Some(nearest) = self.nearest(place, f64::INFINITY) else {
             return true;
         };

@@ -15,7 +15,7 @@
 //! the mean radius of a lens, a capsule and balls that are fused, and less than .003 %, or than a seventh of the estimate's own
 //! standard deviation, of smooth bodies. Or the points are too few for what there is between them: they leave open more than
 //! their own noise, by 3 to 10 000 times of cubes, cylinders, bicones and octahedra with 300 to 1538 points, and less than it, or less
-//! than .002 %, of smooth bodies from 200 points on.
+//! than .002 %, of smooth bodies from 300 points on, and of most from 200 on.
 //!
 //! There figures are told with what the [points left out](super::left_out) say, unless the body is alike on both sides of
 //! its centre, as made ones are: an odd part of the radius of 0 to .7 % of the mean radius (cube, cylinder, bicone,

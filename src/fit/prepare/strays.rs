@@ -21,6 +21,9 @@ const SCATTERS: f64 = 8.0;
 /// sides: there it counts how much it goes on falling beyond three neighbours of four.
 const SPREADS: f64 = 3.0;
 
+/// Points of a rim that stand out one beside the other, at least.
+const ROW: usize = 8;
+
 /// How the radii of neighbours differ.
 pub(crate) struct Strays {
     /// Indices of the strays, in order.
@@ -65,30 +68,75 @@ pub(crate) fn find_strays(mesh: &Mesh, centre: &Point3<f64>) -> Strays {
         let least = LEAST_STRAY * c.distance;
         least.max(SCATTERS * scatter).max(SPREADS * c.spread)
     };
-    let stands_apart: Vec<bool> = comparisons.iter().map(|c| c.deviation > limit(c)).collect();
-    let near = |of: usize| {
-        let around = neighbours[of].iter().copied();
-        around.filter(|&i| !stands_apart[i])
+    let cloud = Cloud {
+        stands_apart: comparisons.iter().map(|c| c.deviation > limit(c)).collect(),
+        radii,
+        neighbours,
+        comparisons,
     };
-    // From the neighbours on, away from the point.
-    let fall = |own: usize, from: usize| {
-        let beyond = near(from).filter(|to| !neighbours[own].contains(to));
-        let side = (radii[own] - radii[from]).signum();
-        let falls = beyond.map(|to| side * (radii[from] - radii[to]) / radii[from]);
-        falls.fold(0.0, f64::max)
-    };
-    let flank = |own: usize| {
-        let mut falls: Vec<f64> = near(own).map(|from| fall(own, from)).collect();
-        lower_quartile(&mut falls).unwrap_or(0.0)
-    };
-    let is_stray =
-        |&own: &usize| stands_apart[own] && comparisons[own].deviation > SPREADS * flank(own);
+    let all = 0..cloud.radii.len();
     Strays {
-        indices: (0..radii.len())
-            .filter(is_stray)
+        indices: all
+            .filter(|&own| cloud.stands_apart[own] && !cloud.is_of_rim(own))
             .map(|own| own as u32)
             .collect(),
         scatter,
+    }
+}
+
+/// What is known of the points.
+struct Cloud {
+    radii: Vec<f64>,
+    neighbours: Vec<Vec<usize>>,
+    comparisons: Vec<Comparison>,
+    stands_apart: Vec<bool>,
+}
+
+impl Cloud {
+    /// Whether a point is one of a row that stands out from what falls off on both sides of it. Of a tip, which has nothing
+    /// beside it, nobody can tell.
+    fn is_of_rim(&self, own: usize) -> bool {
+        self.is_of_row(own) && self.comparisons[own].deviation <= SPREADS * self.flank(own)
+    }
+
+    /// Whether points stand out as far, one beside the other.
+    fn is_of_row(&self, own: usize) -> bool {
+        let like = 0.5 * self.comparisons[own].deviation;
+        let (mut row, mut at) = (vec![own], 0);
+        while at < row.len() && row.len() < ROW {
+            let from = row[at];
+            for &to in &self.neighbours[from] {
+                let step = (self.radii[to] / self.radii[from] - 1.0).abs();
+                let is_like = self.comparisons[to].deviation > like && step < like;
+                if is_like && !row.contains(&to) {
+                    row.push(to);
+                }
+            }
+            at += 1;
+        }
+        row.len() >= ROW
+    }
+
+    /// How much the surface goes on falling beyond three neighbours of four.
+    fn flank(&self, own: usize) -> f64 {
+        let mut falls: Vec<f64> = self.near(own).map(|from| self.fall(own, from)).collect();
+        lower_quartile(&mut falls).unwrap_or(0.0)
+    }
+
+    /// By how much it falls, relatively, from a neighbour on, away from the point.
+    fn fall(&self, own: usize, from: usize) -> f64 {
+        let beyond = self
+            .near(from)
+            .filter(|to| !self.neighbours[own].contains(to));
+        let side = (self.radii[own] - self.radii[from]).signum();
+        let falls = beyond.map(|to| side * (self.radii[from] - self.radii[to]));
+        falls.fold(0.0, f64::max) / self.radii[from]
+    }
+
+    /// Neighbours that do not stand apart.
+    fn near(&self, of: usize) -> impl Iterator<Item = usize> {
+        let around = self.neighbours[of].iter().copied();
+        around.filter(|&i| !self.stands_apart[i])
     }
 }
 
