@@ -22,7 +22,7 @@ const SCATTERS: f64 = 8.0;
 const SPREADS: f64 = 3.0;
 
 /// Points of a rim that stand out one beside the other, at least.
-const ROW: usize = 8;
+const ROW: usize = 6;
 
 /// How the radii of neighbours differ.
 pub(crate) struct Strays {
