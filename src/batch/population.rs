@@ -200,10 +200,9 @@ impl Population {
     fn outlying(&self, at: usize) -> Vec<Outlier> {
         let values = &self.values[at];
         let known: Vec<f64> = values.iter().flatten().copied().collect();
-        let count = known.len();
         let middle = median(known.iter().copied());
         let deviation = PER_MEDIAN * median(known.iter().map(|value| (value - middle).abs()));
-        if count < LEAST_GRAINS || deviation <= 0.0 {
+        if known.len() < LEAST_GRAINS || deviation <= 0.0 {
             return Vec::new();
         }
         let measure = &self.measures[at].measure;

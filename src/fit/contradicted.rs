@@ -43,10 +43,7 @@ impl Fitted {
     fn contradicted(&self) -> Option<Contradicted> {
         let survey = self.survey();
         let told = survey.properties().ok()?;
-        let has_faces = matches!(
-            self.reference.kind,
-            ReferenceKind::Faces | ReferenceKind::Voxels
-        );
+        let has_faces = self.reference.kind.has_faces();
         let area = told.area - self.reference.area;
         let volume = told.volume - self.reference.volume;
         let (shown, sag) = match self.reference.kind {

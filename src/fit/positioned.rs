@@ -6,7 +6,6 @@ use super::error::FitError;
 use super::options::{FitOptions, Seams};
 use super::outcome::{Fitted, KindChoice, Residuals, Rival};
 use super::position::{PositionFit, fit_position_if};
-use super::prepare::ReferenceKind;
 use super::warning::FitWarning;
 use crate::model::{Grain, InvalidGrain, NoInterval, PositionGrain, Surface};
 use crate::scan::Scan;
@@ -85,11 +84,7 @@ pub(super) fn positioned(
 /// Whether a cloud has fewer points than coefficients: volumes of smooth bodies with half a percent of noise are then up to 12
 /// standard errors off.
 fn are_few(fit: &PositionFit, coefficients: usize) -> bool {
-    let is_cloud = matches!(
-        fit.reference.kind,
-        ReferenceKind::Directions | ReferenceKind::Crust
-    );
-    is_cloud && fit.samples < coefficients
+    !fit.reference.kind.has_faces() && fit.samples < coefficients
 }
 
 /// The grain that was fitted, if its surface does not go through itself.

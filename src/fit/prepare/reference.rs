@@ -30,6 +30,11 @@ pub enum ReferenceKind {
 }
 
 impl ReferenceKind {
+    /// Whether faces are the scan's own, not made between its points.
+    pub(crate) fn has_faces(self) -> bool {
+        matches!(self, Self::Faces | Self::Voxels)
+    }
+
     /// The name used in reports: "faces", "voxels", "directions" or "crust".
     pub fn name(&self) -> &'static str {
         match self {
