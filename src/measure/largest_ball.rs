@@ -109,17 +109,18 @@ where
             }
             *left = left.saturating_sub(1);
             let least = cell.distance(&place);
-            let Some(point) = (self.nearest)(&place, least) else {
-                return true;
-            };
-            let distance = (place - point).norm();
-            cell.points.push(point);
+            let nearer = (self.nearest)(&place, least);
+            let distance = nearer.map_or(least, |point| (place - point).norm());
             if place == cell.centre && !cell.is_inside && distance >= cell.reach(self.is_flat) {
                 if (self.is_outside)(&place) {
                     return false;
                 }
                 cell.is_inside = true;
             }
+            let Some(point) = nearer else {
+                return true;
+            };
+            cell.points.push(point);
             let is_larger = distance > best.radius * (1.0 + GROWN * tolerance);
             if is_larger && (cell.is_inside || !(self.is_outside)(&place)) {
                 self.grow(&place, best);
@@ -225,5 +226,50 @@ impl PartialOrd for Cell {
 impl Ord for Cell {
     fn cmp(&self, other: &Self) -> Ordering {
         self.bound.total_cmp(&other.bound)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::cell::Cell as Count;
+
+    #[test]
+    fn some_hundreds_of_points_find_the_larger_end_of_a_dumbbell_and_show_that_nothing_is_larger() {
+        let ends = [
+            (1.0, Vector3::new(-3.0, 0.1, 0.2)),
+            (1.01, Vector3::new(3.0, -0.2, 0.1)),
+        ];
+        let depth = |place: &Vector3<f64>| {
+            let depths = ends.map(|(radius, middle)| radius - (place - middle).norm());
+            if depths[0] > depths[1] {
+                (depths[0], ends[0].1)
+            } else {
+                (depths[1], ends[1].1)
+            }
+        };
+        let looked = Count::new(0);
+        let obstacles = Obstacles {
+            nearest: |place: &Vector3<f64>, limit: f64| {
+                looked.set(looked.get() + 1);
+                let (depth, middle) = depth(place);
+                let outwards = (place - middle).try_normalize(0.0).unwrap_or(Vector3::x());
+                (depth.abs() < limit).then(|| place + outwards * depth)
+            },
+            is_outside: |place: &Vector3<f64>| depth(place).0 < 0.0,
+            is_inside: |_: &Ball| true,
+            is_flat: false,
+            bounds: [Vector3::new(-4.0, -1.3, -1.0), Vector3::new(4.1, 1.2, 1.3)],
+        };
+        let known = Ball {
+            centre: ends[0].1.into(),
+            radius: 1.0,
+        };
+        let found = obstacles.largest(known, 3e-3);
+        assert!(
+            found.radius > 1.01 / 1.003 && found.radius < 1.01 + 1e-9,
+            "{found:?}"
+        );
+        assert!(looked.get() < 2000, "{}", looked.get());
     }
 }

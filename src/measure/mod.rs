@@ -39,6 +39,7 @@ mod scanned;
 mod seen;
 mod self_crossing;
 mod silhouette;
+mod slits;
 #[cfg(feature = "cli")]
 mod smoothed;
 mod spectrum;

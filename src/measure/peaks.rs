@@ -27,14 +27,20 @@ const SHRINK: f64 = 0.25;
 const GROW: f64 = 2.0;
 const NARROW: f64 = 0.1;
 
-/// Share of the spacing below which steps that still change the value tell that it has no bound: on tips steps of a hundredth
-/// change it by less.
-const LEAST: f64 = 1e-6;
+/// Share of the spacing below which steps that still change the value tell that it comes to a cusp or has no bound: on tips
+/// steps of a hundredth change it by less.
+const LEAST: f64 = 1e-9;
 
-/// Rounds of steps of one climb at most, and after how many it ends where these have led no higher than by the tolerance:
-/// along a ridge that is bent sharply steps are short.
+/// Steps so many times as long tell which: no longer than a thousandth of the
+/// spacing, nor so short that it matters how near the climb has come.
+const WIDER: [f64; 3] = [1e3, 3e4, 9e5];
+
+/// Rounds of steps of one climb at most, and after how many it ends where these have led no higher than by the tolerance, with
+/// steps of no less than such a share of the spacing: along a ridge that is bent sharply steps are short, on one that comes to
+/// an edge far shorter.
 const MAX_ROUNDS: usize = 120;
 const SLOW: usize = 8;
+const SHORT: f64 = 1e-5;
 
 /// A place from which no small step leads higher.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -47,7 +53,7 @@ pub(super) struct Peak {
 }
 
 /// The highest peak of a value of the principal curvatures that is found from the highest of the nodes over a surface, to
-/// 1e-5 of itself.
+/// 1e-5 of itself; at a cusp, to 1e-3 of the largest value.
 pub(super) fn highest(
     surface: &(impl Surface + ?Sized),
     nodes: &[CurvedNode],
@@ -133,7 +139,8 @@ impl<S: Surface + ?Sized, V: Fn([f64; 2]) -> f64> Climb<'_, S, V> {
                 break;
             }
             if round % SLOW == 0 {
-                if here.value - before <= tolerance {
+                let is_edge = steps.iter().any(|&step| step < SHORT * spacing);
+                if here.value - before <= tolerance && !is_edge {
                     break;
                 }
                 before = here.value;
@@ -155,27 +162,45 @@ impl<S: Surface + ?Sized, V: Fn([f64; 2]) -> f64> Climb<'_, S, V> {
                     (best, way) = (*stand, towards);
                 }
             }
+            let is_wide = changes.map(|change| change > tolerance);
+            let is_least = [0, 1].map(|axis| steps[axis] < LEAST * spacing);
+            let wide = (0..2).filter(|&axis| is_wide[axis]);
+            let (ended, open): (Vec<usize>, Vec<usize>) = wide.partition(|&axis| is_least[axis]);
+            let limit = |&axis: &usize| self.limit(&here, axis, steps[axis], tolerance);
+            let limit = ended.iter().map(limit).fold(best.value, f64::max);
+            if limit == f64::INFINITY || (open.is_empty() && !ended.is_empty()) {
+                best.value = limit;
+                return Some(best.peak());
+            }
             for axis in [0, 1] {
-                let is_wide = changes[axis] > tolerance;
-                if is_wide && steps[axis] < LEAST * spacing {
-                    best.value = f64::INFINITY;
-                }
                 if way[axis].abs() == 1.0 || changes[axis] <= NARROW * tolerance {
                     steps[axis] = (GROW * steps[axis]).min(spacing);
-                } else if is_wide {
+                } else if is_wide[axis] && !is_least[axis] {
                     steps[axis] *= SHRINK;
                 }
             }
             here = best;
-            if here.value == f64::INFINITY {
-                break;
-            }
         }
-        Some(Peak {
-            n: here.n,
-            place: here.place,
-            value: here.value,
-        })
+        Some(here.peak())
+    }
+
+    /// Where the value leads that still grows by steps along a principal direction that are this short.
+    ///
+    /// Beside a ridge it goes by a power of the distance. So it grows by the same factor more, or less, each time that the
+    /// distance shrinks by the same factor: the sum of all that is to come is that of a geometric series, if it has one.
+    fn limit(&self, here: &Stand, axis: usize, step: f64, tolerance: f64) -> f64 {
+        let ways = [WAYS[2 * axis], WAYS[2 * axis + 1]];
+        let [near, farther, far] = WIDER.map(|times| {
+            let stands = self.stands(&ways.map(|way| here.beside([times * step; 2], way)));
+            0.5 * (stands[0].value + stands[1].value)
+        });
+        let (last, before) = (near - farther, farther - far);
+        let is_cusp = last < before;
+        match last > tolerance {
+            true if is_cusp => here.value.max(near + last * last / (before - last)),
+            true => f64::INFINITY,
+            false => here.value,
+        }
     }
 
     fn stands(&self, directions: &[Vector3<f64>]) -> Vec<Stand> {
@@ -206,6 +231,14 @@ const WAYS: [[f64; 2]; 8] = [
 ];
 
 impl Stand {
+    fn peak(&self) -> Peak {
+        Peak {
+            n: self.n,
+            place: self.place,
+            value: self.value,
+        }
+    }
+
     /// The direction of the place that is so many steps away along the principal directions.
     fn beside(&self, steps: [f64; 2], way: [f64; 2]) -> Vector3<f64> {
         let [first, second] = self.curvature.directions;
@@ -235,6 +268,9 @@ mod tests {
     use crate::shapes::{Body, Ellipsoid, Sampling};
     use approx::assert_relative_eq;
     use nalgebra::Rotation3;
+
+    /// Share of the largest curvature to which that of a cusp is known.
+    const CUSP: f64 = 1e-3;
 
     /// An ellipsoid as the superquadric it is, turned so that no node lies on its tips.
     fn ellipsoid(semi_axes: [f64; 3]) -> SuperquadricGrain {
@@ -296,6 +332,23 @@ mod tests {
                 sampled > found.value - 0.01 * found.value.abs(),
                 "{sampled} {found:?}"
             );
+        }
+    }
+
+    #[test]
+    fn superquadrics_between_ellipsoid_and_box_are_flat_where_their_axes_leave_them() {
+        for exponents in [[2.3, 2.8], [2.5, 2.2], [3.5, 2.1], [2.05, 6.0]] {
+            let shape = Superquadric::single([3.0, 2.0, 1.0], exponents[0], exponents[1]).unwrap();
+            let grain = SuperquadricGrain::single(Frame::SCAN, shape).unwrap();
+            let nodes = curved_nodes(&grain);
+            let largest = highest(&grain, &nodes, |[larger, _]| larger).value;
+            let least = highest(&grain, &nodes, |[_, smaller]| -smaller).value;
+            assert!(
+                largest.is_finite() && least.abs() < CUSP * largest,
+                "{least} {largest}"
+            );
+            let mean = highest(&grain, &nodes, |[larger, smaller]| -larger - smaller).value;
+            assert!(mean.abs() < CUSP * largest, "{mean} {largest}");
         }
     }
 

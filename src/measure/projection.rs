@@ -107,6 +107,23 @@ mod tests {
         }
 
         #[test]
+        fn walls_seen_edge_on_leave_no_slits(
+            angles in prop::array::uniform3(-3.0..3.0_f64), cells in 1..9_usize, shift in 0.0..50.0_f64,
+        ) {
+            let turn = Rotation3::from_euler_angles(angles[0], angles[1], angles[2]);
+            let mut cube = Mesh::radial(cells, |n| 1.0 / n.amax());
+            for vertex in &mut cube.vertices {
+                // As a file of 32 bits has it.
+                *vertex = (turn * *vertex + Vector3::repeat(shift)).map(|x| f64::from(x as f32));
+            }
+            for axis in [Vector3::z(), Vector3::new(1.0, 1.0, 0.0)] {
+                let found = project(&cube, &(turn * axis), &Point3::origin()).unwrap();
+                assert_relative_eq!(found.convexity(), 1.0, epsilon = 1e-4);
+                assert_relative_eq!(found.area, 4.0 * axis.norm(), max_relative = 1e-4);
+            }
+        }
+
+        #[test]
         fn the_outline_of_a_needle_reaches_its_tips(angles in prop::array::uniform3(-3.0..3.0_f64)) {
             let turn = Rotation3::from_euler_angles(angles[0], angles[1], angles[2]);
             for semi_axes in [Vector3::new(1.0, 1.0, 100.0), Vector3::new(100.0, 100.0, 1.0)] {

@@ -5,6 +5,7 @@
 //! triangles is that of what these few lines go round, and this is left to the crate `i_overlay`, on integers of 64 bits.
 
 use super::outline::signed_area;
+use super::slits::without_slits;
 use crate::predicates::orient2d;
 use i_overlay::core::fill_rule::FillRule;
 use i_overlay::float::simplify::SimplifyShape;
@@ -14,16 +15,19 @@ use nalgebra::Vector2;
 /// chance tells which of them are in front, and lines round thousands of slivers cross each other.
 const EDGE_ON: f64 = 1e-7;
 
+/// Slits of the border that are narrower go: coordinates of 32 bits are rounded to less, as far off as a hundred sizes.
+const SLIT: f64 = 1e-5;
+
 /// What a mesh covers.
 pub(super) struct Silhouette {
-    /// The outer border, counter-clockwise.
+    /// The outer border, counter-clockwise, without slits that are narrower than rounding leaves them.
     pub border: Vec<Vector2<f64>>,
     /// The area of the holes inside of it.
     pub holes: f64,
 }
 
 impl Silhouette {
-    /// That of the triangles of a closed mesh over places, of which those that are wound counter-clockwise cover all; if
+    /// That of the triangles of a closed mesh over places of the square from -1 to 1, of which those that are wound counter-clockwise cover all; if
     /// several parts lie apart, of the largest. `None` if they cover nothing. All triangles must name places that exist.
     pub(super) fn new(places: &[Vector2<f64>], triangles: &[[u32; 3]]) -> Option<Self> {
         let lines: Vec<Vec<[f64; 2]>> = closed_lines(border_edges(places, triangles))
@@ -40,7 +44,7 @@ impl Silhouette {
             .max_by(|one, other| outer(one).total_cmp(&outer(other)))?;
         let mut lines = largest.into_iter();
         Some(Self {
-            border: lines.next()?,
+            border: without_slits(lines.next()?, SLIT),
             holes: -lines.map(|line| signed_area(&line)).sum::<f64>(),
         })
     }

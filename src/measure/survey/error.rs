@@ -76,8 +76,8 @@ pub enum SurveyError {
     /// The figure is too large or too small for a number of 64 bits.
     #[error("in this unit it is beyond the range of numbers: change the unit")]
     OutOfRange,
-    /// Much of the curvature lies on edges where it has no bound.
-    #[error("on its edges the curvature has no bound, and {:.0} % of it is missed there", 100.0 * missed)]
+    /// Much of the curvature lies on edges and creases, where it has no bound.
+    #[error("on edges and creases the curvature has no bound, and {:.0} % of it is missed there", 100.0 * missed)]
     Edges {
         /// Share of the total curvature.
         missed: f64,

@@ -281,7 +281,7 @@ impl<'a> Survey<'a> {
     ///
     /// # Errors
     ///
-    /// [`SurveyError::Flat`] of a mesh, [`SurveyError::Edges`] of superquadrics with exponents below some 1.6.
+    /// [`SurveyError::Flat`] of a mesh, [`SurveyError::Edges`] of superquadrics with exponents below some 1.6, and of those that meet in creases.
     pub fn curvature(&self) -> Result<&CurvatureStatistics, SurveyError> {
         let found = self.any_curvature()?;
         match found.is_on_edges() {
