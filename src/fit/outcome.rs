@@ -199,9 +199,11 @@ impl Fitted {
     /// their corners. Scanners put these on the surface, and the faces are too small a body; what thins meshes out keeps
     /// the faces about it, and puts the corners outside. The true volume is as likely to be anywhere in between, and the fit
     /// at one end: of quadric edge collapses it is about half-way, of meshes that keep their volume at the other end. Where
-    /// faces are large, the fit is drawn to them, and a body that is smooth is larger by their bulge.
+    /// faces are large, the fit is drawn to them, and a body that is smooth is larger by their bulge. Of faces that are not closed
+    /// the polyhedron through their corners stands for them.
     fn beside_faces(&self, told: &MassProperties) -> f64 {
-        if self.reference.kind != ReferenceKind::Faces {
+        let is_not_closed = |warning: &FitWarning| matches!(warning, FitWarning::FacesNotClosed(_));
+        if self.reference.kind != ReferenceKind::Faces && !self.warnings.iter().any(is_not_closed) {
             return 0.0;
         }
         let larger = (told.volume - self.reference.volume).max(0.0) / 3.0_f64.sqrt();
@@ -319,7 +321,13 @@ mod tests {
             (told, dimensions, errors)
         };
         let cloud = Scan::from_points(mesh.vertices.clone());
+        // One face twice, wound in opposite senses: what is enclosed cannot be told.
+        let [a, b, c] = mesh.triangles[0];
+        let mut tangled = mesh.clone();
+        tangled.triangles.push([a, c, b]);
         let (told, dimensions, found) = errors(&Scan::from_mesh(mesh).unwrap());
+        let (_, _, of_tangled) = errors(&Scan::from_mesh(tangled).unwrap());
+        assert_relative_eq!(of_tangled.volume, found.volume, max_relative = 0.1);
         let too_large = told.volume / truth - 1.0;
         assert_relative_eq!(too_large, 3.0 * (scale - 1.0), max_relative = 0.02);
         let own = 2.0 * too_large / 3.0 / 3.0_f64.sqrt();

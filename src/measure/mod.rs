@@ -78,7 +78,7 @@ pub use oriented_box::OrientedBox;
 pub use outline::Outline;
 pub use projection::{ProjectionError, project};
 pub use roundness::ROUNDNESS_ORDER;
-pub(crate) use scanned::{Dust, largest_part, without_dust};
+pub(crate) use scanned::{Dust, are_steps, largest_part, spikes, without_dust};
 pub use scanned::{FacesDefect, Fill, ScannedBody, scanned_body};
 pub use self_crossing::SelfCrossing;
 pub(crate) use self_crossing::self_crossing;

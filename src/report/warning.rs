@@ -195,7 +195,7 @@ impl fmt::Display for Unseen {
         match *self {
             Self::Hole { half_angle } => write!(
                 f,
-                "no point lies in a cap of {:.0} degrees, and what the surface does there is a guess",
+                "no point lies in holes as large as a cap of {:.0} degrees, and what the surface does there is a guess",
                 half_angle.to_degrees()
             ),
             Self::Open { share, .. } => write!(

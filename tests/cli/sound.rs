@@ -264,7 +264,7 @@ fn what_large_holes_hide_is_not_told_unless_as_a_guess() {
     let ball =
         json!({"area": 4.0 * std::f64::consts::PI, "volume": 4.0 / 3.0 * std::f64::consts::PI});
     for (name, truth, words) in [
-        ("cap.ply", &cap, "no point lies in a cap"),
+        ("cap.ply", &cap, "no point lies in holes as large as a cap"),
         ("open.ply", &ball, "holes between the faces"),
     ] {
         let report = json(&folder, &["fit", name]);

@@ -141,3 +141,73 @@ fn what_a_body_that_goes_through_itself_encloses_is_not_measured() {
         );
     }
 }
+
+#[test]
+fn a_band_without_points_is_as_large_a_hole_as_a_cap() {
+    let folder = folder();
+    let synth = ["synth", "ellipsoid", "--axes", "6,4,3", "--points", "2000"];
+    succeed(&folder, &[&synth[..], &["-o", "s.xyz"]].concat());
+    let path = folder.path().join("s.xyz");
+    let text = std::fs::read_to_string(&path).unwrap();
+    let is_seen = |line: &&str| {
+        let numbers: Vec<f64> = line.split(' ').map(|x| x.parse().unwrap()).collect();
+        (numbers[0] / 6.0).abs() > 0.35
+    };
+    let rest: Vec<&str> = text.lines().filter(is_seen).collect();
+    std::fs::write(&path, rest.join("\n")).unwrap();
+    for command in ["fit", "measure"] {
+        let report = json(&folder, &[command, "s.xyz"]);
+        assert!(report["volume"].is_null(), "{command}");
+        let reason = report["not_measured"][0]["reason"].as_str().unwrap();
+        assert!(reason.contains("holes as large as a cap"), "{reason}");
+    }
+}
+
+#[test]
+fn steps_of_voxels_have_no_area_and_spikes_are_told() {
+    let folder = folder();
+    let path = |name| folder.path().join(name);
+    let mut mesh = Mesh::radial(16, |n| 2.0 + 0.5 * n.z);
+    mesh.vertices[700] = Point3::from(mesh.vertices[700].coords * 1.8);
+    grainform::export::save_mesh(&path("spiky.ply"), &mesh).unwrap();
+    let report = json(&folder, &["measure", "spiky.ply"]);
+    assert_eq!(report["faces"]["spikes"], 1);
+    let warning = report["warnings"][0].as_str().unwrap();
+    assert!(warning.starts_with("1 point stands far out"), "{warning}");
+    grainform::export::save_mesh(&path("steps.stl"), &voxels(7)).unwrap();
+    let report = json(
+        &folder,
+        &["measure", "steps.stl", "--only", "area,volume,sphericity"],
+    );
+    assert!(report["area"].is_null() && report["sphericity"].is_null());
+    assert!(report["volume"].is_number());
+}
+
+/// The sides of the voxels of a ball, each with corners of its own.
+fn voxels(radius: i32) -> Mesh {
+    let is_inside = |p: [i32; 3]| p.iter().map(|x| x * x).sum::<i32>() <= radius * radius;
+    let line = || -radius..=radius;
+    let places = line().flat_map(|x| line().flat_map(move |y| line().map(move |z| [x, y, z])));
+    let mut mesh = Mesh::default();
+    for place in places.filter(|place| is_inside(*place)) {
+        for (axis, side) in (0..3).flat_map(|axis| [(axis, -1), (axis, 1)]) {
+            let mut beside = place;
+            beside[axis] += side;
+            if is_inside(beside) {
+                continue;
+            }
+            let first = mesh.vertices.len() as u32;
+            mesh.vertices
+                .extend([(-1, -1), (1, -1), (1, 1), (-1, 1)].map(|(u, v)| {
+                    let mut corner = place.map(|x| f64::from(2 * x));
+                    corner[axis] += f64::from(side);
+                    corner[(axis + 1) % 3] += f64::from(u * side);
+                    corner[(axis + 2) % 3] += f64::from(v);
+                    Point3::from(corner)
+                }));
+            mesh.triangles
+                .extend([[0, 1, 2], [0, 2, 3]].map(|t| t.map(|i| i + first)));
+        }
+    }
+    mesh
+}

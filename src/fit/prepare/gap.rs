@@ -1,25 +1,17 @@
 //! The largest gap between the directions of a scan's points.
 
+use super::holes::{all_together, is_any_wide};
 use crate::fit::gaps::largest_cap;
-use crate::fit::neighbours::Neighbours;
 use crate::fit::warning::FitWarning;
 use crate::measure::Unit;
 use crate::mesh::Mesh;
 use crate::model::Unseen;
-use crate::sphere::triangulate_directions;
-use crate::spread::{median, middle_of_sum};
+use crate::spread::middle_of_sum;
 use nalgebra::{Point3, Vector3};
-use std::f64::consts::PI;
 
 /// A gap in the scan is told of when no point lies within this angle (radians) and three times the
 /// spacing of the points.
 const WIDE: f64 = 0.2;
-
-/// Points near a gap whose distances tell how far apart points are there, ...
-const NEAR: usize = 24;
-
-/// ... each by the neighbour within whose distance random points have a square of their own spacing.
-const NEIGHBOUR: usize = 3;
 
 /// The largest cap of directions without points.
 pub(super) struct Gap {
@@ -51,14 +43,17 @@ impl Gap {
             }
         }
         let (half_angle, direction) = largest_cap(&directions);
-        let unseen = Unseen::hole(half_angle, directions.len());
+        let unseen_in = |half_angle| Unseen::hole(half_angle, directions.len());
         let places = || -> Vec<Vector3<f64>> { mesh.vertices.iter().map(|v| v.coords).collect() };
+        let is_large = |half_angle| unseen_in(half_angle).is_some();
+        let is_sparse = is_large(half_angle) && !is_any_wide(&places(), &directions, is_large);
         Self {
             half_angle,
             direction,
             spacing: middle_of_sum(angles).unwrap_or(0.0).sqrt(),
-            unseen,
-            is_sparse: unseen.is_some() && !is_hole_in_space(&directions, &places()),
+            unseen: unseen_in(half_angle)
+                .or_else(|| unseen_in(all_together(mesh, &centre, half_angle))),
+            is_sparse,
         }
     }
 
@@ -70,42 +65,6 @@ impl Gap {
             direction: self.direction,
         })
     }
-}
-
-/// Whether any large cap of directions without points is wide in space too, beside the distances of the points round it.
-fn is_hole_in_space(directions: &[Vector3<f64>], places: &[Vector3<f64>]) -> bool {
-    let Ok(triangles) = triangulate_directions(directions) else {
-        return true;
-    };
-    let neighbours = Neighbours::new(places);
-    let distance = |place: &Vector3<f64>| -> f64 {
-        let nearest = neighbours.nearest(place, NEIGHBOUR + 1);
-        nearest
-            .last()
-            .map_or(0.0, |&other| (places[other] - place).norm())
-    };
-    let spacing = |place: &Vector3<f64>| -> f64 {
-        let near = neighbours.nearest(place, NEAR).into_iter();
-        let mut distances: Vec<f64> = near.map(|other| distance(&places[other])).collect();
-        median(&mut distances).unwrap_or(0.0)
-    };
-    let by_chance = random_hole(places.len());
-    triangles.iter().any(|corners| {
-        let [a, b, c] = corners.map(|corner| directions[corner as usize]);
-        let middle = (b - a).cross(&(c - a));
-        let half_angle = middle.cross(&a).norm().atan2(middle.dot(&a));
-        Unseen::hole(half_angle, places.len()).is_some() && {
-            let [a, b, c] = corners.map(|corner| places[corner as usize]);
-            let longest = (b - a).norm().max((c - b).norm()).max((a - c).norm());
-            longest / 2.0 > by_chance * spacing(&((a + b + c) / 3.0))
-        }
-    })
-}
-
-/// Radius of a disc of which random points on a surface leave one empty with a few percent, in their spacing: one in whose
-/// area ln n + 5 of them are expected.
-fn random_hole(points: usize) -> f64 {
-    ((points.max(1) as f64).ln() + 5.0).sqrt() / PI.sqrt()
 }
 
 /// Unlike the mean of the points it does not lie where there are most of them.

@@ -7,6 +7,7 @@ mod by_direction;
 mod centre;
 mod facets;
 mod gap;
+mod holes;
 mod largest;
 mod pieces;
 mod reference;

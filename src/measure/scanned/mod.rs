@@ -7,6 +7,7 @@ mod bodies;
 mod fill;
 mod parts;
 mod rims;
+mod traces;
 
 use super::SelfCrossing;
 use crate::digits::plural;
@@ -18,6 +19,7 @@ use fill::fill;
 pub(crate) use parts::{Dust, largest_part, without_dust};
 use rims::rims;
 use thiserror::Error;
+pub(crate) use traces::{are_steps, spikes};
 
 /// Largest share of a body's area that fills of its holes may have. Its area is then off by some percent at
 /// most; a few triangles that are missing have a thousandth.

@@ -1,7 +1,7 @@
 //! What the faces of a scan enclose.
 
 use crate::digits::plural;
-use crate::measure::{Fill, ScannedBody};
+use crate::measure::{Fill, ScannedBody, spikes};
 use crate::report::number::short;
 use crate::report::unit::Labels;
 use serde::Serialize;
@@ -17,6 +17,8 @@ pub struct FacesRecord {
     pub cavities: usize,
     /// What closes small holes; `null` where there were none, or larger ones.
     pub filled: Option<FillRecord>,
+    /// Vertices that stand far out of those round them, or far in.
+    pub spikes: usize,
 }
 
 /// What closes small holes.
@@ -42,6 +44,7 @@ impl FacesRecord {
             bodies: scanned.bodies,
             cavities: scanned.cavities,
             filled: scanned.fill.map(record),
+            spikes: spikes(&scanned.mesh),
         }
     }
 
@@ -70,7 +73,21 @@ impl FacesRecord {
                 plural(self.cavities, "inner surface")
             )
         });
-        [filled, several, hollow].into_iter().flatten().collect()
+        let spiky = (self.spikes > 0).then(|| {
+            format!(
+                "{} far out of the faces round {}, or far in, as spikes do: lengths and area are those of the spikes. \
+                 Fit the scan, which leaves them out, and measure the model.",
+                match self.spikes {
+                    1 => "1 point stands".into(),
+                    spikes => format!("{spikes} points stand"),
+                },
+                if self.spikes == 1 { "it" } else { "them" },
+            )
+        });
+        [filled, several, hollow, spiky]
+            .into_iter()
+            .flatten()
+            .collect()
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::{Measure, NotMeasured};
 use crate::fit::ScannedSurface;
-use crate::measure::{ScannedBody, SelfCrossing};
+use crate::measure::{ScannedBody, SelfCrossing, are_steps};
 use crate::model::{Contradicted, Grain, Unseen};
 use crate::report::percent;
 
@@ -14,6 +14,8 @@ pub(crate) struct Withheld {
     crossing: Option<SelfCrossing>,
     /// By how much the roughness of points adds to the area of the polyhedron through them, as a share.
     roughness: Option<f64>,
+    /// Whether the area is that of the steps of voxels.
+    is_of_steps: bool,
 }
 
 /// How much that may add.
@@ -49,6 +51,7 @@ impl Withheld {
     pub(super) fn of_faces(scanned: &ScannedBody) -> Self {
         Self {
             crossing: scanned.crossing.filter(SelfCrossing::hides_area),
+            is_of_steps: are_steps(&scanned.mesh),
             ..Self::default()
         }
     }
@@ -69,6 +72,13 @@ impl Withheld {
                  half-way to the mean of its neighbours; fit the scan, and measure the model",
                 percent(roughness)
             ));
+        }
+        if self.is_of_steps && is_made_of_area(measure) {
+            return Some(
+                "the faces are steps, as voxels leave them, whose area is a fifth to a half larger than that of the grain; \
+                 fit the scan, and measure the model"
+                    .into(),
+            );
         }
         let contradicted = self.contradicted?;
         let area = contradicted.area.filter(|_| rests_on_area(measure));

@@ -1,0 +1,186 @@
+//! Traces in the faces of a scan that the grain does not have: steps that voxels leave, and spikes.
+
+use crate::mesh::Mesh;
+use crate::scan::each_edge;
+use crate::spread::median;
+use nalgebra::Vector3;
+use std::f64::consts::FRAC_PI_2;
+
+/// Bends of more than 40 degrees are sharp.
+const SHARP: f64 = 0.766;
+
+/// Of steps such a share of the length of all edges is sharp at least, and of these such a share bends inwards. Grains of fine faces
+/// have a twentieth that is sharp, and coarse ones, which have more, bend outwards.
+const SHARE_OF_SHARP: f64 = 0.15;
+const SHARE_INWARDS: f64 = 0.38;
+
+/// Fewer points than this are no steps and have no spikes: they are a body of large facets.
+const LEAST_POINTS: usize = 100;
+
+/// All edges of a spike are so many times as long as others at least, the angles there add up to less than this (of a flat place
+/// to four times as much), and the mesh bends sharply at its foot.
+const LONG: f64 = 3.0;
+const PEAKED: f64 = FRAC_PI_2;
+
+/// Whether the faces of a closed mesh are the sides of voxels, or nearly: a fifth to a half of their area is then that of steps.
+pub(crate) fn are_steps(mesh: &Mesh) -> bool {
+    let (mut all, mut outwards, mut inwards) = (0.0, 0.0, 0.0);
+    let corner = |at: u32| mesh.vertices[at as usize];
+    each_edge(mesh.vertices.len(), &mesh.triangles, |edge| {
+        let Some(pair) = edge.pair() else { return };
+        let [from, to] = edge.ends.map(corner);
+        let length = (to - from).norm();
+        all += length;
+        if cosine(mesh, pair).is_some_and(|cosine| cosine < SHARP) {
+            let beyond = corner(tip(mesh, pair[1], edge.ends)) - from;
+            let is_inwards = normal(mesh, pair[0]).is_some_and(|n| n.dot(&beyond) > 0.0);
+            *(if is_inwards {
+                &mut inwards
+            } else {
+                &mut outwards
+            }) += length;
+        }
+    });
+    let sharp = outwards + inwards;
+    mesh.vertices.len() >= LEAST_POINTS
+        && sharp > SHARE_OF_SHARP * all
+        && inwards > SHARE_INWARDS * sharp
+}
+
+/// How many vertices stand far out of those round them, or far in: of a tip, which may be as sharp, the flanks go on below.
+pub(crate) fn spikes(mesh: &Mesh) -> usize {
+    if mesh.vertices.len() < LEAST_POINTS {
+        return 0;
+    }
+    let mut peaks = vec![Peak::default(); mesh.vertices.len()];
+    let mut lengths = Vec::with_capacity(3 * mesh.triangles.len());
+    for corners in &mesh.triangles {
+        for turn in 0..3 {
+            let [own, next, last] = [0, 1, 2].map(|step| corners[(turn + step) % 3]);
+            let from = mesh.vertices[own as usize];
+            let [ahead, back] = [next, last].map(|other| mesh.vertices[other as usize] - from);
+            let peak = &mut peaks[own as usize];
+            peak.triangles += 1;
+            peak.angle += ahead.angle(&back);
+            peak.shortest = peak.shortest.min(ahead.norm());
+            lengths.push(ahead.norm());
+        }
+    }
+    each_edge(mesh.vertices.len(), &mesh.triangles, |edge| {
+        let Some(pair) = edge.pair() else { return };
+        if cosine(mesh, pair).is_some_and(|cosine| cosine < SHARP) {
+            for tip in pair.map(|triangle| tip(mesh, triangle, edge.ends)) {
+                peaks[tip as usize].ended += 1;
+            }
+        }
+    });
+    let long = LONG * median(&mut lengths).unwrap_or(0.0);
+    let is_spike = |peak: &&Peak| {
+        peak.angle < PEAKED && peak.shortest > long && 2 * peak.ended > peak.triangles
+    };
+    peaks.iter().filter(is_spike).count()
+}
+
+/// What is round a vertex.
+#[derive(Clone)]
+struct Peak {
+    triangles: usize,
+    /// Of these, whose far edge is sharp.
+    ended: usize,
+    /// Sum of their angles.
+    angle: f64,
+    /// Of its edges.
+    shortest: f64,
+}
+
+impl Default for Peak {
+    fn default() -> Self {
+        Self {
+            triangles: 0,
+            ended: 0,
+            angle: 0.0,
+            shortest: f64::INFINITY,
+        }
+    }
+}
+
+/// Of the angle by which the mesh bends between two triangles; `None` if one has no area.
+fn cosine(mesh: &Mesh, pair: [usize; 2]) -> Option<f64> {
+    let [one, other] = pair.map(|triangle| normal(mesh, triangle));
+    Some(one?.dot(&other?))
+}
+
+fn normal(mesh: &Mesh, triangle: usize) -> Option<Vector3<f64>> {
+    let [a, b, c] = mesh.triangles[triangle].map(|at| mesh.vertices[at as usize]);
+    (b - a).cross(&(c - a)).try_normalize(0.0)
+}
+
+/// The corner of a triangle that is no end of its edge.
+fn tip(mesh: &Mesh, triangle: usize, ends: [u32; 2]) -> u32 {
+    let mut corners = mesh.triangles[triangle].into_iter();
+    corners
+        .find(|corner| !ends.contains(corner))
+        .unwrap_or(ends[0])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::Point3;
+    use std::collections::HashMap;
+
+    /// The sides of the voxels of a ball.
+    fn steps(radius: i32) -> Mesh {
+        let is_inside = |p: [i32; 3]| p.iter().map(|x| x * x).sum::<i32>() <= radius * radius;
+        let mut mesh = Mesh::default();
+        let mut known = HashMap::new();
+        for x in -radius..=radius {
+            for (y, z) in (-radius..=radius).flat_map(|y| (-radius..=radius).map(move |z| (y, z))) {
+                for (axis, side) in (0..3).flat_map(|axis| [(axis, -1), (axis, 1)]) {
+                    let mut beside = [x, y, z];
+                    beside[axis] += side;
+                    if !is_inside([x, y, z]) || is_inside(beside) {
+                        continue;
+                    }
+                    let corner = |u: i32, v: i32| {
+                        let mut at = [2 * x, 2 * y, 2 * z];
+                        at[axis] += side;
+                        at[(axis + 1) % 3] += u * side;
+                        at[(axis + 2) % 3] += v;
+                        at
+                    };
+                    let square = [(-1, -1), (1, -1), (1, 1), (-1, 1)].map(|(u, v)| corner(u, v));
+                    let [a, b, c, d] = square.map(|at| {
+                        *known.entry(at).or_insert_with(|| {
+                            let place = Vector3::from(at).map(f64::from);
+                            mesh.vertices.push(place.into());
+                            mesh.vertices.len() as u32 - 1
+                        })
+                    });
+                    mesh.triangles.extend([[a, b, c], [a, c, d]]);
+                }
+            }
+        }
+        mesh
+    }
+
+    #[test]
+    fn sides_of_voxels_are_steps_and_facets_are_not() {
+        assert!(are_steps(&steps(8)));
+        // A grooved body, one with an edge, and one of a few facets.
+        let grooved = Mesh::radial(24, |n| 1.0 - 0.3 * (-(10.0 * n.x).powi(2)).exp());
+        for mesh in [grooved, Mesh::radial(8, |n| 1.0 / n.amax()), steps(1)] {
+            assert!(!are_steps(&mesh));
+        }
+    }
+
+    #[test]
+    fn vertices_that_were_moved_far_are_spikes_and_tips_are_not() {
+        let mut mesh = Mesh::radial(16, |n| 1.0 / (n.xy().norm() + 0.2 * n.z.abs()));
+        assert_eq!(spikes(&mesh), 0);
+        for (at, away) in [(100, 2.0), (900, 0.3)] {
+            mesh.vertices[at] = Point3::from(mesh.vertices[at].coords * away);
+        }
+        assert_eq!(spikes(&mesh), 2);
+    }
+}
