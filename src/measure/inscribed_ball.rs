@@ -14,7 +14,7 @@ use thiserror::Error;
 const FEET: usize = 1000;
 
 /// Share of its radius by which a larger ball may be inside than the one that is told.
-const TOLERANCE: f64 = 3e-3;
+const TOLERANCE: f64 = 1e-3;
 
 /// Why no ball was found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
@@ -48,7 +48,7 @@ pub enum InscribedBallError {
 /// 20 to 40 such steps do.
 ///
 /// Of a convex body the ball is the largest there is (its centre is the Chebyshev centre of the
-/// facets). Of others it is a local maximum than which none is larger by more than 3e-3; between flat walls n times as
+/// facets). Of others it is a local maximum than which none is larger by more than 1e-3; between flat walls n times as
 /// wide as they are apart, about n² thousandths. Error of that maximum: 1e-9 of itself for polyhedra of large facets, 1e-7
 /// on fine meshes of smooth bodies; of walls of even thickness, where many balls are nearly as large, 1e-4.
 ///

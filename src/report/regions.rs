@@ -55,7 +55,7 @@ pub struct RegionRecord {
     pub point: [f64; 3],
     /// The unit normal from the first body to the second.
     pub normal: [f64; 3],
-    /// How far they overlap along the normal.
+    /// How far they overlap between their deepest points, along the line that is normal to both surfaces there.
     pub depth: f64,
     /// Its standard error; `null`, as those of the others, where a surface does not tell its own or the region has no
     /// deepest points.

@@ -8,7 +8,8 @@ use crate::shapes::{Subject, SynthOptions, SyntheticScan};
 use serde::Serialize;
 use std::fmt;
 
-/// A synthetic scan and the closed form it was taken from. Lengths are in millimetres.
+/// A synthetic scan and the closed form it was taken from. Lengths are in the unit of the axes; of a body that has none, in
+/// millimetres.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct SynthReport {
@@ -93,7 +94,11 @@ impl fmt::Display for SynthReport {
         }
         write!(
             f,
-            "Exact figures of the body in mm, to {:.0e}.",
+            "Exact figures of the body{}, to {:.0e}.",
+            match self.axes {
+                Some(_) => "",
+                None => " in mm",
+            },
             self.truth.relative_error
         )
     }
