@@ -32,7 +32,7 @@ impl PreparedScan<'_> {
             Seams::Blended => estimated(self, options, context),
         })?;
         fitted.warnings.extend(sound::check(&fitted, options)?);
-        if self.is_sparse {
+        if self.may_be_known {
             fitted = fitted.between_points();
         }
         Ok(fitted.beside_polyhedron())

@@ -168,10 +168,10 @@ impl Fitted {
         };
         let errors = self.errors_of_points(&told, &dimensions)?;
         let figures = self.figures(&told, &dimensions)?;
-        let beside_faces = self.beside_faces(&told);
+        let off = self.off_all_over(&told);
         Ok(errors
-            .with_scale(beside_faces, &figures)
-            .with_shift(beside_faces, &figures)
+            .with_scale(off, &figures)
+            .with_shift(off, &figures)
             .with_lack(self.smoothed_over(&told), &figures))
     }
 
@@ -195,7 +195,16 @@ impl Fitted {
         }
     }
 
-    /// Standard error of a length, as a share of it, for what lies between flat faces and a surface that goes through
+    /// Standard error of all lengths together, as a share of them.
+    fn off_all_over(&self, told: &MassProperties) -> f64 {
+        let within_cells = self.warnings.iter().find_map(|warning| match warning {
+            FitWarning::Averaged { share, .. } => Some(*share),
+            _ => None,
+        });
+        self.beside_faces(told).hypot(within_cells.unwrap_or(0.0))
+    }
+
+    /// The same for what lies between flat faces and a surface that goes through
     /// their corners. Scanners put these on the surface, and the faces are too small a body; what thins meshes out keeps
     /// the faces about it, and puts the corners outside. The true volume is as likely to be anywhere in between, and the fit
     /// at one end: of quadric edge collapses it is about half-way, of meshes that keep their volume at the other end. Where
@@ -263,9 +272,9 @@ impl Fitted {
     /// place](crate::model::LocalErrors), which a file of it keeps, or why there are none.
     pub fn grain_with_errors(&self) -> Grain {
         let survey = self.survey();
-        let of_faces = survey
+        let off = survey
             .properties()
-            .map_or(0.0, |told| self.beside_faces(&told));
+            .map_or(0.0, |told| self.off_all_over(&told));
         let of_estimate = || {
             let posterior = self.posterior.as_ref()?;
             posterior.local_errors(self.grain.star()?)
@@ -276,8 +285,7 @@ impl Fitted {
             Some(samples.local_errors(&self.grain))
         };
         let squares = of_estimate().or_else(of_samples).or_else(of_points);
-        let errors =
-            squares.and_then(|squares| local_cells::errors(&squares, of_faces, &self.grain));
+        let errors = squares.and_then(|squares| local_cells::errors(&squares, off, &self.grain));
         let grain = self.grain.clone().with_local_errors(errors);
         grain.with_standard_errors(self.standard_errors(&survey))
     }

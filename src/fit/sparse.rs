@@ -1,4 +1,4 @@
-//! Whether the figures of a thin body can be told though its points are few.
+//! Whether the figures of a body can be told though there are holes between its points that chance or a fit may account for.
 
 use super::outcome::Fitted;
 

@@ -48,6 +48,13 @@ pub enum FitWarning {
         /// Points of the scan.
         points: usize,
     },
+    /// The points seem to be means over the cells of a grid, and lie within a round surface.
+    Averaged {
+        /// Side of the cells.
+        cell: f64,
+        /// Share by which lengths are too small, about.
+        share: f64,
+    },
     /// Points that stand apart from their neighbours were left out.
     Strays {
         /// Their number.

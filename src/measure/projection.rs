@@ -80,7 +80,46 @@ mod tests {
     use approx::assert_relative_eq;
     use nalgebra::{Matrix3, Rotation3};
     use proptest::prelude::*;
+    use std::collections::HashMap;
     use std::f64::consts::{PI, TAU};
+
+    /// Square columns of these heights in a row.
+    fn columns(heights: &[i32]) -> Mesh {
+        let height = |x: i32| {
+            usize::try_from(x)
+                .ok()
+                .and_then(|x| heights.get(x))
+                .copied()
+        };
+        let is_inside =
+            |[x, y, z]: [i32; 3]| y == 0 && z >= 0 && height(x).is_some_and(|top| z < top);
+        let mut mesh = Mesh::default();
+        let mut known = HashMap::new();
+        let places = (0..heights.len() as i32).flat_map(|x| (0..5).map(move |z| [x, 0, z]));
+        for place in places.filter(|place| is_inside(*place)) {
+            for (axis, side) in (0..3).flat_map(|axis| [(axis, -1), (axis, 1)]) {
+                let mut beside = place;
+                beside[axis] += side;
+                if is_inside(beside) {
+                    continue;
+                }
+                let corners = [(-1, -1), (1, -1), (1, 1), (-1, 1)].map(|(u, v)| {
+                    let mut corner = place.map(|x| 2 * x);
+                    corner[axis] += side;
+                    corner[(axis + 1) % 3] += u * side;
+                    corner[(axis + 2) % 3] += v;
+                    *known.entry(corner).or_insert_with(|| {
+                        mesh.vertices
+                            .push(Point3::from(corner.map(|x| 0.5 * f64::from(x))));
+                        mesh.vertices.len() as u32 - 1
+                    })
+                });
+                let [a, b, c, d] = corners;
+                mesh.triangles.extend([[a, b, c], [a, c, d]]);
+            }
+        }
+        mesh
+    }
 
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(12))]
@@ -121,6 +160,19 @@ mod tests {
                 assert_relative_eq!(found.convexity(), 1.0, epsilon = 1e-4);
                 assert_relative_eq!(found.area, 4.0 * axis.norm(), max_relative = 1e-4);
             }
+        }
+
+        #[test]
+        fn teeth_seen_from_above_are_one_body(angles in prop::array::uniform3(-3.0..3.0_f64)) {
+            let turn = Rotation3::from_euler_angles(angles[0], angles[1], angles[2]);
+            let mut comb = columns(&[3, 1, 3, 1, 2]);
+            for vertex in &mut comb.vertices {
+                // As a file of 32 bits has it.
+                *vertex = (turn * *vertex).map(|x| f64::from(x as f32));
+            }
+            let found = project(&comb, &(turn * Vector3::z()), &Point3::origin()).unwrap();
+            assert_relative_eq!(found.area, 5.0, max_relative = 1e-5);
+            assert_relative_eq!(found.perimeter, 12.0, max_relative = 1e-4);
         }
 
         #[test]

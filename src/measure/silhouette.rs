@@ -30,14 +30,13 @@ impl Silhouette {
     /// That of the triangles of a closed mesh over places of the square from -1 to 1, of which those that are wound counter-clockwise cover all; if
     /// several parts lie apart, of the largest. `None` if they cover nothing. All triangles must name places that exist.
     pub(super) fn new(places: &[Vector2<f64>], triangles: &[[u32; 3]]) -> Option<Self> {
-        let lines: Vec<Vec<[f64; 2]>> = closed_lines(border_edges(places, triangles))
-            .into_iter()
-            .map(|line| line.iter().map(|&at| places[at as usize].into()).collect())
-            .collect();
-        let corners = |line: Vec<[f64; 2]>| line.into_iter().map(Vector2::from).collect();
-        let part = |lines: Vec<_>| lines.into_iter().map(corners).collect();
-        let parts = lines.simplify_shape_as::<i64>(FillRule::NonZero);
-        let parts: Vec<Vec<Vec<Vector2<f64>>>> = parts.into_iter().map(part).collect();
+        let mut lines = closed_lines(border_edges(places, triangles));
+        let mut parts = covered(places, &lines);
+        if parts.len() > 1 {
+            // Walls seen edge-on, which are narrower than rounding, may lie between.
+            lines.extend(edge_on(places, triangles));
+            parts = covered(places, &lines);
+        }
         let outer = |part: &Vec<Vec<_>>| part.first().map_or(0.0, |line| signed_area(line));
         let largest = parts
             .into_iter()
@@ -50,15 +49,49 @@ impl Silhouette {
     }
 }
 
+/// What closed lines through places go round at least once: of each part the outer border, and those of its holes.
+fn covered(places: &[Vector2<f64>], lines: &[Vec<u32>]) -> Vec<Vec<Vec<Vector2<f64>>>> {
+    let line = |line: &Vec<u32>| -> Vec<[f64; 2]> {
+        line.iter().map(|&at| places[at as usize].into()).collect()
+    };
+    let lines: Vec<_> = lines.iter().map(line).collect();
+    let corners = |line: Vec<[f64; 2]>| line.into_iter().map(Vector2::from).collect();
+    let part = |lines: Vec<_>| lines.into_iter().map(corners).collect();
+    let parts = lines.simplify_shape_as::<i64>(FillRule::NonZero);
+    parts.into_iter().map(part).collect()
+}
+
+/// Twice the area of a triangle, above zero where it is wound counter-clockwise, and what it must be beyond not to be edge-on.
+fn seen(places: &[Vector2<f64>], corners: &[u32; 3]) -> [f64; 2] {
+    let [a, b, c] = corners.map(|corner| places[corner as usize]);
+    let sides = [b - a, c - b, a - c].map(|side| side.norm_squared());
+    [
+        orient2d([a, b, c]),
+        EDGE_ON * sides.into_iter().fold(0.0, f64::max),
+    ]
+}
+
+/// The triangles that are seen edge-on, counter-clockwise.
+fn edge_on(places: &[Vector2<f64>], triangles: &[[u32; 3]]) -> impl Iterator<Item = Vec<u32>> {
+    triangles.iter().filter_map(move |corners| {
+        let [area, least] = seen(places, corners);
+        let [a, b, c] = *corners;
+        (area.abs() <= least).then(|| {
+            if area < 0.0 {
+                vec![a, c, b]
+            } else {
+                vec![a, b, c]
+            }
+        })
+    })
+}
+
 /// The edges of the triangles that are wound counter-clockwise, from end to end, without those that two of them walk in
 /// opposite senses: these are most, and those between corners that no other triangle has are not even looked at.
 fn border_edges(places: &[Vector2<f64>], triangles: &[[u32; 3]]) -> Vec<[u32; 2]> {
     let is_in_front = |corners: &&[u32; 3]| {
-        let [a, b, c] = corners.map(|corner| places[corner as usize]);
-        let longest = [b - a, c - b, a - c]
-            .map(|side| side.norm_squared())
-            .into_iter();
-        orient2d([a, b, c]) > EDGE_ON * longest.fold(0.0, f64::max)
+        let [area, least] = seen(places, corners);
+        area > least
     };
     let (in_front, behind): (Vec<&[u32; 3]>, Vec<&[u32; 3]>) =
         triangles.iter().partition(is_in_front);

@@ -111,6 +111,14 @@ impl FitWarning {
                 "The scan seems to hold its points more than once, a little apart: {twins} of {points} points lie next \
                  to others, and their means are fitted."
             ),
+            Self::Averaged { cell, share } => write!(
+                f,
+                "The points seem to be means over the cells of a grid, {}{} wide, as voxel filters make them: they lie within a \
+                 round surface, and sizes are too small, by some {:.1} % of the volume. Thin clouds by taking some of the points.",
+                significant(cell, 3),
+                labels.length(),
+                300.0 * share
+            ),
             Self::Strays { strays: 1, points } => write!(
                 f,
                 "1 of {points} points stands apart from its neighbours by more than 10 % of the radius \

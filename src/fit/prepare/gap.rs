@@ -25,6 +25,8 @@ pub(super) struct Gap {
     /// Whether that is no wider in space than points as far apart as those round it leave by chance. On the flat sides of a
     /// thin plate few points are many degrees apart, as seen from its middle.
     pub(super) is_sparse: bool,
+    /// Whether these are holes none of which is large: a fit may know the surface over each of them.
+    pub(super) is_many: bool,
 }
 
 impl Gap {
@@ -46,14 +48,19 @@ impl Gap {
         let unseen_in = |half_angle| Unseen::hole(half_angle, directions.len());
         let places = || -> Vec<Vector3<f64>> { mesh.vertices.iter().map(|v| v.coords).collect() };
         let is_large = |half_angle| unseen_in(half_angle).is_some();
-        let is_sparse = is_large(half_angle) && !is_any_wide(&places(), &directions, is_large);
+        let unseen = unseen_in(half_angle);
+        let together = match unseen {
+            Some(_) => None,
+            None => unseen_in(all_together(mesh, &centre, half_angle)),
+        };
+        let is_sparse = unseen.is_some() && !is_any_wide(&places(), &directions, is_large);
         Self {
             half_angle,
             direction,
             spacing: middle_of_sum(angles).unwrap_or(0.0).sqrt(),
-            unseen: unseen_in(half_angle)
-                .or_else(|| unseen_in(all_together(mesh, &centre, half_angle))),
+            unseen: unseen.or(together),
             is_sparse,
+            is_many: together.is_some(),
         }
     }
 

@@ -1,5 +1,6 @@
 //! From the points of a scan to samples of the radius: reference surface, centre, axes.
 
+mod averaged;
 mod axes;
 mod bin;
 mod bulge;
@@ -66,8 +67,8 @@ pub struct PreparedScan<'a> {
     pub(crate) warnings: Vec<FitWarning>,
     /// What was not seen, if it is large.
     pub(crate) unseen: Option<Unseen>,
-    /// Whether that is only because the points are few for a body as thin.
-    pub(crate) is_sparse: bool,
+    /// Whether a fit whose errors are small tells of it all the same.
+    pub(crate) may_be_known: bool,
     /// Whether points were taken from large faces.
     pub(crate) has_large_faces: bool,
     points: Cow<'a, [Point3<f64>]>,
@@ -131,7 +132,7 @@ impl<'a> PreparedScan<'a> {
             symmetry,
             warnings: surface.warnings,
             unseen: surface.unseen,
-            is_sparse: surface.is_sparse,
+            may_be_known: surface.is_sparse || surface.is_many,
             has_large_faces,
             points: surface.points,
             representatives: surface.representatives,

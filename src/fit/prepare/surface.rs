@@ -1,6 +1,7 @@
 //! The surface that a scan draws: a closed mesh through its points, by its own faces or by the
 //! triangulation of their directions.
 
+use super::averaged::averaged;
 use super::by_direction::{middle, one_surface};
 use super::gap::Gap;
 use super::pieces::Pieces;
@@ -58,6 +59,8 @@ pub struct ScannedSurface<'a> {
     pub(crate) unseen: Option<Unseen>,
     /// Whether that is only because the points are few for a body as thin.
     pub(crate) is_sparse: bool,
+    /// Whether that are holes none of which is large.
+    pub(crate) is_many: bool,
     /// What a user should know.
     pub warnings: Vec<FitWarning>,
 }
@@ -176,6 +179,7 @@ fn closed(mesh: Mesh, points: Cow<'_, [Point3<f64>]>) -> ScannedSurface<'_> {
         representatives,
         unseen: None,
         is_sparse: false,
+        is_many: false,
         warnings: Vec::new(),
     }
 }
@@ -208,6 +212,7 @@ fn from_parts(scan: &Scan) -> Result<ScannedSurface<'static>, FitError> {
             ScannedSurface {
                 faces: Some(body.mesh),
                 is_sparse: cloud.is_sparse && unseen == cloud.unseen,
+                is_many: cloud.is_many && unseen == cloud.unseen,
                 unseen,
                 warnings,
                 ..cloud
@@ -310,10 +315,18 @@ fn from_directions(points: Cow<'_, [Point3<f64>]>) -> Result<ScannedSurface<'_>,
     Ok(ScannedSurface {
         unseen: gap.unseen,
         is_sparse: gap.is_sparse,
-        warnings: [repeated, twins, neck, strays, gap.warning()]
-            .into_iter()
-            .flatten()
-            .collect(),
+        is_many: gap.is_many,
+        warnings: [
+            repeated,
+            twins,
+            neck,
+            strays,
+            gap.warning(),
+            averaged(&mesh),
+        ]
+        .into_iter()
+        .flatten()
+        .collect(),
         mesh,
         kind: ReferenceKind::Directions,
         faces: None,

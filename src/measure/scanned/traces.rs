@@ -9,18 +9,23 @@ use std::f64::consts::FRAC_PI_2;
 /// Bends of more than 40 degrees are sharp.
 const SHARP: f64 = 0.766;
 
-/// Of steps such a share of the length of all edges is sharp at least, and of these such a share bends inwards. Grains of fine faces
-/// have a twentieth that is sharp, and coarse ones, which have more, bend outwards.
-const SHARE_OF_SHARP: f64 = 0.15;
+/// Of steps such a share of the length of all edges is sharp at least, and of these such a share bends inwards: of boxes none does.
+const SHARE_OF_SHARP: f64 = 0.05;
 const SHARE_INWARDS: f64 = 0.38;
+
+/// Such a share of the area of steps faces one of six sides at least, but for an angle with this cosine.
+const SIDES: usize = 6;
+const SHARE_OF_SIDES: f64 = 0.95;
+const SAME: f64 = 0.999;
 
 /// Fewer points than this are no steps and have no spikes: they are a body of large facets.
 const LEAST_POINTS: usize = 100;
 
 /// All edges of a spike are so many times as long as others at least, the angles there add up to less than this (of a flat place
-/// to four times as much), and the mesh bends sharply at its foot.
+/// to four times as much), and the mesh bends sharply at its foot; cones that were made as such are fans of more triangles.
 const LONG: f64 = 3.0;
 const PEAKED: f64 = FRAC_PI_2;
+const FAN: usize = 12;
 
 /// Whether the faces of a closed mesh are the sides of voxels, or nearly: a fifth to a half of their area is then that of steps.
 pub(crate) fn are_steps(mesh: &Mesh) -> bool {
@@ -45,6 +50,29 @@ pub(crate) fn are_steps(mesh: &Mesh) -> bool {
     mesh.vertices.len() >= LEAST_POINTS
         && sharp > SHARE_OF_SHARP * all
         && inwards > SHARE_INWARDS * sharp
+        && is_of_six_sides(mesh)
+}
+
+/// Whether nearly all of the area faces six sides.
+fn is_of_six_sides(mesh: &Mesh) -> bool {
+    // Their lengths are twice the areas.
+    let normal = |corners: &[u32; 3]| {
+        let [a, b, c] = corners.map(|at| mesh.vertices[at as usize]);
+        (b - a).cross(&(c - a))
+    };
+    let mut left: Vec<Vector3<f64>> = mesh.triangles.iter().map(normal).collect();
+    let area = |normals: &[Vector3<f64>]| normals.iter().map(Vector3::norm).sum::<f64>();
+    let all = area(&left);
+    for _ in 0..SIDES {
+        let largest = |one: &&Vector3<f64>, other: &&Vector3<f64>| {
+            one.norm_squared().total_cmp(&other.norm_squared())
+        };
+        let Some(&side) = left.iter().max_by(largest) else {
+            break;
+        };
+        left.retain(|normal| normal.dot(&side) <= SAME * normal.norm() * side.norm());
+    }
+    area(&left) < (1.0 - SHARE_OF_SIDES) * all
 }
 
 /// How many vertices stand far out of those round them, or far in: of a tip, which may be as sharp, the flanks go on below.
@@ -76,7 +104,10 @@ pub(crate) fn spikes(mesh: &Mesh) -> usize {
     });
     let long = LONG * median(&mut lengths).unwrap_or(0.0);
     let is_spike = |peak: &&Peak| {
-        peak.angle < PEAKED && peak.shortest > long && 2 * peak.ended > peak.triangles
+        peak.triangles <= FAN
+            && peak.angle < PEAKED
+            && peak.shortest > long
+            && 2 * peak.ended > peak.triangles
     };
     peaks.iter().filter(is_spike).count()
 }

@@ -1,0 +1,219 @@
+//! Clouds that were thinned to means over the cells of a grid, as voxel filters do: such points lie within a round surface.
+//!
+//! The mean over a patch as wide as a cell of side h lies h² H / 12 within a surface of mean curvature H. So the volume is too
+//! small by h²/12 times the integral of H, which of a convex body of area A is no less than sqrt(4 pi A).
+//!
+//! Means lie in the middle parts of their cells rather than at random, so that along each of the three axes the sum of
+//! exp(2 pi i x / h) over the points is several times as long as by chance, whatever the origin of the grid. Of vertices that lie
+//! on the edges of cells (marching cubes), or in their middles, it is longer still.
+
+use crate::fit::warning::FitWarning;
+use crate::measure::{Unit, mesh_properties};
+use crate::mesh::Mesh;
+use crate::scan::drawn;
+use nalgebra::Point3;
+use realfft::num_complex::Complex;
+use std::f64::consts::{PI, TAU};
+
+/// Fewer points are too few to tell.
+const LEAST_POINTS: usize = 200;
+
+/// Points that are looked at.
+const MOST_POINTS: usize = 1000;
+
+/// Means per area of the side of a cell, about: so many cells does a plane cut, over all its directions.
+const MEANS_PER_SIDE: f64 = 1.5;
+
+/// Sides that are tried, in that of so many cells, and steps of its reciprocal in that of the body's size; and how much finer, and
+/// how many, these are beside the best.
+const SIDES: [f64; 2] = [0.75, 1.25];
+const STEP: f64 = 0.25;
+const FINER: f64 = 5.0;
+const BESIDE: i32 = 25;
+
+/// Least length of the mean of exp(2 pi i x / h) along each axis, over that which it has by chance; and its largest length, beyond
+/// which places lie on the grid itself.
+const BEYOND_CHANCE: f64 = 2.0;
+const LARGEST: f64 = 0.45;
+
+/// Least share of the points that have a cell for themselves; of places at random some two in three have.
+const LEAST_ALONE: f64 = 0.85;
+
+/// Share of the body's size below which cells are too small to matter.
+const SMALL: f64 = 0.01;
+
+/// The integral of H is taken to be so many times the least that it can be: creases and tips have more.
+const MORE: f64 = 1.5;
+
+/// What to know of points, by the polyhedron through them, if they are such means.
+pub(super) fn averaged(mesh: &Mesh) -> Option<FitWarning> {
+    let unit = Unit::of(mesh);
+    let mesh = unit.mesh(mesh);
+    let (points, body) = (&mesh.vertices, mesh_properties(&mesh).ok()?);
+    let first = points.first()?;
+    let (low, high) = points.iter().fold((*first, *first), |(low, high), point| {
+        (low.inf(point), high.sup(point))
+    });
+    let size = (high - low).amax();
+    let about = (body.area / points.len() as f64 * MEANS_PER_SIDE).sqrt();
+    if points.len() < LEAST_POINTS || !(SMALL * size..size).contains(&about) {
+        return None;
+    }
+    let some = drawn(points, MOST_POINTS);
+    let [least, most] = [SIDES[1], SIDES[0]].map(|side| 1.0 / (side * about));
+    let step = STEP / size;
+    let (near, means) = strongest(&some, &low, [least, most], step)?;
+    let is_beyond_chance = means.iter().all(|mean| {
+        let length = mean.norm();
+        length * (some.len() as f64).sqrt() > BEYOND_CHANCE && length < LARGEST
+    });
+    if !is_beyond_chance {
+        return None;
+    }
+    // Round bodies have their longest waves beside those of the grid.
+    let beside = (-BESIDE..=BESIDE).map(|i| near + f64::from(i) * step / FINER);
+    let alone = beside.map(|per_length| (alone(points, &low, per_length), per_length));
+    let (most_alone, per_length) = alone.max_by(|(one, _), (other, _)| one.total_cmp(other))?;
+    let integral = MORE * (4.0 * PI * body.area).sqrt();
+    (most_alone > LEAST_ALONE).then(|| FitWarning::Averaged {
+        cell: unit.length / per_length,
+        share: integral / (36.0 * body.volume * per_length * per_length),
+    })
+}
+
+/// Of evenly spaced numbers of waves per length, that of which the shortest of the three means is longest, and these means.
+fn strongest(
+    points: &[Point3<f64>],
+    from: &Point3<f64>,
+    [least, most]: [f64; 2],
+    step: f64,
+) -> Option<(f64, [Complex<f64>; 3])> {
+    let steps = ((most - least) / step) as usize;
+    let [x, y, z] = [0, 1, 2].map(|axis| waves(points, from, axis, [least, step], steps));
+    let shortest = |means: &[Complex<f64>; 3]| {
+        let lengths = means.iter().map(|mean| mean.norm_sqr());
+        lengths.fold(f64::INFINITY, f64::min)
+    };
+    let (at, means) = (0..steps)
+        .map(|at| (at, [x[at], y[at], z[at]]))
+        .max_by(|(_, one), (_, other)| shortest(one).total_cmp(&shortest(other)))?;
+    Some((least + at as f64 * step, means))
+}
+
+/// Share of the points that have a cell of a grid for themselves: cells are as wide as waves, and their middles where most points
+/// are.
+fn alone(points: &[Point3<f64>], from: &Point3<f64>, per_length: f64) -> f64 {
+    let middle = |axis| waves(points, from, axis, [per_length, 0.0], 1)[0].arg() / TAU;
+    let middles = [0, 1, 2].map(middle);
+    let cell = |point: &Point3<f64>| {
+        [0, 1, 2].map(|axis: usize| {
+            let waves = (point[axis] - from[axis]) * per_length - middles[axis];
+            waves.round() as i64
+        })
+    };
+    let mut cells: Vec<[i64; 3]> = points.iter().map(cell).collect();
+    cells.sort_unstable();
+    let alone = cells
+        .chunk_by(|one, other| one == other)
+        .filter(|cell| cell.len() == 1);
+    alone.count() as f64 / points.len() as f64
+}
+
+/// The means of exp(2 pi i f x) over points, for evenly spaced f.
+fn waves(
+    points: &[Point3<f64>],
+    from: &Point3<f64>,
+    axis: usize,
+    [first, step]: [f64; 2],
+    steps: usize,
+) -> Vec<Complex<f64>> {
+    let along = points.iter().map(|point| TAU * (point[axis] - from[axis]));
+    let mut turning: Vec<[Complex<f64>; 2]> = along
+        .map(|angle| [first, step].map(|f| Complex::from_polar(1.0, f * angle)))
+        .collect();
+    let mean = |_| {
+        let mut sum = Complex::ZERO;
+        for [wave, by] in &mut turning {
+            sum += *wave;
+            *wave *= *by;
+        }
+        sum / points.len() as f64
+    };
+    (0..steps).map(mean).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shapes::Sampling;
+    use crate::sphere::triangulate_directions;
+    use nalgebra::Vector3;
+    use std::collections::HashMap;
+
+    /// A point of an ellipsoid.
+    fn place(n: &Vector3<f64>) -> Point3<f64> {
+        Point3::new(1.3 * n.x, 0.9 * n.y, 0.7 * n.z)
+    }
+
+    fn told(points: Vec<Point3<f64>>) -> Option<[f64; 2]> {
+        let directions: Vec<_> = points.iter().map(|p| p.coords.normalize()).collect();
+        let triangles = triangulate_directions(&directions).unwrap();
+        match averaged(&Mesh {
+            vertices: points,
+            triangles,
+        }) {
+            Some(FitWarning::Averaged { cell, share }) => Some([cell, share]),
+            None => None,
+            other => panic!("{other:?}"),
+        }
+    }
+
+    /// Means over the cells of a grid whose origin is anywhere.
+    fn means(side: f64) -> Vec<Point3<f64>> {
+        let directions = Sampling::Random.directions(40_000, 1).unwrap();
+        let mut cells: HashMap<[i64; 3], Vec<Vector3<f64>>> = HashMap::new();
+        for point in directions.iter().map(place) {
+            let cell = (point / side).map(|x| (x + 0.37).floor() as i64);
+            cells.entry(cell.into()).or_default().push(point.coords);
+        }
+        let means = cells.into_values();
+        means
+            .map(|cell| (cell.iter().sum::<Vector3<f64>>() / cell.len() as f64).into())
+            .collect()
+    }
+
+    #[test]
+    fn means_over_cells_are_told_with_their_side_and_with_what_the_volume_lacks() {
+        for side in [0.1, 0.17] {
+            let points = means(side);
+            let volume: f64 = 4.0 / 3.0 * PI * 1.3 * 0.9 * 0.7;
+            let [cell, share] = told(points).unwrap();
+            assert!((cell / side - 1.0).abs() < 0.03, "{cell}");
+            // h² / 12 times the integral of the mean curvature, here 1.03 times the least, by three times the volume.
+            let area = 11.59_f64;
+            let lack = side * side / 12.0 * 1.03 * (4.0 * PI * area).sqrt() / (3.0 * volume);
+            assert!((1.1..1.9).contains(&(share / lack)), "{share} {lack}");
+        }
+    }
+
+    #[test]
+    fn points_at_random_or_on_a_lattice_are_no_means() {
+        for sampling in [
+            Sampling::Random,
+            Sampling::Fibonacci,
+            Sampling::Cube,
+            Sampling::Rings,
+        ] {
+            let directions = sampling.directions(1500, 3).unwrap();
+            assert_eq!(
+                told(directions.iter().map(place).collect()),
+                None,
+                "{sampling:?}"
+            );
+        }
+        // The middles of the cells themselves.
+        let middles = means(0.1).into_iter();
+        let middles = middles.map(|p| (p / 0.1).map(|x| 0.1 * (x + 0.37).floor()));
+        assert_eq!(told(middles.collect()), None);
+    }
+}
