@@ -39,6 +39,11 @@ const LARGEST: f64 = 0.45;
 /// Least share of the points that have a cell for themselves; of places at random some two in three have.
 const LEAST_ALONE: f64 = 0.85;
 
+/// Least share of the values of a coordinate that are met once: lattices on round bodies, which are as even, have them in rows. Such
+/// values are the same, in a body of size one.
+const LEAST_DISTINCT: f64 = 0.6;
+const SAME: f64 = 1e-12;
+
 /// Share of the body's size below which cells are too small to matter.
 const SMALL: f64 = 0.01;
 
@@ -67,7 +72,7 @@ pub(super) fn averaged(mesh: &Mesh) -> Option<FitWarning> {
         let length = mean.norm();
         length * (some.len() as f64).sqrt() > BEYOND_CHANCE && length < LARGEST
     });
-    if !is_beyond_chance {
+    if !is_beyond_chance || (0..3).any(|axis| distinct(points, axis) < LEAST_DISTINCT) {
         return None;
     }
     // Round bodies have their longest waves beside those of the grid.
@@ -119,6 +124,14 @@ fn alone(points: &[Point3<f64>], from: &Point3<f64>, per_length: f64) -> f64 {
     alone.count() as f64 / points.len() as f64
 }
 
+/// Share of the values of a coordinate that are not those of other points too.
+fn distinct(points: &[Point3<f64>], axis: usize) -> f64 {
+    let mut values: Vec<f64> = points.iter().map(|point| point[axis]).collect();
+    values.sort_unstable_by(f64::total_cmp);
+    values.dedup_by(|one, other| (*one - *other).abs() < SAME);
+    values.len() as f64 / points.len() as f64
+}
+
 /// The means of exp(2 pi i f x) over points, for evenly spaced f.
 fn waves(
     points: &[Point3<f64>],
@@ -147,7 +160,7 @@ mod tests {
     use super::*;
     use crate::shapes::Sampling;
     use crate::sphere::triangulate_directions;
-    use nalgebra::Vector3;
+    use nalgebra::{Rotation3, Vector3};
     use std::collections::HashMap;
 
     /// A point of an ellipsoid.
@@ -198,18 +211,22 @@ mod tests {
 
     #[test]
     fn points_at_random_or_on_a_lattice_are_no_means() {
+        let turn = Rotation3::from_euler_angles(0.4, 0.7, 1.3);
         for sampling in [
             Sampling::Random,
             Sampling::Fibonacci,
             Sampling::Cube,
             Sampling::Rings,
         ] {
-            let directions = sampling.directions(1500, 3).unwrap();
-            assert_eq!(
-                told(directions.iter().map(place).collect()),
-                None,
-                "{sampling:?}"
-            );
+            for points in [400, 900, 1500] {
+                let directions = sampling.directions(points, 3).unwrap();
+                let turned = directions.iter().map(|n| (turn * n).into());
+                assert_eq!(told(turned.collect()), None, "{sampling:?} {points}");
+                let ball = directions.iter().map(|n| (*n).into()).collect();
+                assert_eq!(told(ball), None, "{sampling:?} {points}");
+                let body = directions.iter().map(place).collect();
+                assert_eq!(told(body), None, "{sampling:?} {points}");
+            }
         }
         // The middles of the cells themselves.
         let middles = means(0.1).into_iter();
