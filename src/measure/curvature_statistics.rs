@@ -79,8 +79,20 @@ impl CurvatureStatistics {
         let peak = |(kind, sign): &(Kind, f64)| highest(surface, &found, |k| sign * kind.of(k));
         let peaks: Vec<Peak> = ends.as_flattened().par_iter().map(peak).collect();
         let value = |kind: Kind, end: usize| peaks[2 * kind as usize + end].value;
+        let mut extremes = Kind::ALL.map(|kind| [-value(kind, 0), value(kind, 1)]);
+        // Where one has no bound others have none; a climb may have missed it.
+        let [mean, gaussian, larger, smaller] = &mut extremes;
+        if smaller[1] == f64::INFINITY {
+            [mean[1], gaussian[1]] = [f64::INFINITY; 2];
+        }
+        if [&mean[1], &gaussian[1], &smaller[1]].contains(&&f64::INFINITY) {
+            larger[1] = f64::INFINITY;
+        }
+        if [&mean[0], &larger[0]].contains(&&f64::NEG_INFINITY) {
+            smaller[0] = f64::NEG_INFINITY;
+        }
         Self {
-            extremes: Kind::ALL.map(|kind| [-value(kind, 0), value(kind, 1)]),
+            extremes,
             sharpest: peaks[2 * Kind::Larger as usize + 1].n,
             nodes: found
                 .iter()
@@ -261,6 +273,8 @@ mod tests {
         assert!(!rim.is_on_edges() && rim.larger().largest.is_infinite());
         assert!(rim.larger().standard_deviation.is_nan());
         assert!(rim.smaller().standard_deviation > 0.0);
+        let blunt = found(1.95, 1.91);
+        assert!(blunt.mean().largest.is_infinite() && blunt.larger().largest.is_infinite());
         assert!(found(1.2, 1.2).is_on_edges());
         // Two spheres meet in a crease, which bends the other way: what is round is more than 4 pi.
         let ball = |x| Part {
