@@ -85,10 +85,10 @@ impl CurvatureStatistics {
         if smaller[1] == f64::INFINITY {
             [mean[1], gaussian[1]] = [f64::INFINITY; 2];
         }
-        if [&mean[1], &gaussian[1], &smaller[1]].contains(&&f64::INFINITY) {
+        if mean[1].max(gaussian[1]) == f64::INFINITY {
             larger[1] = f64::INFINITY;
         }
-        if [&mean[0], &larger[0]].contains(&&f64::NEG_INFINITY) {
+        if mean[0].min(larger[0]) == f64::NEG_INFINITY {
             smaller[0] = f64::NEG_INFINITY;
         }
         Self {

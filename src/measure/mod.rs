@@ -48,6 +48,8 @@ mod sums;
 mod superquadric;
 mod support;
 mod survey;
+#[cfg(test)]
+mod trial;
 mod triangle_tree;
 mod unit;
 

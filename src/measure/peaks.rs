@@ -167,9 +167,9 @@ impl<S: Surface + ?Sized, V: Fn([f64; 2]) -> f64> Climb<'_, S, V> {
             let wide = (0..2).filter(|&axis| is_wide[axis]);
             let (ended, open): (Vec<usize>, Vec<usize>) = wide.partition(|&axis| is_least[axis]);
             let limit = |&axis: &usize| self.limit(&here, axis, steps[axis], tolerance);
-            let limit = ended.iter().map(limit).fold(best.value, f64::max);
-            if limit == f64::INFINITY || (open.is_empty() && !ended.is_empty()) {
-                best.value = limit;
+            let highest = ended.iter().map(limit).fold(best.value, f64::max);
+            if highest == f64::INFINITY || (open.is_empty() && !ended.is_empty()) {
+                best.value = highest;
                 return Some(best.peak());
             }
             for axis in [0, 1] {

@@ -75,50 +75,20 @@ pub fn project(
 
 #[cfg(test)]
 mod tests {
+    use super::super::trial::cubes;
     use super::*;
     use crate::shapes::Body;
     use approx::assert_relative_eq;
     use nalgebra::{Matrix3, Rotation3};
     use proptest::prelude::*;
-    use std::collections::HashMap;
     use std::f64::consts::{PI, TAU};
 
     /// Square columns of these heights in a row.
     fn columns(heights: &[i32]) -> Mesh {
-        let height = |x: i32| {
-            usize::try_from(x)
-                .ok()
-                .and_then(|x| heights.get(x))
-                .copied()
-        };
-        let is_inside =
-            |[x, y, z]: [i32; 3]| y == 0 && z >= 0 && height(x).is_some_and(|top| z < top);
-        let mut mesh = Mesh::default();
-        let mut known = HashMap::new();
-        let places = (0..heights.len() as i32).flat_map(|x| (0..5).map(move |z| [x, 0, z]));
-        for place in places.filter(|place| is_inside(*place)) {
-            for (axis, side) in (0..3).flat_map(|axis| [(axis, -1), (axis, 1)]) {
-                let mut beside = place;
-                beside[axis] += side;
-                if is_inside(beside) {
-                    continue;
-                }
-                let corners = [(-1, -1), (1, -1), (1, 1), (-1, 1)].map(|(u, v)| {
-                    let mut corner = place.map(|x| 2 * x);
-                    corner[axis] += side;
-                    corner[(axis + 1) % 3] += u * side;
-                    corner[(axis + 2) % 3] += v;
-                    *known.entry(corner).or_insert_with(|| {
-                        mesh.vertices
-                            .push(Point3::from(corner.map(|x| 0.5 * f64::from(x))));
-                        mesh.vertices.len() as u32 - 1
-                    })
-                });
-                let [a, b, c, d] = corners;
-                mesh.triangles.extend([[a, b, c], [a, c, d]]);
-            }
-        }
-        mesh
+        let height = |x: i32| usize::try_from(x).ok().and_then(|x| heights.get(x));
+        cubes(5, |[x, y, z]| {
+            y == 0 && z >= 0 && height(x).is_some_and(|top| z < *top)
+        })
     }
 
     proptest! {

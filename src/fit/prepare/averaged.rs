@@ -8,10 +8,10 @@
 //! on the edges of cells (marching cubes), or in their middles, it is longer still.
 
 use crate::fit::warning::FitWarning;
-use crate::measure::{Unit, mesh_properties};
-use crate::mesh::Mesh;
+use crate::measure::mesh_properties;
+use crate::mesh::{Bounds, Mesh};
 use crate::scan::drawn;
-use nalgebra::Point3;
+use nalgebra::{Point3, Vector3};
 use realfft::num_complex::Complex;
 use std::f64::consts::{PI, TAU};
 
@@ -50,15 +50,10 @@ const SMALL: f64 = 0.01;
 /// The integral of H is taken to be so many times the least that it can be: creases and tips have more.
 const MORE: f64 = 1.5;
 
-/// What to know of points, by the polyhedron through them, if they are such means.
-pub(super) fn averaged(mesh: &Mesh) -> Option<FitWarning> {
-    let unit = Unit::of(mesh);
-    let mesh = unit.mesh(mesh);
-    let (points, body) = (&mesh.vertices, mesh_properties(&mesh).ok()?);
-    let first = points.first()?;
-    let (low, high) = points.iter().fold((*first, *first), |(low, high), point| {
-        (low.inf(point), high.sup(point))
-    });
+/// What to know of points, by the polyhedron of about unit size through them, if they are such means; `unit` is its unit of length.
+pub(super) fn averaged(mesh: &Mesh, unit: f64) -> Option<FitWarning> {
+    let (points, body) = (&mesh.vertices, mesh_properties(mesh).ok()?);
+    let [low, high] = Bounds::new(points.iter().copied(), 0.0).corners();
     let size = (high - low).amax();
     let about = (body.area / points.len() as f64 * MEANS_PER_SIDE).sqrt();
     if points.len() < LEAST_POINTS || !(SMALL * size..size).contains(&about) {
@@ -81,7 +76,7 @@ pub(super) fn averaged(mesh: &Mesh) -> Option<FitWarning> {
     let (most_alone, per_length) = alone.max_by(|(one, _), (other, _)| one.total_cmp(other))?;
     let integral = MORE * (4.0 * PI * body.area).sqrt();
     (most_alone > LEAST_ALONE).then(|| FitWarning::Averaged {
-        cell: unit.length / per_length,
+        cell: unit / per_length,
         share: integral / (36.0 * body.volume * per_length * per_length),
     })
 }
@@ -89,7 +84,7 @@ pub(super) fn averaged(mesh: &Mesh) -> Option<FitWarning> {
 /// Of evenly spaced numbers of waves per length, that of which the shortest of the three means is longest, and these means.
 fn strongest(
     points: &[Point3<f64>],
-    from: &Point3<f64>,
+    from: &Vector3<f64>,
     [least, most]: [f64; 2],
     step: f64,
 ) -> Option<(f64, [Complex<f64>; 3])> {
@@ -107,7 +102,7 @@ fn strongest(
 
 /// Share of the points that have a cell of a grid for themselves: cells are as wide as waves, and their middles where most points
 /// are.
-fn alone(points: &[Point3<f64>], from: &Point3<f64>, per_length: f64) -> f64 {
+fn alone(points: &[Point3<f64>], from: &Vector3<f64>, per_length: f64) -> f64 {
     let middle = |axis| waves(points, from, axis, [per_length, 0.0], 1)[0].arg() / TAU;
     let middles = [0, 1, 2].map(middle);
     let cell = |point: &Point3<f64>| {
@@ -135,7 +130,7 @@ fn distinct(points: &[Point3<f64>], axis: usize) -> f64 {
 /// The means of exp(2 pi i f x) over points, for evenly spaced f.
 fn waves(
     points: &[Point3<f64>],
-    from: &Point3<f64>,
+    from: &Vector3<f64>,
     axis: usize,
     [first, step]: [f64; 2],
     steps: usize,
@@ -160,7 +155,7 @@ mod tests {
     use super::*;
     use crate::shapes::Sampling;
     use crate::sphere::triangulate_directions;
-    use nalgebra::{Rotation3, Vector3};
+    use nalgebra::Rotation3;
     use std::collections::HashMap;
 
     /// A point of an ellipsoid.
@@ -171,10 +166,11 @@ mod tests {
     fn told(points: Vec<Point3<f64>>) -> Option<[f64; 2]> {
         let directions: Vec<_> = points.iter().map(|p| p.coords.normalize()).collect();
         let triangles = triangulate_directions(&directions).unwrap();
-        match averaged(&Mesh {
+        let mesh = Mesh {
             vertices: points,
             triangles,
-        }) {
+        };
+        match averaged(&mesh, 1.0) {
             Some(FitWarning::Averaged { cell, share }) => Some([cell, share]),
             None => None,
             other => panic!("{other:?}"),

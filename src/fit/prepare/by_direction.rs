@@ -1,5 +1,6 @@
 //! The mesh that points draw as seen from a centre: the triangulation of their directions.
 
+use super::rounder::rounder;
 use super::strays::{Strays, find_strays};
 use crate::fit::error::FitError;
 use crate::measure::{Unit, mesh_properties};
@@ -27,7 +28,7 @@ pub(super) fn one_surface(
         return Ok((mesh, indices));
     }
     let refused = FitError::Scattered { scatter };
-    let Some(places) = rounder(&mesh, centre) else {
+    let Some(places) = rounded(&mesh, centre) else {
         return is_one.then_some((mesh, indices)).ok_or(refused);
     };
     let (Mesh { triangles, .. }, rounded) = seen(places, &Point3::origin())?;
@@ -50,15 +51,11 @@ fn seen(points: Vec<Point3<f64>>, centre: &Point3<f64>) -> Result<(Mesh, Strays)
 
 /// The vertices of a mesh about its centre, in a space in which its second moments are the same in all directions. `None` if
 /// it is flat.
-fn rounder(mesh: &Mesh, centre: &Point3<f64>) -> Option<Vec<Point3<f64>>> {
+fn rounded(mesh: &Mesh, centre: &Point3<f64>) -> Option<Vec<Point3<f64>>> {
     let inertia = mesh_properties(&Unit::of(mesh).mesh(mesh)).ok()?.inertia;
     let moments = Matrix3::from_diagonal_element(0.5 * inertia.trace()) - inertia;
-    let spread = moments.symmetric_eigen();
-    let [least, most] = [spread.eigenvalues.min(), spread.eigenvalues.max()];
-    (least > FLATTEST * FLATTEST * most).then_some(())?;
-    let scales = spread.eigenvalues.map(|moment| (most / moment).sqrt());
-    let axes = spread.eigenvectors;
-    let map = axes * Matrix3::from_diagonal(&scales) * axes.transpose();
+    let (map, stretch) = rounder(moments)?;
+    (FLATTEST * stretch < 1.0).then_some(())?;
     let places = mesh.vertices.iter().map(|point| map * (point - centre));
     Some(places.map(Point3::from).collect())
 }

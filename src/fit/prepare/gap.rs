@@ -3,7 +3,6 @@
 use super::holes::{all_together, is_any_wide};
 use crate::fit::gaps::largest_cap;
 use crate::fit::warning::FitWarning;
-use crate::measure::Unit;
 use crate::mesh::Mesh;
 use crate::model::Unseen;
 use crate::spread::middle_of_sum;
@@ -30,9 +29,8 @@ pub(super) struct Gap {
 }
 
 impl Gap {
-    /// That of the vertices of a closed mesh, as seen from the middle of its area.
+    /// That of the vertices of a closed mesh of about unit size, as seen from the middle of its area.
     pub(super) fn new(mesh: &Mesh) -> Self {
-        let mesh = &Unit::of(mesh).mesh(mesh);
         let centre = middle_of_area(mesh);
         let seen = |vertex: &Point3<f64>| (vertex - centre).try_normalize(0.0).unwrap_or_default();
         let directions: Vec<Vector3<f64>> = mesh.vertices.iter().map(seen).collect();
@@ -46,14 +44,13 @@ impl Gap {
         }
         let (half_angle, direction) = largest_cap(&directions);
         let unseen_in = |half_angle| Unseen::hole(half_angle, directions.len());
-        let places = || -> Vec<Vector3<f64>> { mesh.vertices.iter().map(|v| v.coords).collect() };
         let is_large = |half_angle| unseen_in(half_angle).is_some();
         let unseen = unseen_in(half_angle);
         let together = match unseen {
             Some(_) => None,
             None => unseen_in(all_together(mesh, &centre, half_angle)),
         };
-        let is_sparse = unseen.is_some() && !is_any_wide(&places(), &directions, is_large);
+        let is_sparse = unseen.is_some() && !is_any_wide(mesh, &directions, is_large);
         Self {
             half_angle,
             direction,

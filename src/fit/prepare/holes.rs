@@ -1,6 +1,7 @@
 //! Holes between the points of a scan that are wide in space, as far apart as points are round them: what chance leaves between few
 //! points on the flat sides of a thin plate is not.
 
+use super::rounder::rounder;
 use crate::fit::gaps::random_gap;
 use crate::fit::neighbours::Neighbours;
 use crate::mesh::Mesh;
@@ -20,29 +21,28 @@ const NARROW: f64 = PI / 12.0;
 
 /// Whether any cap of directions without points, whose half-angle is large, is wide in space.
 pub(super) fn is_any_wide(
-    places: &[Vector3<f64>],
+    mesh: &Mesh,
     directions: &[Vector3<f64>],
     is_large: impl Fn(f64) -> bool,
 ) -> bool {
-    let wide = Holes::new(places).wide(directions, is_large);
+    let wide = Holes::new(mesh).wide(directions, is_large);
     wide.is_none_or(|triangles| !triangles.is_empty())
 }
 
 /// Half-angle of a cap as large as all holes together, seen on the body of a mesh stretched to a ball: on the long side of a grain
 /// they are wider than they seem from its middle. No cap of its directions is wider than `largest`.
 pub(super) fn all_together(mesh: &Mesh, centre: &Point3<f64>, largest: f64) -> f64 {
-    let (stretch, ratio) = to_a_ball(mesh, centre);
+    let (stretch, ratio) = rounder(moments(mesh, centre)).unwrap_or((Matrix3::identity(), 1.0));
     let least = NARROW.max(random_gap(mesh.vertices.len()));
     if (largest.sin() * ratio).atan2(largest.cos()) <= least {
         return 0.0;
     }
-    let places: Vec<Vector3<f64>> = mesh.vertices.iter().map(|v| v.coords).collect();
-    let seen = |place: &Vector3<f64>| {
-        let direction = (stretch * (place - centre.coords)).try_normalize(0.0);
+    let seen = |vertex: &Point3<f64>| {
+        let direction = (stretch * (vertex - centre)).try_normalize(0.0);
         direction.unwrap_or_default()
     };
-    let directions: Vec<Vector3<f64>> = places.iter().map(seen).collect();
-    match Holes::new(&places).wide(&directions, |half_angle| half_angle > least) {
+    let directions: Vec<Vector3<f64>> = mesh.vertices.iter().map(seen).collect();
+    match Holes::new(mesh).wide(&directions, |half_angle| half_angle > least) {
         Some(triangles) => {
             let angles = triangles
                 .iter()
@@ -55,19 +55,20 @@ pub(super) fn all_together(mesh: &Mesh, centre: &Point3<f64>, largest: f64) -> f
 }
 
 /// The points of a scan, and how far apart they are.
-struct Holes<'a> {
-    places: &'a [Vector3<f64>],
+struct Holes {
+    places: Vec<Vector3<f64>>,
     neighbours: Neighbours,
     /// Radius of the disc that chance leaves empty, in the spacing of the points there.
     by_chance: f64,
 }
 
-impl<'a> Holes<'a> {
-    fn new(places: &'a [Vector3<f64>]) -> Self {
+impl Holes {
+    fn new(mesh: &Mesh) -> Self {
+        let places: Vec<Vector3<f64>> = mesh.vertices.iter().map(|v| v.coords).collect();
         Self {
-            places,
-            neighbours: Neighbours::new(places),
+            neighbours: Neighbours::new(&places),
             by_chance: random_hole(places.len()),
+            places,
         }
     }
 
@@ -133,26 +134,14 @@ fn solid_angle(directions: &[Vector3<f64>], corners: &[u32; 3]) -> f64 {
         .atan2(1.0 + a.dot(&b) + b.dot(&c) + c.dot(&a))
 }
 
-/// The linear map after which second moments of the faces about a centre are the same in all directions, and by how much more it
-/// stretches in one direction than in another.
-fn to_a_ball(mesh: &Mesh, centre: &Point3<f64>) -> (Matrix3<f64>, f64) {
-    let mut moments = Matrix3::zeros();
-    for corners in &mesh.triangles {
+/// Second moments of the faces of a mesh about a centre.
+fn moments(mesh: &Mesh, centre: &Point3<f64>) -> Matrix3<f64> {
+    let of_face = |corners: &[u32; 3]| {
         let [a, b, c] = corners.map(|i| mesh.vertices[i as usize] - centre);
         let middle = (a + b + c) / 3.0;
-        moments += middle * middle.transpose() * (b - a).cross(&(c - a)).norm();
-    }
-    let found = moments.symmetric_eigen();
-    let largest = found.eigenvalues.max();
-    let factors = found.eigenvalues.map(|moment| (largest / moment).sqrt());
-    match factors.iter().all(|factor| factor.is_finite()) {
-        true => {
-            let axes = found.eigenvectors;
-            let map = axes * Matrix3::from_diagonal(&factors) * axes.transpose();
-            (map, factors.max())
-        }
-        false => (Matrix3::identity(), 1.0),
-    }
+        middle * middle.transpose() * (b - a).cross(&(c - a)).norm()
+    };
+    mesh.triangles.iter().map(of_face).sum()
 }
 
 #[cfg(test)]

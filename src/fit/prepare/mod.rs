@@ -12,6 +12,7 @@ mod holes;
 mod largest;
 mod pieces;
 mod reference;
+mod rounder;
 mod samples;
 mod strays;
 mod surface;

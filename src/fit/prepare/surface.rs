@@ -15,7 +15,7 @@ use crate::fit::repeated::without_repeats;
 use crate::fit::warning::FitWarning;
 use crate::fit::without::without;
 use crate::measure::{
-    Dust, FacesDefect, Fill, SelfCrossing, scanned_body, self_crossing, without_dust,
+    Dust, FacesDefect, Fill, SelfCrossing, Unit, scanned_body, self_crossing, without_dust,
 };
 use crate::mesh::Mesh;
 use crate::model::Unseen;
@@ -306,7 +306,9 @@ fn from_directions(points: Cow<'_, [Point3<f64>]>) -> Result<ScannedSurface<'_>,
     let strays = all - points.len();
     refuse_background(strays, all)?;
     refuse_second_surface(&cloud, &points)?;
-    let gap = Gap::new(&mesh);
+    let unit = Unit::of(&mesh);
+    let scaled = unit.mesh(&mesh);
+    let (gap, averaged) = (Gap::new(&scaled), averaged(&scaled, unit.length));
     let strays = (strays > 0).then_some(FitWarning::Strays {
         strays,
         points: all,
@@ -316,17 +318,10 @@ fn from_directions(points: Cow<'_, [Point3<f64>]>) -> Result<ScannedSurface<'_>,
         unseen: gap.unseen,
         is_sparse: gap.is_sparse,
         is_many: gap.is_many,
-        warnings: [
-            repeated,
-            twins,
-            neck,
-            strays,
-            gap.warning(),
-            averaged(&mesh),
-        ]
-        .into_iter()
-        .flatten()
-        .collect(),
+        warnings: [repeated, twins, neck, strays, gap.warning(), averaged]
+            .into_iter()
+            .flatten()
+            .collect(),
         mesh,
         kind: ReferenceKind::Directions,
         faces: None,

@@ -29,6 +29,9 @@ const FAN: usize = 12;
 
 /// Whether the faces of a closed mesh are the sides of voxels, or nearly: a fifth to a half of their area is then that of steps.
 pub(crate) fn are_steps(mesh: &Mesh) -> bool {
+    if mesh.vertices.len() < LEAST_POINTS || !is_of_six_sides(mesh) {
+        return false;
+    }
     let (mut all, mut outwards, mut inwards) = (0.0, 0.0, 0.0);
     let corner = |at: u32| mesh.vertices[at as usize];
     each_edge(mesh.vertices.len(), &mesh.triangles, |edge| {
@@ -38,7 +41,7 @@ pub(crate) fn are_steps(mesh: &Mesh) -> bool {
         all += length;
         if cosine(mesh, pair).is_some_and(|cosine| cosine < SHARP) {
             let beyond = corner(tip(mesh, pair[1], edge.ends)) - from;
-            let is_inwards = normal(mesh, pair[0]).is_some_and(|n| n.dot(&beyond) > 0.0);
+            let is_inwards = doubled_area(mesh, pair[0]).dot(&beyond) > 0.0;
             *(if is_inwards {
                 &mut inwards
             } else {
@@ -47,20 +50,13 @@ pub(crate) fn are_steps(mesh: &Mesh) -> bool {
         }
     });
     let sharp = outwards + inwards;
-    mesh.vertices.len() >= LEAST_POINTS
-        && sharp > SHARE_OF_SHARP * all
-        && inwards > SHARE_INWARDS * sharp
-        && is_of_six_sides(mesh)
+    sharp > SHARE_OF_SHARP * all && inwards > SHARE_INWARDS * sharp
 }
 
 /// Whether nearly all of the area faces six sides.
 fn is_of_six_sides(mesh: &Mesh) -> bool {
-    // Their lengths are twice the areas.
-    let normal = |corners: &[u32; 3]| {
-        let [a, b, c] = corners.map(|at| mesh.vertices[at as usize]);
-        (b - a).cross(&(c - a))
-    };
-    let mut left: Vec<Vector3<f64>> = mesh.triangles.iter().map(normal).collect();
+    let triangles = 0..mesh.triangles.len();
+    let mut left: Vec<Vector3<f64>> = triangles.map(|at| doubled_area(mesh, at)).collect();
     let area = |normals: &[Vector3<f64>]| normals.iter().map(Vector3::norm).sum::<f64>();
     let all = area(&left);
     for _ in 0..SIDES {
@@ -137,13 +133,14 @@ impl Default for Peak {
 
 /// Of the angle by which the mesh bends between two triangles; `None` if one has no area.
 fn cosine(mesh: &Mesh, pair: [usize; 2]) -> Option<f64> {
-    let [one, other] = pair.map(|triangle| normal(mesh, triangle));
+    let [one, other] = pair.map(|triangle| doubled_area(mesh, triangle).try_normalize(0.0));
     Some(one?.dot(&other?))
 }
 
-fn normal(mesh: &Mesh, triangle: usize) -> Option<Vector3<f64>> {
+/// Along the normal, twice as long as the area.
+fn doubled_area(mesh: &Mesh, triangle: usize) -> Vector3<f64> {
     let [a, b, c] = mesh.triangles[triangle].map(|at| mesh.vertices[at as usize]);
-    (b - a).cross(&(c - a)).try_normalize(0.0)
+    (b - a).cross(&(c - a))
 }
 
 /// The corner of a triangle that is no end of its edge.
@@ -157,42 +154,14 @@ fn tip(mesh: &Mesh, triangle: usize, ends: [u32; 2]) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::measure::trial::cubes;
     use nalgebra::Point3;
-    use std::collections::HashMap;
 
     /// The sides of the voxels of a ball.
     fn steps(radius: i32) -> Mesh {
-        let is_inside = |p: [i32; 3]| p.iter().map(|x| x * x).sum::<i32>() <= radius * radius;
-        let mut mesh = Mesh::default();
-        let mut known = HashMap::new();
-        for x in -radius..=radius {
-            for (y, z) in (-radius..=radius).flat_map(|y| (-radius..=radius).map(move |z| (y, z))) {
-                for (axis, side) in (0..3).flat_map(|axis| [(axis, -1), (axis, 1)]) {
-                    let mut beside = [x, y, z];
-                    beside[axis] += side;
-                    if !is_inside([x, y, z]) || is_inside(beside) {
-                        continue;
-                    }
-                    let corner = |u: i32, v: i32| {
-                        let mut at = [2 * x, 2 * y, 2 * z];
-                        at[axis] += side;
-                        at[(axis + 1) % 3] += u * side;
-                        at[(axis + 2) % 3] += v;
-                        at
-                    };
-                    let square = [(-1, -1), (1, -1), (1, 1), (-1, 1)].map(|(u, v)| corner(u, v));
-                    let [a, b, c, d] = square.map(|at| {
-                        *known.entry(at).or_insert_with(|| {
-                            let place = Vector3::from(at).map(f64::from);
-                            mesh.vertices.push(place.into());
-                            mesh.vertices.len() as u32 - 1
-                        })
-                    });
-                    mesh.triangles.extend([[a, b, c], [a, c, d]]);
-                }
-            }
-        }
-        mesh
+        cubes(radius, |p| {
+            p.iter().map(|x| x * x).sum::<i32>() <= radius * radius
+        })
     }
 
     #[test]

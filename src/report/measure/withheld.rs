@@ -48,10 +48,10 @@ impl Withheld {
 
     /// Of the faces of a scan, what is made of their area where that is not the area of their outside. Where the volume is
     /// not what they enclose they have no figures at all.
-    pub(super) fn of_faces(scanned: &ScannedBody) -> Self {
+    pub(super) fn of_faces(scanned: &ScannedBody, only: &[Measure]) -> Self {
         Self {
             crossing: scanned.crossing.filter(SelfCrossing::hides_area),
-            is_of_steps: are_steps(&scanned.mesh),
+            is_of_steps: only.iter().copied().any(is_made_of_area) && are_steps(&scanned.mesh),
             ..Self::default()
         }
     }
