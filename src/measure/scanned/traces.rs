@@ -90,6 +90,12 @@ pub(crate) fn spikes(mesh: &Mesh) -> usize {
             lengths.push(ahead.norm());
         }
     }
+    let long = LONG * median(&mut lengths).unwrap_or(0.0);
+    let is_peaked =
+        |peak: &Peak| peak.triangles <= FAN && peak.angle < PEAKED && peak.shortest > long;
+    if !peaks.iter().any(is_peaked) {
+        return 0;
+    }
     each_edge(mesh.vertices.len(), &mesh.triangles, |edge| {
         let Some(pair) = edge.pair() else { return };
         if cosine(mesh, pair).is_some_and(|cosine| cosine < SHARP) {
@@ -98,13 +104,7 @@ pub(crate) fn spikes(mesh: &Mesh) -> usize {
             }
         }
     });
-    let long = LONG * median(&mut lengths).unwrap_or(0.0);
-    let is_spike = |peak: &&Peak| {
-        peak.triangles <= FAN
-            && peak.angle < PEAKED
-            && peak.shortest > long
-            && 2 * peak.ended > peak.triangles
-    };
+    let is_spike = |peak: &&Peak| is_peaked(peak) && 2 * peak.ended > peak.triangles;
     peaks.iter().filter(is_spike).count()
 }
 
