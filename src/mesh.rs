@@ -12,7 +12,7 @@ pub(crate) use contour::{Grid, contour};
 pub(crate) use least_area::{LEAST_AREA_CORNERS, least_area};
 pub(crate) use parts::{part, parts};
 pub(crate) use relaxed::relaxed;
-pub(crate) use winding::{polygon_winding_number, winding_number};
+pub(crate) use winding::{polygon_winding_number, solid_angle, winding_number};
 
 use crate::sphere::cube_grid;
 use nalgebra::{Point3, Vector3};

@@ -6,16 +6,19 @@ use std::collections::{HashMap, HashSet};
 use std::iter::once;
 use std::path::{Path, PathBuf};
 
-/// A name for every scan, by which its model and its mesh are saved: that of its file, or where several have it, that of
-/// its path. Where that is taken too, as of `lot/x/1.ply` by `lot_x/1.ply`, a number follows.
+/// A name for every scan, by which its model and its mesh are saved: that of its file, or where several have it or it has
+/// a `#`, that of its path. Where that is taken too, as of `lot/x/1.ply` by `lot_x/1.ply`, a number follows.
 pub(super) fn of_scans(scans: &[PathBuf]) -> Vec<String> {
     let mut counts = HashMap::new();
     for path in scans {
         *counts.entry(stem(path)).or_insert(0_usize) += 1;
     }
-    let name = |path: &PathBuf| match counts.get(&stem(path)) {
-        Some(1) => stem(path),
-        _ => plain(path),
+    // A file may be called as the label of an image is.
+    let is_plain = |stem: &String| !stem.contains('#') && counts.get(stem) == Some(&1);
+    let name = |path: &PathBuf| {
+        Some(stem(path))
+            .filter(is_plain)
+            .unwrap_or_else(|| plain(path))
     };
     let mut taken = HashSet::new();
     let mut free = |name: String| {
@@ -71,6 +74,8 @@ mod tests {
         let rows = ["./lot/x/1.ply", "lot_x/1.ply", "lot_x_1.ply.ply"].map(String::from);
         let expected = ["lot_x_1.ply", "lot_x_1.ply_2", "lot_x_1.ply_3"];
         assert_eq!(names(&rows), expected);
+        let rows = ["a/im#5.ply", "a/im.nrrd#5"].map(String::from);
+        assert_eq!(names(&rows), ["a_im#5.ply", "im#5"]);
     }
 
     #[cfg(unix)]

@@ -61,6 +61,9 @@ pub struct Search {
     /// The error that was good enough, in the scan's unit: the RMS difference from the estimate, or the
     /// held-out RMS of candidates that are fitted to the points themselves.
     pub limit: f64,
+    /// The error that was asked for, in the scan's unit. Where it is a share of the mean radius, this is told before the
+    /// fit by the triangles between the points.
+    pub tolerance: f64,
     /// Standard deviation of the points' noise, in the scan's unit. `None` where it was not estimated.
     pub noise: Option<f64>,
     /// What the search did and what it could leave out.

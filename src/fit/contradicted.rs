@@ -33,7 +33,6 @@ impl Fitted {
             ReferenceKind::Crust => false,
         };
         if is_closed && may_contradict {
-            self.properties = self.survey().unit_properties().ok().copied();
             let contradicted = self.contradicted();
             self.grain = self.grain.with_contradicted(contradicted);
         }

@@ -35,7 +35,7 @@ impl PreparedScan<'_> {
         if self.may_be_known {
             fitted = fitted.between_points();
         }
-        Ok(fitted.beside_polyhedron())
+        Ok(fitted.measured().beside_polyhedron())
     }
 
     /// A grain that is not stretched.
@@ -63,7 +63,7 @@ impl PreparedScan<'_> {
             estimate: None,
             whole: None,
             warnings: self.warnings.clone(),
-            properties: None,
+            measured: None,
             posterior: None,
             samples: None,
             edged: None,

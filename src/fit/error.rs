@@ -165,8 +165,8 @@ pub enum FitError {
     /// No centre sees (nearly) the whole surface.
     #[error(
         "the surface is not star-shaped: seen from the best centre, {:.1} % of its area faces away, \
-         so the radius is not a function of the direction; rings, hooks and several bodies cannot \
-         be fitted, a whole grain can",
+         so the radius is not a function of the direction; hooks and cups are fitted by positions \
+         (grainform fit without --surface star), rings and several bodies are not",
         100.0 * share
     )]
     NotStarShaped {
@@ -230,7 +230,7 @@ pub enum FitError {
         /// Where, in the scan's frame.
         place: Point3<f64>,
     },
-    /// Neither a radius nor positions can be fitted to points without faces.
+    /// Neither a radius nor positions can be fitted to points without faces, or to voxels.
     #[error("{radius}. Positions cannot be fitted either: {position}")]
     NoKind {
         /// Why no radius can.

@@ -31,6 +31,8 @@ const FEWEST_CELLS: usize = 6;
 
 /// What the estimate is made to.
 struct Aim {
+    /// The error that was asked for.
+    tolerance: f64,
     /// Difference from the estimate that is near enough, as RMS.
     limit: f64,
     /// Degree at which one expansion is as near.
@@ -67,6 +69,7 @@ impl Aim {
                 });
             }
             return Ok(Self {
+                tolerance,
                 limit,
                 degree,
                 is_whole: true,
@@ -77,6 +80,7 @@ impl Aim {
         if !are_cells_asked && options.most_segments() < FEWEST_CELLS {
             let degree = options.degree.unwrap_or(degree.min(most));
             return Ok(Self {
+                tolerance,
                 limit,
                 degree: degree.min(estimate.degree),
                 is_whole: true,
@@ -84,6 +88,7 @@ impl Aim {
         }
         let is_small = degree <= most && coefficient_count(degree) <= FEW_COEFFICIENTS;
         Ok(Self {
+            tolerance,
             limit,
             degree,
             is_whole: is_small && !are_cells_asked && options.degree.is_none(),
@@ -197,6 +202,7 @@ fn search(estimate: &Estimate, aim: &Aim, cut: Option<&Outcome>) -> Search {
         chosen: cut.map_or(0, |cut| 1 + last_of_size(cut)),
         candidates: once(whole).chain(cells).collect(),
         limit: aim.limit,
+        tolerance: aim.tolerance,
         noise: Some(estimate.noise()),
         work: Work {
             candidates: rounds.len(),

@@ -68,7 +68,13 @@ pub fn fit_scan(
         Kind::Auto if scan.scatter > 0.0 && is_free(options) => {
             match positioned(scan, options, context, KindChoice::Voxels, &|_| true) {
                 Err(FitError::Cancelled) => Err(FitError::Cancelled),
-                Err(_) => star(),
+                Err(position) => star().map_err(|radius| match radius {
+                    FitError::Cancelled => FitError::Cancelled,
+                    radius => FitError::NoKind {
+                        radius: radius.into(),
+                        position: position.into(),
+                    },
+                }),
                 found => found,
             }
         }

@@ -30,6 +30,7 @@ mod outcome;
 mod position;
 mod positioned;
 mod prepare;
+mod quadric;
 mod repeated;
 mod samples;
 mod scatter;

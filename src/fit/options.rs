@@ -115,6 +115,15 @@ impl Tolerance {
             Self::OfMeanRadius(fraction) => fraction * mean_radius,
         }
     }
+
+    /// The same as a share of the mean radius, where it is one.
+    pub(crate) fn share(&self) -> Option<f64> {
+        match *self {
+            Self::Auto => Some(AUTO_TOLERANCE),
+            Self::Length(_) => None,
+            Self::OfMeanRadius(fraction) => Some(fraction),
+        }
+    }
 }
 
 /// The tolerance of [`Tolerance::Auto`] as a share of the mean radius.

@@ -7,7 +7,7 @@ use super::local_cells;
 use super::prepare::{Reference, ReferenceKind};
 use super::samples::Samples;
 use super::warning::FitWarning;
-use crate::measure::{MassProperties, Scheme, Survey};
+use crate::measure::{MassProperties, Measured, Scheme, Survey};
 use crate::model::{Grain, NoInterval, StandardErrors, StarGrain, Surface};
 use crate::sphere::unit;
 use nalgebra::{Point3, Vector3};
@@ -41,8 +41,8 @@ pub struct Fitted {
     pub whole: Option<StarGrain>,
     /// What a user should know of the scan and the fit.
     pub warnings: Vec<FitWarning>,
-    /// Area, volume and moments of the grain at unit size, where they were compared with the polyhedron through the points.
-    pub(crate) properties: Option<MassProperties>,
+    /// Area, volume, moments and mean radius of the grain at unit size, once they are measured.
+    pub(crate) measured: Option<Measured>,
     pub(crate) posterior: Option<Box<Estimate>>,
     /// What a surface without a radius was fitted to.
     pub(crate) samples: Option<Samples>,
@@ -144,10 +144,19 @@ impl Residuals {
 impl Fitted {
     /// The survey of the grain as it was fitted, with exact integrals; what the fit measured is not measured again.
     pub fn survey(&self) -> Survey<'_> {
-        match self.properties {
-            Some(properties) => Survey::of_known(&self.grain, properties),
+        match self.measured {
+            Some(measured) => Survey::of_known(&self.grain, measured),
             None => Survey::of_grain(&self.grain, Scheme::Exact),
         }
+    }
+
+    /// The same with area, volume, moments and mean radius of the surface itself.
+    pub(super) fn measured(mut self) -> Self {
+        let survey = self.survey();
+        let (measured, radius) = (survey.measured().ok().copied(), survey.mean_radius());
+        self.mean_radius = radius.unwrap_or(self.mean_radius);
+        self.measured = measured;
+        self
     }
 
     /// Standard errors of the grain's mass properties and of its length, width and thickness, as a survey of it tells these,
@@ -197,11 +206,13 @@ impl Fitted {
 
     /// Standard error of all lengths together, as a share of them.
     fn off_all_over(&self, told: &MassProperties) -> f64 {
-        let within_cells = self.warnings.iter().find_map(|warning| match warning {
-            FitWarning::Averaged { share, .. } => Some(*share),
-            _ => None,
+        let of_points = self.warnings.iter().map(|warning| match warning {
+            FitWarning::Averaged { share, .. } => *share,
+            // Either layer may be the grain.
+            FitWarning::Layers { share, .. } => share / 2.0,
+            _ => 0.0,
         });
-        self.beside_faces(told).hypot(within_cells.unwrap_or(0.0))
+        of_points.fold(self.beside_faces(told), f64::hypot)
     }
 
     /// The same for what lies between flat faces and a surface that goes through
@@ -232,11 +243,11 @@ impl Fitted {
         if self.grain.contradicted().is_some() {
             return Err(NoInterval::Contradicted);
         }
-        if let Some(errors) = self.errors {
-            return errors;
-        }
         if self.warnings.contains(&FitWarning::Neck) {
             return Err(NoInterval::Neck);
+        }
+        if let Some(errors) = self.errors {
+            return errors;
         }
         let figures = self.figures(told, dimensions)?;
         let posterior = self.posterior.as_ref().ok_or(NoInterval::NotEstimated);

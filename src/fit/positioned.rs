@@ -58,6 +58,7 @@ pub(super) fn positioned(
             chosen: 0,
             candidates: vec![candidate],
             limit: fit.limit,
+            tolerance: fit.tolerance,
             noise: None,
             work: Work::default(),
         },
@@ -72,13 +73,13 @@ pub(super) fn positioned(
         estimate: None,
         whole: None,
         warnings,
-        properties: None,
+        measured: None,
         posterior: None,
         samples: Some(fit.fitted_to),
         edged: None,
         errors: Some(errors),
     };
-    Ok(fitted.beside_polyhedron())
+    Ok(fitted.measured().beside_polyhedron())
 }
 
 /// Whether a cloud has fewer points than coefficients: volumes of smooth bodies with half a percent of noise are then up to 12

@@ -2,17 +2,15 @@
 //! noise, texture and edges, but not where a surface fails to follow a smooth body.
 
 use super::neighbours::Neighbours;
+use super::quadric::{NUMBERS, off_quadric};
 use crate::scan::by_coordinates;
-use nalgebra::{Const, DVector, Dyn, Matrix3, OMatrix, Vector3};
+use nalgebra::{Matrix3, Vector3};
 
 /// Points that are looked at, evenly spread along an axis; ...
 const MOST_LOOKED_AT: usize = 300;
 
-/// ... the neighbours of each that a quadric is laid through, ...
+/// ... and the neighbours of each that a quadric is laid through.
 const NEIGHBOURS: usize = 15;
-
-/// ... and its numbers.
-const NUMBERS: usize = 6;
 
 /// The root mean square distance of points from quadrics through their neighbours, in the scan's unit, as of single points:
 /// what a quadric takes up of their scatter is put back. `None` of fewer points than it takes.
@@ -52,19 +50,15 @@ fn square_off_quadric(places: &[Vector3<f64>]) -> Option<f64> {
         axes.eigenvectors
             .column((axes.eigenvalues.imin() + turn) % 3)
     });
-    let rows = places.iter().map(|place| {
-        let aside = (place - middle) / size;
-        let (x, y) = (u.dot(&aside), v.dot(&aside));
-        [1.0, x, y, x * x, x * y, y * y]
+    let seen = places.iter().map(|place| {
+        let aside = place - middle;
+        [
+            u.dot(&aside) / size,
+            v.dot(&aside) / size,
+            normal.dot(&aside),
+        ]
     });
-    let rows: Vec<f64> = rows.flatten().collect();
-    let matrix = OMatrix::<f64, Dyn, Const<NUMBERS>>::from_row_slice(&rows);
-    let heights = DVector::from_iterator(
-        places.len(),
-        places.iter().map(|p| normal.dot(&(p - middle))),
-    );
-    let basis = matrix.qr().q();
-    let left = &heights - &basis * basis.tr_mul(&heights);
+    let left = off_quadric(&seen.collect::<Vec<_>>());
     Some(left.norm_squared() / freedom as f64)
 }
 

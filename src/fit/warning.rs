@@ -55,6 +55,13 @@ pub enum FitWarning {
         /// Share by which lengths are too small, about.
         share: f64,
     },
+    /// The points seem to lie in two layers, and the surface goes between them.
+    Layers {
+        /// How far they are apart, in the scan's unit, about.
+        apart: f64,
+        /// The same as a share of the radius.
+        share: f64,
+    },
     /// Points that stand apart from their neighbours were left out.
     Strays {
         /// Their number.

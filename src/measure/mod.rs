@@ -95,6 +95,7 @@ pub use superquadric::{
 };
 pub(crate) use support::support_near;
 pub use support::{Support, support};
+pub(crate) use survey::Measured;
 pub use survey::{Scheme, Survey, SurveyError};
 pub(crate) use triangle_tree::TriangleTree;
 pub(crate) use unit::Unit;

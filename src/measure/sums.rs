@@ -13,7 +13,8 @@ pub const MAX_EVALUATIONS: usize = 4_000_000;
 pub struct Integrals {
     /// Area, volume, centroid and inertia.
     pub properties: MassProperties,
-    /// Mean of |X(n)| over all directions n: of a star-shaped surface the mean radius, (1/4 pi) ∫ r dΩ.
+    /// (1/4 pi) ∫ X · dA / |X|²: of a star-shaped surface the mean of its radius over all directions, whatever space it is
+    /// expanded in.
     pub mean_radius: f64,
     /// Estimated error, an upper bound on smooth surfaces: the largest of those of the mean radius
     /// R, the area and the volume V, each relative to itself, of the first moments relative to V R
@@ -27,8 +28,10 @@ pub struct Integrals {
 /// The integrals over a part of the sphere.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Sums {
-    /// ∫ |X| dΩ.
+    /// ∫ |X| dΩ over the directions of the surface's own space.
     length: f64,
+    /// ∫ X · dA / |X|².
+    radius: f64,
     moments: Moments,
 }
 
@@ -38,6 +41,7 @@ impl Sums {
         let mut sums = Self::default();
         for element in elements {
             sums.length += element.place.norm() * element.solid_angle;
+            sums.radius += element.place.dot(&element.area) / element.place.norm_squared();
             sums.moments.add_element(&element.place, &element.area);
         }
         sums
@@ -47,7 +51,7 @@ impl Sums {
     pub(super) fn integrals(&self, relative_error: f64, evaluations: usize) -> Integrals {
         Integrals {
             properties: self.moments.about_centroid(&Point3::origin()),
-            mean_radius: self.length / (4.0 * PI),
+            mean_radius: self.radius / (4.0 * PI),
             relative_error,
             evaluations,
         }
@@ -85,6 +89,7 @@ impl std::ops::Add for Sums {
     fn add(self, other: Self) -> Self {
         Self {
             length: self.length + other.length,
+            radius: self.radius + other.radius,
             moments: self.moments + other.moments,
         }
     }

@@ -74,14 +74,13 @@ impl Grid {
             .count()
     }
 
-    /// The number of faces between a voxel inside and one outside.
-    pub(crate) fn faces(&self) -> usize {
+    /// The numbers of faces across each axis between a voxel inside and one outside.
+    pub(crate) fn faces(&self) -> [usize; 3] {
         let steps = [1, self.size[0], self.size[0] * self.size[1]];
-        let between = steps.map(|step| {
+        steps.map(|step| {
             let pairs = self.is_inside.iter().zip(&self.is_inside[step..]);
             pairs.filter(|(one, other)| one != other).count()
-        });
-        between.iter().sum()
+        })
     }
 
     /// Bits that tell which of the eight voxels at a corner are inside: the first axis has the lowest bit.

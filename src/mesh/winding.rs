@@ -5,19 +5,30 @@ use nalgebra::{Point3, Vector2, Vector3};
 use std::f64::consts::TAU;
 
 /// The winding number of a mesh about a point off it: the sum of the solid angles of its triangles over
-/// 4 pi (van Oosterom and Strackee 1983). One inside of a closed mesh that is wound counter-clockwise
+/// 4 pi. One inside of a closed mesh that is wound counter-clockwise
 /// from outside, zero outside and in cavities; of an open one, a fraction (Jacobson, Kavan and
 /// Sorkine-Hornung 2013). All triangles must name vertices that exist.
 pub(crate) fn winding_number(mesh: &Mesh, point: &Point3<f64>) -> f64 {
     let away = |vertex: &Point3<f64>| (vertex - point, (vertex - point).norm());
     let seen: Vec<(Vector3<f64>, f64)> = mesh.vertices.iter().map(away).collect();
-    let half_angles = mesh.triangles.iter().map(|corners| {
-        let [(a, la), (b, lb), (c, lc)] = corners.map(|corner| seen[corner as usize]);
-        let volume = a.dot(&b.cross(&c));
-        let across = la * lb * lc + a.dot(&b) * lc + b.dot(&c) * la + c.dot(&a) * lb;
-        Vector2::new(across, volume)
-    });
+    let half_angles = mesh
+        .triangles
+        .iter()
+        .map(|corners| half_angle(corners.map(|corner| seen[corner as usize])));
     sum_of_angles(half_angles) / TAU
+}
+
+/// The solid angle that a triangle fills, seen from the origin: above zero where it is wound counter-clockwise from outside.
+pub(crate) fn solid_angle(corners: [Vector3<f64>; 3]) -> f64 {
+    let half = half_angle(corners.map(|corner| (corner, corner.norm())));
+    2.0 * half.y.atan2(half.x)
+}
+
+/// A vector at half of that angle from the x-axis, of corners and their distances (van Oosterom and Strackee 1983).
+fn half_angle([(a, la), (b, lb), (c, lc)]: [(Vector3<f64>, f64); 3]) -> Vector2<f64> {
+    let volume = a.dot(&b.cross(&c));
+    let across = la * lb * lc + a.dot(&b) * lc + b.dot(&c) * la + c.dot(&a) * lb;
+    Vector2::new(across, volume)
 }
 
 /// The sum of the angles of vectors from the x-axis, each between -pi and pi. Those of acute angles are multiplied as complex

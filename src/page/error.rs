@@ -53,6 +53,28 @@ pub(crate) enum LotError {
         /// The lines.
         lines: [u64; 2],
     },
+    /// A table of truths has two columns of one measure.
+    #[error("{} has two columns that are called {column}: leave one of them", truth.display())]
+    RepeatedColumn {
+        /// The table.
+        truth: PathBuf,
+        /// The name of the columns.
+        column: String,
+    },
+    /// A cell of a table of truths is no number.
+    #[error(
+        "{} tells {cell:?} as {column}, which is no number: write it with a point and without other marks, and leave the cell \
+         empty where nothing is known",
+        truth.display()
+    )]
+    NoNumber {
+        /// The table.
+        truth: PathBuf,
+        /// The name of the column.
+        column: String,
+        /// The cell.
+        cell: String,
+    },
     /// A table of truths tells nothing that was measured.
     #[error(
         "no column of {} is called as a measure in {}; call them as these are: {}",

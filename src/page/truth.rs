@@ -80,6 +80,24 @@ impl Truth {
                 measures,
             });
         }
+        let is_of_measure = |(_, own): &(usize, &String)| measures.contains(own);
+        for (at, own) in self.columns.iter().enumerate().filter(is_of_measure) {
+            if self.columns[..at].contains(own) {
+                let column = own.clone();
+                return Err(LotError::RepeatedColumn { truth, column });
+            }
+            let cells = self.rows.iter().flatten().filter_map(|row| row.get(at));
+            let is_known = |cell: &&String| !cell.is_empty();
+            let is_number = |cell: &String| cell.parse().is_ok_and(f64::is_finite);
+            if let Some(cell) = cells.filter(is_known).find(|cell| !is_number(cell)) {
+                let (column, cell) = (own.clone(), cell.clone());
+                return Err(LotError::NoNumber {
+                    truth,
+                    column,
+                    cell,
+                });
+            }
+        }
         if self.rows.iter().all(Option::is_none) {
             let name = paths.first().map(Path::new).and_then(Path::file_name);
             let example = name.unwrap_or_default().to_string_lossy().into_owned();

@@ -33,17 +33,18 @@ pub(super) fn rule(fitted: &Fitted, options: &FitOptions, unit: Option<Unit>) ->
     if choice.rejected.is_some() {
         return "every candidate was rejected; this one has the least held-out RMS".into();
     }
-    let tolerance = options.tolerance.length(fitted.mean_radius);
-    let share = round(100.0 * search.limit / fitted.mean_radius);
+    let asked_for = match options.tolerance.share() {
+        Some(share) => format!("{} % of the mean radius", round(100.0 * share)),
+        None => "the tolerance".into(),
+    };
     if let (Some(estimate), Some(rms)) = (&fitted.estimate, choice.estimate_rms) {
-        let source = match (search.limit > tolerance, options.tolerance) {
-            (true, _) => format!(
+        let source = match search.limit > search.tolerance {
+            true => format!(
                 "{:.0} % of the estimate's standard deviation of {}",
                 100.0 * search.limit / estimate.deviation,
                 length(estimate.deviation)
             ),
-            (false, Tolerance::Length(_)) => "the tolerance".into(),
-            (false, _) => format!("{share} % of the mean radius"),
+            false => asked_for,
         };
         let limit = format!("{} ({source})", length(search.limit));
         let is_all = options.segments == Some(1) && options.tolerance == Tolerance::Auto;
@@ -68,10 +69,9 @@ pub(super) fn rule(fitted: &Fitted, options: &FitOptions, unit: Option<Unit>) ->
             ),
         };
     }
-    let source = match options.tolerance {
-        _ if search.limit > tolerance => "what the scan's noise allows".into(),
-        Tolerance::Length(_) => "the tolerance".into(),
-        _ => format!("{share} % of the mean radius"),
+    let source = match search.limit > search.tolerance {
+        true => "what the scan's noise allows".into(),
+        false => asked_for,
     };
     let limit = format!("the limit of {} ({source})", length(search.limit));
     match choice.heldout_rms {

@@ -119,6 +119,13 @@ impl FitWarning {
                 labels.length(),
                 300.0 * share
             ),
+            Self::Layers { apart, .. } => write!(
+                f,
+                "The points seem to lie in two layers, some {}{} apart, as of scans from several sides that are not laid onto \
+                 each other: the surface goes between them, and its size is known to half of that. Align the scans.",
+                significant(apart, 2),
+                labels.length()
+            ),
             Self::Strays { strays: 1, points } => write!(
                 f,
                 "1 of {points} points stands apart from its neighbours by more than 10 % of the radius \

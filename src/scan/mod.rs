@@ -32,8 +32,8 @@ pub use error::{ParseError, Place, ReadError};
 use format::Format;
 pub(crate) use repeated::distinct;
 pub use source::{MAX_BYTES, read_bytes, read_stream};
-pub(crate) use split::has_neck;
 pub use split::{Cut, Plane, Split, SplitGrain, split, split_labels, split_uncut};
+pub(crate) use split::{has_neck, voxels_have_neck};
 pub use topology::Topology;
 pub(crate) use topology::each_edge;
 #[cfg(feature = "cli")]

@@ -204,18 +204,35 @@ fn tolerance_is_a_length_or_a_share_of_the_mean_radius() {
         let limit = |report: &Value| number(report, "limit");
         let auto = fit("auto");
         let radius = number(&auto, "mean_radius");
+        // What a share is of is told before the fit by the triangles between the points.
+        let is_share = |report: &Value, share: f64| {
+            assert!((limit(report) / radius / share - 1.0).abs() < 1e-3);
+        };
         if seams == "blended" {
-            assert!((limit(&auto) / radius - 0.0003).abs() < 1e-12);
+            is_share(&auto, 0.0003);
         }
         let tight = fit("0.3%");
-        assert!((limit(&tight) / radius - 0.003).abs() < 1e-12);
+        is_share(&tight, 0.003);
+        assert_eq!(number(&tight, "tolerance"), limit(&tight));
         let share = fit("2%");
-        assert!((limit(&share) / radius - 0.02).abs() < 1e-12);
+        is_share(&share, 0.02);
         assert!(share["coefficients"].as_u64() < tight["coefficients"].as_u64());
         assert!(tight["coefficients"].as_u64() < auto["coefficients"].as_u64());
         let length = fit("0.05");
         assert!((limit(&length) - 0.05).abs() < 1e-12);
     }
+}
+
+#[test]
+fn the_mean_radius_is_that_of_the_surface_however_few_the_points() {
+    let folder = folder();
+    succeed(
+        &folder,
+        &["synth", "sphere", "--points", "200", "-o", "s.ply"],
+    );
+    let report = json(&folder, &["fit", "s.ply"]);
+    let ball = 4.0 / 3.0 * std::f64::consts::PI * number(&report, "mean_radius").powi(3);
+    assert!((ball / number(&report, "volume") - 1.0).abs() < 1e-6);
 }
 
 #[test]

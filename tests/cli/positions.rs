@@ -41,6 +41,8 @@ fn a_banana_is_fitted_measured_and_touched() {
         assert!((share - 1.004).abs() < 0.006, "{figure}: {share}");
     }
     assert!(number(&report, "heldout_rms") < 5e-3 * number(&report, "mean_radius"));
+    let ball = 4.0 / 3.0 * std::f64::consts::PI * number(&report, "mean_radius").powi(3);
+    assert!((ball / number(&report, "volume") - 1.0).abs() < 1e-12);
     assert!(number(&report["standard_errors"], "volume") < 0.01 * number(&report, "volume"));
 
     let measured = json(&folder, &["measure", "b.json"]);

@@ -72,6 +72,23 @@ fn a_truth_that_tells_of_a_scan_twice_is_refused_and_rows_of_no_scan_are_counted
     assert_eq!(record(&page)["page"]["lots"][0]["warnings"][0], warning);
 }
 
+#[test]
+fn a_truth_that_is_not_clear_is_refused() {
+    let folder = results("path,status,area\na/one.ply,ok,2.5\n");
+    let refused = |truth: &str| {
+        let (code, message) = beside(&folder, truth);
+        assert_eq!(code, Some(2), "{message}");
+        message
+    };
+    let message = refused("file,area,area\none.ply,2.4,2.5\n");
+    assert!(message.contains("two columns that are called area"));
+    for cell in ["n/a", "\"2,400.5\"", "inf"] {
+        let message = refused(&format!("file,area\none.ply,{cell}\n"));
+        assert!(message.contains("as area, which is no number"), "{message}");
+    }
+    assert_eq!(beside(&folder, "file,area\none.ply,\n").0, Some(0));
+}
+
 /// What a page shows of the results in the folder `r`, and what is told on standard error.
 fn shown(folder: &TempDir) -> (Value, String) {
     let output = grainform(folder, &["report", "r", "-o", "r.html"]);

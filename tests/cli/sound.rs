@@ -415,3 +415,39 @@ fn the_choice_does_not_depend_on_order_place_or_turn() {
         "{chosen:#?}"
     );
 }
+
+#[test]
+fn two_layers_of_points_are_told_and_errors_hold_either() {
+    let folder = folder();
+    let one = points(
+        &folder,
+        &["maize", "--points", "3000", "--sampling", "random"],
+    );
+    let apart = 0.03;
+    let two: Vec<[f64; 3]> = one
+        .iter()
+        .enumerate()
+        .map(|(at, point)| match at % 2 {
+            0 => *point,
+            _ => point.map(|x| (1.0 + apart) * x),
+        })
+        .collect();
+    save(&folder, "one.xyz", &one);
+    save(&folder, "two.xyz", &two);
+    let [clean, layered] = ["one.xyz", "two.xyz"].map(|name| json(&folder, &["fit", name]));
+    assert!(!clean["warnings"].to_string().contains("two layers"));
+    assert!(
+        layered["warnings"].to_string().contains("two layers"),
+        "{}",
+        layered["warnings"]
+    );
+    let volume = number(&clean, "volume");
+    let error = number(&layered["standard_errors"], "volume");
+    for layer in [volume, volume * (1.0 + apart).powi(3)] {
+        assert!(
+            (number(&layered, "volume") - layer).abs() < 1.5 * error,
+            "{error}"
+        );
+    }
+    assert!(error < 2.0 * apart * volume, "{error}");
+}

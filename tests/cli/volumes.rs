@@ -333,6 +333,58 @@ fn labels_that_the_border_cuts_off_or_of_few_voxels_are_refused() {
     assert!(warnings.contains("touches the border"), "{warnings}");
 }
 
+/// An image of cubes of side 1 with one label, in those that the function says.
+fn image(path: &Path, size: [u32; 3], holds: impl Fn([f64; 3]) -> bool) {
+    let [width, height, depth] = size;
+    let head = String::from_utf8(header(size)).unwrap();
+    let mut bytes = head.replace("0.5 0.5 1", "1 1 1").into_bytes();
+    for z in 0..depth {
+        for y in 0..height {
+            bytes.extend((0..width).map(|x| u8::from(holds([x, y, z].map(f64::from)))));
+        }
+    }
+    std::fs::write(path, bytes).unwrap();
+}
+
+fn is_in_ball([x, y, z]: [f64; 3], middle: [f64; 3], radius: f64) -> bool {
+    let squares = [x - middle[0], y - middle[1], z - middle[2]].map(|x| x * x);
+    squares.iter().sum::<f64>() < radius * radius
+}
+
+#[test]
+fn a_label_with_a_tunnel_is_refused_for_its_handle() {
+    let folder = folder();
+    image(&folder.path().join("ct.nrrd"), [26, 26, 26], |at| {
+        let is_tunnel = at[0] == 12.0 && at[1] == 14.0;
+        is_in_ball(at, [12.3, 12.6, 12.4], 10.0) && !is_tunnel
+    });
+    let refused = errors(&grainform(&folder, &["fit", "ct.nrrd"]));
+    assert!(refused.contains("has 1 handle"), "{refused}");
+}
+
+#[test]
+fn a_label_of_two_grains_is_told_by_its_neck() {
+    let folder = folder();
+    let balls = |x: f64| {
+        image(&folder.path().join("ct.nrrd"), [50, 28, 28], |at| {
+            [13.0, 13.0 + x]
+                .iter()
+                .any(|&x| is_in_ball(at, [x, 13.0, 13.0], 12.0))
+        });
+        let report = json(&folder, &["fit", "ct.nrrd"]);
+        (
+            report["warnings"].to_string(),
+            report["standard_errors"].is_null(),
+        )
+    };
+    let (warnings, has_none) = balls(23.0);
+    assert!(warnings.contains("have a neck") && has_none, "{warnings}");
+    let split = json(&folder, &["split", "ct.nrrd", "-o", "grains"]);
+    assert!(split["warnings"].to_string().contains("neck"), "{split}");
+    let (warnings, has_none) = balls(8.0);
+    assert!(!warnings.contains("have a neck") && !has_none, "{warnings}");
+}
+
 #[test]
 fn a_batch_sees_that_the_voxels_beside_a_header_changed() {
     let folder = folder();

@@ -112,6 +112,7 @@ pub(crate) fn search(
             candidates,
             chosen,
             limit,
+            tolerance,
             noise,
             work,
         },

@@ -58,6 +58,8 @@ pub struct PositionFit {
     pub roughness: f64,
     /// Distance of held-out points that was good enough.
     pub limit: f64,
+    /// The one that was asked for.
+    pub tolerance: f64,
     /// Samples at which the surface is turned over.
     pub turned_over: usize,
     /// Pairs of triangles of the surface's mesh that cross.
@@ -114,10 +116,8 @@ pub(super) fn fit_position_if(
     }
     let local = LocalFaces::new(scan)?;
     let radius = local.radius;
-    let limit = options
-        .tolerance
-        .length(radius)
-        .max(OVER_SCATTER * scan.scatter);
+    let tolerance = options.tolerance.length(radius);
+    let limit = tolerance.max(OVER_SCATTER * scan.scatter);
     let mut cloud = local.cloud(spherical_map(&local.mesh, context)?);
     let is_worth = |coefficients: usize, rms: f64| {
         is_worth(Rival {
@@ -143,6 +143,7 @@ pub(super) fn fit_position_if(
         held_out: distance(fitted.held_out),
         roughness: fitted.roughness,
         limit,
+        tolerance,
         turned_over,
         crossings,
         errors: fitted.errors.map(|errors| errors.times(radius)),

@@ -4,7 +4,7 @@
 use super::rounder::rounder;
 use crate::fit::gaps::random_gap;
 use crate::fit::neighbours::Neighbours;
-use crate::mesh::Mesh;
+use crate::mesh::{Mesh, solid_angle};
 use crate::sphere::triangulate_directions;
 use crate::spread::median;
 use nalgebra::{Matrix3, Point3, Vector3};
@@ -46,7 +46,7 @@ pub(super) fn all_together(mesh: &Mesh, centre: &Point3<f64>, largest: f64) -> f
         Some(triangles) => {
             let angles = triangles
                 .iter()
-                .map(|corners| solid_angle(&directions, corners));
+                .map(|corners| solid_angle(corners.map(|corner| directions[corner as usize])));
             let share = angles.sum::<f64>() / (4.0 * PI);
             (1.0 - 2.0 * share).max(-1.0).acos()
         }
@@ -124,14 +124,6 @@ fn cap(directions: &[Vector3<f64>], corners: &[u32; 3]) -> f64 {
     let [a, b, c] = corners.map(|corner| directions[corner as usize]);
     let middle = (b - a).cross(&(c - a));
     middle.cross(&a).norm().atan2(middle.dot(&a))
-}
-
-/// Of the triangle between three unit vectors (van Oosterom and Strackee 1983).
-fn solid_angle(directions: &[Vector3<f64>], corners: &[u32; 3]) -> f64 {
-    let [a, b, c] = corners.map(|corner| directions[corner as usize]);
-    2.0 * a
-        .dot(&b.cross(&c))
-        .atan2(1.0 + a.dot(&b) + b.dot(&c) + c.dot(&a))
 }
 
 /// Second moments of the faces of a mesh about a centre.

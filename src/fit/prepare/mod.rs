@@ -10,6 +10,7 @@ mod facets;
 mod gap;
 mod holes;
 mod largest;
+mod layers;
 mod pieces;
 mod reference;
 mod rounder;
@@ -32,7 +33,7 @@ pub use surface::{ScannedSurface, scanned_surface};
 use super::error::FitError;
 use super::warning::FitWarning;
 use crate::measure::{MassProperties, Unit, mesh_properties};
-use crate::mesh::{Mesh, relaxed};
+use crate::mesh::{Mesh, relaxed, solid_angle};
 use crate::model::{Frame, Unseen};
 use crate::scan::Scan;
 use crate::sphere::Symmetry;
@@ -41,6 +42,7 @@ use centre::{deepest_centre, facing_away_share};
 use facets::on_large_faces;
 use nalgebra::{Matrix3, Point3, Vector3};
 use std::borrow::Cow;
+use std::f64::consts::PI;
 
 /// Share of the area that may face away from the centre. The folds of real kernels (the crease of
 /// barley, knapped stone) stay below 2 %; the inner side of a ring is 20 % or more.
@@ -59,7 +61,7 @@ pub struct PreparedScan<'a> {
     frame: Frame,
     /// The surface that fits are compared with.
     pub(crate) reference: Reference,
-    /// Mean of the radius over all directions.
+    /// Mean of the radius over all directions, as the triangles between the points tell it.
     pub(crate) mean_radius: f64,
     /// Semi-axes of the ellipsoid of equal second moments, along the grain's own axes.
     pub(crate) semi_axes: Vector3<f64>,
@@ -126,7 +128,7 @@ impl<'a> PreparedScan<'a> {
             }
         }
         Ok(Self {
-            mean_radius: mean_radius(&mesh, &centre) * unit.length,
+            mean_radius: mean_radius(&mesh, &centre, surface.kind) * unit.length,
             semi_axes,
             frame,
             reference,
@@ -205,20 +207,20 @@ pub(crate) fn semi_axes(properties: &MassProperties, frame: &Frame) -> Vector3<f
     })
 }
 
-/// Mean of the radius over all directions: facets weighted by the solid angle they fill.
-fn mean_radius(mesh: &Mesh, centre: &Point3<f64>) -> f64 {
-    let (mut sum, mut whole) = (0.0, 0.0);
-    for corners in &mesh.triangles {
+/// Mean of the radius over all directions: of each facet, weighted by the solid angle that it fills, that at its corners where
+/// it lies between points, and in the middles of its edges where it was seen.
+fn mean_radius(mesh: &Mesh, centre: &Point3<f64>, kind: ReferenceKind) -> f64 {
+    let of_facet = |corners: &[u32; 3]| {
         let [a, b, c] = corners.map(|i| mesh.vertices[i as usize] - centre);
-        let middle = (a + b + c) / 3.0;
-        let radius = middle.norm();
-        let solid_angle = (b - a).cross(&(c - a)).dot(&middle) / radius.powi(3);
-        if solid_angle.is_finite() {
-            sum += solid_angle * radius;
-            whole += solid_angle;
-        }
-    }
-    sum / whole
+        let places = match kind.has_faces() {
+            true => [(a + b) / 2.0, (b + c) / 2.0, (c + a) / 2.0],
+            false => [a, b, c],
+        };
+        let radius = places.iter().map(Vector3::norm).sum::<f64>() / 3.0;
+        radius * solid_angle([a, b, c])
+    };
+    let sum: f64 = mesh.triangles.iter().map(of_facet).sum();
+    sum / (4.0 * PI)
 }
 
 #[cfg(test)]
@@ -239,16 +241,28 @@ mod tests {
         for vertex in &mut mesh.vertices {
             *vertex += centre.coords;
         }
-        let found = mean_radius(&mesh, &centre);
-        assert_relative_eq!(
-            found,
-            ellipsoid.integrals().mean_radius,
-            max_relative = 1e-3
-        );
+        let found = mean_radius(&mesh, &centre, ReferenceKind::Faces);
+        let exact = ellipsoid.integrals().mean_radius;
+        assert_relative_eq!(found, exact, max_relative = 1e-3);
+        let of_points = mean_radius(&mesh, &centre, ReferenceKind::Directions);
+        assert_relative_eq!(of_points, exact, max_relative = 1e-3);
         let scan = Scan::from_mesh(mesh).unwrap();
         let prepared = PreparedScan::new(&scan, Symmetry::NONE).unwrap();
         assert_relative_eq!(prepared.mean_radius, found, max_relative = 1e-6);
         let ascending = Vector3::new(1.0, 2.0, 3.0);
         assert_relative_eq!(prepared.semi_axes, ascending, max_relative = 1e-2);
+    }
+
+    #[test]
+    fn a_facet_beside_the_centre_does_not_change_the_mean_radius() {
+        let mut mesh = Mesh::radial(12, |_| 2.0);
+        let exact = mean_radius(&mesh, &Point3::origin(), ReferenceKind::Directions);
+        assert_relative_eq!(exact, 2.0, max_relative = 1e-12);
+        // A pit that ends beside the centre, and beyond it.
+        for (end, least) in [(1e-3, 1.9), (-1e-3, 0.5)] {
+            mesh.vertices[40] = Point3::from(mesh.vertices[40].coords.normalize() * end);
+            let found = mean_radius(&mesh, &Point3::origin(), ReferenceKind::Faces);
+            assert!((least..2.0).contains(&found), "{found}");
+        }
     }
 }

@@ -4,6 +4,7 @@
 use super::averaged::averaged;
 use super::by_direction::{middle, one_surface};
 use super::gap::Gap;
+use super::layers::layers;
 use super::pieces::Pieces;
 use super::reference::ReferenceKind;
 use super::strays::LEAST_STRAY;
@@ -19,7 +20,7 @@ use crate::measure::{
 };
 use crate::mesh::Mesh;
 use crate::model::Unseen;
-use crate::scan::{Scan, has_neck};
+use crate::scan::{Scan, has_neck, voxels_have_neck};
 use nalgebra::Point3;
 use std::borrow::Cow;
 use std::ops::RangeInclusive;
@@ -94,6 +95,8 @@ pub fn scanned_surface(scan: &Scan) -> Result<ScannedSurface<'_>, FitError> {
     }?;
     if surface.kind == ReferenceKind::Faces && scan.scatter > 0.0 {
         surface.kind = ReferenceKind::Voxels;
+        let neck = voxels_have_neck(&surface.points).then_some(FitWarning::Neck);
+        surface.warnings.extend(neck);
     }
     Ok(surface)
 }
@@ -309,6 +312,7 @@ fn from_directions(points: Cow<'_, [Point3<f64>]>) -> Result<ScannedSurface<'_>,
     let unit = Unit::of(&mesh);
     let scaled = unit.mesh(&mesh);
     let (gap, averaged) = (Gap::new(&scaled), averaged(&scaled, unit.length));
+    let layers = layers(&scaled.vertices, unit.length);
     let strays = (strays > 0).then_some(FitWarning::Strays {
         strays,
         points: all,
@@ -318,10 +322,18 @@ fn from_directions(points: Cow<'_, [Point3<f64>]>) -> Result<ScannedSurface<'_>,
         unseen: gap.unseen,
         is_sparse: gap.is_sparse,
         is_many: gap.is_many,
-        warnings: [repeated, twins, neck, strays, gap.warning(), averaged]
-            .into_iter()
-            .flatten()
-            .collect(),
+        warnings: [
+            repeated,
+            twins,
+            neck,
+            strays,
+            gap.warning(),
+            averaged,
+            layers,
+        ]
+        .into_iter()
+        .flatten()
+        .collect(),
         mesh,
         kind: ReferenceKind::Directions,
         faces: None,

@@ -65,10 +65,8 @@ pub(crate) fn search(
         .map(|level| level.residual_variance().sqrt())
         // Points that are all met tell of no noise.
         .filter(|noise| *noise > 0.0);
-    let limit = options
-        .tolerance
-        .length(prepared.mean_radius)
-        .max(NOISE_MARGIN * noise.unwrap_or(0.0));
+    let tolerance = options.tolerance.length(prepared.mean_radius);
+    let limit = tolerance.max(NOISE_MARGIN * noise.unwrap_or(0.0));
 
     let mut candidates = Vec::with_capacity(degrees.len() * parts.len());
     let mut fitted = Vec::with_capacity(parts.len());
@@ -121,6 +119,7 @@ pub(crate) fn search(
             candidates,
             chosen,
             limit,
+            tolerance,
             noise,
             work,
         },

@@ -14,6 +14,14 @@ use nalgebra::Vector3;
 /// Parts per angle of the source's grid.
 const PUBLISHED_GRID: usize = 128;
 
+/// What is integrated over a body.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Measured {
+    pub(super) properties: MassProperties,
+    /// Of a grain with a radius, its mean over all directions from the grain's centre.
+    pub(super) mean_radius: Option<f64>,
+}
+
 #[derive(Clone)]
 pub(super) enum Body<'a> {
     Grain(Box<Grain>, Scheme),
@@ -63,18 +71,28 @@ impl<'a> Body<'a> {
     }
 
     /// Area, volume, centroid and inertia; those of a union are known.
-    pub(super) fn properties(
+    pub(super) fn measured(
         &self,
         union: Option<&SolidProperties>,
-    ) -> Result<MassProperties, SurveyError> {
+    ) -> Result<Measured, SurveyError> {
+        let mut mean_radius = None;
         let found = match (self, union) {
             (_, Some(solid)) => solid.properties,
-            (Self::Grain(grain, Scheme::Exact), _) => grain_properties(grain.as_ref()).properties,
+            (Self::Grain(grain, Scheme::Exact), _) => {
+                let found = grain_properties(grain.as_ref());
+                mean_radius = grain.star().map(|_| found.mean_radius);
+                found.properties
+            }
             (Self::Grain(grain, Scheme::FourTriangles), _) => {
                 let star = grain.star().ok_or(SurveyError::NoRadius)?;
                 four_triangles(star, PUBLISHED_GRID, PUBLISHED_GRID)
             }
-            (Self::Known(_, properties), _) => return Ok(*properties),
+            (Self::Known(_, properties), _) => {
+                return Ok(Measured {
+                    properties: *properties,
+                    mean_radius,
+                });
+            }
             (Self::Mesh(_, Inside::Unknown(error)), _) => return Err(error.clone()),
             (Self::Mesh(mesh, _), _) => mesh_properties(mesh)?,
         };
@@ -84,7 +102,10 @@ impl<'a> Body<'a> {
         if !(is_finite && found.area > 0.0 && found.volume > Unit::LEAST_VOLUME) {
             return Err(SurveyError::NotSolid);
         }
-        Ok(found)
+        Ok(Measured {
+            properties: found,
+            mean_radius,
+        })
     }
 
     /// How many bodies there are; `None` where that cannot be told.

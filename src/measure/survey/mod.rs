@@ -16,10 +16,12 @@ use super::{
 };
 use crate::Mesh;
 use crate::model::{Grain, NoInterval, Radial, StandardErrors, StarSurface};
+pub(crate) use body::Measured;
 use body::{Body, Inside};
 pub use error::SurveyError;
 use nalgebra::{Matrix3, Vector3};
 use std::cell::OnceCell;
+use std::f64::consts::PI;
 use std::fmt;
 
 /// A body, and what has been measured of it: each figure is computed when it is first asked for, and
@@ -56,7 +58,7 @@ pub struct Survey<'a> {
     unit: Unit,
     standard_errors: Result<StandardErrors, NoInterval>,
     union: OnceCell<Option<SolidProperties>>,
-    properties: OnceCell<Result<MassProperties, SurveyError>>,
+    measured: OnceCell<Result<Measured, SurveyError>>,
     extents: OnceCell<Result<Extents, SurveyError>>,
     mesh: OnceCell<Mesh>,
     finer_mesh: OnceCell<Option<Mesh>>,
@@ -89,10 +91,10 @@ impl<'a> Survey<'a> {
         Self::new(Body::grain(grain, scheme), standard_errors)
     }
 
-    /// The same of a grain whose [`Self::unit_properties`] are known.
-    pub(crate) fn of_known(grain: &'a Grain, properties: MassProperties) -> Self {
+    /// The same of a grain that was [measured](Self::measured) before.
+    pub(crate) fn of_known(grain: &'a Grain, measured: Measured) -> Self {
         Self {
-            properties: OnceCell::from(Ok(properties)),
+            measured: OnceCell::from(Ok(measured)),
             ..Self::of_grain(grain, Scheme::Exact)
         }
     }
@@ -129,7 +131,7 @@ impl<'a> Survey<'a> {
             unit,
             standard_errors,
             union: OnceCell::new(),
-            properties: OnceCell::new(),
+            measured: OnceCell::new(),
             extents: OnceCell::new(),
             mesh: OnceCell::new(),
             finer_mesh: OnceCell::new(),
@@ -170,6 +172,18 @@ impl<'a> Survey<'a> {
     pub fn volume(&self) -> Result<f64, SurveyError> {
         let volume = self.properties()?.volume;
         in_range(volume, &[volume])
+    }
+
+    /// Mean of the radius over all directions from the grain's centre; of a body without one, the radius of the ball of equal
+    /// volume.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::properties`].
+    pub fn mean_radius(&self) -> Result<f64, SurveyError> {
+        let found = self.measured()?;
+        let of_volume = || (0.75 * found.properties.volume / PI).cbrt();
+        Ok(self.unit.length * found.mean_radius.unwrap_or_else(of_volume))
     }
 
     /// Standard errors of area, volume, moments and dimensions, as the grain tells them.
@@ -381,7 +395,7 @@ impl fmt::Debug for Survey<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Survey")
             .field("unit", &self.unit)
-            .field("properties", &self.properties)
+            .field("measured", &self.measured)
             .finish_non_exhaustive()
     }
 }

@@ -1,7 +1,7 @@
 //! The figures of a body at unit size, each of which is computed once.
 
 use super::Survey;
-use super::body::Body;
+use super::body::{Body, Measured};
 use super::error::SurveyError;
 use crate::Mesh;
 use crate::measure::extents::{Extents, RESOLUTION, Reach};
@@ -21,10 +21,15 @@ const ROUNDED: f64 = 1e-12;
 
 impl Survey<'_> {
     /// Area, volume and moments at unit size.
-    pub(crate) fn unit_properties(&self) -> Result<&MassProperties, SurveyError> {
+    pub(super) fn unit_properties(&self) -> Result<&MassProperties, SurveyError> {
+        Ok(&self.measured()?.properties)
+    }
+
+    /// The same, and the mean radius, at unit size.
+    pub(crate) fn measured(&self) -> Result<&Measured, SurveyError> {
         let found = self
-            .properties
-            .get_or_init(|| self.body.properties(self.unit_union()));
+            .measured
+            .get_or_init(|| self.body.measured(self.unit_union()));
         found.as_ref().map_err(Clone::clone)
     }
 

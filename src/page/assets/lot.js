@@ -33,7 +33,7 @@ function normalQuantile(share) {
   return Math.SQRT2 * Math.sign(p) * Math.sqrt(Math.sqrt(a * a - logarithm / 0.147) - a);
 }
 
-// Bias and spread of what has a truth, and whether standard errors are as large as errors.
+// Bias and spread of what has a truth, as shares of its size, and whether standard errors are as large as errors.
 function truthPart(lot, all, number, nameOf) {
   const { columns, rows } = lot.truth;
   const measures = columns.slice(1).filter((name) => lot.columns.includes(name) && name !== 'path');
@@ -48,15 +48,17 @@ function truthPart(lot, all, number, nameOf) {
       const cell = rows[row] ? rows[row][columns.indexOf(name)] : '';
       const truth = cell ? Number(cell) : NaN;
       const error = number(row, name) - truth;
-      return { row, share: error / truth, z: error / number(row, `${name}_se`) };
-    }).filter(({ share }) => Number.isFinite(share));
-    const mean = known.reduce((sum, { share }) => sum + share, 0) / known.length;
-    const spread = Math.sqrt(known.reduce((sum, { share }) => sum + (share - mean) ** 2, 0) / Math.max(1, known.length - 1));
+      return { row, share: error / Math.abs(truth), z: error / number(row, `${name}_se`), error };
+    }).filter(({ error }) => Number.isFinite(error));
+    // Nothing is a share of a truth of 0.
+    const shares = known.map(({ share }) => share).filter(Number.isFinite);
+    const mean = shares.reduce((sum, share) => sum + share, 0) / shares.length;
+    const spread = Math.sqrt(shares.reduce((sum, share) => sum + (share - mean) ** 2, 0) / Math.max(1, shares.length - 1));
     const scaled = known.filter(({ z }) => Number.isFinite(z)).sort((a, b) => a.z - b.z);
     const within = scaled.filter(({ z }) => Math.abs(z) <= 1.96).length;
     return { name, mean, spread, scaled, count: known.length, held: scaled.length ? `${within} of ${scaled.length}` : 'no errors told' };
   }).filter(({ count }) => count);
-  const percent = (share) => `${(100 * share).toFixed(3)} %`;
+  const percent = (share) => (Number.isFinite(share) ? `${(100 * share).toFixed(3)} %` : 'the truth is 0');
   const cells = ({ name, count, mean, spread, held }) => [name, String(count), percent(mean), percent(spread), held].map((cell) => el('td', {}, cell));
   const heads = ['measure', 'grains', 'bias', 'spread', 'within 1.96 standard errors'].map((name) => el('th', {}, name));
   const points = found.flatMap(({ scaled }, series) => scaled.map(({ row, z }, at) => ({

@@ -231,8 +231,7 @@ impl FitReport {
                 .map(|whole| EvaluationRecord::new(&whole.into())),
             noise: search.noise.filter(|_| is_noise),
             limit: search.limit,
-            tolerance: (options.tolerance != Tolerance::Auto)
-                .then(|| options.tolerance.length(fitted.mean_radius)),
+            tolerance: (options.tolerance != Tolerance::Auto).then_some(search.tolerance),
             rule: rule(fitted, options, unit),
             seam_jump: fitted.grain.star().map_or(0.0, StarGrain::seam_jump),
             reduced_segments: choice.reduced_segments,

@@ -1,7 +1,7 @@
 //! The grains of a segmented volume: what hangs together of each label.
 
 use super::dust::without_dust;
-use super::{Split, SplitGrain, area, by_place, has_neck};
+use super::{Split, SplitGrain, area, by_place, voxels_have_neck};
 use crate::scan::volume::{LEAST_VOXELS, Volume, VolumeError, VoxelBody};
 
 /// The grains of a segmented volume, or those of one of its labels, in the order of the labels: every body of voxels
@@ -66,7 +66,7 @@ fn of_label(
     for body in bodies {
         match volume.alone(&body).scan(None) {
             Ok(scan) => grains.push(SplitGrain {
-                may_touch: has_neck(&scan.points),
+                may_touch: voxels_have_neck(&scan.points),
                 scan,
                 indices: Vec::new(),
                 label: Some(label),

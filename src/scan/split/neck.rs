@@ -151,6 +151,11 @@ impl Neck {
         self.ratio < NECK
     }
 
+    /// Whether it is so narrow that outlines may tell two grains.
+    pub(super) fn may_part_two(&self) -> bool {
+        self.ratio < BROAD
+    }
+
     /// Whether it may be that grains touch here.
     pub(super) fn is_waist(&self) -> bool {
         self.ratio < WAIST
@@ -163,7 +168,7 @@ impl Neck {
 
     /// Whether each point is beyond the neck, if there are two grains.
     pub(super) fn cut(&self, points: &[Point3<f64>]) -> Option<Vec<bool>> {
-        let beyond = (self.ratio < BROAD).then(|| self.beyond(points))?;
+        let beyond = self.may_part_two().then(|| self.beyond(points))?;
         (self.is_narrow() || are_two(points, &beyond)).then_some(beyond)
     }
 

@@ -310,7 +310,7 @@ impl Volume {
                 }
             }
         }
-        let touching = border::look(label, &grid, extent, self.size)?;
+        let touching = border::look(label, &grid, extent, self.size, &self.steps)?;
         let first = self.origin + self.steps * Vector3::from(low.map(|i| i as f64));
         let mut scan = voxel_scan(&grid, first, &self.steps)?;
         let warnings = self.warnings.iter().cloned().chain(touching);
