@@ -15,10 +15,12 @@ mod pieces;
 mod reference;
 mod rounder;
 mod samples;
+mod scanned;
 mod strays;
 mod surface;
 mod thin;
 mod together;
+mod triangulated;
 mod twins;
 
 pub(crate) use axes::principal_axes;
@@ -27,8 +29,9 @@ pub use largest::largest_body;
 pub(crate) use largest::whole_or_largest;
 pub use reference::{Reference, ReferenceKind};
 pub(crate) use samples::{CellGrid, Sample, Samples};
+pub use scanned::ScannedSurface;
+pub use surface::scanned_surface;
 pub(crate) use surface::usable;
-pub use surface::{ScannedSurface, scanned_surface};
 
 use super::error::FitError;
 use super::warning::FitWarning;

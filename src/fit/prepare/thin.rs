@@ -56,3 +56,8 @@ pub(crate) fn thin(points: &[Point3<f64>], centre: &Point3<f64>, apart: f64) -> 
     thinned.strays.sort_unstable();
     thinned
 }
+
+/// The points of these indices.
+pub(super) fn select(points: &[Point3<f64>], indices: &[u32]) -> Vec<Point3<f64>> {
+    indices.iter().map(|&i| points[i as usize]).collect()
+}

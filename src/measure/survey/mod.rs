@@ -1,14 +1,13 @@
 //! A body under measurement.
 
 mod body;
+mod curved;
 mod error;
 mod from_centroid;
 mod unit_size;
 
-use super::bounds::ratio;
 use super::elements::Element;
 use super::extents::Extents;
-use super::followed::unfollowed;
 use super::unit::Unit;
 use super::{
     Ball, Convexity, CurvatureStatistics, EquivalentEllipsoid, Form, MassProperties, OrientedBox,
@@ -289,66 +288,6 @@ impl<'a> Survey<'a> {
             self.unit_enclosing()?.radius,
         );
         Ok(found.checked()?)
-    }
-
-    /// Curvature over the whole surface of a grain.
-    ///
-    /// # Errors
-    ///
-    /// [`SurveyError::Flat`] of a mesh, [`SurveyError::Edges`] of superquadrics with exponents below some 1.6, and of those that meet in creases.
-    pub fn curvature(&self) -> Result<&CurvatureStatistics, SurveyError> {
-        let found = self.any_curvature()?;
-        match found.is_on_edges() {
-            true => Err(SurveyError::Edges {
-                missed: found.gauss_bonnet_error().abs(),
-            }),
-            false => Ok(found),
-        }
-    }
-
-    /// The same, whatever its edges.
-    fn any_curvature(&self) -> Result<&CurvatureStatistics, SurveyError> {
-        let surface = self.body.surface()?;
-        Ok(self
-            .curvature
-            .get_or_init(|| CurvatureStatistics::new(surface).in_unit(self.unit.length)))
-    }
-
-    /// Standard error of the largest principal curvature, where the grain tells it: also by how much it is more than the
-    /// surface turns there, for of all places the sharpest ripple is told.
-    ///
-    /// # Errors
-    ///
-    /// As [`Self::curvature`].
-    pub fn largest_curvature_error(&self) -> Result<Option<f64>, SurveyError> {
-        let sharpest = self.curvature()?.sharpest();
-        let Some(error) = self.body.curvature_error(&sharpest) else {
-            return Ok(None);
-        };
-        let error = error.hypot(unfollowed(self.body.surface()?, &sharpest));
-        Ok(Some(error / self.unit.length))
-    }
-
-    /// Roundness of the corners, see [`CurvatureStatistics::roundness`].
-    ///
-    /// # Errors
-    ///
-    /// [`SurveyError::Flat`] of a mesh.
-    pub fn roundness(&self) -> Result<f64, SurveyError> {
-        let found = self.any_curvature()?.roundness(self.inscribed()?.radius);
-        Ok(ratio("roundness", found)?)
-    }
-
-    /// Regularity: the mean of roundness and of the sphericity inscribed over enclosing sphere, above 0
-    /// to 1 (Cho, Dodds and Santamarina 2006).
-    ///
-    /// # Errors
-    ///
-    /// [`SurveyError::Flat`] of a mesh.
-    pub fn regularity(&self) -> Result<f64, SurveyError> {
-        let spheres = self.unit_inscribed()?.radius / self.unit_enclosing()?.radius;
-        let sphericity = ratio("inscribed over enclosing radius", spheres)?;
-        Ok(0.5 * (self.roundness()? + sphericity))
     }
 
     /// The body against its convex hull.
