@@ -83,12 +83,14 @@ pub fn fit_scan(
                 None => Err(error),
                 Some(choice) => match positioned(scan, options, context, choice, &|_| true) {
                     Err(FitError::NoFaces) => Err(error),
-                    Err(position @ (FitError::NoInside | FitError::OffCrust { .. })) => {
-                        Err(FitError::NoKind {
-                            radius: error.into(),
-                            position: position.into(),
-                        })
-                    }
+                    Err(
+                        position @ (FitError::NoInside
+                        | FitError::OffCrust { .. }
+                        | FitError::FarFromPoints { .. }),
+                    ) => Err(FitError::NoKind {
+                        radius: error.into(),
+                        position: position.into(),
+                    }),
                     found => found,
                 },
             },

@@ -190,3 +190,18 @@ fn positions_of_any_size_are_fitted() {
         assert!((volume(scale) / whole - 1.0).abs() < 1e-3, "{scale}");
     }
 }
+
+#[test]
+fn a_crust_of_few_points_that_is_not_their_body_is_refused() {
+    let folder = folder();
+    succeed(
+        &folder,
+        &["synth", "cylinder", "--points", "98", "-o", "c.ply"],
+    );
+    let refused = errors(&grainform(&folder, &["fit", "c.ply"]));
+    assert!(
+        refused
+            .contains("Positions cannot be fitted either: the surface is off its points by 14 %"),
+        "{refused}"
+    );
+}
