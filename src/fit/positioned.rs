@@ -6,6 +6,7 @@ use super::error::FitError;
 use super::options::{FitOptions, Seams};
 use super::outcome::{Fitted, KindChoice, Residuals, Rival};
 use super::position::{PositionFit, fit_position_if};
+use super::sound::LARGEST_VOLUME;
 use super::warning::FitWarning;
 use crate::model::{Grain, InvalidGrain, NoInterval, PositionGrain, Surface};
 use crate::scan::Scan;
@@ -90,6 +91,10 @@ pub(super) fn positioned(
     // Faces are met whatever is between them; a crust of few points is not the body.
     if !fitted.reference.kind.has_faces() && share > FAR_HELD_OUT {
         return Err(FitError::FarFromPoints { share });
+    }
+    let times = fitted.survey().volume().unwrap_or(f64::NAN) / fitted.reference.volume;
+    if fitted.reference.kind.has_faces() && times > LARGEST_VOLUME {
+        return Err(FitError::FarBeyondPoints { times });
     }
     Ok(fitted.beside_polyhedron())
 }

@@ -16,9 +16,13 @@ const FAR: f64 = 0.25;
 /// that it stands on 8 % or more.
 const FAR_FROM_ESTIMATE: f64 = 0.06;
 
+/// A model that differs from the estimate by more than this share may differ as the points do, and these from the estimate by less
+/// than the squares tell.
+const COARSE: f64 = 0.02;
+
 /// A surface holds at most so many times the volume of the polyhedron of its points, which is smaller: of 50 points by
 /// a seventh. ...
-const LARGEST_VOLUME: f64 = 1.5;
+pub(super) const LARGEST_VOLUME: f64 = 1.5;
 
 /// ... With fewer points it may hold anything.
 const FEW_POINTS: usize = 50;
@@ -34,14 +38,17 @@ const CLEARLY_FINE: f64 = 1.2;
 pub(super) fn check(fitted: &Fitted, options: &FitOptions) -> Result<Option<FitWarning>, FitError> {
     let is_asked_for = options.degree.is_some();
     let rms = fitted.residuals.rms;
-    let (off, far) = match fitted.search.choice().estimate_rms {
-        Some(of_model) => (
+    let (off, far) = match (fitted.search.choice().estimate_rms, &fitted.posterior) {
+        (Some(of_model), Some(estimate)) if of_model > COARSE * fitted.mean_radius => {
+            (estimate.residual(), FAR_FROM_ESTIMATE)
+        }
+        (Some(of_model), _) => (
             (rms * rms - of_model * of_model).max(0.0).sqrt(),
             FAR_FROM_ESTIMATE,
         ),
         // Of degree 0 even a ball is what was asked for.
-        None if is_asked_for => (0.0, FAR),
-        None => (rms, FAR),
+        (None, _) if is_asked_for => (0.0, FAR),
+        (None, _) => (rms, FAR),
     };
     let share = off / fitted.mean_radius;
     if share.is_nan() || share > far {

@@ -122,7 +122,7 @@ impl FitWarning {
             Self::Layers { apart, .. } => write!(
                 f,
                 "The points seem to lie in two layers, some {}{} apart, as of scans from several sides that are not laid onto \
-                 each other: the surface goes between them, and its size is known to half of that. Align the scans.",
+                 each other, or of voxels: the surface goes between them, and its size is known to half of that.",
                 significant(apart, 2),
                 labels.length()
             ),

@@ -65,12 +65,22 @@ impl Estimate {
     /// The same by generalised cross-validation, that is with the mean of the points' leverages: less than it is where
     /// single points decide, as on a steep flank.
     pub(crate) fn held_out_by_mean(&self) -> f64 {
+        let points = self
+            .dense
+            .map_or(self.cloud.len() as f64, |dense| dense.points);
+        self.by_mean(self.mean_square(), points)
+    }
+
+    /// Distance of its points along rays, as root mean square, in the scan's unit.
+    pub(crate) fn residual(&self) -> f64 {
+        self.mean_square().sqrt() * self.plain_length()
+    }
+
+    /// Mean square of its points' residuals, in units of the mean radius.
+    fn mean_square(&self) -> f64 {
         match self.dense {
-            Some(Dense { points, residuals }) => self.by_mean(residuals, points),
-            None => {
-                let square = self.posterior().mean_square(&self.coefficients);
-                self.by_mean(square, self.cloud.len() as f64)
-            }
+            Some(Dense { residuals, .. }) => residuals,
+            None => self.posterior().mean_square(&self.coefficients),
         }
     }
 

@@ -13,7 +13,8 @@
 //! none                                                   of none
 //! ```
 //!
-//! Layers nearer than what neighbours scatter by are not told from noise.
+//! Layers nearer than what neighbours scatter by are not told from noise, and those over a part of the body may be taken for dust. The
+//! outermost voxels of a body seem to lie in two layers as well, in one of six: they do not lie on a smooth surface either.
 
 use super::rounder::rounder;
 use crate::fit::neighbours::Neighbours;

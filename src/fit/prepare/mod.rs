@@ -211,26 +211,42 @@ pub(crate) fn semi_axes(properties: &MassProperties, frame: &Frame) -> Vector3<f
 }
 
 /// Mean of the radius over all directions: of each facet, weighted by the solid angle that it fills, that at its corners where
-/// it lies between points, and in the middles of its edges where it was seen.
+/// it lies between points, and over itself where it was seen.
 fn mean_radius(mesh: &Mesh, centre: &Point3<f64>, kind: ReferenceKind) -> f64 {
     let of_facet = |corners: &[u32; 3]| {
-        let [a, b, c] = corners.map(|i| mesh.vertices[i as usize] - centre);
-        let places = match kind.has_faces() {
-            true => [(a + b) / 2.0, (b + c) / 2.0, (c + a) / 2.0],
-            false => [a, b, c],
-        };
-        let radius = places.iter().map(Vector3::norm).sum::<f64>() / 3.0;
-        radius * solid_angle([a, b, c])
+        let corners = corners.map(|i| mesh.vertices[i as usize] - centre);
+        match kind.has_faces() {
+            true => integral(corners, MOST_CUTS),
+            false => mean_norm(&corners) * solid_angle(corners),
+        }
     };
-    let sum: f64 = mesh.triangles.iter().map(of_facet).sum();
-    sum / (4.0 * PI)
+    mesh.triangles.iter().map(of_facet).sum::<f64>() / (4.0 * PI)
+}
+
+/// How often a facet is cut in four, at most, until it is small beside its distance.
+const MOST_CUTS: usize = 5;
+
+/// The integral of the radius over the solid angle of a facet.
+fn integral([a, b, c]: [Vector3<f64>; 3], cuts: usize) -> f64 {
+    let middles = [(a + b) / 2.0, (b + c) / 2.0, (c + a) / 2.0];
+    let size = (b - a).norm().max((c - b).norm()).max((a - c).norm());
+    if cuts == 0 || 2.0 * size < mean_norm(&middles) {
+        return mean_norm(&middles) * solid_angle([a, b, c]);
+    }
+    let [ab, bc, ca] = middles;
+    let parts = [[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]];
+    parts.map(|part| integral(part, cuts - 1)).iter().sum()
+}
+
+fn mean_norm(places: &[Vector3<f64>; 3]) -> f64 {
+    places.iter().map(Vector3::norm).sum::<f64>() / 3.0
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::model::StarSurface;
-    use crate::shapes::{Ellipsoid, Solid};
+    use crate::shapes::{Cuboid, Ellipsoid, Solid};
     use approx::assert_relative_eq;
     use nalgebra::Vector3;
 
@@ -254,6 +270,35 @@ mod tests {
         assert_relative_eq!(prepared.mean_radius, found, max_relative = 1e-6);
         let ascending = Vector3::new(1.0, 2.0, 3.0);
         assert_relative_eq!(prepared.semi_axes, ascending, max_relative = 1e-2);
+    }
+
+    #[test]
+    fn the_mean_radius_of_large_facets_is_that_over_them() {
+        let [a, b, c] = [4.0, 1.0, 0.5];
+        let half_edges = Vector3::new(a, b, c);
+        let exact = Cuboid { half_edges }.integrals().mean_radius;
+        let corner = |i: usize| [i & 1, i >> 1 & 1, i >> 2].map(|side| 2.0 * side as f64 - 1.0);
+        let vertices = (0..8).map(|i| Vector3::from(corner(i)).component_mul(&half_edges).into());
+        let mesh = Mesh {
+            vertices: vertices.collect(),
+            triangles: vec![
+                [0, 4, 2],
+                [2, 4, 6],
+                [1, 3, 5],
+                [3, 7, 5],
+                [0, 1, 4],
+                [1, 5, 4],
+                [2, 6, 3],
+                [3, 6, 7],
+                [0, 2, 1],
+                [1, 2, 3],
+                [4, 5, 6],
+                [5, 7, 6],
+            ],
+        };
+        assert_eq!(mesh.check_closed(), Ok(()));
+        let found = mean_radius(&mesh, &Point3::origin(), ReferenceKind::Faces);
+        assert_relative_eq!(found, exact, max_relative = 1e-2);
     }
 
     #[test]

@@ -196,6 +196,7 @@ impl FitReport {
         let radius = short(self.mean_radius);
         match self.surface {
             "star" => writeln!(f, "mean radius   {radius}{length}")?,
+            _ if self.volume.is_none() => {}
             _ => writeln!(f, "ball          of equal volume: radius {radius}{length}")?,
         }
         if self.reduced_segments > 0 {

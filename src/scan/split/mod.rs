@@ -118,6 +118,9 @@ fn split_at(scan: &Scan, necks: Necks) -> Result<Split, ParseError> {
     Ok(split)
 }
 
+/// Thickness of the slabs between voxels beside those between scattered points.
+const THINNER: f64 = 0.7;
+
 /// Points by which a neck is looked for in a scan of one body.
 const NECK_POINTS: usize = 4000;
 
@@ -132,7 +135,7 @@ pub(crate) fn has_neck(points: &[Point3<f64>]) -> bool {
 /// The same of the middles between voxels inside and outside, whose rows are as near as their points, so that thin slabs tell: the
 /// neck of two equal grains may lie between two thick ones. Of 130 bodies of voxels without a neck none has one, however broad.
 pub(crate) fn voxels_have_neck(points: &[Point3<f64>]) -> bool {
-    neck_of(&drawn(points, NECK_POINTS), 1.0).is_some_and(|neck| neck.may_part_two())
+    neck_of(&drawn(points, NECK_POINTS), THINNER).is_some_and(|neck| neck.may_part_two())
 }
 
 /// The neck of points in slabs that are so many times as thick as rows of them are apart.
