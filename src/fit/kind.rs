@@ -70,10 +70,7 @@ pub fn fit_scan(
                 Err(FitError::Cancelled) => Err(FitError::Cancelled),
                 Err(position) => star().map_err(|radius| match radius {
                     FitError::Cancelled => FitError::Cancelled,
-                    radius => FitError::NoKind {
-                        radius: radius.into(),
-                        position: position.into(),
-                    },
+                    radius => neither(radius, position),
                 }),
                 found => found,
             }
@@ -87,10 +84,7 @@ pub fn fit_scan(
                         position @ (FitError::NoInside
                         | FitError::OffCrust { .. }
                         | FitError::FarFromPoints { .. }),
-                    ) => Err(FitError::NoKind {
-                        radius: error.into(),
-                        position: position.into(),
-                    }),
+                    ) => Err(neither(error, position)),
                     found => found,
                 },
             },
@@ -101,6 +95,14 @@ pub fn fit_scan(
             }
             found => found,
         },
+    }
+}
+
+/// Why no kind can be fitted.
+fn neither(radius: FitError, position: FitError) -> FitError {
+    FitError::NoKind {
+        radius: radius.into(),
+        position: position.into(),
     }
 }
 

@@ -6,18 +6,13 @@ use super::error::FitError;
 use super::options::{FitOptions, Seams};
 use super::outcome::{Fitted, KindChoice, Residuals, Rival};
 use super::position::{PositionFit, fit_position_if};
-use super::sound::LARGEST_VOLUME;
+use super::sound;
 use super::warning::FitWarning;
 use crate::model::{Grain, InvalidGrain, NoInterval, PositionGrain, Surface};
 use crate::scan::Scan;
 
 /// The fewest cells: a surface that is folded is fitted once more with half its cells, but no fewer than these.
 const FEWEST_CELLS: usize = 6;
-
-/// How far points that were held out may be from a surface through a crust, as a share of the radius of the ball of equal volume
-/// (RMS). Of bananas and hooks of 400 points and more it is 2 % at most; of 61 to 152 points of an ellipsoid, a cylinder and a
-/// cuboid, whose crusts hold a seventh to a third of them, 12 to 25 %, and volumes are 6 to 20 % off.
-const FAR_HELD_OUT: f64 = 0.06;
 
 /// Fits positions over the sphere, where `is_worth` says so of what they may become.
 pub(super) fn positioned(
@@ -29,7 +24,7 @@ pub(super) fn positioned(
 ) -> Result<Fitted, FitError> {
     let mut fit = fit_position_if(scan, options, context, is_worth)?;
     let cells_of = |fit: &PositionFit| fit.surface.coefficients().len();
-    let mut grain = sound(&fit);
+    let mut grain = checked(&fit);
     // Fewer cells may not go through themselves.
     if grain.is_err() && options.segments.is_none() && cells_of(&fit) > FEWEST_CELLS {
         let fewer = FitOptions {
@@ -37,14 +32,13 @@ pub(super) fn positioned(
             ..options.clone()
         };
         fit = fit_position_if(scan, &fewer, context, is_worth)?;
-        grain = sound(&fit);
+        grain = checked(&fit);
     }
     let (grain, cells) = (grain?, cells_of(&fit));
     let (degree, radius) = (fit.surface.degree(), fit.radius);
-    let held_out = fit.held_out.rms;
     let grain = Grain::from(grain);
     let candidate = Candidate {
-        heldout_rms: Some(held_out),
+        heldout_rms: Some(fit.held_out.rms),
         ..Candidate::unfitted(degree, cells, grain.coefficient_count())
     };
     let errors = match are_few(&fit, grain.coefficient_count()) {
@@ -87,15 +81,7 @@ pub(super) fn positioned(
         errors: Some(errors),
     };
     let fitted = fitted.measured();
-    let share = held_out / fitted.mean_radius;
-    // Faces are met whatever is between them; a crust of few points is not the body.
-    if !fitted.reference.kind.has_faces() && share > FAR_HELD_OUT {
-        return Err(FitError::FarFromPoints { share });
-    }
-    let times = fitted.survey().volume().unwrap_or(f64::NAN) / fitted.reference.volume;
-    if fitted.reference.kind.has_faces() && times > LARGEST_VOLUME {
-        return Err(FitError::FarBeyondPoints { times });
-    }
+    sound::check_positions(&fitted)?;
     Ok(fitted.beside_polyhedron())
 }
 
@@ -106,7 +92,7 @@ fn are_few(fit: &PositionFit, coefficients: usize) -> bool {
 }
 
 /// The grain that was fitted, if its surface does not go through itself.
-fn sound(fit: &PositionFit) -> Result<PositionGrain, FitError> {
+fn checked(fit: &PositionFit) -> Result<PositionGrain, FitError> {
     let grain = PositionGrain::new(fit.frame, fit.surface.clone()).map_err(FitError::NoSurface)?;
     let folded_at = match grain.check() {
         Ok(()) => None,
@@ -131,10 +117,10 @@ mod tests {
         let ball = Scan::from_mesh(Mesh::radial(8, |_| 1.0)).unwrap();
         let options = FitOptions::default().with_segments(1).with_degree(1);
         let mut fit = fit_position(&ball, &options, &Context::default()).unwrap();
-        assert!(sound(&fit).is_ok());
+        assert!(checked(&fit).is_ok());
         let place = Point3::new(0.5, 0.0, 1.0);
         fit.crossing = Some(place);
-        let refused = sound(&fit).unwrap_err();
+        let refused = checked(&fit).unwrap_err();
         assert_eq!(refused, FitError::GoesThroughItself { place });
         let told = refused.to_string();
         assert!(told.contains("near (0.5000, 0.0000, 1.0000)"), "{told}");

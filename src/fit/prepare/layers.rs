@@ -75,7 +75,8 @@ pub(super) fn layers(points: &[Point3<f64>], unit: f64) -> Option<FitWarning> {
     let some = drawn(points, LOOKED_AT);
     let apart = some.iter().filter_map(seen).map(|(n, _)| {
         let near = neighbours.nearest(&n, NEIGHBOURS);
-        apart(&n, near.iter().map(|&at| (directions[at], radii[at])))
+        let near: Vec<_> = near.iter().map(|&at| (directions[at], radii[at])).collect();
+        apart(&n, &near)
     });
     let apart: Vec<Option<f64>> = apart.collect();
     let looked_at = apart.len() as f64;
@@ -93,17 +94,15 @@ pub(super) fn layers(points: &[Point3<f64>], unit: f64) -> Option<FitWarning> {
 }
 
 /// By how much two layers of neighbours in directions near one are apart, as a share of their radii, if they fall apart in two.
-fn apart(
-    n: &Vector3<f64>,
-    near: impl ExactSizeIterator<Item = (Vector3<f64>, f64)> + Clone,
-) -> Option<f64> {
+fn apart(n: &Vector3<f64>, near: &[(Vector3<f64>, f64)]) -> Option<f64> {
     let count = near.len();
     let [u, v] = across(n);
-    let radius = near.clone().map(|(_, radius)| radius).sum::<f64>() / count as f64;
-    let wide = near.clone().map(|(other, _)| (other - n).norm());
+    let radius = near.iter().map(|(_, radius)| radius).sum::<f64>() / count as f64;
+    let wide = near.iter().map(|(other, _)| (other - n).norm());
     let wide = wide.fold(f64::MIN_POSITIVE, f64::max);
     let places: Vec<[f64; 3]> = near
-        .map(|(other, own)| [u.dot(&other) / wide, v.dot(&other) / wide, own / radius])
+        .iter()
+        .map(|(other, own)| [u.dot(other) / wide, v.dot(other) / wide, own / radius])
         .collect();
     let heights = off_quadric(&places);
     let mut sorted: Vec<f64> = heights.iter().copied().collect();
