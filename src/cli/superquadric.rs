@@ -20,7 +20,11 @@ pub(super) fn run(
     options: &FitOptions,
     console: Console,
 ) -> Result<()> {
-    if args.harmonics.is_some() || *options != FitOptions::default() {
+    let without_options = FitOptions {
+        extrapolate: args.extrapolate,
+        ..FitOptions::default()
+    };
+    if args.harmonics.is_some() || *options != without_options {
         bail!(
             "superquadrics have neither segments, degrees, mirrors nor harmonics: leave these options away, or \
              --surface"
@@ -82,12 +86,18 @@ fn fitted_to(
             (prepared.points(), prepared.warnings.clone())
         }
     };
+    // Few numbers bridge what lies between sparse points.
+    let unseen = match &prepared {
+        Ok(prepared) if !prepared.may_be_known => prepared.unseen,
+        _ => None,
+    };
     let of_fit: Vec<FitWarning> = of_fit.into_iter().chain(others_left_out).collect();
     let fitted = FittedScan {
         input: name.clone(),
         unit,
         points: points.len(),
         reference: prepared.as_ref().ok().map(|prepared| prepared.reference),
+        unseen: unseen.filter(|_| !args.extrapolate),
         warnings: sentences(&scan.warnings, &of_fit, unit),
     };
     let context = FitContext::default();
@@ -96,13 +106,13 @@ fn fitted_to(
         SuperquadricArg::Single(form) => {
             let found = fit_superquadric(points, lattice, form, &context).with_context(failed)?;
             let report = SuperquadricReport::of_single(fitted, &found);
-            Ok((found.grain()?, report))
+            Ok((found.grain()?.with_unseen(unseen), report))
         }
         SuperquadricArg::Multi(most) => {
             let found =
                 fit_multi_superquadric(points, lattice, most, &context).with_context(failed)?;
             let report = SuperquadricReport::of_multi(fitted, &found);
-            Ok((found.grain()?, report))
+            Ok((found.grain()?.with_unseen(unseen), report))
         }
     }
 }

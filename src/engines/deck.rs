@@ -29,6 +29,10 @@ const TIME_STEP: f64 = 0.2;
 /// So many times the time of the fall are run at most.
 const MOST_FALLS: f64 = 40.0;
 
+/// Simulated seconds between two frames; a run has so many at least.
+const FRAME: f64 = 0.05;
+const LEAST_FRAMES: f64 = 10.0;
+
 /// Grains are at rest when their kinetic energy is below this share of what they lose in falling their own diameter.
 const AT_REST: f64 = 1e-8;
 
@@ -202,6 +206,11 @@ impl Deck {
     /// The most steps that are run.
     pub fn most_steps(&self) -> u64 {
         (self.seconds / self.time_step()).ceil() as u64
+    }
+
+    /// Simulated seconds between two frames of a run.
+    pub(super) fn frame(&self) -> f64 {
+        FRAME.min(self.seconds / LEAST_FRAMES)
     }
 
     /// How many spheres there are.

@@ -7,6 +7,9 @@ use super::readme::runs;
 use crate::measure::Ball;
 use std::fmt::Write;
 
+/// Share of a grain's volume below which LIGGGHTS is to refuse it: its own limit is for grains of a tenth of a millimetre.
+const LEAST_VOLUME: f64 = 1e-3;
+
 /// Primes above ten thousand, which is what its random numbers begin with.
 const SEEDS: [u32; 3] = [15_485_863, 15_485_867, 32_452_843];
 
@@ -45,10 +48,11 @@ fn multispheres(deck: &Deck) -> String {
         // The tensor as xx xy xz yy yz zz.
         let _ = writeln!(
             templates,
-            "fix kind{index} all particletemplate/multisphere {} atom_type 1 volume_limit 1e-18 density constant {:e} \
+            "fix kind{index} all particletemplate/multisphere {} atom_type 1 volume_limit {:e} density constant {:e} \
              nspheres {} ntry 1000000 spheres file {}.spheres scale 1.0 mass {:e} inertia_tensor {i:e} 0 0 {j:e} 0 {k:e} \
              use_density type {}",
             SEEDS[0],
+            LEAST_VOLUME * kind.mass / deck.material.density,
             deck.material.density,
             kind.spheres.len(),
             kind.name,
@@ -76,9 +80,10 @@ fn superquadrics(deck: &Deck) -> Option<String> {
         let [a, b, c] = shape.semi_axes().map(|sides| sides[0]);
         let _ = writeln!(
             templates,
-            "fix kind{index} all particletemplate/superquadric {} atom_type 1 volume_limit 1e-18 density constant {:e} \
+            "fix kind{index} all particletemplate/superquadric {} atom_type 1 volume_limit {:e} density constant {:e} \
              shape constant {} blockiness constant {}",
             SEEDS[0],
+            LEAST_VOLUME * kind.mass / deck.material.density,
             deck.material.density,
             row([a, b, c]),
             row([shape.n1()[0], shape.n2()[0][0]]),

@@ -5,7 +5,8 @@ use super::context::Context;
 use super::error::FitError;
 use super::options::{FitOptions, Seams};
 use super::outcome::{Fitted, KindChoice, Residuals, Rival};
-use super::position::{PositionFit, fit_position_if};
+use super::position::{Distance, PositionFit, fit_position_if};
+use super::scatter::scatter;
 use super::sound;
 use super::warning::FitWarning;
 use crate::model::{Grain, InvalidGrain, NoInterval, PositionGrain, Surface};
@@ -13,6 +14,11 @@ use crate::scan::Scan;
 
 /// The fewest cells: a surface that is folded is fitted once more with half its cells, but no fewer than these.
 const FEWEST_CELLS: usize = 6;
+
+/// How many times farther held-out points are told to be than points from the surfaces through their neighbours. Of twenty clouds
+/// of bananas, cups, mushrooms and the like nineteen are within 1.4, and one, of which the inner radius is a seventh too large, is
+/// at 2.8.
+const FAR: f64 = 2.0;
 
 /// Fits positions over the sphere, where `is_worth` says so of what they may become.
 pub(super) fn positioned(
@@ -46,6 +52,7 @@ pub(super) fn positioned(
         false => fit.errors,
     };
     let mut warnings = fit.warnings;
+    warnings.extend(far_from_neighbours(scan, &fit.held_out, fit.tolerance));
     if fit.turned_over > 0 {
         warnings.push(FitWarning::TurnedOver {
             samples: fit.turned_over,
@@ -85,6 +92,17 @@ pub(super) fn positioned(
     Ok(fitted.beside_polyhedron())
 }
 
+/// How far held-out points are, where that is much farther than the points scatter.
+fn far_from_neighbours(scan: &Scan, held_out: &Distance, good: f64) -> Option<FitWarning> {
+    if !scan.triangles().is_empty() || held_out.rms <= FAR * good {
+        return None;
+    }
+    let places: Vec<_> = scan.points().iter().map(|point| point.coords).collect();
+    let scatter = scatter(&places)?.max(good);
+    let rms = held_out.rms;
+    (rms > FAR * scatter).then_some(FitWarning::FarFromNeighbours { rms, scatter })
+}
+
 /// Whether a cloud has fewer points than coefficients: volumes of smooth bodies with half a percent of noise are then up to 12
 /// standard errors off.
 fn are_few(fit: &PositionFit, coefficients: usize) -> bool {
@@ -110,7 +128,31 @@ mod tests {
     use super::*;
     use crate::fit::position::fit_position;
     use crate::mesh::Mesh;
+    use crate::shapes::Sampling;
     use nalgebra::Point3;
+
+    #[test]
+    fn what_points_that_were_held_out_are_off_is_told_beside_what_points_scatter_by() {
+        let signs = (0..).map(|i: i32| f64::from(i * i % 7 - 3) / 2.0);
+        let directions = Sampling::Fibonacci.directions(1000, 0).unwrap();
+        let places = directions.iter().zip(signs);
+        let noisy = places.map(|(n, sign)| Point3::from(n * (1.0 + 0.01 * sign)));
+        let cloud = Scan::from_points(noisy.collect());
+        let told = |scan: &Scan, rms: f64, good: f64| {
+            let max = rms;
+            far_from_neighbours(scan, &Distance { rms, max }, good)
+        };
+        match told(&cloud, 0.04, 1e-3) {
+            Some(FitWarning::FarFromNeighbours { rms: 0.04, scatter }) => {
+                assert!((scatter - 0.006).abs() < 0.001, "{scatter}");
+            }
+            other => panic!("{other:?}"),
+        }
+        assert_eq!(told(&cloud, 0.009, 1e-3), None);
+        assert_eq!(told(&cloud, 0.04, 0.03), None);
+        let faces = Scan::from_mesh(Mesh::radial(8, |_| 1.0)).unwrap();
+        assert_eq!(told(&faces, 0.04, 1e-3), None);
+    }
 
     #[test]
     fn a_surface_that_goes_through_itself_is_refused_with_the_place() {

@@ -115,6 +115,13 @@ pub enum FitWarning {
         /// Whether it was the only candidate.
         is_only: bool,
     },
+    /// Points that were held out are much farther from positions than points are from the surfaces through their neighbours.
+    FarFromNeighbours {
+        /// Root mean square distance of points that were held out, in the scan's unit.
+        rms: f64,
+        /// That of points from the surfaces through their neighbours, or what is good enough.
+        scatter: f64,
+    },
     /// The segments do not come within the limit of the estimate.
     LimitNotMet {
         /// Root mean square difference from the estimate, in the scan's unit.

@@ -173,7 +173,7 @@ fn raised(power: i32) -> &'static str {
 mod tests {
     use super::*;
     use crate::model::StandardErrors;
-    use nalgebra::Vector3;
+    use nalgebra::{Matrix3, Vector3};
     use serde_json::json;
 
     #[test]
@@ -185,11 +185,12 @@ mod tests {
             "principal": {"moments": [1.0, 2.0, 3.0]},
             "roundness": 0.5,
         });
-        let errors = StandardErrorsRecord::from(StandardErrors {
+        let errors = StandardErrors {
             area: 0.25,
             dimensions: Vector3::new(0.75, 0.0, 0.0),
             ..StandardErrors::NONE
-        });
+        };
+        let errors = StandardErrorsRecord::new(&errors, &Matrix3::identity());
         let rows = MeasureRow::of(&record, Some(&errors), None);
         let told: Vec<_> = rows
             .iter()

@@ -2,12 +2,13 @@
 
 use super::ReferenceRecord;
 use super::escape::escaped;
+use super::measure::{Measure, NotMeasured, Withheld, by_reason};
 use super::number::{percent, short, triple, with_error};
 use super::unit::{Labels, Unit};
 use crate::digits::plural;
 use crate::fit::{MultiFit, ParameterErrors, Reference, ReferenceKind, Residuals, SuperquadricFit};
 use crate::measure::{SolidProperties, superquadric_properties, union_properties};
-use crate::model::{Frame, Superquadric};
+use crate::model::{Frame, Superquadric, Unseen};
 use serde::Serialize;
 use std::fmt;
 
@@ -29,14 +30,16 @@ pub struct SuperquadricReport {
     pub largest: f64,
     /// Mean distance of the points from their mean.
     pub mean_radius: f64,
-    /// Area, of the union if there are several.
-    pub area: f64,
+    /// Area, of the union if there are several; `null`, as the next three, where it is in `not_measured`.
+    pub area: Option<f64>,
     /// Its error by quadrature, as a share of it.
-    pub area_error: f64,
+    pub area_error: Option<f64>,
     /// Volume.
-    pub volume: f64,
+    pub volume: Option<f64>,
     /// Its error, as a share of it; zero of a single one, whose volume is a closed form.
-    pub volume_error: f64,
+    pub volume_error: Option<f64>,
+    /// What is not told, and why.
+    pub not_measured: Vec<NotMeasured>,
     /// Area and volume of the scan's own faces, or of the polyhedron through its points.
     pub reference: Option<ReferenceRecord>,
     /// RMS distances of points that were held out, of one part, of two and so on; absent of a single one.
@@ -57,6 +60,8 @@ pub struct FittedScan {
     pub points: usize,
     /// Area and volume of its faces, or of the polyhedron through its points, where these are known.
     pub reference: Option<Reference>,
+    /// What it did not see of the grain: area and volume are not told then.
+    pub unseen: Option<Unseen>,
     /// What to know of it.
     pub warnings: Vec<String>,
 }
@@ -186,7 +191,19 @@ impl SuperquadricReport {
         residuals: &Residuals,
         mean_radius: f64,
     ) -> Self {
-        let off_faces = scan.reference.and_then(|faces| off_faces(&faces, solid));
+        let reference = scan.reference.filter(|_| scan.unseen.is_none());
+        let withheld = Withheld::of_unseen(scan.unseen);
+        let not_measured = [Measure::Area, Measure::Volume].into_iter();
+        let not_measured = not_measured.filter_map(|measure| {
+            let reason = withheld.reason(measure)?;
+            Some(NotMeasured {
+                measure: measure.name(),
+                reason,
+            })
+        });
+        let not_measured: Vec<NotMeasured> = not_measured.collect();
+        let told = |figure: f64| not_measured.is_empty().then_some(figure);
+        let off_faces = reference.and_then(|faces| off_faces(&faces, solid));
         let share = residuals.rms / mean_radius;
         let rough = (share > ROUGH).then(|| {
             format!(
@@ -203,11 +220,12 @@ impl SuperquadricReport {
             rms: residuals.rms,
             largest: residuals.max,
             mean_radius,
-            area: solid.properties.area,
-            area_error: solid.area_error,
-            volume: solid.properties.volume,
-            volume_error: solid.volume_error,
-            reference: scan.reference.map(Into::into),
+            area: told(solid.properties.area),
+            area_error: told(solid.area_error),
+            volume: told(solid.properties.volume),
+            volume_error: told(solid.volume_error),
+            not_measured,
+            reference: reference.map(Into::into),
             held_out: None,
             warnings: scan
                 .warnings
@@ -275,11 +293,18 @@ impl fmt::Display for SuperquadricReport {
                 each.join(", ")
             )?;
         }
-        let told = |value: f64, error: f64| with_error(value, Some(value * error));
-        let area = told(self.area, self.area_error);
-        writeln!(f, "area          {area}{}", labels.area())?;
-        let volume = told(self.volume, self.volume_error);
-        writeln!(f, "volume        {volume}{}", labels.volume())?;
+        let told = |value: Option<f64>, error: Option<f64>| {
+            Some(with_error(value?, Some(value? * error?)))
+        };
+        if let Some(area) = told(self.area, self.area_error) {
+            writeln!(f, "area          {area}{}", labels.area())?;
+        }
+        if let Some(volume) = told(self.volume, self.volume_error) {
+            writeln!(f, "volume        {volume}{}", labels.volume())?;
+        }
+        for (names, reason) in by_reason(&self.not_measured) {
+            writeln!(f, "not told      {names}: {reason}")?;
+        }
         if let Some(reference) = &self.reference {
             reference.write(f, &labels)?;
         }

@@ -193,6 +193,15 @@ impl FitWarning {
                 segments,
                 is_only,
             } => rejected(f, reason, segments, is_only),
+            Self::FarFromNeighbours { rms, scatter } => write!(
+                f,
+                "Points that were held out are {}{unit} (RMS) off the surface, {:.1} times as far as points are off the \
+                 surfaces through their neighbours: it does not follow the scan everywhere. Scan more densely where the \
+                 grain is narrow, or fit a mesh of the points.",
+                short(rms),
+                rms / scatter,
+                unit = labels.length()
+            ),
             Self::LimitNotMet { rms, limit } => write!(
                 f,
                 "The segments differ from the estimate by {}{unit} (RMS), more than the limit of {}{unit}: allow more \

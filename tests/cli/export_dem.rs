@@ -132,6 +132,28 @@ fn superquadrics_are_superellipsoids_of_lammps_and_what_that_loses_is_told() {
     assert!(readme.contains("not run here") && readme.lines().count() == 3);
 }
 
+/// A run of micrometre grains is over in less time than lies between two frames of larger ones.
+#[test]
+fn runs_of_small_grains_have_frames_and_looks() {
+    let folder = folder();
+    export_superquadric(&folder, "3,2", "lammps");
+    let export = ["export-dem", "c.json", "--engine", "lammps", "-o", "um"];
+    let more = ["--unit", "um", "--spheres", "8", "--grains", "3"];
+    succeed(&folder, &[&export[..], &more].concat());
+    let scripts = [
+        ("in.superellipsoids", "dump frames grains custom "),
+        ("in.settle", "dump frames all custom "),
+    ];
+    for (script, frames) in scripts {
+        let script = read(&folder.path().join("um"), script);
+        let first = |text: &str| -> Option<f64> { text.split_whitespace().next()?.parse().ok() };
+        let runs = script.split("\nrun ").skip(1).filter_map(first);
+        let steps = runs.fold(0.0, f64::max);
+        let every = script.split(frames).nth(1).and_then(first);
+        assert!(every.is_some_and(|every| every <= steps / 9.0), "{script}");
+    }
+}
+
 #[test]
 fn what_no_engine_can_run_is_refused_in_a_sentence() {
     let folder = folder();

@@ -38,6 +38,10 @@ fn errors_of_a_model_are_those_of_its_fit() {
         for key in ["standard_errors", "no_standard_errors"] {
             assert_eq!(fit[key], measured[key], "{scan} {options}: {key}");
         }
+        let model = fs::read_to_string(folder.path().join("m.json")).unwrap();
+        let model: Value = serde_json::from_str(&model).unwrap();
+        let errors = &fit["standard_errors"];
+        assert!(!has_errors || errors["axes"] == model["axes"], "{errors}");
         assert_eq!(measured["standard_errors"].is_object(), has_errors);
         assert_eq!(measured["no_standard_errors"].is_string(), !has_errors);
     }

@@ -92,6 +92,30 @@ fn two_bodies_touch_where_they_are_placed() {
 }
 
 #[test]
+fn of_a_body_that_was_not_seen_whole_area_and_volume_are_guesses() {
+    let folder = folder();
+    let synth = ["synth", "ellipsoid", "--missing-cap", "80", "-o", "s.ply"];
+    succeed(
+        &folder,
+        &[&synth[..], &["--points", "400", "--noise", "0.5%"]].concat(),
+    );
+    let fit = ["fit", "s.ply", "--surface", "superquadric", "-o", "m.json"];
+    let report = json(&folder, &fit);
+    assert!(report["area"].is_null() && report["volume_error"].is_null());
+    assert_eq!(report["not_measured"].as_array().unwrap().len(), 2);
+    assert!(report["reference"].is_null());
+    let text = succeed(&folder, &fit);
+    assert!(
+        text.contains("not told      area, volume: no point lies in"),
+        "{text}"
+    );
+    let measured = json(&folder, &["measure", "m.json", "--only", "volume"]);
+    assert!(measured["volume"].is_null());
+    let guessed = json(&folder, &[&fit[..4], &["--extrapolate"]].concat());
+    assert!(guessed["volume"].as_f64().unwrap() > 10.0);
+}
+
+#[test]
 fn what_does_not_go_with_superquadrics_is_refused() {
     let folder = ellipsoid();
     for (words, reason) in [

@@ -12,9 +12,6 @@ const LINE: usize = 10;
 /// How far a grain rolls, in its diameters, before the spring against it yields under the grain's own weight.
 const ROLLED: f64 = 1e-3;
 
-/// Simulated seconds between two frames.
-const FRAME: f64 = 0.05;
-
 /// Ranks share the floor, for a bed is as high everywhere. The grains are told before the first step and after the last:
 /// LAMMPS turns principal axes from where it has found them, which is not where a [`Kind`](crate::engines::Kind) has them.
 pub(super) fn script(deck: &Deck) -> String {
@@ -96,7 +93,7 @@ write_dump all custom settled.dump id mol type x y z radius modify sort id
         cutoff = 1.1 * deck.largest_diameter(),
         skin = 0.3 * deck.least_radius(),
         line = LINE * look,
-        frame = (FRAME / step).ceil(),
+        frame = (deck.frame() / step).ceil(),
         most = deck.most_steps(),
         ends_at_rest = rest(deck.rest_energy(), look, look),
         rest = deck.rest_energy(),

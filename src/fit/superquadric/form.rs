@@ -31,6 +31,15 @@ impl Form {
         }
     }
 
+    /// The form with fewer numbers, of which every body is one of this form.
+    pub(super) const fn simpler(self) -> Option<Self> {
+        match self {
+            Self::Single => None,
+            Self::Poly8 => Some(Self::Single),
+            Self::Poly12 => Some(Self::Poly8),
+        }
+    }
+
     /// Free numbers of shape and pose.
     pub const fn parameters(self) -> usize {
         self.numbers() + POSE

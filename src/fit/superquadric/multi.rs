@@ -1,16 +1,19 @@
 //! A union of superquadrics, with as many parts as held-out points ask for.
 
 use super::cloud::Cloud;
-use super::clusters::{SEEDINGS, ellipsoids};
+use super::clusters::{Begin, SEEDINGS, ellipsoids};
 use super::error::SuperquadricFitError;
 use super::form::Form;
-use super::least_squares::{End, Minimum, OTHER_MINIMUM, descended, distinct, ranked, weighed};
+use super::least_squares::{
+    End, Minimum, OTHER_MINIMUM, descended, distinct, least, ranked, weighed,
+};
 use super::normal_equations::distances;
 use super::search::best;
 use super::standard_errors::{ParameterErrors, standard_errors};
+use super::starts::turned;
 use super::weighing::Weighing;
 use crate::fit::Residuals;
-use crate::fit::context::Context;
+use crate::fit::context::{Cancelled, Context};
 use crate::model::{
     Frame, Grain, InvalidGrain, MultiSuperquadric, NoInterval, Part, SuperquadricGrain,
 };
@@ -29,6 +32,21 @@ const STAGE: End = End {
     gain: 1e-5,
 };
 const LAST: End = End { steps: 60, ..STAGE };
+
+/// How long turned parts are tried.
+const TURNED: End = End {
+    steps: 12,
+    gain: 1e-3,
+};
+
+/// How many times the least loss of a stage that of a fit may be which goes on.
+const PROMISING: f64 = 4.0;
+
+/// Times that the parts of the best are turned.
+const MAX_TURNS: usize = 3;
+
+/// Starts that are gone on from, those of the least losses.
+const MAX_STARTS: usize = 10;
 
 /// How many times the loss of a start that of another one is.
 const OTHER_START: f64 = 1.0 + 1e-9;
@@ -134,25 +152,28 @@ fn with_parts(
 ) -> Result<Minimum, SuperquadricFitError> {
     let few = cloud.thinned();
     let [first, second, last] = SHARPNESS.map(|sharpness| Weighing { sharpness, ..*like });
-    let starts = SEEDINGS
+    let starts = [Begin::Beside, Begin::Across]
         .into_iter()
-        .filter_map(|seeding| ellipsoids(cloud, &few, parts, seeding))
+        .flat_map(|begin| SEEDINGS.map(|seeding| (begin, seeding)))
+        .filter_map(|(begin, seeding)| ellipsoids(cloud, &few, parts, begin, seeding))
         .map(|bodies| Minimum {
             weighing: weighed(&bodies, &few, &first),
             iterations: 0,
             bodies,
         });
     let mut found = distinct(ranked(starts.collect(), &few), f64::INFINITY, OTHER_START);
+    found.truncate(MAX_STARTS);
     for stage in [first, second, last] {
         let sharper = found.into_iter().map(|found| {
             let weighing = weighed(&found.bodies, &few, &stage);
             descended(found.bodies, &few, weighing, STAGE, context)
         });
         let sharper = ranked(sharper.collect::<Result<Vec<_>, _>>()?, &few);
-        found = distinct(sharper, f64::INFINITY, OTHER_MINIMUM);
+        found = distinct(sharper, PROMISING, OTHER_MINIMUM);
     }
     let best = found.into_iter().next();
     let best = best.ok_or(SuperquadricFitError::NoVolume)?;
+    let best = turned_parts(best, &few, context)?;
     let weighing = weighed(&best.bodies, &cloud.points, &best.weighing);
     Ok(descended(
         best.bodies,
@@ -161,6 +182,34 @@ fn with_parts(
         STAGE,
         context,
     )?)
+}
+
+/// The best fit with its parts turned, one at a time, as long as that is better: like [one body](super::search) a part may lie
+/// along another of its axes, or be seen along its diagonals.
+fn turned_parts(
+    mut best: Minimum,
+    points: &[Vector3<f64>],
+    context: &Context<'_>,
+) -> Result<Minimum, Cancelled> {
+    for _ in 0..MAX_TURNS {
+        let mut tried = vec![best];
+        for part in 0..tried[0].bodies.len() {
+            let own = tried[0].bodies[part];
+            for start in turned(&own) {
+                let mut bodies = tried[0].bodies.clone();
+                bodies[part] = start;
+                let weighing = weighed(&bodies, points, &tried[0].weighing);
+                tried.push(descended(bodies, points, weighing, TURNED, context)?);
+            }
+        }
+        let least = least(&tried, points).unwrap_or(0);
+        best = tried.swap_remove(least);
+        if least == 0 {
+            break;
+        }
+        best = descended(best.bodies, points, best.weighing, STAGE, context)?;
+    }
+    Ok(best)
 }
 
 /// The union about the centre of the cloud, or where that is outside about that of the largest part.

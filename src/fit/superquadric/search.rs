@@ -54,15 +54,7 @@ pub(super) fn best(
         points: few,
         context,
     };
-    let mut tried = search.rough(cloud, form)?;
-    if form != Form::Single
-        && let Some(best) = least(&tried, few)
-    {
-        let Minimum {
-            bodies, weighing, ..
-        } = &tried[best];
-        tried.extend(search.from(leaning(&bodies[0]), weighing)?);
-    }
+    let tried = search.tried(cloud, form)?;
     let rough: usize = tried.iter().map(|found| found.iterations).sum();
     let promising = distinct(ranked(tried, few), PROMISING, OTHER_MINIMUM);
     let fine = promising
@@ -95,6 +87,20 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
+    /// Fits from all starts: of octants that differ, also from where fewer numbers lead, for bodies that lean have more minima.
+    fn tried(&self, cloud: &Cloud, form: Form) -> Result<Vec<Minimum>, SuperquadricFitError> {
+        let mut tried = self.rough(cloud, form)?;
+        if let Some(simpler) = form.simpler()
+            && let Some(found) = least(&tried, self.points)
+        {
+            let alike = self.tried(cloud, simpler)?;
+            let alike = least(&alike, self.points).map(|best| alike[best].bodies[0]);
+            let (body, like) = (tried[found].bodies[0], tried[found].weighing);
+            tried.extend(self.from(leaning(&body).chain(alike), &like)?);
+        }
+        Ok(tried)
+    }
+
     /// Fits from all starts, with the loss that the points ask for.
     fn rough(&self, cloud: &Cloud, form: Form) -> Result<Vec<Minimum>, SuperquadricFitError> {
         let like = |reach: Reach| Weighing {

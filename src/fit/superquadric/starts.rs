@@ -27,20 +27,26 @@ pub(super) fn upright(cloud: &Cloud) -> impl Iterator<Item = Body> {
     })
 }
 
-/// A body with its axes in three orders, turned by half a right angle about the third where the others are nearly alike:
-/// a box that is seen along its diagonals may be a minimum, too (Liu et al. 2022).
+/// A body with its axes in the two other orders, and in all three turned by half a right angle about the third where the
+/// others are nearly alike: a box that lies along another axis, or is seen along its diagonals, may be a minimum, too (Liu
+/// et al. 2022).
 pub(super) fn turned(body: &Body) -> impl Iterator<Item = Body> {
     let turn = Rotation3::from_axis_angle(&Vector3::z_axis(), FRAC_PI_4);
-    ORDERS.into_iter().filter_map(move |order| {
+    let ordered = ORDERS.map(|order| {
         let semi_axis = |i: usize| (0.5 * (body.logs[2 * i] + body.logs[2 * i + 1])).exp();
-        let [a, b, c] = order.map(semi_axis);
         let axes = order.map(|i| body.axes.column(i).into_owned());
+        let semi_axes = Vector3::from(order.map(semi_axis));
+        Body::start(body.centre, Matrix3::from_columns(&axes), semi_axes)
+    });
+    let diagonal = ordered.into_iter().filter_map(move |start| {
+        let [a, b, c] = [0, 2, 4].map(|i| start.logs[i].exp());
         let across = (a * b).sqrt();
         ALIKE.contains(&(a / b)).then(|| {
-            let axes = Matrix3::from_columns(&axes) * turn.into_inner();
-            Body::start(body.centre, axes, Vector3::new(across, across, c))
+            let axes = start.axes * turn.into_inner();
+            Body::start(start.centre, axes, Vector3::new(across, across, c))
         })
-    })
+    });
+    ordered.into_iter().skip(1).chain(diagonal)
 }
 
 /// A body that leans to one side along each of its axes, in all ways: a body that is nearly alike on both sides may be a

@@ -204,6 +204,71 @@ fn a_dent_asks_for_four_parts() {
     );
 }
 
+/// Directions that are spread evenly over an ellipsoid of semi-axes, and where its radius has them.
+fn points_on(shape: &Superquadric, count: usize, random: &mut ChaCha8Rng) -> Vec<Vector3<f64>> {
+    let axes = Vector3::from(shape.semi_axes().map(|sides| sides[0]));
+    let points = (0..count).map(|_| {
+        let n = Vector3::from(UnitSphere.sample(random));
+        let n = n.component_mul(&axes).normalize();
+        n * shape.radius(&n)
+    });
+    points.collect()
+}
+
+#[test]
+fn the_axis_of_a_body_that_is_nearly_a_cube_is_found() {
+    for seed in 0..8 {
+        let random = &mut ChaCha8Rng::seed_from_u64(seed);
+        let axes = [0; 3].map(|_| between(random, 1.0, 1.1));
+        let [n1, n2] = [between(random, 5.0, 6.0), between(random, 6.5, 8.0)];
+        let shape = Superquadric::single(axes, n1, n2).unwrap();
+        let turn = Rotation3::new(normal(random));
+        let points = points_on(&shape, 1000, random);
+        let points: Vec<_> = points.iter().map(|p| Point3::from(turn * p)).collect();
+        let found = fitted(&points, Form::Single);
+        assert!(found.residuals.rms < 1e-8, "{seed}: {:?}", found.residuals);
+        assert_relative_eq!(found.shape.n1()[0], n1, max_relative = 1e-6);
+    }
+}
+
+#[test]
+fn more_numbers_are_never_farther_from_the_points() {
+    for seed in 0..8 {
+        let random = &mut ChaCha8Rng::seed_from_u64(seed);
+        let axes = [0; 3].map(|_| [0; 2].map(|_| between(random, 1.0, 2.0)));
+        let n2 = between(random, 2.0, 6.0);
+        let n1 = between(random, 2.0, 6.0);
+        let shape = Superquadric::poly12(axes, [n1; 2], [[n2; 2]; 2]).unwrap();
+        let points = points_on(&shape, 800, random);
+        let noisy = points
+            .iter()
+            .map(|p| Point3::from(p + normal(random) * 0.01));
+        let noisy: Vec<_> = noisy.collect();
+        let forms = [Form::Single, Form::Poly8, Form::Poly12];
+        let rms = forms.map(|form| fitted(&noisy, form).residuals.rms);
+        assert!(
+            rms.is_sorted_by(|few, many| *many <= few * 1.001),
+            "{seed}: {rms:?}"
+        );
+    }
+}
+
+#[test]
+fn bodies_that_cross_are_the_parts_of_a_union() {
+    let random = &mut ChaCha8Rng::seed_from_u64(5);
+    let along = [[2.0, 0.7, 0.8], [0.75, 1.9, 0.7]];
+    let parts = along.map(|axes| Superquadric::single(axes, 3.0, 2.5).unwrap());
+    let mut points = Vec::new();
+    for (part, other) in [(0, 1), (1, 0)] {
+        let own = points_on(&parts[part], 1500, random);
+        let is_outside = |p: &Vector3<f64>| p.norm() > parts[other].radius(&p.normalize());
+        points.extend(own.into_iter().filter(is_outside).map(Point3::from));
+    }
+    let found = fit_multi_superquadric(&points, None, 2, &Context::default()).unwrap();
+    let share = found.residuals.rms / found.mean_radius;
+    assert!(found.union.parts().len() == 2 && share < 2e-3, "{share}");
+}
+
 #[test]
 fn what_is_no_body_is_refused() {
     let context = Context::default();

@@ -194,6 +194,13 @@ impl<'a> Survey<'a> {
         self.standard_errors
     }
 
+    /// The grain's own axes, in columns, along which errors of the centroid and of the inertia are told; of all but grains the
+    /// scan's.
+    pub fn axes(&self) -> Matrix3<f64> {
+        let surface = self.body.surface();
+        surface.map_or(Matrix3::identity(), |surface| surface.frame().axes)
+    }
+
     /// Errors by quadrature of area and volume, as shares of them: of unions of superquadrics, whose moments are as well
     /// known as the volume. `None` of all else.
     pub fn quadrature_errors(&self) -> Option<[f64; 2]> {

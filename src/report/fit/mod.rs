@@ -189,7 +189,7 @@ impl FitReport {
         let told = MeasureReport::of_model(String::new(), survey, &FIGURES, &withheld);
         let figures = told.measures;
         let errors = (figures.may_have_errors()).then(|| fitted.standard_errors(survey));
-        let (standard_errors, no_standard_errors) = recorded(errors);
+        let (standard_errors, no_standard_errors) = recorded(errors, &survey.axes());
         let is_noise = !matches!(errors, Some(Err(NoInterval::Unresolved { .. })));
         let evaluation = EvaluationRecord::new(&fitted.grain);
         let reference = fitted.grain.unseen().is_none().then_some(fitted.reference);

@@ -252,7 +252,7 @@ impl MeasureReport {
             not_measured.push(NotMeasured::new("spheres.inscribed", &error));
         }
         let errors = measures.may_have_errors().then(|| survey.standard_errors());
-        let (standard_errors, no_standard_errors) = recorded(errors);
+        let (standard_errors, no_standard_errors) = recorded(errors, &survey.axes());
         Self {
             input,
             unit: None,

@@ -31,6 +31,14 @@ impl Withheld {
         }
     }
 
+    /// What was not seen.
+    pub(in crate::report) fn of_unseen(unseen: Option<Unseen>) -> Self {
+        Self {
+            unseen,
+            ..Self::default()
+        }
+    }
+
     /// Of the polyhedron through points, what was not seen of it unless that is to be told as a guess, and what is made of its
     /// area where roughness is much of that.
     pub(super) fn of_points(

@@ -9,9 +9,6 @@ use crate::measure::equivalent_radius;
 /// Steps in the time of the shortest contact.
 const STEPS: f64 = 40.0;
 
-/// Simulated seconds between two frames, at which grains may be found to be at rest.
-const FRAME: f64 = 0.05;
-
 /// Neighbours that LAMMPS has room for if it is not told of more.
 const NEIGHBOURS: usize = 2000;
 
@@ -20,7 +17,8 @@ const NEIGHBOURS: usize = 2000;
 pub(super) fn script(deck: &Deck, bodies: &[Superellipsoid]) -> String {
     let (laws, shortest) = laws(deck);
     let step = shortest / STEPS;
-    let look = (FRAME / step / LOOKS as f64).ceil() as usize;
+    // At frames grains may be found to be at rest.
+    let look = (deck.frame() / step / LOOKS as f64).ceil() as usize;
     let [width, depth] = deck.floor;
     // The list of a wall may hold all grains.
     let neighbours = NEIGHBOURS.max(2 * deck.grains.len());
