@@ -248,8 +248,8 @@ pub enum FitError {
     NoFaces,
     /// Points without faces do not enclose anything.
     #[error(
-        "the points enclose no inside: there are too few for a surface as thin as theirs, or a part of it was not seen; \
-         scan it whole and more densely, or mesh the points"
+        "the points enclose no inside: there are too few for a surface as thin as theirs, a part of it was not seen, or they \
+         lie in rows far apart; scan it whole and more densely, or mesh the points"
     )]
     NoInside,
     /// The surface of points without faces has handles.

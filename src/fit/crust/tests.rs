@@ -1,6 +1,7 @@
 use super::*;
 use crate::measure::mesh_properties;
 use crate::shapes::{Curled, CurledOptions, synthesize_curled};
+use crate::spread::median;
 use approx::assert_relative_eq;
 
 fn points(body: Curled, count: usize, noise: f64) -> (Vec<Point3<f64>>, f64) {
@@ -44,4 +45,26 @@ fn rings_and_open_bowls_are_refused() {
     let (ball, _) = points(Curled::Random, 4000, 0.0);
     let bowl: Vec<_> = ball.into_iter().filter(|p| p.z < 0.3).collect();
     assert!(surface_of_points(&bowl).is_err());
+}
+
+/// One half has eight times the points of the other: a crust of even width leaks.
+#[test]
+fn points_that_are_much_sparser_in_one_half_have_a_surface_of_nearly_their_volume() {
+    for body in [Curled::Banana, Curled::Mushroom] {
+        let (all, volume) = points(body, 12_000, 0.002);
+        let mut along: Vec<f64> = all.iter().map(|point| point.x).collect();
+        let middle = median(&mut along).unwrap();
+        let is_kept = |at: usize, point: &Point3<f64>| point.x < middle || at.is_multiple_of(8);
+        let kept = all.into_iter().enumerate();
+        let kept: Vec<Point3<f64>> = kept
+            .filter(|(at, point)| is_kept(*at, point))
+            .map(|(_, point)| point)
+            .collect();
+        let even = Cloud::new(drawn(&kept, MOST_POINTS));
+        assert!(surface_of(&even).is_err());
+        let found = mesh_properties(&surface_of_points(&kept).unwrap())
+            .unwrap()
+            .volume;
+        assert_relative_eq!(found, volume, max_relative = 0.1);
+    }
 }

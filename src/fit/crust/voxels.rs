@@ -1,5 +1,6 @@
 //! A box of voxels: those near a point, those outside, and those inside.
 
+use super::cloud::Cloud;
 use nalgebra::{Point3, Vector3};
 
 /// Most voxels of the box.
@@ -19,29 +20,23 @@ pub(super) struct Voxels {
     /// The middle of the first voxel.
     pub(super) origin: Point3<f64>,
     pub(super) side: f64,
-    /// How far the crust reaches from a point.
+    /// How far the crust reaches from a point of scale 1.
     pub(super) reach: f64,
     pub(super) states: Vec<State>,
-    /// Distances to the nearest point; the reach where that is farther.
+    /// Distances to the nearest point, over its scale; the reach where that is farther.
     pub(super) distances: Vec<f64>,
 }
 
 impl Voxels {
     /// The crust of points, what it encloses as far as that hangs together, and what is outside. `None` where less
-    /// than a share of the box is enclosed, or the box would be too large. Each point has a squeeze, by which distances
-    /// from it grow.
-    pub(super) fn new(
-        points: &[Point3<f64>],
-        squeezes: &[Vector3<f64>],
-        side: f64,
-        reach: f64,
-        least_inside: f64,
-    ) -> Option<Self> {
-        let (mut low, mut high) = (points.first()?.coords, points.first()?.coords);
-        for point in points {
+    /// than a share of the box is enclosed, or the box would be too large.
+    pub(super) fn new(cloud: &Cloud, side: f64, reach: f64, least_inside: f64) -> Option<Self> {
+        let first = cloud.points.first()?.coords;
+        let (mut low, mut high) = (first, first);
+        for point in &cloud.points {
             (low, high) = (low.inf(&point.coords), high.sup(&point.coords));
         }
-        let margin = Vector3::repeat(reach + 2.0 * side);
+        let margin = Vector3::repeat(reach * cloud.largest_scale() + 2.0 * side);
         let sides = ((high - low + margin * 2.0) / side).map(f64::ceil);
         let all = sides.product();
         if all.is_nan() || all > MOST_VOXELS {
@@ -56,8 +51,9 @@ impl Voxels {
             states: vec![State::Inside; size.iter().product()],
             distances: vec![reach; size.iter().product()],
         };
-        for (point, squeeze) in points.iter().zip(squeezes) {
-            voxels.add(point, squeeze);
+        for ((point, squeeze), scale) in cloud.points.iter().zip(&cloud.squeezes).zip(&cloud.scales)
+        {
+            voxels.add(point, squeeze, *scale);
         }
         for (state, distance) in voxels.states.iter_mut().zip(&voxels.distances) {
             if *distance < reach {
@@ -74,10 +70,10 @@ impl Voxels {
         [1, self.size[0], self.size[0] * self.size[1]]
     }
 
-    /// Notes the distance of a point from the voxels near it, larger along its squeeze.
-    fn add(&mut self, point: &Point3<f64>, squeeze: &Vector3<f64>) {
+    /// Notes the distance of a point from the voxels near it, larger along its squeeze, and over its scale.
+    fn add(&mut self, point: &Point3<f64>, squeeze: &Vector3<f64>, scale: f64) {
         let place = (point - self.origin) / self.side;
-        let reach = self.reach / self.side;
+        let reach = self.reach * scale / self.side;
         let range = |axis: usize| {
             let [low, high] = [-reach, reach].map(|by| (place[axis] + by).max(0.0));
             low.ceil() as usize..=(high.floor() as usize).min(self.size[axis] - 1)
@@ -90,7 +86,7 @@ impl Voxels {
                     let away = at - place;
                     let squared = away.norm_squared() + away.dot(squeeze).powi(2);
                     let distance = &mut self.distances[x + steps[1] * y + steps[2] * z];
-                    *distance = distance.min(squared.sqrt() * self.side);
+                    *distance = distance.min(squared.sqrt() * self.side / scale);
                 }
             }
         }

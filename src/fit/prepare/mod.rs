@@ -14,6 +14,7 @@ mod layers;
 mod pieces;
 mod reference;
 mod rounder;
+mod rows;
 mod samples;
 mod scanned;
 mod strays;

@@ -3,8 +3,10 @@
 //! Each point is linked to its nearest ones, however far these are, so that thin and uneven scans hang
 //! together. What still falls apart may be one surface all the same (slices of a tomograph, two caps without
 //! the band between them): none of its pieces surrounds its own middle. Bodies do, and what stands before or
-//! behind one of them is none of it.
+//! behind one of them is none of it. A row of points is no body wherever it stands: the outermost rows of a scan by lines are
+//! far from the next ones, where the surface runs along the lines' plane.
 
+use super::rows::is_row;
 use super::strays::LEAST_STRAY;
 use crate::disjoint_sets::DisjointSets;
 use crate::fit::gaps::largest_gap;
@@ -160,7 +162,7 @@ impl Piece {
         (0..count).filter(is_off).count() as f64 / count as f64
     }
 
-    /// Whether other points stand before or behind this piece, and so are none of it.
+    /// Whether other points stand before or behind this piece, in no row, and so are none of it.
     fn misses(&self, others: &[Point3<f64>]) -> bool {
         let spacing = (4.0 * PI / self.points.len() as f64).sqrt();
         let stands_off = |other: &&Point3<f64>| {
@@ -173,7 +175,8 @@ impl Piece {
             (self.directions[at] - towards).norm() < spacing
                 && (ray.norm() - radius).abs() > LEAST_STRAY * radius
         };
-        others.iter().filter(stands_off).count() as f64 > STANDING_OFF * others.len() as f64
+        let off = others.iter().filter(stands_off).count();
+        off as f64 > STANDING_OFF * others.len() as f64 && !is_row(&coordinates(others))
     }
 }
 
@@ -205,4 +208,30 @@ fn direction(ray: &Vector3<f64>) -> Vector3<f64> {
 
 fn coordinates(points: &[Point3<f64>]) -> Vec<Vector3<f64>> {
     points.iter().map(|point| point.coords).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shapes::Sampling;
+
+    #[test]
+    fn what_stands_before_a_body_is_another_one_but_a_row_is_none() {
+        let sphere = |count: usize, radius: f64, middle: Vector3<f64>| {
+            let directions = Sampling::Fibonacci.directions(count, 0).unwrap();
+            let place = move |n: Vector3<f64>| Point3::from(middle + n * radius);
+            directions.into_iter().map(place)
+        };
+        let bodies = |others: Vec<Point3<f64>>| {
+            let ball = sphere(2000, 1.0, Vector3::zeros());
+            Pieces::new(&ball.chain(others).collect::<Vec<_>>()).bodies
+        };
+        let above = Vector3::z() * 1.5;
+        assert_eq!(bodies(sphere(60, 0.2, above).collect()), 2);
+        let row = (0..60).map(|at| {
+            let (sin, cos) = (0.1 * f64::from(at)).sin_cos();
+            Point3::from(above + Vector3::new(cos, sin, 0.0) * 0.3)
+        });
+        assert_eq!(bodies(row.collect()), 1);
+    }
 }
