@@ -27,6 +27,9 @@ const QUANTILES: [f64; 7] = [0.0, 0.05, 0.25, 0.5, 0.75, 0.95, 1.0];
 /// Robust z-score beyond which a grain is worth a look (Iglewicz and Hoaglin 1993).
 const OUTLYING: f64 = 3.5;
 
+/// Standard deviation over mean absolute deviation of a normal distribution.
+const PER_MEAN: f64 = 1.253_314_137_315_500_3;
+
 /// Grains of the smallest population that has outliers.
 const LEAST_GRAINS: usize = 8;
 
@@ -201,7 +204,7 @@ impl Population {
         let values = &self.values[at];
         let known: Vec<f64> = values.iter().flatten().copied().collect();
         let middle = median(known.iter().copied());
-        let deviation = PER_MEDIAN * median(known.iter().map(|value| (value - middle).abs()));
+        let deviation = deviation(known.iter().map(|value| (value - middle).abs()));
         if known.len() < LEAST_GRAINS || deviation <= 0.0 {
             return Vec::new();
         }
@@ -222,6 +225,16 @@ impl Population {
             })
         };
         self.paths.iter().zip(values).filter_map(outlier).collect()
+    }
+}
+
+/// Standard deviation of values whose distances from their median are given, told by the median of these; where more than half
+/// are alike, by the mean (Iglewicz and Hoaglin 1993).
+fn deviation(off: impl ExactSizeIterator<Item = f64> + Clone) -> f64 {
+    let middle = median(off.clone());
+    match middle > 0.0 {
+        true => PER_MEDIAN * middle,
+        false => PER_MEAN * off.clone().sum::<f64>() / off.len() as f64,
     }
 }
 

@@ -70,7 +70,7 @@ pub(super) fn rule(fitted: &Fitted, options: &FitOptions, unit: Option<Unit>) ->
         };
     }
     let source = match search.limit > search.tolerance {
-        true => "what the scan's noise allows".into(),
+        true => "the noise as these fits tell it".into(),
         false => asked_for,
     };
     let limit = format!("the limit of {} ({source})", length(search.limit));

@@ -41,6 +41,28 @@ fn deviations_are_from_the_mean_of_the_two_values_in_the_middle() {
 }
 
 #[test]
+fn what_differs_from_values_that_are_all_alike_is_worth_a_look() {
+    let mut population = Population::new(&columns(&[Measure::Area]));
+    for (number, area) in [2.0, 2.0, 2.0, 2.0, 2.0, 2.0, 2.001, 5.0]
+        .into_iter()
+        .enumerate()
+    {
+        population.add(&Row {
+            path: number.to_string(),
+            figures: vec![Some(area)],
+            ..Row::default()
+        });
+    }
+    population.finish();
+    let [outlier] = population.outliers.as_slice() else {
+        panic!("{:?}", population.outliers);
+    };
+    assert_eq!(outlier.path, "7");
+    let mean = 3.001 / 8.0;
+    assert!((outlier.z - 3.0 / (1.253_314_137 * mean)).abs() < 1e-6);
+}
+
+#[test]
 fn what_is_in_several_units_is_not_told_together_and_why() {
     let names = |found: &Population| -> Vec<String> {
         let measures = found.measures.iter();

@@ -120,13 +120,17 @@ impl ContactRegion {
         Some(of_radius.hypot(of_depth))
     }
 
-    /// Standard error, as a share, of the effective radius to a power, by which figures of a lens go. Where it is not told
-    /// from that of flat surfaces the rim of the lens may lie as far off, beside its middle, as two places of the surfaces
+    /// Standard error, as a share, of the effective radius to a power, by which figures of a lens go. However little is known
+    /// of the curvature in its middle, the rim of the lens lies no farther off, beside that, than two places of the surfaces
     /// may.
     pub(super) fn radius_share(&self, power: f64) -> Option<f64> {
+        let of_rim = power * 2.0_f64.sqrt() * self.depth_error()? / self.depth;
         match KnownContact::at(self.curvatures.as_ref()?, self.errors.as_ref()) {
-            Ok(known) => known.share(|relative| relative.effective_radius().powf(power)),
-            Err(_) => Some(power * 2.0_f64.sqrt() * self.depth_error()? / self.depth),
+            Ok(known) => {
+                let of_middle = known.share(|relative| relative.effective_radius().powf(power));
+                Some(of_middle?.min(of_rim))
+            }
+            Err(_) => Some(of_rim),
         }
     }
 }

@@ -8,8 +8,8 @@ use crate::model::Unseen;
 use crate::spread::middle_of_sum;
 use nalgebra::{Point3, Vector3};
 
-/// A gap in the scan is told of when no point lies within this angle (radians) and three times the
-/// spacing of the points.
+/// A gap in the scan is told of when no point lies within this angle (radians) and three times the spacing of the points, and
+/// where it is wide in space, too.
 const WIDE: f64 = 0.2;
 
 /// The largest cap of directions without points.
@@ -17,8 +17,8 @@ pub(super) struct Gap {
     /// Angular radius.
     pub(super) half_angle: f64,
     direction: Vector3<f64>,
-    /// Angle between neighbours where the points are neither very dense nor very sparse.
-    spacing: f64,
+    /// Whether it is to be told.
+    is_wide: bool,
     /// What was not seen, if it is large.
     pub(super) unseen: Option<Unseen>,
     /// Whether that is no wider in space than points as far apart as those round it leave by chance. On the flat sides of a
@@ -51,10 +51,14 @@ impl Gap {
             None => unseen_in(all_together(mesh, &centre, half_angle)),
         };
         let is_sparse = unseen.is_some() && !is_any_wide(mesh, &directions, is_large);
+        // Angle between neighbours where the points are neither very dense nor very sparse.
+        let spacing = middle_of_sum(angles).unwrap_or(0.0).sqrt();
+        let least = WIDE.max(3.0 * spacing);
+        let is_wide = |half_angle| half_angle > least;
         Self {
             half_angle,
             direction,
-            spacing: middle_of_sum(angles).unwrap_or(0.0).sqrt(),
+            is_wide: is_wide(half_angle) && is_any_wide(mesh, &directions, is_wide),
             unseen: unseen.or(together),
             is_sparse,
             is_many: together.is_some(),
@@ -63,8 +67,7 @@ impl Gap {
 
     /// What is to be told, if it is wide.
     pub(super) fn warning(&self) -> Option<FitWarning> {
-        let is_wide = self.half_angle > WIDE.max(3.0 * self.spacing);
-        is_wide.then_some(FitWarning::Gap {
+        self.is_wide.then_some(FitWarning::Gap {
             half_angle: self.half_angle,
             direction: self.direction,
         })
@@ -123,6 +126,21 @@ mod tests {
             let (unseen, is_sparse) = seen(open);
             assert!(unseen.is_some() && !is_sparse, "{unseen:?}");
         }
+    }
+
+    #[test]
+    fn a_gap_is_told_where_points_are_missing_and_not_where_they_are_seen_at_a_slant() {
+        let is_told = |points: Vec<Point3<f64>>| {
+            let scan = Scan::from_points(points);
+            let warnings = scanned_surface(&scan).unwrap().warnings;
+            let is_gap = |warning: &FitWarning| matches!(warning, FitWarning::Gap { .. });
+            warnings.iter().any(is_gap)
+        };
+        // Seen from the middle, neighbours on the flat sides are 3.5 times as far apart as on the rim.
+        assert!((0..4).all(|seed| !is_told(plate(4000, seed))));
+        let mut open = plate(4000, 0);
+        open.retain(|p| p.z > 0.0 || p.x.hypot(p.y) > 1.5);
+        assert!(is_told(open));
     }
 
     #[test]
