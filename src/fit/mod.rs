@@ -62,7 +62,7 @@ pub use prepare::{
     PreparedScan, Reference, ReferenceKind, ScannedSurface, largest_body, scanned_surface,
 };
 pub use superquadric::{
-    AtBound, Form, MAX_UNION_PARTS, MultiFit, ParameterErrors, SuperquadricFit,
+    AtBound, Form, MAX_UNION_PARTS, MultiFit, ParameterErrors, SolidErrors, SuperquadricFit,
     SuperquadricFitError, fit_multi_superquadric, fit_superquadric,
 };
 pub use warning::FitWarning;

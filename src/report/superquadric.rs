@@ -38,6 +38,11 @@ pub struct SuperquadricReport {
     pub volume: Option<f64>,
     /// Its error, as a share of it; zero of a single one, whose volume is a closed form.
     pub volume_error: Option<f64>,
+    /// Standard error of the area, of one superquadric: of how well the points tell the nearest one, and not of how well it
+    /// suits the grain. `null` where its numbers are not determined, and of unions.
+    pub area_standard_error: Option<f64>,
+    /// That of the volume, likewise.
+    pub volume_standard_error: Option<f64>,
     /// What is not told, and why.
     pub not_measured: Vec<NotMeasured>,
     /// Area and volume of the scan's own faces, or of the polyhedron through its points.
@@ -161,7 +166,15 @@ impl SuperquadricReport {
             &fitted.errors,
         )];
         let solid = superquadric_properties(&fitted.shape);
-        Self::new(scan, parts, &solid, &fitted.residuals, fitted.mean_radius)
+        let report = Self::new(scan, parts, &solid, &fitted.residuals, fitted.mean_radius);
+        let errors = fitted
+            .solid_errors
+            .filter(|_| report.not_measured.is_empty());
+        Self {
+            area_standard_error: errors.map(|errors| errors.area),
+            volume_standard_error: errors.map(|errors| errors.volume),
+            ..report
+        }
     }
 
     /// The report of a union, whose area and volume are integrated to a relative tolerance.
@@ -224,6 +237,8 @@ impl SuperquadricReport {
             area_error: told(solid.area_error),
             volume: told(solid.properties.volume),
             volume_error: told(solid.volume_error),
+            area_standard_error: None,
+            volume_standard_error: None,
             not_measured,
             reference: reference.map(Into::into),
             held_out: None,
@@ -255,7 +270,7 @@ fn off_faces(faces: &Reference, solid: &SolidProperties) -> Option<String> {
 const OFF_FACES: f64 = 0.05;
 
 /// Share of the mean radius from which on points are told to be far off a fit.
-const ROUGH: f64 = 0.05;
+const ROUGH: f64 = 0.03;
 
 /// Relative tolerance of the area and the volume of unions.
 const UNION_TOLERANCE: f64 = 1e-5;
@@ -293,13 +308,15 @@ impl fmt::Display for SuperquadricReport {
                 each.join(", ")
             )?;
         }
-        let told = |value: Option<f64>, error: Option<f64>| {
-            Some(with_error(value?, Some(value? * error?)))
+        let told = |value: Option<f64>, share: Option<f64>, error: Option<f64>| {
+            let by_quadrature = value? * share?;
+            let error = error.map_or(by_quadrature, |error| error.hypot(by_quadrature));
+            Some(with_error(value?, Some(error)))
         };
-        if let Some(area) = told(self.area, self.area_error) {
+        if let Some(area) = told(self.area, self.area_error, self.area_standard_error) {
             writeln!(f, "area          {area}{}", labels.area())?;
         }
-        if let Some(volume) = told(self.volume, self.volume_error) {
+        if let Some(volume) = told(self.volume, self.volume_error, self.volume_standard_error) {
             writeln!(f, "volume        {volume}{}", labels.volume())?;
         }
         for (names, reason) in by_reason(&self.not_measured) {
@@ -311,10 +328,15 @@ impl fmt::Display for SuperquadricReport {
         for part in &self.parts {
             part.write(f, &length)?;
         }
+        let of_solid = match self.volume_standard_error {
+            Some(_) => {
+                "how well the points tell the nearest superquadric, not how well that suits the grain"
+            }
+            None => "how well they are integrated, not how well superquadrics suit the grain",
+        };
         write!(
             f,
-            "Figures after ± are standard errors; those of area and volume tell how well they are integrated, not how well \
-             superquadrics suit the grain. Lengths are in {}.",
+            "Figures after ± are standard errors; those of area and volume tell {of_solid}. Lengths are in {}.",
             labels.name()
         )
     }

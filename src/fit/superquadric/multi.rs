@@ -9,7 +9,7 @@ use super::least_squares::{
 };
 use super::normal_equations::distances;
 use super::search::best;
-use super::standard_errors::{ParameterErrors, standard_errors};
+use super::standard_errors::{ParameterErrors, covariance, standard_errors};
 use super::starts::turned;
 use super::weighing::Weighing;
 use crate::fit::Residuals;
@@ -247,7 +247,7 @@ fn told(
         largest_part.map_or(Err(outside), |(_, own)| about(own.centre))
     })?;
     let distances = distances(&found.bodies, &cloud.points);
-    let errors = standard_errors(cloud, found);
+    let errors = standard_errors(cloud, found, covariance(cloud, found).as_ref());
     Ok(MultiFit {
         residuals: Residuals::of(distances.iter().map(|d| d * cloud.size)),
         mean_radius: cloud.size,

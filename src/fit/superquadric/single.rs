@@ -5,7 +5,8 @@ use super::error::SuperquadricFitError;
 use super::form::Form;
 use super::normal_equations::distances;
 use super::search::best;
-use super::standard_errors::{ParameterErrors, standard_errors};
+use super::solid_errors::{SolidErrors, solid_errors};
+use super::standard_errors::{ParameterErrors, covariance, standard_errors};
 use crate::fit::Residuals;
 use crate::fit::context::Context;
 use crate::model::{Frame, Grain, InvalidGrain, NoInterval, Superquadric, SuperquadricGrain};
@@ -26,6 +27,8 @@ pub struct SuperquadricFit {
     pub mean_radius: f64,
     /// Standard errors.
     pub errors: ParameterErrors,
+    /// Standard errors of area and volume, where the points determine the numbers.
+    pub solid_errors: Option<SolidErrors>,
     /// Steps of all starts.
     pub iterations: usize,
 }
@@ -60,13 +63,16 @@ pub fn fit_superquadric(
     context.run(|| {
         let found = best(&cloud, form, context)?;
         let distances = distances(&found.bodies, &cloud.points);
+        let covariance = covariance(&cloud, &found);
+        let solid = |covariance| solid_errors(&found.bodies[0], form, cloud.size, covariance);
         let (shape, frame) = found.bodies[0].told(cloud.size, &cloud.centre)?;
         Ok(SuperquadricFit {
             shape,
             frame,
             residuals: Residuals::of(distances.iter().map(|d| d * cloud.size)),
             mean_radius: cloud.size,
-            errors: standard_errors(&cloud, &found)[0],
+            errors: standard_errors(&cloud, &found, covariance.as_ref())[0],
+            solid_errors: covariance.as_ref().and_then(solid),
             iterations: found.iterations,
         })
     })

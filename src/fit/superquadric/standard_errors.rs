@@ -52,16 +52,18 @@ pub struct AtBound {
 /// Rotations less certain than this, in radians, are not determined.
 const LARGEST_ROTATION: f64 = 1.0;
 
-/// Those of each body of a fit.
-pub(super) fn standard_errors(cloud: &Cloud, found: &Minimum) -> Vec<ParameterErrors> {
+/// Those of each body of a fit, by the [`covariance`] of its parameters.
+pub(super) fn standard_errors(
+    cloud: &Cloud,
+    found: &Minimum,
+    covariance: Option<&DMatrix<f64>>,
+) -> Vec<ParameterErrors> {
     let form = found.weighing.form;
-    let covariance = covariance(cloud, found);
     let bodies = found.bodies.iter().enumerate();
     bodies
         .map(|(index, body)| {
             let from = index * form.parameters();
             let own = covariance
-                .as_ref()
                 .map(|all| all.view((from, from), (form.parameters(), form.parameters())));
             told(body, form, cloud.size, own)
         })
@@ -108,7 +110,7 @@ fn told(
 }
 
 /// The covariance of all parameters; `None` if the points do not determine them.
-fn covariance(cloud: &Cloud, found: &Minimum) -> Option<DMatrix<f64>> {
+pub(super) fn covariance(cloud: &Cloud, found: &Minimum) -> Option<DMatrix<f64>> {
     let weighing = &found.weighing;
     let whole = NormalEquations::new(&found.bodies, &cloud.points, weighing);
     let parameters = whole.gradient.len();

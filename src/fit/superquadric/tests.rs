@@ -232,6 +232,39 @@ fn the_axis_of_a_body_that_is_nearly_a_cube_is_found() {
 }
 
 #[test]
+fn errors_of_area_and_volume_hold_these() {
+    for form in [Form::Single, Form::Poly12] {
+        let mut squares = [0.0; 2];
+        for seed in 0..20 {
+            let random = &mut ChaCha8Rng::seed_from_u64(seed);
+            let axes = [0; 3].map(|_| between(random, 10.0, 20.0));
+            let [n1, n2] = [0; 2].map(|_| between(random, 2.0, 5.0));
+            let shape = Superquadric::single(axes, n1, n2).unwrap();
+            let points = points_on(&shape, 600, random);
+            let noisy = points
+                .iter()
+                .map(|p| Point3::from(p + normal(random) * 0.1));
+            let found = fitted(&noisy.collect::<Vec<_>>(), form);
+            let errors = found.solid_errors.unwrap();
+            let [told, truth] =
+                [&found.shape, &shape].map(|body| superquadric_properties(body).properties);
+            let off = [
+                (told.area - truth.area) / errors.area,
+                (told.volume - truth.volume) / errors.volume,
+            ];
+            for (sum, off) in squares.iter_mut().zip(off) {
+                *sum += off * off / 20.0;
+            }
+        }
+        let rms = squares.map(f64::sqrt);
+        assert!(
+            rms.iter().all(|rms| (0.7..1.6).contains(rms)),
+            "{form:?}: {rms:?}"
+        );
+    }
+}
+
+#[test]
 fn more_numbers_are_never_farther_from_the_points() {
     for seed in 0..8 {
         let random = &mut ChaCha8Rng::seed_from_u64(seed);
