@@ -206,9 +206,13 @@ impl SuperquadricReport {
     ) -> Self {
         let reference = scan.reference.filter(|_| scan.unseen.is_none());
         let withheld = Withheld::of_unseen(scan.unseen);
+        let times = reference.map_or(0.0, |points| solid.properties.volume / points.volume);
+        let far_beyond = (times > LARGEST_VOLUME).then(|| {
+            format!("the superquadrics hold {times:.1} times the volume of the polyhedron through the points")
+        });
         let not_measured = [Measure::Area, Measure::Volume].into_iter();
         let not_measured = not_measured.filter_map(|measure| {
-            let reason = withheld.reason(measure)?;
+            let reason = withheld.reason(measure).or_else(|| far_beyond.clone())?;
             Some(NotMeasured {
                 measure: measure.name(),
                 reason,
@@ -265,6 +269,9 @@ fn off_faces(faces: &Reference, solid: &SolidProperties) -> Option<String> {
         )
     })
 }
+
+/// Superquadrics hold at most so many times the volume of the polyhedron of their points, which is smaller.
+const LARGEST_VOLUME: f64 = 1.5;
 
 /// Share of the area and of the volume of a scan's own faces from which on a difference is told.
 const OFF_FACES: f64 = 0.05;

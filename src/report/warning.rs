@@ -171,7 +171,7 @@ impl FitWarning {
             ),
             Self::TurnedOver { samples } => write!(
                 f,
-                "The surface is turned over at {}: its area and curvature are off there.",
+                "The surface is turned over at {}: its area, volume and curvature are off there.",
                 plural(samples, "sample")
             ),
             Self::Unproved { found } => write!(

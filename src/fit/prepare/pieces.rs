@@ -3,8 +3,8 @@
 //! Each point is linked to its nearest ones, however far these are, so that thin and uneven scans hang
 //! together. What still falls apart may be one surface all the same (slices of a tomograph, two caps without
 //! the band between them): none of its pieces surrounds its own middle. Bodies do, and what stands before or
-//! behind one of them is none of it. A row of points is no body wherever it stands: the outermost rows of a scan by lines are
-//! far from the next ones, where the surface runs along the lines' plane.
+//! behind one of them is none of it. A row of points that bends round is no body wherever it stands: the outermost rows of a
+//! scan by lines are far from the next ones, where the surface runs along the lines' plane. A straight row is a needle.
 
 use super::rows::is_row;
 use super::strays::LEAST_STRAY;
@@ -73,7 +73,9 @@ impl Pieces {
         large.sort_by_key(|piece| Reverse((piece.is_closed, piece.points.len())));
         let (own, others) = match large.split_first() {
             Some((first, _)) if first.is_closed => {
-                let other = |piece: &Piece| first.misses(&piece.points);
+                let other = |piece: &Piece| {
+                    first.misses(&piece.points) && !is_row(&coordinates(&piece.points))
+                };
                 large.iter().partition(|piece| !other(piece))
             }
             _ => (large.iter().collect(), Vec::new()),
@@ -162,7 +164,7 @@ impl Piece {
         (0..count).filter(is_off).count() as f64 / count as f64
     }
 
-    /// Whether other points stand before or behind this piece, in no row, and so are none of it.
+    /// Whether other points stand before or behind this piece, and so are none of it.
     fn misses(&self, others: &[Point3<f64>]) -> bool {
         let spacing = (4.0 * PI / self.points.len() as f64).sqrt();
         let stands_off = |other: &&Point3<f64>| {
@@ -176,7 +178,7 @@ impl Piece {
                 && (ray.norm() - radius).abs() > LEAST_STRAY * radius
         };
         let off = others.iter().filter(stands_off).count();
-        off as f64 > STANDING_OFF * others.len() as f64 && !is_row(&coordinates(others))
+        off as f64 > STANDING_OFF * others.len() as f64
     }
 }
 
@@ -233,5 +235,7 @@ mod tests {
             Point3::from(above + Vector3::new(cos, sin, 0.0) * 0.3)
         });
         assert_eq!(bodies(row.collect()), 1);
+        let needle = (0..60).map(|at| Point3::from(above + Vector3::x() * 0.01 * f64::from(at)));
+        assert_eq!(bodies(needle.collect()), 2);
     }
 }

@@ -1,11 +1,12 @@
 //! A union of superquadrics, with as many parts as held-out points ask for.
 
+use super::bodies::Body;
 use super::cloud::Cloud;
 use super::clusters::{Begin, SEEDINGS, ellipsoids};
 use super::error::SuperquadricFitError;
 use super::form::Form;
 use super::least_squares::{
-    End, Minimum, OTHER_MINIMUM, descended, distinct, least, ranked, weighed,
+    End, Minimum, OTHER_MINIMUM, descended, deviation, distinct, least, ranked, weighed,
 };
 use super::normal_equations::distances;
 use super::search::best;
@@ -39,6 +40,9 @@ const TURNED: End = End {
     gain: 1e-3,
 };
 
+/// How many times as far as the farthest point a part may reach.
+const BEYOND: f64 = 1.5;
+
 /// How many times the least loss of a stage that of a fit may be which goes on.
 const PROMISING: f64 = 4.0;
 
@@ -54,8 +58,11 @@ const OTHER_START: f64 = 1.0 + 1e-9;
 /// Cells of directions along an edge of the cube, of which every fifth is held out.
 const HELD_OUT_CELLS: usize = 24;
 
-/// What another part must take off the held-out error.
+/// What another part must take off the held-out error, and a turned one off the distance.
 const WORTH: f64 = 0.95;
+
+/// Distance of half the points, in mean radii, below which no part is turned and no more are tried.
+const EXACT: f64 = 1e-6;
 
 /// A union of superquadrics fitted to points.
 #[derive(Debug, Clone, PartialEq)]
@@ -71,7 +78,7 @@ pub struct MultiFit {
     pub mean_radius: f64,
     /// Standard errors, part by part.
     pub errors: Vec<ParameterErrors>,
-    /// RMS distances of points held out of the fit, in the scan's unit, of one part, of two and so on.
+    /// RMS distances of points held out of the fit, in the scan's unit, of one part, of two and so on: as many as were tried.
     pub held_out: Vec<f64>,
 }
 
@@ -104,19 +111,26 @@ pub fn fit_multi_superquadric(
     }
     let cloud = Cloud::new(points, lattice, most * Form::Single.parameters())?;
     context.run(|| {
-        let (chosen, held_out) = chosen(&cloud, most, context)?;
-        let weighing = weighed(&chosen.bodies, &cloud.points, &chosen.weighing);
-        let found = descended(chosen.bodies, &cloud.points, weighing, LAST, context)?;
-        told(&cloud, &found, held_out)
+        let (mut chosen, held_out) = chosen(&cloud, most, context)?;
+        loop {
+            let best = chosen.pop().ok_or(SuperquadricFitError::NoVolume)?;
+            let weighing = weighed(&best.bodies, &cloud.points, &best.weighing);
+            let found = descended(best.bodies, &cloud.points, weighing, LAST, context)?;
+            let told = told(&cloud, &found, held_out.clone());
+            if told.is_ok() && is_within(&cloud, &found.bodies) || chosen.is_empty() {
+                return told;
+            }
+        }
     })
 }
 
-/// The best fit to the points that are not held out, and the held-out errors of all numbers of parts.
+/// The best fits to the points that are not held out, of fewer and of more parts as long as more are worth it, and the held-out
+/// errors of all numbers of parts.
 fn chosen(
     cloud: &Cloud,
     most: usize,
     context: &Context<'_>,
-) -> Result<(Minimum, Vec<f64>), SuperquadricFitError> {
+) -> Result<(Vec<Minimum>, Vec<f64>), SuperquadricFitError> {
     let is_held_out = |point: &Vector3<f64>| {
         let [_, row, column] = cloud.cell(point, HELD_OUT_CELLS);
         (row + 2 * column) % 5 == 0
@@ -130,16 +144,33 @@ fn chosen(
     let error = |found: &Minimum| Residuals::of(distances(&found.bodies, &out)).rms * cloud.size;
     let single = best(&cloud, Form::Single, context)?;
     let mut errors = vec![error(&single)];
-    let (mut chosen, mut least) = (single.clone(), errors[0]);
+    let (mut chosen, mut least) = (vec![single.clone()], errors[0]);
     for parts in 2..=most {
+        if least < EXACT * cloud.size {
+            break;
+        }
         let found = with_parts(&cloud, parts, &single.weighing, context)?;
         let error = error(&found);
         errors.push(error);
-        if error < WORTH * least {
-            (chosen, least) = (found, error);
+        if error < WORTH * least && is_within(&cloud, &found.bodies) {
+            least = error;
+            chosen.push(found);
         }
     }
     Ok((chosen, errors))
+}
+
+/// Whether no body reaches far beyond the points: a thin one may lie between them, edge on.
+fn is_within(cloud: &Cloud, bodies: &[Body]) -> bool {
+    let farthest = cloud.points.iter().map(Vector3::norm).fold(0.0, f64::max);
+    bodies.iter().all(|body| {
+        let numbers = body.numbers();
+        (0..6).all(|side| {
+            let sign = if side % 2 == 0 { 1.0 } else { -1.0 };
+            let end = body.centre + body.axes.column(side / 2) * (sign * numbers[side]);
+            end.norm() <= BEYOND * farthest
+        })
+    })
 }
 
 /// The best fit of so many parts, two at least: all parts at once, from all starts, to minima of distances that get
@@ -171,9 +202,10 @@ fn with_parts(
         let sharper = ranked(sharper.collect::<Result<Vec<_>, _>>()?, &few);
         found = distinct(sharper, PROMISING, OTHER_MINIMUM);
     }
+    found.sort_by_key(|found| !is_within(cloud, &found.bodies));
     let best = found.into_iter().next();
     let best = best.ok_or(SuperquadricFitError::NoVolume)?;
-    let best = turned_parts(best, &few, context)?;
+    let best = turned_parts(cloud, best, &few, context)?;
     let weighing = weighed(&best.bodies, &cloud.points, &best.weighing);
     Ok(descended(
         best.bodies,
@@ -187,27 +219,34 @@ fn with_parts(
 /// The best fit with its parts turned, one at a time, as long as that is better: like [one body](super::search) a part may lie
 /// along another of its axes, or be seen along its diagonals.
 fn turned_parts(
-    mut best: Minimum,
+    cloud: &Cloud,
+    best: Minimum,
     points: &[Vector3<f64>],
     context: &Context<'_>,
 ) -> Result<Minimum, Cancelled> {
+    let weighing = weighed(&best.bodies, points, &best.weighing);
+    let mut best = descended(best.bodies, points, weighing, LAST, context)?;
     for _ in 0..MAX_TURNS {
-        let mut tried = vec![best];
-        for part in 0..tried[0].bodies.len() {
-            let own = tried[0].bodies[part];
-            for start in turned(&own) {
-                let mut bodies = tried[0].bodies.clone();
+        let mut tried = Vec::new();
+        for part in 0..best.bodies.len() {
+            for start in turned(&best.bodies[part]) {
+                let mut bodies = best.bodies.clone();
                 bodies[part] = start;
-                let weighing = weighed(&bodies, points, &tried[0].weighing);
-                tried.push(descended(bodies, points, weighing, TURNED, context)?);
+                let weighing = weighed(&bodies, points, &best.weighing);
+                let found = descended(bodies, points, weighing, TURNED, context)?;
+                tried.extend(Some(found).filter(|found| is_within(cloud, &found.bodies)));
             }
         }
-        let least = least(&tried, points).unwrap_or(0);
-        best = tried.swap_remove(least);
-        if least == 0 {
+        let Some(at) = least(&tried, points) else {
+            break;
+        };
+        let other = tried.swap_remove(at);
+        let [own, turned] = [&best, &other].map(|found| deviation(&found.bodies, points));
+        // Points tell nothing of the ends of parts in one another: turned ones may fit as well.
+        if own < EXACT || turned > WORTH * own {
             break;
         }
-        best = descended(best.bodies, points, best.weighing, STAGE, context)?;
+        best = descended(other.bodies, points, other.weighing, STAGE, context)?;
     }
     Ok(best)
 }

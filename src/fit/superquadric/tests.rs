@@ -302,6 +302,37 @@ fn bodies_that_cross_are_the_parts_of_a_union() {
     assert!(found.union.parts().len() == 2 && share < 2e-3, "{share}");
 }
 
+/// Two rods as a T: the points tell nothing of the end of one in the other.
+#[test]
+fn a_union_has_no_more_parts_than_the_points_ask_for_and_none_beyond_them() {
+    let random = &mut ChaCha8Rng::seed_from_u64(3);
+    let along = [[2.0, 0.5, 0.5], [0.5, 0.5, 1.2]];
+    let parts = along.map(|axes| Superquadric::single(axes, 3.0, 4.0).unwrap());
+    let middles = [Vector3::zeros(), Vector3::z() * 1.2];
+    let mut points = Vec::new();
+    for (part, other) in [(0, 1), (1, 0)] {
+        let is_outside = |p: &Vector3<f64>| {
+            let ray = p - middles[other];
+            ray.norm() > parts[other].radius(&ray.normalize())
+        };
+        let own = points_on(&parts[part], 300, random).into_iter();
+        let own = own.map(|p| p + middles[part]).filter(is_outside);
+        points.extend(own.map(Point3::from));
+    }
+    let found = fit_multi_superquadric(&points, None, 4, &Context::default()).unwrap();
+    assert_eq!(found.union.parts().len(), 2, "{:?}", found.held_out);
+    assert!(found.residuals.rms < 1e-3, "{:?}", found.residuals);
+    for part in found.union.parts() {
+        let far = part
+            .shape
+            .semi_axes()
+            .into_iter()
+            .flatten()
+            .fold(0.0, f64::max);
+        assert!(far < 3.0, "{part:?}");
+    }
+}
+
 #[test]
 fn what_is_no_body_is_refused() {
     let context = Context::default();
