@@ -21,6 +21,9 @@ use crate::model::{
 use crate::scan::VoxelLattice;
 use nalgebra::{Point3, Vector3};
 
+#[cfg(test)]
+mod tests;
+
 /// The most parts that can be asked for.
 pub const MAX_UNION_PARTS: usize = 12;
 
@@ -227,6 +230,10 @@ fn turned_parts(
     let weighing = weighed(&best.bodies, points, &best.weighing);
     let mut best = descended(best.bodies, points, weighing, LAST, context)?;
     for _ in 0..MAX_TURNS {
+        let own = deviation(&best.bodies, points);
+        if own < EXACT {
+            break;
+        }
         let mut tried = Vec::new();
         for part in 0..best.bodies.len() {
             for start in turned(&best.bodies[part]) {
@@ -241,9 +248,8 @@ fn turned_parts(
             break;
         };
         let other = tried.swap_remove(at);
-        let [own, turned] = [&best, &other].map(|found| deviation(&found.bodies, points));
         // Points tell nothing of the ends of parts in one another: turned ones may fit as well.
-        if own < EXACT || turned > WORTH * own {
+        if deviation(&other.bodies, points) > WORTH * own {
             break;
         }
         best = descended(other.bodies, points, other.weighing, STAGE, context)?;
