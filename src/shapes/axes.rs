@@ -24,7 +24,7 @@ pub enum AxesError {
     #[error("a superquadric has its own semi-axes")]
     Superquadric,
     /// Give every semi-axis as a length in millimetres, within [`MIN_AXIS`] and [`MAX_AXIS`].
-    #[error("a semi-axis must be {MIN_AXIS} to {MAX_AXIS} mm long, not {length}")]
+    #[error("a semi-axis must be {MIN_AXIS} to {MAX_AXIS} long, not {length}")]
     Length {
         /// The length asked for.
         length: f64,
@@ -96,7 +96,7 @@ mod tests {
         for length in [0.0, -1.0, 2e6, f64::INFINITY, f64::NAN] {
             assert_eq!(
                 refused(Body::Octahedron, 2.0, 1.0, length),
-                format!("a semi-axis must be 0.000001 to 1000000 mm long, not {length}")
+                format!("a semi-axis must be 0.000001 to 1000000 long, not {length}")
             );
         }
         assert_eq!(

@@ -53,13 +53,13 @@ function truthPart(lot, all, number, nameOf) {
     // Nothing is a share of a truth of 0.
     const shares = known.map(({ share }) => share).filter(Number.isFinite);
     const mean = shares.reduce((sum, share) => sum + share, 0) / shares.length;
-    const spread = Math.sqrt(shares.reduce((sum, share) => sum + (share - mean) ** 2, 0) / Math.max(1, shares.length - 1));
+    const spread = Math.sqrt(shares.reduce((sum, share) => sum + (share - mean) ** 2, 0) / (shares.length - 1));
     const scaled = known.filter(({ z }) => Number.isFinite(z)).sort((a, b) => a.z - b.z);
     const within = scaled.filter(({ z }) => Math.abs(z) <= 1.96).length;
     return { name, mean, spread, scaled, count: shares.length, held: scaled.length ? `${within} of ${scaled.length}` : 'no errors told' };
   }).filter(({ count, scaled }) => count || scaled.length);
   const percent = (share) => (Number.isFinite(share) ? `${(100 * share).toFixed(3)} %` : 'the truth is 0');
-  const cells = ({ name, count, mean, spread, held }) => [name, String(count), percent(mean), percent(spread), held].map((cell) => el('td', {}, cell));
+  const cells = ({ name, count, mean, spread, held }) => [name, String(count), percent(mean), count < 2 ? '-' : percent(spread), held].map((cell) => el('td', {}, cell));
   const heads = ['measure', 'grains', 'bias', 'spread', 'within 1.96 standard errors'].map((name) => el('th', {}, name));
   const points = found.flatMap(({ scaled }, series) => scaled.map(({ row, z }, at) => ({
     x: normalQuantile((at + 0.5) / scaled.length), y: z, series, label: nameOf(row),
