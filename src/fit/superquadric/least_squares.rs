@@ -116,7 +116,7 @@ pub(super) fn distinct(ranked: Vec<(f64, Minimum)>, most: f64, another: f64) -> 
 }
 
 /// The losses of fits, all weighed as the one that needs the least scale.
-fn losses(tried: &[Minimum], points: &[Vector3<f64>]) -> Vec<f64> {
+pub(super) fn losses(tried: &[Minimum], points: &[Vector3<f64>]) -> Vec<f64> {
     let scales = tried.iter().map(|found| found.weighing);
     let Some(weighing) = scales.min_by(|p, q| p.loss.scale.total_cmp(&q.loss.scale)) else {
         return Vec::new();

@@ -6,7 +6,7 @@ use super::clusters::{Begin, SEEDINGS, ellipsoids};
 use super::error::SuperquadricFitError;
 use super::form::Form;
 use super::least_squares::{
-    End, Minimum, OTHER_MINIMUM, descended, deviation, distinct, least, ranked, weighed,
+    End, Minimum, OTHER_MINIMUM, descended, distinct, least, losses, ranked, weighed,
 };
 use super::normal_equations::distances;
 use super::search::best;
@@ -61,11 +61,11 @@ const OTHER_START: f64 = 1.0 + 1e-9;
 /// Cells of directions along an edge of the cube, of which every fifth is held out.
 const HELD_OUT_CELLS: usize = 24;
 
-/// What another part must take off the held-out error, and a turned one off the distance.
+/// What another part must take off the held-out error, and a turned one off the loss.
 const WORTH: f64 = 0.95;
 
-/// Distance of half the points, in mean radii, below which no part is turned and no more are tried.
-const EXACT: f64 = 1e-6;
+/// RMS distance, in mean radii, below which no part is turned and no more are tried.
+const EXACT: f64 = 1e-4;
 
 /// A union of superquadrics fitted to points.
 #[derive(Debug, Clone, PartialEq)]
@@ -230,8 +230,7 @@ fn turned_parts(
     let weighing = weighed(&best.bodies, points, &best.weighing);
     let mut best = descended(best.bodies, points, weighing, LAST, context)?;
     for _ in 0..MAX_TURNS {
-        let own = deviation(&best.bodies, points);
-        if own < EXACT {
+        if Residuals::of(distances(&best.bodies, points).into_iter()).rms < EXACT {
             break;
         }
         let mut tried = Vec::new();
@@ -247,10 +246,12 @@ fn turned_parts(
         let Some(at) = least(&tried, points) else {
             break;
         };
-        let other = tried.swap_remove(at);
+        let both = [best, tried.swap_remove(at)];
+        let losses = losses(&both, points);
+        let [own, other] = both;
         // Points tell nothing of the ends of parts in one another: turned ones may fit as well.
-        if deviation(&other.bodies, points) > WORTH * own {
-            break;
+        if losses[1] > WORTH * losses[0] {
+            return Ok(own);
         }
         best = descended(other.bodies, points, other.weighing, STAGE, context)?;
     }
