@@ -102,19 +102,21 @@ fn fitted_to(
     };
     let context = FitContext::default();
     let lattice = scan.voxel_lattice();
-    match form {
+    let (grain, report) = match form {
         SuperquadricArg::Single(form) => {
             let found = fit_superquadric(points, lattice, form, &context).with_context(failed)?;
             let report = SuperquadricReport::of_single(fitted, &found);
-            Ok((found.grain()?.with_unseen(unseen), report))
+            (found.grain()?, report)
         }
         SuperquadricArg::Multi(most) => {
             let found =
                 fit_multi_superquadric(points, lattice, most, &context).with_context(failed)?;
             let report = SuperquadricReport::of_multi(fitted, &found);
-            Ok((found.grain()?.with_unseen(unseen), report))
+            (found.grain()?, report)
         }
-    }
+    };
+    let grain = grain.with_unseen(unseen);
+    Ok((grain.with_contradicted(report.contradicted), report))
 }
 
 /// Whether a scan was made ready for a radius, at the cost of points or of surface that its centre does not see.

@@ -8,7 +8,7 @@ use super::unit::{Labels, Unit};
 use crate::digits::plural;
 use crate::fit::{MultiFit, ParameterErrors, Reference, ReferenceKind, Residuals, SuperquadricFit};
 use crate::measure::{SolidProperties, superquadric_properties, union_properties};
-use crate::model::{Frame, Superquadric, Unseen};
+use crate::model::{Contradicted, Frame, Superquadric, Unseen};
 use serde::Serialize;
 use std::fmt;
 
@@ -45,6 +45,9 @@ pub struct SuperquadricReport {
     pub volume_standard_error: Option<f64>,
     /// What is not told, and why.
     pub not_measured: Vec<NotMeasured>,
+    /// What the polyhedron through the points contradicts, for the model's file.
+    #[serde(skip)]
+    pub contradicted: Option<Contradicted>,
     /// Area and volume of the scan's own faces, or of the polyhedron through its points.
     pub reference: Option<ReferenceRecord>,
     /// RMS distances of points that were held out, of one part, of two and so on; absent of a single one.
@@ -205,14 +208,11 @@ impl SuperquadricReport {
         mean_radius: f64,
     ) -> Self {
         let reference = scan.reference.filter(|_| scan.unseen.is_none());
-        let withheld = Withheld::of_unseen(scan.unseen);
-        let times = reference.map_or(0.0, |points| solid.properties.volume / points.volume);
-        let far_beyond = (times > LARGEST_VOLUME).then(|| {
-            format!("the superquadrics hold {times:.1} times the volume of the polyhedron through the points")
-        });
+        let contradicted = reference.and_then(|points| far_off(&points, solid));
+        let withheld = Withheld::of_fit(scan.unseen, contradicted);
         let not_measured = [Measure::Area, Measure::Volume].into_iter();
         let not_measured = not_measured.filter_map(|measure| {
-            let reason = withheld.reason(measure).or_else(|| far_beyond.clone())?;
+            let reason = withheld.reason(measure)?;
             Some(NotMeasured {
                 measure: measure.name(),
                 reason,
@@ -244,6 +244,7 @@ impl SuperquadricReport {
             area_standard_error: None,
             volume_standard_error: None,
             not_measured,
+            contradicted,
             reference: reference.map(Into::into),
             held_out: None,
             warnings: scan
@@ -270,8 +271,22 @@ fn off_faces(faces: &Reference, solid: &SolidProperties) -> Option<String> {
     })
 }
 
-/// Superquadrics hold at most so many times the volume of the polyhedron of their points, which is smaller.
-const LARGEST_VOLUME: f64 = 1.5;
+/// By how much area and volume are off those of the polyhedron through the points, where the volume is so by more than
+/// [`FAR_OFF`].
+fn far_off(points: &Reference, solid: &SolidProperties) -> Option<Contradicted> {
+    let [area, volume] = [
+        solid.properties.area / points.area - 1.0,
+        solid.properties.volume / points.volume - 1.0,
+    ];
+    (volume.abs() > FAR_OFF).then_some(Contradicted {
+        area: Some(area),
+        volume: Some(volume),
+    })
+}
+
+/// Share of its volume by which superquadrics may be off the polyhedron of their points: that of 50 points is a seventh smaller
+/// than the grain.
+const FAR_OFF: f64 = 0.5;
 
 /// Share of the area and of the volume of a scan's own faces from which on a difference is told.
 const OFF_FACES: f64 = 0.05;
@@ -346,5 +361,28 @@ impl fmt::Display for SuperquadricReport {
             "Figures after ± are standard errors; those of area and volume tell {of_solid}. Lengths are in {}.",
             labels.name()
         )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_volume_far_off_that_of_the_polyhedron_is_contradicted_and_its_area_too() {
+        let ball = superquadric_properties(&Superquadric::single([1.0; 3], 2.0, 2.0).unwrap());
+        let told = |times: f64| {
+            let points = Reference {
+                kind: ReferenceKind::Directions,
+                area: ball.properties.area,
+                volume: ball.properties.volume / times,
+                bulge: 0.0,
+            };
+            far_off(&points, &ball)
+        };
+        assert!(told(1.4).is_none() && told(0.7).is_none());
+        let found = told(1.6).unwrap();
+        assert!((found.volume.unwrap() - 0.6).abs() < 1e-9 && found.area.is_some());
+        assert!(told(0.4).is_some());
     }
 }

@@ -31,10 +31,14 @@ impl Withheld {
         }
     }
 
-    /// What was not seen.
-    pub(in crate::report) fn of_unseen(unseen: Option<Unseen>) -> Self {
+    /// What was not seen, and what is contradicted.
+    pub(in crate::report) fn of_fit(
+        unseen: Option<Unseen>,
+        contradicted: Option<Contradicted>,
+    ) -> Self {
         Self {
             unseen,
+            contradicted,
             ..Self::default()
         }
     }
