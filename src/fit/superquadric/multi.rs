@@ -230,7 +230,7 @@ fn turned_parts(
     let weighing = weighed(&best.bodies, points, &best.weighing);
     let mut best = descended(best.bodies, points, weighing, LAST, context)?;
     for _ in 0..MAX_TURNS {
-        if Residuals::of(distances(&best.bodies, points).into_iter()).rms < EXACT {
+        if Residuals::of(distances(&best.bodies, points)).rms < EXACT {
             break;
         }
         let mut tried = Vec::new();
