@@ -257,10 +257,17 @@ impl SuperquadricReport {
     }
 }
 
+/// By how much area and volume are off those of a reference, as shares.
+fn off(reference: &Reference, solid: &SolidProperties) -> [f64; 2] {
+    [
+        solid.properties.area / reference.area - 1.0,
+        solid.properties.volume / reference.volume - 1.0,
+    ]
+}
+
 /// By how much area and volume are off those of the scan's own closed faces, where that is much.
 fn off_faces(faces: &Reference, solid: &SolidProperties) -> Option<String> {
-    let area = solid.properties.area / faces.area - 1.0;
-    let volume = solid.properties.volume / faces.volume - 1.0;
+    let [area, volume] = off(faces, solid);
     let is_much = area.abs() > OFF_FACES || volume.abs() > OFF_FACES;
     (faces.kind == ReferenceKind::Faces && is_much).then(|| {
         format!(
@@ -274,10 +281,7 @@ fn off_faces(faces: &Reference, solid: &SolidProperties) -> Option<String> {
 /// By how much area and volume are off those of the polyhedron through the points, where the volume is so by more than
 /// [`FAR_OFF`].
 fn far_off(points: &Reference, solid: &SolidProperties) -> Option<Contradicted> {
-    let [area, volume] = [
-        solid.properties.area / points.area - 1.0,
-        solid.properties.volume / points.volume - 1.0,
-    ];
+    let [area, volume] = off(points, solid);
     (volume.abs() > FAR_OFF).then_some(Contradicted {
         area: Some(area),
         volume: Some(volume),

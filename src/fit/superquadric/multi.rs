@@ -115,12 +115,13 @@ pub fn fit_multi_superquadric(
     let cloud = Cloud::new(points, lattice, most * Form::Single.parameters())?;
     context.run(|| {
         let (mut chosen, held_out) = chosen(&cloud, most, context)?;
+        let farthest = farthest(&cloud.points);
         loop {
             let best = chosen.pop().ok_or(SuperquadricFitError::NoVolume)?;
             let weighing = weighed(&best.bodies, &cloud.points, &best.weighing);
             let found = descended(best.bodies, &cloud.points, weighing, LAST, context)?;
             let told = told(&cloud, &found, held_out.clone());
-            if told.is_ok() && is_within(&cloud, &found.bodies) || chosen.is_empty() {
+            if told.is_ok() && is_within(&found.bodies, farthest) || chosen.is_empty() {
                 return told;
             }
         }
@@ -148,6 +149,7 @@ fn chosen(
     let single = best(&cloud, Form::Single, context)?;
     let mut errors = vec![error(&single)];
     let (mut chosen, mut least) = (vec![single.clone()], errors[0]);
+    let farthest = farthest(&cloud.points);
     for parts in 2..=most {
         if least < EXACT * cloud.size {
             break;
@@ -155,7 +157,7 @@ fn chosen(
         let found = with_parts(&cloud, parts, &single.weighing, context)?;
         let error = error(&found);
         errors.push(error);
-        if error < WORTH * least && is_within(&cloud, &found.bodies) {
+        if error < WORTH * least && is_within(&found.bodies, farthest) {
             least = error;
             chosen.push(found);
         }
@@ -163,9 +165,9 @@ fn chosen(
     Ok((chosen, errors))
 }
 
-/// Whether no body reaches far beyond the points: a thin one may lie between them, edge on.
-fn is_within(cloud: &Cloud, bodies: &[Body]) -> bool {
-    let farthest = cloud.points.iter().map(Vector3::norm).fold(0.0, f64::max);
+/// Whether no body reaches far beyond the points, the farthest of which is so far off: a thin one may lie between them, edge
+/// on.
+fn is_within(bodies: &[Body], farthest: f64) -> bool {
     bodies.iter().all(|body| {
         let numbers = body.numbers();
         (0..6).all(|side| {
@@ -174,6 +176,10 @@ fn is_within(cloud: &Cloud, bodies: &[Body]) -> bool {
             end.norm() <= BEYOND * farthest
         })
     })
+}
+
+fn farthest(points: &[Vector3<f64>]) -> f64 {
+    points.iter().map(Vector3::norm).fold(0.0, f64::max)
 }
 
 /// The best fit of so many parts, two at least: all parts at once, from all starts, to minima of distances that get
@@ -205,10 +211,11 @@ fn with_parts(
         let sharper = ranked(sharper.collect::<Result<Vec<_>, _>>()?, &few);
         found = distinct(sharper, PROMISING, OTHER_MINIMUM);
     }
-    found.sort_by_key(|found| !is_within(cloud, &found.bodies));
+    let farthest = farthest(&cloud.points);
+    found.sort_by_key(|found| !is_within(&found.bodies, farthest));
     let best = found.into_iter().next();
     let best = best.ok_or(SuperquadricFitError::NoVolume)?;
-    let best = turned_parts(cloud, best, &few, context)?;
+    let best = turned_parts(best, &few, farthest, context)?;
     let weighing = weighed(&best.bodies, &cloud.points, &best.weighing);
     Ok(descended(
         best.bodies,
@@ -222,9 +229,9 @@ fn with_parts(
 /// The best fit with its parts turned, one at a time, as long as that is better: like [one body](super::search) a part may lie
 /// along another of its axes, or be seen along its diagonals.
 fn turned_parts(
-    cloud: &Cloud,
     best: Minimum,
     points: &[Vector3<f64>],
+    farthest: f64,
     context: &Context<'_>,
 ) -> Result<Minimum, Cancelled> {
     let weighing = weighed(&best.bodies, points, &best.weighing);
@@ -240,7 +247,7 @@ fn turned_parts(
                 bodies[part] = start;
                 let weighing = weighed(&bodies, points, &best.weighing);
                 let found = descended(bodies, points, weighing, TURNED, context)?;
-                tried.extend(Some(found).filter(|found| is_within(cloud, &found.bodies)));
+                tried.extend(Some(found).filter(|found| is_within(&found.bodies, farthest)));
             }
         }
         let Some(at) = least(&tried, points) else {
