@@ -38,12 +38,14 @@ pub(super) fn run(args: &ContactArgs, pose: &PoseArg, console: Console) -> Resul
         _ => None,
     };
     let is_hidden = grains.iter().any(|grain| grain.hidden_share() > 0.0);
+    let doubts = doubts(&grains, &names);
     if (law.is_none() || hertz.is_some() && is_hidden)
-        && let Some(report) = of_unions(&grains, &names, args.unit, pose, hertz)
+        && let Some(mut report) = of_unions(&grains, &names, args.unit, pose, hertz)
     {
         let touches = report.touches.iter();
         let frames = touches.map(|touch| frame(touch.point, touch.normal));
         draw(args, &grains, pose, &frames.collect::<Vec<_>>())?;
+        report.warnings.extend(doubts);
         return console.tell(&report, args.json, written, &report.warnings);
     }
     for (grain, name) in grains.iter().zip(&names) {
@@ -56,7 +58,6 @@ pub(super) fn run(args: &ContactArgs, pose: &PoseArg, console: Console) -> Resul
         .and_then(|found| Ok((found, gaps(&bodies, &grains, &moved(pose))?)));
     let (found, gaps) =
         told.with_context(|| format!("cannot tell the contact of {} and {}", names[0], names[1]))?;
-    let doubts = doubts(&grains, &names);
     let [one, two] = names;
     let mut report = RegionsReport::new(one, two, args.unit, &found, gaps, law.as_ref());
     report.warnings.extend(doubts);

@@ -6,7 +6,9 @@ use super::measure::{Measure, NotMeasured, Withheld, by_reason};
 use super::number::{percent, short, triple, with_error};
 use super::unit::{Labels, Unit};
 use crate::digits::plural;
-use crate::fit::{MultiFit, ParameterErrors, Reference, ReferenceKind, Residuals, SuperquadricFit};
+use crate::fit::{
+    FitWarning, MultiFit, ParameterErrors, Reference, ReferenceKind, Residuals, SuperquadricFit,
+};
 use crate::measure::{SolidProperties, superquadric_properties, union_properties};
 use crate::model::{Contradicted, Frame, Superquadric, Unseen};
 use serde::Serialize;
@@ -169,7 +171,13 @@ impl SuperquadricReport {
             &fitted.errors,
         )];
         let solid = superquadric_properties(&fitted.shape);
-        let report = Self::new(scan, parts, &solid, &fitted.residuals, fitted.mean_radius);
+        let mut report = Self::new(scan, parts, &solid, &fitted.residuals, fitted.mean_radius);
+        let outliers = fitted.strays;
+        report.points -= outliers;
+        if outliers > 0 {
+            let warning = FitWarning::Outliers { outliers };
+            report.warnings.insert(0, warning.to_string());
+        }
         let errors = fitted
             .solid_errors
             .filter(|_| report.not_measured.is_empty());

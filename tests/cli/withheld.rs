@@ -88,6 +88,28 @@ fn whatever_is_made_of_such_a_model_is_told_so() {
 }
 
 #[test]
+fn touches_of_superquadrics_that_were_half_seen_are_told_as_such() {
+    let folder = folder();
+    save(&folder, "unseen", &json!({"hole": {"half_angle": 0.7}}));
+    let path = folder.path().join("m.json");
+    let mut model: Value = serde_json::from_slice(&std::fs::read(&path).unwrap()).unwrap();
+    model.as_object_mut().unwrap().remove("harmonics");
+    model["superquadrics"] = json!([{
+        "centre": [0, 0, 0],
+        "axes": [[1, 0, 0], [0, 1, 0], [0, 0, 1]],
+        "n1": [2, 2],
+        "n2": [[2, 2], [2, 2]],
+        "semi_axes": [[2, 2], [2, 2], [2, 2]],
+    }]);
+    std::fs::write(path, model.to_string()).unwrap();
+    let words = ["contact", "m.json", "m.json", "--pose-b", "0,0,3.9,1,0,0,0"];
+    let output = grainform(&folder, &words);
+    let warned = errors(&output);
+    assert!(output.status.success(), "{warned}");
+    assert!(warned.contains("Of m.json, ") && warned.contains("a cap of 40 degrees"));
+}
+
+#[test]
 fn what_is_not_to_be_relied_on_must_be_sound_itself() {
     let folder = folder();
     for (key, known, told) in [

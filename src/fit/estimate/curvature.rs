@@ -28,7 +28,6 @@
 //! height and sharpness: one that is missing, and the widest as far as points near by leave its height open, for which the
 //! prior, alike everywhere, leaves no room.
 
-use super::hole::Hole;
 use super::left_out::LeftOut;
 use super::outcome::{Estimate, bending_variance, variance};
 use super::posterior::Posterior;
@@ -136,7 +135,7 @@ impl Estimate {
     /// Squares of what a hole may hide of the radius of the stretched space and, where residuals are no noise, of how far
     /// points are missed, in directions of the grain's own frame.
     fn beside(&self, left_out: Option<&LeftOut<'_>>, local: &[Vector3<f64>]) -> Vec<f64> {
-        let hole = Some(Hole::of(self)).filter(|hole| hole.is_no_chance(self.cloud.len()));
+        let hole = Some(self.hole()).filter(|hole| hole.is_no_chance(self.cloud.len()));
         let beside = |n: &Vector3<f64>| {
             let n = self.stretched(n).normalize();
             let missed = left_out.map_or(0.0, |points| points.near(&n));

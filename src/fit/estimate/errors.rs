@@ -48,7 +48,7 @@ impl Estimate {
     /// # Errors
     /// [`NoInterval`] where they could not be trusted.
     pub(in crate::fit) fn errors(&self, told: &Figures) -> Result<StandardErrors, NoInterval> {
-        let hole = Hole::of(self);
+        let hole = self.hole();
         let half_angle = hole.half_angle;
         if half_angle > LARGEST_HOLE.max(random_gap(self.cloud.len())) {
             return Err(NoInterval::Hole { half_angle });

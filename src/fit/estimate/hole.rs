@@ -32,8 +32,14 @@ pub(super) struct Hole {
     radius: f64,
 }
 
+impl Estimate {
+    pub(super) fn hole(&self) -> Hole {
+        *self.derived.hole.get_or_init(|| Hole::of(self))
+    }
+}
+
 impl Hole {
-    pub(super) fn of(estimate: &Estimate) -> Self {
+    fn of(estimate: &Estimate) -> Self {
         let (half_angle, middle) = largest_cap(&estimate.cloud.directions);
         let mut harmonics = vec![0.0; estimate.coefficients.len()];
         HarmonicBasis::new(estimate.degree).evaluate(&middle, &mut harmonics);
@@ -81,7 +87,7 @@ mod tests {
         let mut directions = fibonacci(3000);
         directions.retain(|n| n.z < 20_f64.to_radians().cos());
         let estimate = estimated(&samples(&directions, |_| 3.0, 0.001), Vector3::repeat(3.0));
-        let hole = Hole::of(&estimate);
+        let hole = estimate.hole();
         assert!(hole.is_no_chance(directions.len()));
         assert_relative_eq!(hole.half_angle.to_degrees(), 20.0, epsilon = 1.0);
         let (middle, slope) = hole.hidden(&hole.middle);
@@ -102,6 +108,6 @@ mod tests {
             &samples(&fibonacci(3000), |_| 3.0, 0.001),
             Vector3::repeat(3.0),
         );
-        assert!(!Hole::of(&estimate).is_no_chance(3000));
+        assert!(!estimate.hole().is_no_chance(3000));
     }
 }

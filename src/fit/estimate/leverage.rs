@@ -12,7 +12,6 @@ use super::outcome::Estimate;
 use exact::exact;
 use guessed::guessed;
 use probed::probed;
-use std::borrow::Cow;
 
 /// Points of which every leverage is computed: that takes 7 % of a fit of so many.
 const FEW: usize = 800;
@@ -24,16 +23,16 @@ impl Estimate {
     }
 
     /// 1 - h of every point of the cloud.
-    pub(super) fn spares(&self) -> Cow<'_, [f64]> {
+    pub(super) fn spares(&self) -> &[f64] {
         match self.factor.is_some() && !self.has_few_points() {
-            true => Cow::Owned(probed(self)),
-            false => Cow::Borrowed(self.steady_spares()),
+            true => self.derived.spares.get_or_init(|| probed(self)),
+            false => self.steady_spares(),
         }
     }
 
     /// The same without probes, in which a cloud and its mirror image differ.
     pub(super) fn steady_spares(&self) -> &[f64] {
-        self.steady_spares.get_or_init(|| {
+        self.derived.steady_spares.get_or_init(|| {
             let computed = self.has_few_points().then(|| exact(self));
             computed.flatten().unwrap_or_else(|| guessed(self))
         })
@@ -139,7 +138,7 @@ mod tests {
         let residuals = estimate.posterior().residuals(&estimate.coefficients);
         let told: Vec<f64> = residuals
             .iter()
-            .zip(estimate.spares().iter())
+            .zip(estimate.spares())
             .map(|(e, spare)| e / spare)
             .collect();
         let missed = |i: usize| {

@@ -59,13 +59,13 @@ use degrees::{Degrees, first_degree};
 use map::rounder;
 use nalgebra::Vector3;
 use one_sided::one_sided;
-use outcome::Dense;
+use outcome::{Dense, Derived};
 use outliers::strays;
 use patches::{Patches, patches_per_edge};
 use posterior::Posterior;
 use spectrum_fit::SpectrumFit;
 use std::borrow::Cow;
-use std::sync::{Arc, OnceLock};
+use std::sync::Arc;
 use stopping::SETTLED;
 
 /// Estimates the radius, and makes the estimate again without points that lie off it to [one side](one_sided). `axes`: semi-axes of
@@ -155,7 +155,7 @@ fn by_degrees(
         sums: fit.sums,
         factor: fit.factor,
         dense,
-        steady_spares: OnceLock::new(),
+        derived: Derived::default(),
     })
 }
 

@@ -2,6 +2,7 @@
 
 use super::cloud::Cloud;
 use super::dense::Factor;
+use super::hole::Hole;
 use super::posterior::{Conditioned, Posterior};
 use super::spectrum::Spectrum;
 use super::sums::Sums;
@@ -32,8 +33,18 @@ pub(crate) struct Estimate {
     pub(crate) factor: Option<Arc<Factor>>,
     /// The points of which the cloud is the patch means.
     pub(super) dense: Option<Dense>,
-    /// 1 - the leverage of every point, computed or guessed, once it is asked for.
+    pub(super) derived: Derived,
+}
+
+/// What follows from the rest: computed once, when it is first asked for.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Derived {
+    /// 1 - the leverage of every point.
+    pub(super) spares: OnceLock<Vec<f64>>,
+    /// The same without probes.
     pub(super) steady_spares: OnceLock<Vec<f64>>,
+    /// The largest hole between the points.
+    pub(super) hole: OnceLock<Hole>,
 }
 
 /// Points of which patches were made.

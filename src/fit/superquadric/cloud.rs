@@ -90,6 +90,21 @@ impl Cloud {
         })
     }
 
+    /// Without some of its points, about the same centre.
+    pub(super) fn without(&self, left_out: &[bool]) -> Self {
+        let kept = |at: &usize| !left_out[*at];
+        let kept: Vec<usize> = (0..self.points.len()).filter(kept).collect();
+        let voxels = self.voxels.as_ref().map(|voxels| Voxels {
+            axes: kept.iter().map(|&at| voxels.axes[at]).collect(),
+            ..voxels.clone()
+        });
+        Self {
+            points: kept.iter().map(|&at| self.points[at]).collect(),
+            voxels,
+            ..self.clone()
+        }
+    }
+
     /// The cell of directions that a point is seen in: face of the cube, row and column.
     pub(super) fn cell(&self, point: &Vector3<f64>, cells: usize) -> [usize; 3] {
         let (face, place) = cube_place(&self.axes.tr_mul(point));

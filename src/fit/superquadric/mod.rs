@@ -21,6 +21,7 @@ mod soft_minimum;
 mod solid_errors;
 mod standard_errors;
 mod starts;
+mod strays;
 mod sums;
 #[cfg(test)]
 mod tests;

@@ -18,7 +18,7 @@ const ROUGH: End = End {
     steps: 20,
     gain: 1e-3,
 };
-const FINE: End = End {
+pub(super) const FINE: End = End {
     steps: 60,
     gain: 1e-6,
 };

@@ -3,15 +3,21 @@
 use super::cloud::Cloud;
 use super::error::SuperquadricFitError;
 use super::form::Form;
+use super::least_squares::{Minimum, minimised};
 use super::normal_equations::distances;
-use super::search::best;
+use super::search::{FINE, best};
 use super::solid_errors::{SolidErrors, solid_errors};
 use super::standard_errors::{ParameterErrors, covariance, standard_errors};
+use super::strays::strays;
 use crate::fit::Residuals;
 use crate::fit::context::Context;
 use crate::model::{Frame, Grain, InvalidGrain, NoInterval, Superquadric, SuperquadricGrain};
 use crate::scan::VoxelLattice;
 use nalgebra::Point3;
+use std::borrow::Cow;
+
+/// Rounds of leaving out points that are astray.
+const ROUNDS: usize = 5;
 
 /// A superquadric fitted to points.
 #[derive(Debug, Clone, PartialEq)]
@@ -21,7 +27,7 @@ pub struct SuperquadricFit {
     pub shape: Superquadric,
     /// Its centre and axes in the scan.
     pub frame: Frame,
-    /// Radial distances of all points.
+    /// Radial distances of the points that were not left out.
     pub residuals: Residuals,
     /// Mean distance of the points from their mean, in the scan's unit.
     pub mean_radius: f64,
@@ -29,6 +35,8 @@ pub struct SuperquadricFit {
     pub errors: ParameterErrors,
     /// Standard errors of area and volume, where the points determine the numbers.
     pub solid_errors: Option<SolidErrors>,
+    /// Points that were left out, for they are far from the body and from what their neighbours are off it.
+    pub strays: usize,
     /// Steps of all starts.
     pub iterations: usize,
 }
@@ -62,8 +70,9 @@ pub fn fit_superquadric(
     let cloud = Cloud::new(points, lattice, form.parameters())?;
     context.run(|| {
         let found = best(&cloud, form, context)?;
-        let distances = distances(&found.bodies, &cloud.points);
-        let covariance = covariance(&cloud, &found);
+        let (kept, found) = without_strays(&cloud, found, context)?;
+        let distances = distances(&found.bodies, &kept.points);
+        let covariance = covariance(&kept, &found);
         let solid = |covariance| solid_errors(&found.bodies[0], form, cloud.size, covariance);
         let (shape, frame) = found.bodies[0].told(cloud.size, &cloud.centre)?;
         Ok(SuperquadricFit {
@@ -71,9 +80,31 @@ pub fn fit_superquadric(
             frame,
             residuals: Residuals::of(distances.iter().map(|d| d * cloud.size)),
             mean_radius: cloud.size,
-            errors: standard_errors(&cloud, &found, covariance.as_ref())[0],
+            errors: standard_errors(&kept, &found, covariance.as_ref())[0],
             solid_errors: covariance.as_ref().and_then(solid),
+            strays: cloud.points.len() - kept.points.len(),
             iterations: found.iterations,
         })
     })
+}
+
+/// Leaves out points that are [astray](strays) and fits to the others, until there are none.
+fn without_strays<'a>(
+    cloud: &'a Cloud,
+    mut found: Minimum,
+    context: &Context<'_>,
+) -> Result<(Cow<'a, Cloud>, Minimum), SuperquadricFitError> {
+    let mut kept = Cow::Borrowed(cloud);
+    for _ in 0..ROUNDS {
+        let Some(astray) = strays(&kept, &found.bodies) else {
+            break;
+        };
+        kept = Cow::Owned(kept.without(&astray));
+        let again = minimised(found.bodies, &kept.points, &found.weighing, FINE, context)?;
+        found = Minimum {
+            iterations: found.iterations + again.iterations,
+            ..again
+        };
+    }
+    Ok((kept, found))
 }

@@ -90,6 +90,37 @@ fn random_superquadrics_are_found_in_noise_and_among_strays() {
     assert!(share > 0.8, "{share}");
 }
 
+/// Noise of 2 % hides how much nearer half of the points come to a body that leaves a tenth of all out.
+#[test]
+fn points_astray_are_left_out_in_noise_too() {
+    for seed in 0..12 {
+        let random = &mut ChaCha8Rng::seed_from_u64(seed);
+        let (shape, clean, mean) = random_cloud(random);
+        let middle = clean.iter().map(|p| p.coords).sum::<Vector3<f64>>() / 1000.0;
+        let noisy: Vec<_> = clean
+            .iter()
+            .map(|p| {
+                let out = (p.coords - middle).normalize();
+                let off: f64 = StandardNormal.sample(random);
+                p + out * 0.02 * mean * off
+            })
+            .collect();
+        let alone = fitted(&noisy, Form::Single);
+        assert_eq!(alone.strays, 0);
+        let mut all = noisy;
+        all.extend((0..100).map(|_| {
+            let aside = Vector3::from_fn(|_, _| between(random, -1.2, 1.2));
+            Point3::from(middle + aside)
+        }));
+        let found = fitted(&all, Form::Single);
+        assert!((60..=100).contains(&found.strays), "{}", found.strays);
+        let off = volume(&found.shape) / volume(&shape) - 1.0;
+        assert!(off.abs() < 0.01, "{seed}: {off}");
+        let told = found.solid_errors.unwrap().volume / volume(&found.shape);
+        assert!(off.abs() < 4.0 * told, "{seed}: {off} {told}");
+    }
+}
+
 #[test]
 fn a_fit_moves_turns_and_grows_with_the_scan_and_forgets_the_order_of_points() {
     let random = &mut ChaCha8Rng::seed_from_u64(7);

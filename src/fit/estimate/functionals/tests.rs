@@ -48,7 +48,7 @@ fn rough(degree: usize, stretch: [f64; 3]) -> Estimate {
         sums: std::sync::Arc::new(crate::fit::estimate::sums::Sums::new(degree)),
         factor: None,
         dense: None,
-        steady_spares: std::sync::OnceLock::new(),
+        derived: Default::default(),
     }
 }
 

@@ -1,0 +1,48 @@
+//! Points that are astray: far from the body, and far from what their neighbours are off it.
+//!
+//! Nearly least squares follow them, and the loss that leaves them out is taken only where half of the points come much nearer
+//! by it, which noise hides: of twenty bodies in noise of 2 %, with a tenth of all points strewn about, volumes were up to 4 %
+//! too large, 3 standard errors as a root mean square. What a body misses of a grain its neighbours are off as well.
+
+use super::bodies::Body;
+use super::cloud::Cloud;
+use super::normal_equations::distances;
+use crate::fit::neighbours::Neighbours;
+use crate::spread::{median, robust_deviation};
+use nalgebra::Vector3;
+
+/// Neighbours by direction from the middle of the cloud.
+const NEIGHBOURS: usize = 9;
+
+/// Standard deviations by which strays are off at least, told by the median.
+const FAR: f64 = 4.0;
+
+/// Fewer points than this share of all do little, and may be the tip of a grain.
+const LEAST_SHARE: f64 = 0.01;
+
+/// Which points of a cloud are astray, in its order; `None` if next to none are.
+pub(super) fn strays(cloud: &Cloud, bodies: &[Body]) -> Option<Vec<bool>> {
+    let off = distances(bodies, &cloud.points);
+    let limit = FAR * robust_deviation(off.iter().copied());
+    let least = LEAST_SHARE * off.len() as f64;
+    let far = off.iter().filter(|off| off.abs() > limit).count();
+    if (far as f64) < least {
+        return None;
+    }
+    let directions: Vec<Vector3<f64>> = cloud
+        .points
+        .iter()
+        .map(|point| point.try_normalize(0.0).unwrap_or_default())
+        .collect();
+    let neighbours = Neighbours::new(&directions);
+    let is_stray = |at: usize| {
+        off[at].abs() > limit && {
+            let near = neighbours.nearest(&directions[at], NEIGHBOURS);
+            let mut near: Vec<f64> = near.into_iter().map(|other| off[other]).collect();
+            (off[at] - median(&mut near).unwrap_or(0.0)).abs() > limit
+        }
+    };
+    let strays: Vec<bool> = (0..off.len()).map(is_stray).collect();
+    let count = strays.iter().filter(|is_stray| **is_stray).count();
+    (count as f64 >= least).then_some(strays)
+}
