@@ -23,6 +23,12 @@ pub(crate) fn largest_gap(directions: &[Vector3<f64>]) -> f64 {
 
 /// Half-angle and middle of the largest cap without any of these unit vectors.
 pub(crate) fn largest_cap(directions: &[Vector3<f64>]) -> (f64, Vector3<f64>) {
+    let caps = largest_caps(directions, 1).into_iter();
+    caps.fold((0.0, Vector3::z()), |_, cap| cap)
+}
+
+/// The same of that cap, of the largest one elsewhere, and so on, so many at most.
+pub(crate) fn largest_caps(directions: &[Vector3<f64>], most: usize) -> Vec<(f64, Vector3<f64>)> {
     let neighbours = Neighbours::new(directions);
     let clearance = |n: &Vector3<f64>| {
         let nearest = neighbours.nearest(n, 1);
@@ -37,13 +43,24 @@ pub(crate) fn largest_cap(directions: &[Vector3<f64>]) -> (f64, Vector3<f64>) {
         .map(|n| (clearance(&n), n))
         .collect();
     starts.sort_by(|a, b| b.0.total_cmp(&a.0));
-    starts.truncate(BEST);
-    let found = starts.into_iter().map(|(_, n)| {
-        let (n, largest) = compass(n, FIRST_STEP, LEAST_STEP, clearance);
-        (largest, n)
-    });
-    let larger = |a: (f64, Vector3<f64>), b: (f64, Vector3<f64>)| if b.0 > a.0 { b } else { a };
-    found.fold((0.0, Vector3::z()), larger)
+    let mut caps: Vec<(f64, Vector3<f64>)> = Vec::new();
+    for _ in 0..most {
+        let is_elsewhere = |(_, n): &(f64, Vector3<f64>)| {
+            caps.iter()
+                .all(|(half_angle, middle)| n.angle(middle) > *half_angle)
+        };
+        let starts = starts.iter().copied().filter(is_elsewhere).take(BEST);
+        let found = starts.map(|(_, n)| {
+            let (n, largest) = compass(n, FIRST_STEP, LEAST_STEP, clearance);
+            (largest, n)
+        });
+        let larger = |a: (f64, Vector3<f64>), b: (f64, Vector3<f64>)| if b.0 > a.0 { b } else { a };
+        match found.reduce(larger).filter(is_elsewhere) {
+            Some(cap) => caps.push(cap),
+            None => break,
+        }
+    }
+    caps
 }
 
 /// Half-angle, in radians, of a cap of which random directions leave one empty with a few percent: with the share
@@ -71,6 +88,22 @@ mod tests {
                 "{degrees}: {found}"
             );
         }
+    }
+
+    #[test]
+    fn caps_that_are_cut_out_at_both_ends_are_found() {
+        let axis = Vector3::new(0.3, -0.5, 0.8).normalize();
+        let mut directions = Sampling::Fibonacci.directions(20_000, 0).unwrap();
+        let [at, opposite] = [20.0_f64, 15.0].map(|degrees| degrees.to_radians().cos());
+        directions.retain(|n| n.dot(&axis) < at && n.dot(&axis) > -opposite);
+        let caps = largest_caps(&directions, 2);
+        for ((half_angle, middle), (degrees, towards)) in
+            caps.iter().zip([(20.0, axis), (15.0, -axis)])
+        {
+            assert!((half_angle.to_degrees() - degrees).abs() < 1.0);
+            assert!(middle.angle(&towards) < 0.02);
+        }
+        assert_eq!(caps.len(), 2);
     }
 
     #[test]

@@ -84,7 +84,8 @@ impl Faces {
                 .iter()
                 .map(|&corner| scan.points[corner as usize])
                 .collect();
-            for (triangle, named) in fan.iter_mut().zip(least_area(&places)) {
+            let least = least_area(&places, |_, _| true).unwrap_or_default();
+            for (triangle, named) in fan.iter_mut().zip(least) {
                 *triangle = named.map(|corner| corners[corner]);
             }
         }

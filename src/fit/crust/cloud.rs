@@ -15,14 +15,15 @@ const FLAT: f64 = 0.35;
 /// How many times less the crust reaches along the normal of such a plane: so that it leaves room in thin walls.
 const SQUEEZE: f64 = 3.0;
 
-/// Share of the surface on which spacings are at most those of its sparse parts: a point stands for the square of its spacing,
-/// for less where its neighbours lie along a line, and for none where they lie in no plane. ...
-const SPARSE: f64 = 0.9;
+/// Share of the surface, by the squares of the spacings, on which these are at most those of its sparse parts. ...
+const SPARSE: f64 = 0.95;
 
-/// ... A cloud is uneven where these are more than so many times the median of all. Of points laid at random it is 1.3 to
-/// 1.43, with 60 points of ten hairs among 3000 1.55; where one half of a body has four times the points of the other 2.2 to
-/// 2.4.
+/// ... A cloud is uneven where these are more than so many times the median of all. Of points laid at random it is 1.4 to
+/// 1.45; where one half of a body has four times the points of the other 2.5, where a tip has an eighth of them 2.4 to 3.3.
 const UNEVEN: f64 = 1.6;
+
+/// So many neighbours of a point of a sparse part are sparse, too. Along a hair beside a dense body fewer are.
+const COMPANY: usize = 8;
 
 /// Spacings count as so many times the median at most: a few points that stand alone, far off, are no part of the surface.
 const SPARSEST: f64 = 10.0;
@@ -58,13 +59,13 @@ impl Cloud {
                 last.map_or(0.0, |&at| (places[at] - place).norm())
             })
             .collect();
-        let shapes: Vec<Shape> = around.iter().map(|own| Shape::of(&places, own)).collect();
+        let squeezes = around.iter().map(|own| squeeze(&places, own)).collect();
         let spacing = median(&mut spacings.clone()).unwrap_or(0.0);
         Self {
             spacing,
-            squeezes: shapes.iter().map(|shape| shape.squeeze).collect(),
+            squeezes,
             scales: vec![1.0; points.len()],
-            uneven: scales(&spacings, spacing, &shapes),
+            uneven: scales(&spacings, spacing, &around),
             points,
         }
     }
@@ -85,44 +86,29 @@ impl Cloud {
     }
 }
 
-/// How the neighbours of a point lie.
-struct Shape {
-    /// See [`Cloud::squeezes`].
-    squeeze: Vector3<f64>,
-    /// Their middle extent as a share of the largest: next to nothing along a hair. Zero if they lie in no plane.
-    width: f64,
-}
-
-impl Shape {
-    fn of(places: &[Vector3<f64>], own: &[usize]) -> Self {
-        let (_, spread) = covariance(own.iter().map(|&at| places[at]));
-        let plane =
-            principal(&spread).filter(|(variances, _)| variances[0] < FLAT * FLAT * variances[1]);
-        match plane {
-            Some((variances, axes)) => Self {
-                squeeze: axes.column(0) * (SQUEEZE * SQUEEZE - 1.0).sqrt(),
-                width: (variances[1] / variances[2]).sqrt(),
-            },
-            None => Self {
-                squeeze: Vector3::zeros(),
-                width: 0.0,
-            },
-        }
-    }
+fn squeeze(places: &[Vector3<f64>], own: &[usize]) -> Vector3<f64> {
+    let (_, spread) = covariance(own.iter().map(|&at| places[at]));
+    let plane =
+        principal(&spread).filter(|(variances, _)| variances[0] < FLAT * FLAT * variances[1]);
+    plane.map_or_else(Vector3::zeros, |(_, axes)| {
+        axes.column(0) * (SQUEEZE * SQUEEZE - 1.0).sqrt()
+    })
 }
 
 /// How many times the median each spacing is: at least once, at most as often as in sparse parts. `None` where these are
-/// hardly sparser than the rest.
-fn scales(spacings: &[f64], median: f64, shapes: &[Shape]) -> Option<Vec<f64>> {
+/// hardly sparser than the rest. `around`: the neighbours of each point, itself the first.
+fn scales(spacings: &[f64], median: f64, around: &[Vec<usize>]) -> Option<Vec<f64>> {
     let mut scales: Vec<f64> = spacings
         .iter()
         .map(|spacing| (spacing / median).min(SPARSEST))
         .collect();
-    let areas = scales
-        .iter()
-        .zip(shapes)
-        .map(|(scale, shape)| (*scale, scale * scale * shape.width));
-    let most = sparse(areas.collect())?;
+    let is_sparse = |at: &usize| scales[*at] > UNEVEN;
+    let is_of_surface = |at: usize| {
+        let near = around[at].iter().skip(1);
+        !is_sparse(&at) || near.filter(|other| is_sparse(other)).count() >= COMPANY
+    };
+    let of_surface = (0..scales.len()).filter(|&at| is_of_surface(at));
+    let most = sparse(of_surface.map(|at| scales[at]).collect())?;
     (most > UNEVEN).then(|| {
         for scale in &mut scales {
             *scale = scale.clamp(1.0, most);
@@ -131,16 +117,16 @@ fn scales(spacings: &[f64], median: f64, shapes: &[Shape]) -> Option<Vec<f64>> {
     })
 }
 
-/// The scale of sparse parts, of the scales of points and the areas that they stand for.
-fn sparse(mut points: Vec<(f64, f64)>) -> Option<f64> {
-    points.sort_unstable_by(|one, other| one.0.total_cmp(&other.0));
-    let share = SPARSE * points.iter().map(|(_, area)| area).sum::<f64>();
+/// The scale of sparse parts. A point stands for the more area, the sparser it is.
+fn sparse(mut scales: Vec<f64>) -> Option<f64> {
+    scales.sort_unstable_by(f64::total_cmp);
+    let area = |scale: &f64| scale * scale;
+    let share = SPARSE * scales.iter().map(area).sum::<f64>();
     let mut below = 0.0;
-    let found = points.into_iter().find(|(_, area)| {
-        below += area;
+    scales.into_iter().find(|scale| {
+        below += area(scale);
         below >= share
-    });
-    found.map(|(scale, _)| scale)
+    })
 }
 
 #[cfg(test)]

@@ -135,11 +135,11 @@ impl Estimate {
     /// Squares of what a hole may hide of the radius of the stretched space and, where residuals are no noise, of how far
     /// points are missed, in directions of the grain's own frame.
     fn beside(&self, left_out: Option<&LeftOut<'_>>, local: &[Vector3<f64>]) -> Vec<f64> {
-        let hole = Some(self.hole()).filter(|hole| hole.is_no_chance(self.cloud.len()));
+        let holes = self.holes();
         let beside = |n: &Vector3<f64>| {
             let n = self.stretched(n).normalize();
             let missed = left_out.map_or(0.0, |points| points.near(&n));
-            let hidden = hole.as_ref().map_or(0.0, |hole| hole.hidden(&n).0);
+            let hidden = holes.hidden(&n).0;
             missed + hidden * hidden
         };
         local.iter().map(beside).collect()

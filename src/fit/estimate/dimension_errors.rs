@@ -16,7 +16,7 @@
 
 use super::dimensions::{End, Extent, Reach};
 use super::functionals::combined;
-use super::hole::Hole;
+use super::hole::Holes;
 use super::left_out::LeftOut;
 use super::outcome::Estimate;
 use super::outcome::{slope_variance, variance};
@@ -43,7 +43,7 @@ pub(super) struct Dimensions {
 
 /// `mass` are the gradients of area, volume, centroid and inertia, `covariances` theirs with all coefficients, and `sd`
 /// tells how well an entry of the inertia tensor is known along the principal axes; `left_out` are the points where
-/// residuals are no noise, `hole` is one that is no chance.
+/// residuals are no noise, `holes` those that are no chance.
 pub(super) fn dimensions(
     estimate: &Estimate,
     given: &Conditioned<'_>,
@@ -51,7 +51,7 @@ pub(super) fn dimensions(
     principal: &PrincipalInertia,
     (mass, covariances): (&[Vec<f64>], &[Vec<f64>]),
     sd: impl Fn(usize, usize) -> f64,
-    (left_out, hole): (Option<&LeftOut<'_>>, Option<&Hole>),
+    (left_out, holes): (Option<&LeftOut<'_>>, &Holes),
 ) -> Dimensions {
     let extents: [Extent; 3] = [0, 1, 2].map(|i| reach.along(&principal.axes.column(i).into()));
     let basis = HarmonicBasis::new(estimate.degree);
@@ -93,9 +93,7 @@ pub(super) fn dimensions(
             missing += at.height * end.by_radius;
             chance += at.variance * end.by_radius * end.by_radius;
             squares += (OF_UNSEEN * end.unseen(&estimate.cloud)).powi(2);
-            if let Some(hole) = hole {
-                squares += (hole.hidden(&end.direction).0 * end.by_radius).powi(2);
-            }
+            squares += (holes.hidden(&end.direction).0 * end.by_radius).powi(2);
             if let Some(points) = left_out {
                 let missed = points.near(&end.direction) * end.by_radius * end.by_radius;
                 squares += missed.max(end.exceeded(points).powi(2));

@@ -21,7 +21,7 @@ use super::blur::Blur;
 use super::dimension_errors::dimensions;
 use super::dimensions::Reach;
 use super::functionals::{RingSurface, combined};
-use super::hole::Hole;
+use super::hole::Holes;
 use super::left_out::LeftOut;
 use super::one_sided::off;
 use super::outcome::Estimate;
@@ -48,13 +48,12 @@ impl Estimate {
     /// # Errors
     /// [`NoInterval`] where they could not be trusted.
     pub(in crate::fit) fn errors(&self, told: &Figures) -> Result<StandardErrors, NoInterval> {
-        let hole = self.hole();
-        let half_angle = hole.half_angle;
+        let holes = self.holes();
+        let half_angle = holes.largest;
         if half_angle > LARGEST_HOLE.max(random_gap(self.cloud.len())) {
             return Err(NoInterval::Hole { half_angle });
         }
-        let hole = hole.is_no_chance(self.cloud.len()).then_some(hole);
-        self.errors_with(told, hole.as_ref())
+        self.errors_with(told, holes)
     }
 
     /// The same, with what holes hide only as far as the prior tells it.
@@ -62,14 +61,10 @@ impl Estimate {
         &self,
         told: &Figures,
     ) -> Result<StandardErrors, NoInterval> {
-        self.errors_with(told, None)
+        self.errors_with(told, &Holes::default())
     }
 
-    fn errors_with(
-        &self,
-        told: &Figures,
-        hole: Option<&Hole>,
-    ) -> Result<StandardErrors, NoInterval> {
+    fn errors_with(&self, told: &Figures, holes: &Holes) -> Result<StandardErrors, NoInterval> {
         let posterior = self.posterior();
         let residuals = posterior.residuals(&self.coefficients);
         let of_mean_weight = self.cloud.of_mean_weight(&residuals);
@@ -86,7 +81,7 @@ impl Estimate {
         let blur = Blur::new(self, &residuals);
         let hidden = if is_rough { 0.0 } else { hidden_slopes(self) };
         let slopes = hidden + blur.slopes;
-        let beside = (left_out.as_ref(), hole);
+        let beside = (left_out.as_ref(), holes);
         let best = Best::new(self, &posterior, &residuals, beside, slopes);
         let best = best.ok_or(NoInterval::NotFinite)?;
         let errors = best.errors(told).with_scale(off, told);
@@ -124,13 +119,13 @@ pub(super) struct Best {
 }
 
 impl Best {
-    /// `None` if the figures are not finite. `left_out` are the points where residuals are no noise; `hole` is one that is no chance; `hidden_slopes` the
+    /// `None` if the figures are not finite. `left_out` are the points where residuals are no noise; `holes` are those that are no chance; `hidden_slopes` the
     /// mean square of the slopes of texture between the points.
     pub(super) fn new(
         estimate: &Estimate,
         posterior: &Posterior<'_>,
         residuals: &[f64],
-        (left_out, hole): (Option<&LeftOut<'_>>, Option<&Hole>),
+        (left_out, holes): (Option<&LeftOut<'_>>, &Holes),
         hidden_slopes: f64,
     ) -> Option<Self> {
         let surface = RingSurface::new(estimate);
@@ -157,8 +152,8 @@ impl Best {
             added[0] /= AREA_OF_RIM;
             covariance += added * added.transpose();
         }
-        if let Some(hole) = hole {
-            let hidden = jacobian * (list(&hole.moments(&surface)) - list(&moments));
+        if !holes.is_empty() {
+            let hidden = jacobian * (list(&holes.moments(&surface)) - list(&moments));
             covariance += hidden * hidden.transpose();
         }
 
@@ -169,7 +164,7 @@ impl Best {
             entry_variance(&of_inertia(&covariance), &principal.axes, i, j).sqrt()
         };
         let mass_and = (&gradients[..], &covariances[..]);
-        let beside = (left_out, hole);
+        let beside = (left_out, holes);
         let dimensions = dimensions(estimate, &given, &reach, &principal, mass_and, sd, beside);
         Some(Self {
             figures: Figures {

@@ -2,7 +2,7 @@
 
 use super::cloud::Cloud;
 use super::dense::Factor;
-use super::hole::Hole;
+use super::hole::Holes;
 use super::posterior::{Conditioned, Posterior};
 use super::spectrum::Spectrum;
 use super::sums::Sums;
@@ -43,8 +43,8 @@ pub(super) struct Derived {
     pub(super) spares: OnceLock<Vec<f64>>,
     /// The same without probes.
     pub(super) steady_spares: OnceLock<Vec<f64>>,
-    /// The largest hole between the points.
-    pub(super) hole: OnceLock<Hole>,
+    /// The largest holes between the points.
+    pub(super) holes: OnceLock<Holes>,
 }
 
 /// Points of which patches were made.

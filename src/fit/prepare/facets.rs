@@ -1,14 +1,24 @@
-//! Points on large faces: of a coarse mesh the vertices alone do not say where the surface is.
+//! Points on large faces: of a coarse mesh, and where a hole or a cut was closed by a few faces, the vertices alone do not say
+//! where the surface is.
 
 use crate::mesh::Mesh;
 use crate::model::Frame;
 use crate::sphere::cube_grid;
+use crate::spread::median;
 use nalgebra::{Point3, Vector3};
 use std::f64::consts::PI;
 
 /// A face is large when two of its corners are seen at more than this angle, in radians: so far apart are the
-/// farthest neighbours among a thousand even points.
+/// farthest neighbours among a thousand even points. ...
 const LARGE: f64 = 0.25;
+
+/// ... It is also where they are, in a space in which the ellipsoid of equal second moments is a ball, seen at more than this
+/// angle, twice that between the directions, ...
+const RESOLVED: f64 = 0.09;
+
+/// ... and are so many times as far apart as the vertices about one of its corners are from that: so a cut or a hole is closed.
+/// Few faces of even size at the tip of a slender grain are no such thing.
+const LONGER: f64 = 4.0;
 
 /// Cells per edge of the cube of directions in which faces are met: 6146 directions.
 const CELLS: usize = 32;
@@ -16,7 +26,7 @@ const CELLS: usize = 32;
 /// How far beyond its edges a face is met, relative to the radius: an edge between two faces belongs to one at least.
 const RIM: f64 = 1e-12;
 
-/// A face in the grain's own frame, and the cap of directions that holds it.
+/// A face about the centre, and the cap of directions that holds it.
 struct Face {
     corners: [Vector3<f64>; 3],
     is_large: bool,
@@ -27,15 +37,13 @@ struct Face {
 
 impl Face {
     /// `None` of a face with the centre in its plane, which is not seen.
-    fn new(corners: [Vector3<f64>; 3]) -> Option<Self> {
+    fn new(corners: [Vector3<f64>; 3], is_large: bool) -> Option<Self> {
         let seen = corners.map(|corner| corner.normalize());
-        let [a, b, c] = seen;
-        let middle = (a + b + c).try_normalize(0.0)?;
+        let middle = seen.iter().sum::<Vector3<f64>>().try_normalize(0.0)?;
         let cosine = seen.iter().map(|corner| corner.dot(&middle));
-        let cosines = [a.dot(&b), b.dot(&c), c.dot(&a)];
         Some(Self {
             corners,
-            is_large: cosines.iter().any(|cosine| *cosine < LARGE.cos()),
+            is_large,
             middle,
             angle: cosine.fold(1.0, f64::min).acos() + RIM,
         })
@@ -63,26 +71,79 @@ impl Face {
     }
 }
 
-/// Points on the large faces of a mesh, in the mesh's own frame: even directions in a space in which the ellipsoid of
-/// equal second moments is a ball. They depend on no order of faces or corners.
-pub(super) fn on_large_faces(
-    mesh: &Mesh,
-    frame: &Frame,
-    semi_axes: &Vector3<f64>,
-) -> Vec<Point3<f64>> {
-    let local = |corner: u32| frame.to_local(&mesh.vertices[corner as usize]);
-    let faces = mesh.triangles.iter();
-    let faces: Vec<Face> = faces
-        .filter_map(|corners| Face::new(corners.map(local)))
-        .collect();
-    if !faces.iter().any(|face| face.is_large) {
-        return Vec::new();
-    }
-    let (directions, _) = cube_grid(CELLS);
-    let mut directions: Vec<Vector3<f64>> = directions
+/// Which triangles between vertices about the centre of the stretched space are large beside those about them.
+fn are_larger(triangles: &[[u32; 3]], vertices: &[Vector3<f64>]) -> Vec<bool> {
+    let widest: Vec<f64> = triangles
         .iter()
-        .map(|n| n.component_mul(semi_axes).normalize())
+        .map(|corners| widest(corners, vertices))
         .collect();
+    if !widest.iter().any(|angle| *angle > RESOLVED) {
+        return vec![false; triangles.len()];
+    }
+    let mut about: Vec<Vec<f64>> = vec![Vec::new(); vertices.len()];
+    for ends in triangles.iter().flat_map(edges) {
+        for end in ends {
+            about[end as usize].push(angle(ends, vertices));
+        }
+    }
+    let usual = about.iter_mut();
+    let usual: Vec<f64> = usual.map(|angles| median(angles).unwrap_or(0.0)).collect();
+    let is_larger = |(corners, widest): (&[u32; 3], f64)| {
+        let usual = corners.map(|corner| usual[corner as usize]);
+        let limit = LONGER * usual.into_iter().fold(f64::INFINITY, f64::min);
+        widest > limit.max(RESOLVED)
+    };
+    triangles.iter().zip(widest).map(is_larger).collect()
+}
+
+/// The largest angle between two corners as seen from the centre.
+fn widest(corners: &[u32; 3], vertices: &[Vector3<f64>]) -> f64 {
+    let angles = edges(corners).map(|ends| angle(ends, vertices));
+    angles.into_iter().fold(0.0, f64::max)
+}
+
+fn edges(corners: &[u32; 3]) -> [[u32; 2]; 3] {
+    let [a, b, c] = *corners;
+    [[a, b], [b, c], [c, a]]
+}
+
+/// The angle between two vertices as seen from the centre.
+fn angle(ends: [u32; 2], vertices: &[Vector3<f64>]) -> f64 {
+    let [from, to] = ends.map(|end| vertices[end as usize]);
+    from.angle(&to)
+}
+
+/// Points on the large faces of a mesh.
+#[derive(Default)]
+pub(super) struct OnFaces {
+    /// In the mesh's own frame, in even directions; they depend on no order of faces or corners.
+    pub(super) points: Vec<Point3<f64>>,
+    /// Whether faces are large whatever those about them are.
+    pub(super) are_coarse: bool,
+}
+
+/// Finds them.
+pub(super) fn on_large_faces(mesh: &Mesh, frame: &Frame, semi_axes: &Vector3<f64>) -> OnFaces {
+    let vertices = mesh.vertices.iter().map(|vertex| frame.to_local(vertex));
+    let plain: Vec<Vector3<f64>> = vertices.collect();
+    let vertices = plain.iter().map(|vertex| vertex.component_div(semi_axes));
+    let vertices: Vec<Vector3<f64>> = vertices.collect();
+    let mut are_large = are_larger(&mesh.triangles, &vertices);
+    let mut are_coarse = false;
+    for (is_large, corners) in are_large.iter_mut().zip(&mesh.triangles) {
+        let is_coarse = widest(corners, &plain) > LARGE;
+        *is_large |= is_coarse;
+        are_coarse |= is_coarse;
+    }
+    if !are_large.contains(&true) {
+        return OnFaces::default();
+    }
+    let faces = mesh.triangles.iter().zip(are_large);
+    let faces = faces.filter_map(|(corners, is_large)| {
+        Face::new(corners.map(|corner| vertices[corner as usize]), is_large)
+    });
+    let faces: Vec<Face> = faces.collect();
+    let (mut directions, _) = cube_grid(CELLS);
     directions.sort_by(|a, b| a.z.total_cmp(&b.z));
     // The farthest face in each direction, for what is within is not seen.
     let mut farthest = vec![(0.0, false); directions.len()];
@@ -101,7 +162,80 @@ pub(super) fn on_large_faces(
         }
     }
     let met = directions.iter().zip(farthest);
-    met.filter(|(_, (_, is_large))| *is_large)
-        .map(|(n, (radius, _))| frame.centre + frame.axes * n * radius)
-        .collect()
+    let points = met
+        .filter(|(_, (_, is_large))| *is_large)
+        .map(|(n, (radius, _))| frame.centre + frame.axes * n.component_mul(semi_axes) * radius);
+    OnFaces {
+        points: points.collect(),
+        are_coarse,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+    use nalgebra::{Matrix3, Rotation3};
+
+    /// An ellipsoid between rings of vertices, cut off at a share `height` of its first semi-axis; triangles from one vertex of
+    /// the rim close the cut.
+    fn cut(semi_axes: Vector3<f64>, height: f64) -> Mesh {
+        let (rings, around) = (60, 120_u32);
+        let mut mesh = Mesh::default();
+        let angle = |ring: u32| PI - (PI - height.acos()) * f64::from(ring + 1) / f64::from(rings);
+        for ring in 0..rings {
+            let (sin, cos) = angle(ring).sin_cos();
+            mesh.vertices.extend((0..around).map(|at| {
+                let (v, u) = (2.0 * PI * f64::from(at) / f64::from(around)).sin_cos();
+                Point3::from(Vector3::new(cos, sin * u, sin * v).component_mul(&semi_axes))
+            }));
+        }
+        for ring in 1..rings {
+            let [below, above] = [ring - 1, ring].map(|ring| ring * around);
+            for at in 0..around {
+                let next = (at + 1) % around;
+                let [a, b, c, d] = [below + at, below + next, above + next, above + at];
+                mesh.triangles.extend([[a, b, c], [a, c, d]]);
+            }
+        }
+        let rim = (rings - 1) * around;
+        let fan = 1..around - 1;
+        mesh.triangles
+            .extend(fan.map(|at| [rim, rim + at, rim + at + 1]));
+        mesh
+    }
+
+    #[test]
+    fn the_faces_that_close_a_cut_tip_are_large_and_no_others() {
+        let semi_axes = Vector3::new(3.0, 1.0, 0.8);
+        let turn = Rotation3::from_euler_angles(0.3, -1.1, 2.0);
+        let frame = Frame {
+            centre: Point3::new(5.0, 6.0, -7.0),
+            axes: *turn.matrix(),
+        };
+        let mut mesh = cut(semi_axes, 0.993);
+        for vertex in &mut mesh.vertices {
+            *vertex = frame.to_scan(&vertex.coords);
+        }
+        let OnFaces { points, are_coarse } = on_large_faces(&mesh, &frame, &semi_axes);
+        assert!(!are_coarse);
+        assert!(points.len() > 12, "{}", points.len());
+        for point in &points {
+            assert_relative_eq!(frame.to_local(point).x, 0.993 * 3.0, max_relative = 1e-9);
+        }
+        let seen: Vec<Vector3<f64>> = points.iter().map(|point| frame.to_local(point)).collect();
+        let widest = seen.iter().map(|place| place.y.abs()).fold(0.0, f64::max);
+        assert!(widest > 0.09, "{widest}");
+    }
+
+    #[test]
+    fn fine_even_faces_are_not_large() {
+        let frame = Frame {
+            centre: Point3::origin(),
+            axes: Matrix3::identity(),
+        };
+        let semi_axes = Vector3::new(3.0, 1.0, 0.8);
+        let mesh = Mesh::radial(16, |n| 1.0 / n.component_div(&semi_axes).norm());
+        assert!(on_large_faces(&mesh, &frame, &semi_axes).points.is_empty());
+    }
 }

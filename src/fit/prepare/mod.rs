@@ -76,7 +76,7 @@ pub struct PreparedScan<'a> {
     pub(crate) unseen: Option<Unseen>,
     /// Whether a fit whose errors are small tells of it all the same.
     pub(crate) may_be_known: bool,
-    /// Whether points were taken from large faces.
+    /// Whether faces are large, and not only beside those about them.
     pub(crate) has_large_faces: bool,
     points: Cow<'a, [Point3<f64>]>,
     representatives: Option<Vec<Point3<f64>>>,
@@ -114,7 +114,7 @@ impl<'a> PreparedScan<'a> {
             .seen_faces()
             .map(|faces| on_large_faces(faces, &frame, &semi_axes));
         let on_faces = on_faces.unwrap_or_default();
-        let has_large_faces = !on_faces.is_empty();
+        let has_large_faces = on_faces.are_coarse;
         let bulge = if has_large_faces { bulge(&mesh) } else { 0.0 };
         let reference = Reference {
             kind: surface.kind,
@@ -125,10 +125,10 @@ impl<'a> PreparedScan<'a> {
         if !(reference.volume.is_normal() && reference.area.is_normal()) {
             return Err(FitError::Scale { size: unit.length });
         }
-        if has_large_faces {
-            surface.points.to_mut().extend(&on_faces);
+        if !on_faces.points.is_empty() {
+            surface.points.to_mut().extend(&on_faces.points);
             if let Some(representatives) = &mut surface.representatives {
-                representatives.extend(&on_faces);
+                representatives.extend(&on_faces.points);
             }
         }
         Ok(Self {

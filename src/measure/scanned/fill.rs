@@ -2,6 +2,7 @@
 
 use crate::mesh::{LEAST_AREA_CORNERS, Mesh, least_area, parts};
 use nalgebra::{Point3, Vector3};
+use std::collections::HashSet;
 
 /// What closes the small holes of a scan.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -24,8 +25,9 @@ pub(super) fn fill(
     largest: f64,
 ) -> Result<(Mesh, Fill), (Mesh, f64)> {
     let (vertices, triangles) = (mesh.vertices.len(), mesh.triangles.len());
+    let mut known = edges_between(&mesh, rims);
     for rim in rims {
-        close(&mut mesh, rim);
+        close(&mut mesh, rim, &mut known);
     }
     let area = |triangle: usize| {
         let [a, b, c] = mesh.triangles[triangle].map(|corner| mesh.vertices[corner as usize]);
@@ -58,14 +60,40 @@ pub(super) fn fill(
     Ok((mesh, fill))
 }
 
-/// Adds triangles over a rim; nothing over one of two corners, whose edges coincide.
-fn close(mesh: &mut Mesh, rim: &[u32]) {
+/// An edge by its ends, the lower one first.
+fn edge(from: u32, to: u32) -> [u32; 2] {
+    [from.min(to), from.max(to)]
+}
+
+fn edges_of(corners: &[u32; 3]) -> [[u32; 2]; 3] {
+    let [a, b, c] = *corners;
+    [edge(a, b), edge(b, c), edge(c, a)]
+}
+
+/// The edges of a mesh between vertices of some rims.
+fn edges_between(mesh: &Mesh, rims: &[Vec<u32>]) -> HashSet<[u32; 2]> {
+    let mut is_on_rim = vec![false; mesh.vertices.len()];
+    for vertex in rims.iter().flatten() {
+        is_on_rim[*vertex as usize] = true;
+    }
+    let edges = mesh.triangles.iter().flat_map(edges_of);
+    edges
+        .filter(|ends| ends.iter().all(|end| is_on_rim[*end as usize]))
+        .collect()
+}
+
+/// Adds triangles over a rim, without edges across it that are `known`, for these have two triangles; nothing over a rim of two
+/// corners, whose edges coincide.
+fn close(mesh: &mut Mesh, rim: &[u32], known: &mut HashSet<[u32; 2]>) {
     let corners: Vec<Point3<f64>> = rim.iter().map(|&i| mesh.vertices[i as usize]).collect();
-    if corners.len() <= LEAST_AREA_CORNERS {
-        let triangles = least_area(&corners);
+    let may_be = |i: usize, k: usize| !known.contains(&edge(rim[i], rim[k]));
+    let is_small = corners.len() <= LEAST_AREA_CORNERS;
+    if let Some(triangles) = is_small.then(|| least_area(&corners, may_be)).flatten() {
         let named = triangles
             .into_iter()
             .map(|triangle| triangle.map(|i| rim[i]));
+        let named: Vec<[u32; 3]> = named.collect();
+        known.extend(named.iter().flat_map(edges_of));
         mesh.triangles.extend(named);
         return;
     }
@@ -117,5 +145,35 @@ mod tests {
             assert_relative_eq!(found.area, 24.0, epsilon = 1e-9);
             assert_relative_eq!(found.volume, 8.0, epsilon = 1e-9);
         }
+    }
+
+    /// Of the triangles about a vertex that stands out one is left: the least area over the rest would be that triangle turned over,
+    /// and the plane below.
+    #[test]
+    fn no_edge_is_made_that_the_mesh_has() {
+        let mut mesh = Mesh::radial(6, |_| 1.0);
+        let tip = mesh.triangles[40][0];
+        mesh.vertices[tip as usize].coords *= 3.0;
+        let of_tip: Vec<_> = mesh
+            .triangles
+            .iter()
+            .filter(|t| t.contains(&tip))
+            .copied()
+            .collect();
+        mesh.triangles.retain(|t| !of_tip[1..].contains(t));
+        let mut edges = Vec::new();
+        crate::scan::each_edge(mesh.vertices.len(), &mesh.triangles, |edge| {
+            match (edge.forward, edge.backward) {
+                (1, 0) => edges.push([edge.ends[1], edge.ends[0]]),
+                (0, 1) => edges.push(edge.ends),
+                _ => {}
+            }
+        });
+        let rims = super::super::rims::rims(&edges);
+        let (closed, filled) = fill(mesh, &rims, 0.5).expect("a small hole");
+        assert_eq!(filled.triangles, edges.len() - 2);
+        crate::scan::each_edge(closed.vertices.len(), &closed.triangles, |edge| {
+            assert!(edge.pair().is_some(), "{:?}", edge.ends);
+        });
     }
 }

@@ -26,7 +26,7 @@ fn best_with(estimate: &Estimate, residuals: &[f64]) -> Best {
         estimate,
         &estimate.posterior(),
         residuals,
-        (None, None),
+        (None, &Holes::default()),
         hidden_slopes(estimate),
     )
     .unwrap()
