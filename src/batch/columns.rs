@@ -159,7 +159,10 @@ fn of_measure(measure: Measure) -> Vec<Figure> {
         ]),
         Measure::Form => plain(&["aspect_ratio", "elongation", "flatness"]),
         Measure::Spheres => ["inscribed", "enclosing"]
-            .map(|ball| figure(name, &format!("{ball}_radius"), &format!("{ball}/radius")))
+            .map(|ball| {
+                let radius = figure(name, &format!("{ball}_radius"), &format!("{ball}/radius"));
+                with_error(radius, format!("/{name}/{ball}/radius_standard_error"))
+            })
             .into(),
         Measure::Sphericity => plain(&[
             "wadell",

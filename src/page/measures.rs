@@ -20,8 +20,9 @@ pub(crate) struct MeasureRow {
     pub definition: String,
 }
 
-/// The error of the largest curvature, which stands beside that and is no row of its own.
+/// The error of the largest curvature, and how that of a radius ends: they stand beside these and are no rows of their own.
 const LARGEST_ERROR: &str = "curvature.largest_error";
+const RADIUS_ERROR: &str = "radius_standard_error";
 
 /// Entries of a list that are shown.
 const MOST_ENTRIES: usize = 12;
@@ -41,7 +42,7 @@ impl MeasureRow {
         for row in &mut rows {
             row.error = error(&row.name, &measures, &errors);
         }
-        rows.retain(|row| row.name != LARGEST_ERROR);
+        rows.retain(|row| row.name != LARGEST_ERROR && !row.name.ends_with(RADIUS_ERROR));
         rows
     }
 }
@@ -117,6 +118,9 @@ fn error(name: &str, measures: &Value, errors: &Value) -> Option<String> {
     let at = |name: &str| format!("/{}", name.replace('.', "/"));
     let found = match name {
         "curvature.larger.largest" => measures.pointer(&at(LARGEST_ERROR)),
+        "spheres.inscribed.radius" | "spheres.enclosing.radius" => {
+            measures.pointer(&at(&name.replace("radius", RADIUS_ERROR)))
+        }
         "principal.moments" => errors.pointer("/moments"),
         "area" | "volume" => errors.pointer(&at(name)),
         name if name.starts_with("dimensions.") => errors.pointer(&at(name)),
@@ -184,6 +188,7 @@ mod tests {
             "dimensions": {"length": 3.0},
             "principal": {"moments": [1.0, 2.0, 3.0]},
             "roundness": 0.5,
+            "spheres": {"inscribed": {"radius": 2.0, "radius_standard_error": 0.125}},
         });
         let errors = StandardErrors {
             area: 0.25,
@@ -205,6 +210,7 @@ mod tests {
                 ("dimensions.length", Some("0.750000")),
                 ("principal.moments", Some("0, 0, 0")),
                 ("roundness", None),
+                ("spheres.inscribed.radius", Some("0.125000")),
             ]
         );
     }

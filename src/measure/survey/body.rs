@@ -7,7 +7,7 @@ use crate::measure::{
     MassProperties, ScannedBody, SolidProperties, four_triangles, grain_properties,
     mesh_properties, solid_properties,
 };
-use crate::model::{Grain, Radial, StarSurface, Surface};
+use crate::model::{Grain, LocalError, Radial, StarSurface, Surface};
 use crate::sphere::cube_grid;
 use nalgebra::Vector3;
 
@@ -117,10 +117,10 @@ impl<'a> Body<'a> {
         }
     }
 
-    /// Standard error of the curvature in a direction, where it is known.
-    pub(super) fn curvature_error(&self, n: &Vector3<f64>) -> Option<f64> {
+    /// Standard errors of the surface in a direction, where they are known.
+    pub(super) fn local_error(&self, n: &Vector3<f64>) -> Option<LocalError> {
         match self {
-            Self::Grain(grain, _) => Some(grain.local_error(n)?.curvature),
+            Self::Grain(grain, _) => grain.local_error(n),
             Self::Known(..) | Self::Mesh(..) => None,
         }
     }

@@ -37,10 +37,12 @@ impl Survey<'_> {
     /// As [`Self::curvature`].
     pub fn largest_curvature_error(&self) -> Result<Option<f64>, SurveyError> {
         let sharpest = self.curvature()?.sharpest();
-        let Some(error) = self.body.curvature_error(&sharpest) else {
+        let Some(error) = self.body.local_error(&sharpest) else {
             return Ok(None);
         };
-        let error = error.hypot(unfollowed(self.body.surface()?, &sharpest));
+        let error = error
+            .curvature
+            .hypot(unfollowed(self.body.surface()?, &sharpest));
         Ok(Some(error / self.unit.length))
     }
 

@@ -4,6 +4,7 @@ mod body;
 mod curved;
 mod error;
 mod from_centroid;
+mod touching;
 mod unit_size;
 
 use super::elements::Element;

@@ -294,6 +294,13 @@ impl NotMeasured {
     }
 }
 
+fn inscribed(survey: &Survey<'_>) -> Result<SphereRecord, SurveyError> {
+    Ok(SphereRecord::new(
+        survey.inscribed()?,
+        survey.inscribed_error()?,
+    ))
+}
+
 impl Measures {
     /// Whether figures are among them that have standard errors, where these are known.
     pub(super) fn may_have_errors(&self) -> bool {
@@ -321,8 +328,8 @@ impl Measures {
             Measure::Form => self.form = Some(survey.form()?),
             Measure::Spheres => {
                 self.spheres = Some(Spheres {
-                    inscribed: survey.inscribed().ok().map(Into::into),
-                    enclosing: survey.enclosing()?.into(),
+                    inscribed: inscribed(survey).ok(),
+                    enclosing: SphereRecord::new(survey.enclosing()?, survey.enclosing_error()?),
                 });
             }
             Measure::Sphericity => self.sphericity = Some(survey.sphericity()?),

@@ -100,13 +100,16 @@ pub struct SphereRecord {
     pub centre: [f64; 3],
     /// Radius.
     pub radius: f64,
+    /// Its standard error; `null` where it is not known how well the surface is.
+    pub radius_standard_error: Option<f64>,
 }
 
-impl From<Ball> for SphereRecord {
-    fn from(ball: Ball) -> Self {
+impl SphereRecord {
+    pub(super) fn new(ball: Ball, radius_standard_error: Option<f64>) -> Self {
         Self {
             centre: ball.centre.coords.into(),
             radius: ball.radius,
+            radius_standard_error,
         }
     }
 }

@@ -140,7 +140,8 @@ impl MeasureReport {
             )?;
         }
         if let Some(spheres) = measures.spheres {
-            let radius = |sphere: SphereRecord| short(sphere.radius);
+            let radius =
+                |sphere: SphereRecord| with_error(sphere.radius, sphere.radius_standard_error);
             let inside = spheres.inscribed.map_or("none".into(), radius);
             let outside = radius(spheres.enclosing);
             writeln!(
