@@ -102,6 +102,16 @@ pub enum FitError {
         /// Number of bodies.
         bodies: usize,
     },
+    /// The faces are several surfaces with open rims.
+    #[error(
+        "the faces are at least {parts} surfaces with open rims: if they are views of one grain, merge them into one surface, or \
+         save their points without faces; if they are separate grains, split them (grainform split), or fit the largest (fit \
+         --largest)"
+    )]
+    OpenParts {
+        /// Number of surfaces.
+        parts: usize,
+    },
     /// There are inner surfaces, which the radius of a grain cannot tell.
     #[error(
         "the scan holds {}, hollows that a fitted surface has not: keep the outer surface (--largest), and its volume is \

@@ -136,6 +136,29 @@ fn two_balls_and_a_hollow_in_one_mesh_are_refused_and_the_largest_is_fitted_if_a
     }
 }
 
+/// Two views of a ball, each of more than half of it, as they are before they are merged.
+#[test]
+fn views_that_were_not_merged_are_told_as_such() {
+    let folder = folder();
+    let view = |side: f64, radius: f64| {
+        let mut mesh = ball(24, radius, 0.0);
+        let is_seen = |t: &[u32; 3]| t.iter().all(|i| side * mesh.vertices[*i as usize].x > -0.3);
+        let seen = mesh.triangles.iter().copied().filter(is_seen).collect();
+        mesh.triangles = seen;
+        mesh
+    };
+    save_mesh(
+        &folder,
+        "views.ply",
+        &joined(&[view(1.0, 2.0), view(-1.0, 2.002)]),
+    );
+    refused(
+        &folder,
+        "views.ply",
+        "2 surfaces with open rims: if they are views of one grain, merge them",
+    );
+}
+
 #[test]
 fn a_bean_on_its_table_or_above_it_is_no_grain() {
     let folder = folder();

@@ -139,6 +139,9 @@ fn from_parts(scan: &Scan) -> Result<ScannedSurface<'static>, FitError> {
         return from_directions(Cow::Owned(scan.points.clone()));
     };
     match (body.defect, body.bodies, body.cavities) {
+        (Some(FacesDefect::Open { .. }), parts @ 2.., _) => {
+            return Err(FitError::OpenParts { parts });
+        }
         (Some(FacesDefect::Overlapping { parts: bodies }), _, _) | (_, bodies @ 2.., _) => {
             return Err(FitError::SeveralBodies { bodies });
         }
