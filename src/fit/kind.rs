@@ -48,6 +48,9 @@ const HIDING: f64 = 2.0;
 /// of positions .5 and .7 % too small.
 const HIDDEN_SHARE: f64 = 0.002;
 
+/// Share of the points that a radius may have left out as dust, if it sees all else.
+const MOST_DUST: f64 = 0.03;
+
 /// Most vertices of a scan whose distances from a radius are compared with those from a position.
 const MOST_COMPARED: usize = 4000;
 
@@ -234,12 +237,27 @@ fn compared(
         }
         Ok(fitted) => fitted,
     };
+    if is_of_dust(&fitted, &star, scan) {
+        return Ok(star);
+    }
     let kept = Rival {
         coefficients: fitted.grain.coefficient_count(),
         rms: fitted.search.choice().heldout_rms.unwrap_or(f64::INFINITY),
     };
     fitted.kind = KindChoice::Compared { kept, rival: own };
     Ok(fitted)
+}
+
+/// Whether positions are nearer to all points only because they reach out to dust that a radius left out: they do not follow
+/// the points then, and the radius sees all others. Ten hairs beside an ellipsoid of 6000 points were fitted as body.
+fn is_of_dust(positions: &Fitted, star: &Fitted, scan: &Scan) -> bool {
+    let is_far = |warning: &FitWarning| matches!(warning, FitWarning::FarFromNeighbours { .. });
+    let all = scan.points().len();
+    let left_out = all.saturating_sub(star.points) as f64 / all as f64;
+    positions.warnings.iter().any(is_far)
+        && hidden_share(star) <= HIDDEN_SHARE
+        && left_out > 0.0
+        && left_out <= MOST_DUST
 }
 
 impl Rival {
@@ -301,6 +319,40 @@ mod tests {
         assert!(is_rough(4, 0.0, None));
         assert!(!is_rough(20, 0.0, None));
         assert!(!is_rough(12, 0.02, None));
+    }
+
+    /// Points of a maize and five that stand alone.
+    fn dusty() -> Scan {
+        let options = SynthOptions::clean(Body::Maize).with_points(1538);
+        let mut points = synthesize(&options).unwrap().points;
+        points.extend((0..5).map(|i| Point3::new(9.0, -7.0 + 3.0 * f64::from(i), 8.0)));
+        Scan::from_points(points)
+    }
+
+    #[test]
+    fn positions_that_reach_out_to_dust_are_no_better_than_a_radius() {
+        let scan = dusty();
+        let star = PreparedScan::new(&scan, Symmetry::NONE).unwrap();
+        let star = star
+            .fit(&FitOptions::default(), &Context::default())
+            .unwrap();
+        assert_eq!(star.points, 1538);
+        let mut positions = star.clone();
+        assert!(!is_of_dust(&positions, &star, &scan));
+        let (rms, scatter) = (0.5, 0.01);
+        positions
+            .warnings
+            .push(FitWarning::FarFromNeighbours { rms, scatter });
+        assert!(is_of_dust(&positions, &star, &scan));
+        // Of 100 that were left out more than dust may be missing.
+        let mut less = star.clone();
+        less.points -= 100;
+        assert!(!is_of_dust(&positions, &less, &scan));
+        let mut hiding = star;
+        hiding
+            .warnings
+            .push(FitWarning::NotStarShaped { share: 0.01 });
+        assert!(!is_of_dust(&positions, &hiding, &scan));
     }
 
     #[test]

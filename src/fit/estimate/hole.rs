@@ -22,7 +22,7 @@ use crate::sphere::{HarmonicBasis, tangents};
 use crate::spread::median;
 use crate::vectorize::dot;
 use nalgebra::{Vector2, Vector3};
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 /// Of what may be missing, or too much.
 const SHARE: f64 = 0.5;
@@ -33,6 +33,9 @@ const ABOUT_RIM: [f64; 2] = [1.05, 1.25];
 
 /// The tip of the cone counts as no farther above the surface than so many times the radius of the hole.
 const STEEPEST: f64 = 1.0;
+
+/// Points round a hole are looked at within so many times its half-angle.
+const ROUND_HOLE: f64 = 2.0;
 
 /// Lines of the cone.
 const LINES: u32 = 16;
@@ -67,8 +70,9 @@ impl Estimate {
 impl Holes {
     fn of(estimate: &Estimate) -> Self {
         let caps = largest_caps(&estimate.cloud.directions, MOST);
-        let chance = random_gap(estimate.cloud.len());
-        let is_no_chance = |(half_angle, _): &(f64, Vector3<f64>)| *half_angle > chance;
+        let is_no_chance = |(half_angle, middle): &(f64, Vector3<f64>)| {
+            *half_angle > chance(&estimate.cloud.directions, middle, *half_angle)
+        };
         let largest = caps.first().map_or(0.0, |(half_angle, _)| *half_angle);
         let caps = caps.into_iter().filter(is_no_chance);
         Self {
@@ -128,6 +132,16 @@ impl Hole {
             across * (most * rim / (along * along)),
         )
     }
+}
+
+/// The half-angle of gaps that points as dense as those round a hole leave by chance.
+fn chance(directions: &[Vector3<f64>], middle: &Vector3<f64>, half_angle: f64) -> f64 {
+    let outer = (ROUND_HOLE * half_angle).min(PI);
+    let rim = outer.cos();
+    let beside = directions.iter().filter(|n| n.dot(middle) > rim).count();
+    // As shares of the sphere.
+    let ring = 0.5 * (half_angle.cos() - rim);
+    random_gap((beside as f64 / ring) as usize)
 }
 
 /// How far from the centre the lines of a surface that go through its points about a hole meet above its middle: the median.

@@ -1,24 +1,31 @@
 //! Points on large faces: of a coarse mesh, and where a hole or a cut was closed by a few faces, the vertices alone do not say
 //! where the surface is.
 
+use crate::disjoint_sets::DisjointSets;
 use crate::mesh::Mesh;
 use crate::model::Frame;
 use crate::sphere::cube_grid;
 use crate::spread::median;
 use nalgebra::{Point3, Vector3};
+use std::collections::HashMap;
 use std::f64::consts::PI;
 
 /// A face is large when two of its corners are seen at more than this angle, in radians: so far apart are the
 /// farthest neighbours among a thousand even points. ...
 const LARGE: f64 = 0.25;
 
-/// ... It is also where they are, in a space in which the ellipsoid of equal second moments is a ball, seen at more than this
-/// angle, twice that between the directions, ...
+/// ... So are the faces that close a cut or a hole: in a space in which the ellipsoid of equal second moments is a ball, one of
+/// them is seen at more than this angle, twice that between the directions, and has an edge that is so many times as long as
+/// those about its ends are, ...
 const RESOLVED: f64 = 0.09;
-
-/// ... and are so many times as far apart as the vertices about one of its corners are from that: so a cut or a hole is closed.
-/// Few faces of even size at the tip of a slender grain are no such thing.
 const LONGER: f64 = 4.0;
+
+/// ... they hang together by edges that are so many times as long, ...
+const LONG: f64 = 2.0;
+
+/// ... and the edges round them are shorter than this share of the longest across them. The first row of coarse faces beside
+/// fine ones has long edges on its other side.
+const OF_RIM: f64 = 0.5;
 
 /// Cells per edge of the cube of directions in which faces are met: 6146 directions.
 const CELLS: usize = 32;
@@ -71,40 +78,69 @@ impl Face {
     }
 }
 
-/// Which triangles between vertices about the centre of the stretched space are large beside those about them.
-fn are_larger(triangles: &[[u32; 3]], vertices: &[Vector3<f64>]) -> Vec<bool> {
-    let widest: Vec<f64> = triangles
-        .iter()
-        .map(|corners| widest(corners, vertices))
-        .collect();
-    if !widest.iter().any(|angle| *angle > RESOLVED) {
-        return vec![false; triangles.len()];
+/// Which triangles between vertices about the centre of the stretched space close a cut or a hole.
+fn are_closing(triangles: &[[u32; 3]], vertices: &[Vector3<f64>]) -> Vec<bool> {
+    let mut are_closing = vec![false; triangles.len()];
+    let is_resolved = |corners: &[u32; 3]| widest(corners, vertices) > RESOLVED;
+    if !triangles.iter().any(is_resolved) {
+        return are_closing;
     }
+    let usual = usual(triangles, vertices);
+    // How many times as long as those about its ends an edge is.
+    let times = |ends: [u32; 2]| {
+        let [from, to] = ends.map(|end| usual[end as usize]);
+        angle(ends, vertices) / from.min(to)
+    };
+    let mut part_of: HashMap<[u32; 2], u32> = HashMap::new();
+    let mut sets = DisjointSets::new(triangles.len());
+    for (at, corners) in (0..).zip(triangles) {
+        for ends in edges(corners).filter(|ends| times(*ends) > LONG) {
+            let beside = *part_of.entry(ends).or_insert(at);
+            sets.join(beside, at);
+        }
+    }
+    for part in sets.members().iter().filter(|part| part.len() > 1) {
+        let [mut across, mut rim, mut most] = [0.0_f64; 3];
+        for ends in part.iter().flat_map(|&at| edges(&triangles[at as usize])) {
+            let (angle, times) = (angle(ends, vertices), times(ends));
+            match times > LONG {
+                true => across = across.max(angle),
+                false => rim = rim.max(angle),
+            }
+            most = most.max(times);
+        }
+        if across > RESOLVED && most > LONGER && rim <= OF_RIM * across {
+            for &at in part {
+                are_closing[at as usize] = true;
+            }
+        }
+    }
+    are_closing
+}
+
+/// The median angle of the edges at each vertex.
+fn usual(triangles: &[[u32; 3]], vertices: &[Vector3<f64>]) -> Vec<f64> {
     let mut about: Vec<Vec<f64>> = vec![Vec::new(); vertices.len()];
     for ends in triangles.iter().flat_map(edges) {
         for end in ends {
             about[end as usize].push(angle(ends, vertices));
         }
     }
-    let usual = about.iter_mut();
-    let usual: Vec<f64> = usual.map(|angles| median(angles).unwrap_or(0.0)).collect();
-    let is_larger = |(corners, widest): (&[u32; 3], f64)| {
-        let usual = corners.map(|corner| usual[corner as usize]);
-        let limit = LONGER * usual.into_iter().fold(f64::INFINITY, f64::min);
-        widest > limit.max(RESOLVED)
-    };
-    triangles.iter().zip(widest).map(is_larger).collect()
+    let about = about.iter_mut();
+    about.map(|angles| median(angles).unwrap_or(0.0)).collect()
 }
 
 /// The largest angle between two corners as seen from the centre.
 fn widest(corners: &[u32; 3], vertices: &[Vector3<f64>]) -> f64 {
     let angles = edges(corners).map(|ends| angle(ends, vertices));
-    angles.into_iter().fold(0.0, f64::max)
+    angles.fold(0.0, f64::max)
 }
 
-fn edges(corners: &[u32; 3]) -> [[u32; 2]; 3] {
+/// The edges of a triangle, the lower end first.
+fn edges(corners: &[u32; 3]) -> impl Iterator<Item = [u32; 2]> + use<> {
     let [a, b, c] = *corners;
-    [[a, b], [b, c], [c, a]]
+    let edge = |[from, to]: [u32; 2]| [from.min(to), from.max(to)];
+    [[a, b], [b, c], [c, a]].into_iter().map(edge)
 }
 
 /// The angle between two vertices as seen from the centre.
@@ -128,7 +164,7 @@ pub(super) fn on_large_faces(mesh: &Mesh, frame: &Frame, semi_axes: &Vector3<f64
     let plain: Vec<Vector3<f64>> = vertices.collect();
     let vertices = plain.iter().map(|vertex| vertex.component_div(semi_axes));
     let vertices: Vec<Vector3<f64>> = vertices.collect();
-    let mut are_large = are_larger(&mesh.triangles, &vertices);
+    let mut are_large = are_closing(&mesh.triangles, &vertices);
     let mut are_coarse = false;
     for (is_large, corners) in are_large.iter_mut().zip(&mesh.triangles) {
         let is_coarse = widest(corners, &plain) > LARGE;
@@ -226,6 +262,42 @@ mod tests {
         let seen: Vec<Vector3<f64>> = points.iter().map(|point| frame.to_local(point)).collect();
         let widest = seen.iter().map(|place| place.y.abs()).fold(0.0, f64::max);
         assert!(widest > 0.09, "{widest}");
+    }
+
+    /// Between a ring of so many vertices and one of a quarter of them.
+    fn row_between(fine: u32, from: u32, coarse: u32) -> Vec<[u32; 3]> {
+        let part = |at: u32| {
+            let next = (at + 1) % (fine / 4);
+            let below = move |i: u32| from + (4 * at + i) % fine;
+            let fan = (0..4).map(move |i| [below(i), below(i + 1), coarse + at]);
+            fan.chain([[below(4), coarse + next, coarse + at]])
+        };
+        (0..fine / 4).flat_map(part).collect()
+    }
+
+    #[test]
+    fn coarse_faces_beside_fine_ones_are_not_large() {
+        let frame = Frame {
+            centre: Point3::origin(),
+            axes: Matrix3::identity(),
+        };
+        let semi_axes = Vector3::repeat(1.0);
+        let mut mesh = Mesh::default();
+        for (around, angle) in [(160_u32, 1.5_f64), (40, 1.35), (40, 1.2)] {
+            mesh.vertices.extend((0..around).map(|at| {
+                let (v, u) = (2.0 * PI * f64::from(at) / f64::from(around)).sin_cos();
+                Point3::new(angle.sin() * u, angle.sin() * v, angle.cos())
+            }));
+        }
+        mesh.triangles = row_between(160, 0, 160);
+        mesh.triangles.extend((0..40).flat_map(|at| {
+            let next = (at + 1) % 40;
+            [
+                [160 + at, 160 + next, 200 + next],
+                [160 + at, 200 + next, 200 + at],
+            ]
+        }));
+        assert!(on_large_faces(&mesh, &frame, &semi_axes).points.is_empty());
     }
 
     #[test]

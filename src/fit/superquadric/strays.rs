@@ -12,13 +12,14 @@ use crate::spread::{median, robust_deviation};
 use nalgebra::Vector3;
 
 /// Neighbours by direction from the middle of the cloud.
-const NEIGHBOURS: usize = 9;
+const NEIGHBOURS: usize = 16;
 
-/// Standard deviations by which strays are off at least, told by the median.
+/// Standard deviations by which strays are off at least, of all points and of their neighbours, told by the medians. Of these
+/// because most of an egg or a kernel may be a superquadric all but exactly, and its tip is none.
 const FAR: f64 = 4.0;
 
-/// Fewer points than this share of all do little, and may be the tip of a grain.
-const LEAST_SHARE: f64 = 0.01;
+/// Fewer points than this share of all do little.
+const LEAST_SHARE: f64 = 0.02;
 
 /// Which points of a cloud are astray, in its order; `None` if next to none are.
 pub(super) fn strays(cloud: &Cloud, bodies: &[Body]) -> Option<Vec<bool>> {
@@ -39,7 +40,9 @@ pub(super) fn strays(cloud: &Cloud, bodies: &[Body]) -> Option<Vec<bool>> {
         off[at].abs() > limit && {
             let near = neighbours.nearest(&directions[at], NEIGHBOURS);
             let mut near: Vec<f64> = near.into_iter().map(|other| off[other]).collect();
-            (off[at] - median(&mut near).unwrap_or(0.0)).abs() > limit
+            let middle = median(&mut near).unwrap_or(0.0);
+            let scatter = robust_deviation(near.into_iter().map(|other| other - middle));
+            (off[at] - middle).abs() > limit.max(FAR * scatter)
         }
     };
     let strays: Vec<bool> = (0..off.len()).map(is_stray).collect();

@@ -122,6 +122,15 @@ fn points_astray_are_left_out_in_noise_too() {
 }
 
 #[test]
+fn the_tip_of_a_grain_is_not_astray() {
+    for body in [Body::Maize, Body::Bean] {
+        for form in [Form::Single, Form::Poly12] {
+            assert_eq!(fitted(&grain(body), form).strays, 0, "{body:?} {form:?}");
+        }
+    }
+}
+
+#[test]
 fn a_fit_moves_turns_and_grows_with_the_scan_and_forgets_the_order_of_points() {
     let random = &mut ChaCha8Rng::seed_from_u64(7);
     let (_, points, _) = random_cloud(random);
