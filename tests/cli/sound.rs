@@ -136,6 +136,34 @@ fn two_balls_and_a_hollow_in_one_mesh_are_refused_and_the_largest_is_fitted_if_a
     }
 }
 
+/// A fiftieth of all points, strewn over a box around it, closes its crust round nothing.
+#[test]
+fn a_banana_among_strays_is_fitted_without_them() {
+    let folder = folder();
+    let mut all = points(&folder, &["banana", "--points", "6000"]);
+    let banana = json(&folder, &["synth", "banana", "-o", "truth.ply"]);
+    let bound = |axis: usize, sign: f64| {
+        let places = all.iter().map(|p| sign * p[axis]);
+        sign * places.fold(f64::NEG_INFINITY, f64::max)
+    };
+    let bounds = [0, 1, 2].map(|axis| [bound(axis, -1.0), bound(axis, 1.0)]);
+    let steps = [0.819_172_513, 0.671_043_607, 0.549_700_478];
+    for stray in 1..=120 {
+        all.push([0, 1, 2].map(|axis| {
+            let [low, high] = bounds[axis];
+            let share = (f64::from(stray) * steps[axis]).fract() - 0.5;
+            0.5 * (low + high) + 1.6 * share * (high - low)
+        }));
+    }
+    save(&folder, "strewn.xyz", &all);
+    let report = json(&folder, &["fit", "strewn.xyz"]);
+    assert!(warns(&report, "points stand alone"), "{report}");
+    let off = deviation(&report, &banana, "volume");
+    assert!(off < 0.01, "{off}");
+    let error = number(&report["standard_errors"], "volume") / number(&report, "volume");
+    assert!(off < 4.0 * error, "{off} {error}");
+}
+
 /// Two views of a ball, each of more than half of it, as they are before they are merged.
 #[test]
 fn views_that_were_not_merged_are_told_as_such() {

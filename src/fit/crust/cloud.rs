@@ -48,14 +48,7 @@ impl Cloud {
             .iter()
             .map(|place| near.nearest(place, AROUND))
             .collect();
-        let spacings: Vec<f64> = places
-            .iter()
-            .zip(&around)
-            .map(|(place, own)| {
-                let last = own.get(RANK).or(own.last());
-                last.map_or(0.0, |&at| (places[at] - place).norm())
-            })
-            .collect();
+        let spacings = spacings_of(&places, &around);
         let squeezes = around.iter().map(|own| squeeze(&places, own)).collect();
         let spacing = median(&mut spacings.clone()).unwrap_or(0.0);
         Self {
@@ -81,6 +74,23 @@ impl Cloud {
     pub(super) fn largest_scale(&self) -> f64 {
         self.scales.iter().copied().fold(1.0, f64::max)
     }
+}
+
+/// The distance of the neighbour of each point that its spacing is told by.
+pub(super) fn spacings(points: &[Point3<f64>]) -> Vec<f64> {
+    let places: Vec<Vector3<f64>> = points.iter().map(|point| point.coords).collect();
+    let near = Neighbours::new(&places);
+    let around = places.iter().map(|place| near.nearest(place, RANK + 1));
+    spacings_of(&places, &around.collect::<Vec<_>>())
+}
+
+fn spacings_of(places: &[Vector3<f64>], around: &[Vec<usize>]) -> Vec<f64> {
+    let points = places.iter().zip(around);
+    let spacing = |(place, own): (&Vector3<f64>, &Vec<usize>)| {
+        let last = own.get(RANK).or(own.last());
+        last.map_or(0.0, |&at| (places[at] - place).norm())
+    };
+    points.map(spacing).collect()
 }
 
 fn squeeze(places: &[Vector3<f64>], own: &[usize]) -> Vector3<f64> {

@@ -7,6 +7,7 @@
 //! with a harmonic field for their cut). No normals are needed. Where points are much sparser in one part than in another, a
 //! crust that is as wide everywhere leaks there or fills thin walls here: it is then as wide as the points around are apart.
 
+mod alone;
 mod cloud;
 mod field;
 mod voxels;
@@ -15,6 +16,7 @@ use super::error::FitError;
 use super::neighbours::Neighbours;
 use crate::mesh::{Grid, Mesh, contour, part, parts};
 use crate::scan::drawn;
+pub(super) use alone::without_alone;
 use cloud::Cloud;
 use field::harmonic;
 use nalgebra::{Point3, Vector3};

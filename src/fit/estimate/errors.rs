@@ -153,7 +153,8 @@ impl Best {
             covariance += added * added.transpose();
         }
         if !holes.is_empty() {
-            let hidden = jacobian * (list(&holes.moments(&surface)) - list(&moments));
+            let hidden =
+                jacobian * (list(&surface.moments_with(|n| holes.hidden(n))) - list(&moments));
             covariance += hidden * hidden.transpose();
         }
 

@@ -14,10 +14,7 @@
 //! Measured on clouds of eight smooth bodies whose tips were cut off, a hole of some ten degrees: area, volume and moments were
 //! up to 14 standard errors off. Of an almond whose pointed tip is missing over 9 degrees the length was so by 7, before the cone.
 
-use super::functionals::RingSurface;
-use super::outcome::Estimate;
 use crate::fit::gaps::{largest_caps, random_gap};
-use crate::measure::Moments;
 use crate::sphere::{HarmonicBasis, tangents};
 use crate::spread::median;
 use crate::vectorize::dot;
@@ -61,24 +58,25 @@ struct Hole {
     height: f64,
 }
 
-impl Estimate {
-    pub(super) fn holes(&self) -> &Holes {
-        self.derived.holes.get_or_init(|| Holes::of(self))
-    }
-}
-
 impl Holes {
-    fn of(estimate: &Estimate) -> Self {
-        let caps = largest_caps(&estimate.cloud.directions, MOST);
+    /// Between points in these directions, of a surface of this degree with these coefficients.
+    pub(super) fn new(directions: &[Vector3<f64>], degree: usize, coefficients: &[f64]) -> Self {
+        let caps = largest_caps(directions, MOST);
         let is_no_chance = |(half_angle, middle): &(f64, Vector3<f64>)| {
-            *half_angle > chance(&estimate.cloud.directions, middle, *half_angle)
+            *half_angle > chance(directions, middle, *half_angle)
         };
         let largest = caps.first().map_or(0.0, |(half_angle, _)| *half_angle);
+        let basis = HarmonicBasis::new(degree);
+        let mut harmonics = vec![0.0; coefficients.len()];
+        let mut radius = |n: &Vector3<f64>| {
+            basis.evaluate(n, &mut harmonics);
+            dot(&harmonics, coefficients)
+        };
         let caps = caps.into_iter().filter(is_no_chance);
         Self {
             largest,
             holes: caps
-                .map(|(half_angle, middle)| Hole::new(estimate, half_angle, middle))
+                .map(|(half_angle, middle)| Hole::new(half_angle, middle, &mut radius))
                 .collect(),
         }
     }
@@ -94,21 +92,14 @@ impl Holes {
             (sum + own, slope + along)
         })
     }
-
-    /// Area, volume and moments of the surface with it.
-    pub(super) fn moments(&self, surface: &RingSurface) -> Moments {
-        surface.moments_with(|n| self.hidden(n))
-    }
 }
 
 impl Hole {
-    fn new(estimate: &Estimate, half_angle: f64, middle: Vector3<f64>) -> Self {
-        let mut harmonics = vec![0.0; estimate.coefficients.len()];
-        let basis = HarmonicBasis::new(estimate.degree);
-        let mut radius = |n: &Vector3<f64>| {
-            basis.evaluate(n, &mut harmonics);
-            dot(&harmonics, &estimate.coefficients)
-        };
+    fn new(
+        half_angle: f64,
+        middle: Vector3<f64>,
+        mut radius: impl FnMut(&Vector3<f64>) -> f64,
+    ) -> Self {
         let end = radius(&middle);
         let bulge = end * (1.0 - half_angle.cos());
         let missing = tip_of_cone(&middle, half_angle, radius).map_or(0.0, |tip| tip - end);
@@ -171,6 +162,7 @@ fn tip_of_cone(
 
 #[cfg(test)]
 mod tests {
+    use super::super::functionals::RingSurface;
     use super::super::trial::{estimated, fibonacci, samples};
     use super::*;
     use approx::assert_relative_eq;
@@ -196,7 +188,7 @@ mod tests {
         assert!(slope.norm() < 1e-12);
         assert_eq!(hole.hidden(&Vector3::x()).0, 0.0);
         let surface = RingSurface::new(&estimate);
-        let added = holes.moments(&surface).volume - surface.moments().volume;
+        let added = surface.moments_with(|n| holes.hidden(n)).volume - surface.moments().volume;
         let cap = 27.0 * PI * height * height * (3.0 - height) / 3.0;
         assert_relative_eq!(added, middle / height * cap, max_relative = 0.1);
         // What a ball of even points leaves is chance.

@@ -67,6 +67,11 @@ impl Estimate {
         posterior.given_factored(&self.spectrum, self.factor.clone())
     }
 
+    pub(super) fn holes(&self) -> &Holes {
+        let holes = || Holes::new(&self.cloud.directions, self.degree, &self.coefficients);
+        self.derived.holes.get_or_init(holes)
+    }
+
     /// T n, of a direction of the grain's own frame.
     pub(super) fn stretched(&self, n: &Vector3<f64>) -> Vector3<f64> {
         self.cloud.stretch.component_mul(n)

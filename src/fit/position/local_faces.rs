@@ -3,7 +3,7 @@
 
 use super::cloud::Cloud;
 use super::voxels::Voxels;
-use crate::fit::crust::surface_of_points;
+use crate::fit::crust::{surface_of_points, without_alone};
 use crate::fit::error::FitError;
 use crate::fit::prepare::{
     Reference, ReferenceKind, principal_axes, scanned_surface, semi_axes, usable,
@@ -122,16 +122,17 @@ struct Faces {
     warnings: Vec<FitWarning>,
 }
 
-/// The scan's own faces, or of points without any those of their crust.
+/// The scan's own faces, or of points without any those of their crust: where there is none, of all but the points that stand alone.
 fn faces(scan: &Scan) -> Result<Faces, FitError> {
     if scan.topology.is_none() {
         usable(scan)?;
         let (points, repeated) = without_repeats(Cow::Borrowed(&scan.points));
-        return Ok(Faces {
-            mesh: surface_of_points(&points)?,
-            points: Some(points.into_owned()),
-            kind: ReferenceKind::Crust,
-            warnings: repeated.into_iter().collect(),
+        let warnings: Vec<FitWarning> = repeated.into_iter().collect();
+        return crusted(&points, warnings.clone()).or_else(|error| {
+            let kept = without_alone(&points).ok_or(error.clone())?;
+            let outliers = points.len() - kept.len();
+            let left_out = [FitWarning::Outliers { outliers }];
+            crusted(&kept, [&warnings[..], &left_out].concat()).map_err(|_| error)
         });
     }
     let surface = scanned_surface(scan)?;
@@ -144,6 +145,16 @@ fn faces(scan: &Scan) -> Result<Faces, FitError> {
         }),
         _ => Err(FitError::NoFaces),
     }
+}
+
+/// Those of the crust of points.
+fn crusted(points: &[Point3<f64>], warnings: Vec<FitWarning>) -> Result<Faces, FitError> {
+    Ok(Faces {
+        mesh: surface_of_points(points)?,
+        points: Some(points.to_vec()),
+        kind: ReferenceKind::Crust,
+        warnings,
+    })
 }
 
 /// The mesh without the vertices that no triangle names.
