@@ -15,8 +15,8 @@ use std::f64::consts::PI;
 const LARGE: f64 = 0.25;
 
 /// ... So are the faces that close a cut or a hole: in a space in which the ellipsoid of equal second moments is a ball, one of
-/// them is seen at more than this angle, twice that between the directions, and has an edge that is so many times as long as
-/// those about its ends are, ...
+/// them has an edge that is seen at more than this angle, twice that between the directions, and that is so many times as long
+/// as those about its ends are, ...
 const RESOLVED: f64 = 0.09;
 const LONGER: f64 = 4.0;
 
@@ -78,23 +78,30 @@ impl Face {
     }
 }
 
-/// Which triangles between vertices about the centre of the stretched space close a cut or a hole.
-fn are_closing(triangles: &[[u32; 3]], vertices: &[Vector3<f64>]) -> Vec<bool> {
+/// Which triangles close a cut or a hole, by the directions in which their corners are seen in the stretched space.
+fn are_closing(triangles: &[[u32; 3]], seen: &[Vector3<f64>]) -> Vec<bool> {
     let mut are_closing = vec![false; triangles.len()];
-    let is_resolved = |corners: &[u32; 3]| widest(corners, vertices) > RESOLVED;
-    if !triangles.iter().any(is_resolved) {
+    let length = |[from, to]: [u32; 2]| (seen[from as usize] - seen[to as usize]).norm();
+    if !triangles
+        .iter()
+        .flat_map(edges)
+        .any(|ends| length(ends) > RESOLVED)
+    {
         return are_closing;
     }
-    let usual = usual(triangles, vertices);
+    let usual = usual(triangles, seen.len(), length);
     // How many times as long as those about its ends an edge is.
     let times = |ends: [u32; 2]| {
         let [from, to] = ends.map(|end| usual[end as usize]);
-        angle(ends, vertices) / from.min(to)
+        length(ends) / from.min(to)
     };
     let mut part_of: HashMap<[u32; 2], u32> = HashMap::new();
     let mut sets = DisjointSets::new(triangles.len());
     for (at, corners) in (0..).zip(triangles) {
-        for ends in edges(corners).filter(|ends| times(*ends) > LONG) {
+        for ends in edges(corners)
+            .into_iter()
+            .filter(|ends| times(*ends) > LONG)
+        {
             let beside = *part_of.entry(ends).or_insert(at);
             sets.join(beside, at);
         }
@@ -102,10 +109,10 @@ fn are_closing(triangles: &[[u32; 3]], vertices: &[Vector3<f64>]) -> Vec<bool> {
     for part in sets.members().iter().filter(|part| part.len() > 1) {
         let [mut across, mut rim, mut most] = [0.0_f64; 3];
         for ends in part.iter().flat_map(|&at| edges(&triangles[at as usize])) {
-            let (angle, times) = (angle(ends, vertices), times(ends));
+            let (length, times) = (length(ends), times(ends));
             match times > LONG {
-                true => across = across.max(angle),
-                false => rim = rim.max(angle),
+                true => across = across.max(length),
+                false => rim = rim.max(length),
             }
             most = most.max(times);
         }
@@ -118,35 +125,25 @@ fn are_closing(triangles: &[[u32; 3]], vertices: &[Vector3<f64>]) -> Vec<bool> {
     are_closing
 }
 
-/// The median angle of the edges at each vertex.
-fn usual(triangles: &[[u32; 3]], vertices: &[Vector3<f64>]) -> Vec<f64> {
-    let mut about: Vec<Vec<f64>> = vec![Vec::new(); vertices.len()];
+/// The median length of the edges at each vertex.
+fn usual(triangles: &[[u32; 3]], vertices: usize, length: impl Fn([u32; 2]) -> f64) -> Vec<f64> {
+    let mut about: Vec<Vec<f64>> = vec![Vec::new(); vertices];
     for ends in triangles.iter().flat_map(edges) {
+        let length = length(ends);
         for end in ends {
-            about[end as usize].push(angle(ends, vertices));
+            about[end as usize].push(length);
         }
     }
     let about = about.iter_mut();
-    about.map(|angles| median(angles).unwrap_or(0.0)).collect()
-}
-
-/// The largest angle between two corners as seen from the centre.
-fn widest(corners: &[u32; 3], vertices: &[Vector3<f64>]) -> f64 {
-    let angles = edges(corners).map(|ends| angle(ends, vertices));
-    angles.fold(0.0, f64::max)
+    about
+        .map(|lengths| median(lengths).unwrap_or(0.0))
+        .collect()
 }
 
 /// The edges of a triangle, the lower end first.
-fn edges(corners: &[u32; 3]) -> impl Iterator<Item = [u32; 2]> + use<> {
+fn edges(corners: &[u32; 3]) -> [[u32; 2]; 3] {
     let [a, b, c] = *corners;
-    let edge = |[from, to]: [u32; 2]| [from.min(to), from.max(to)];
-    [[a, b], [b, c], [c, a]].into_iter().map(edge)
-}
-
-/// The angle between two vertices as seen from the centre.
-fn angle(ends: [u32; 2], vertices: &[Vector3<f64>]) -> f64 {
-    let [from, to] = ends.map(|end| vertices[end as usize]);
-    from.angle(&to)
+    [[a, b], [b, c], [c, a]].map(|[from, to]| [from.min(to), from.max(to)])
 }
 
 /// Points on the large faces of a mesh.
@@ -164,12 +161,19 @@ pub(super) fn on_large_faces(mesh: &Mesh, frame: &Frame, semi_axes: &Vector3<f64
     let plain: Vec<Vector3<f64>> = vertices.collect();
     let vertices = plain.iter().map(|vertex| vertex.component_div(semi_axes));
     let vertices: Vec<Vector3<f64>> = vertices.collect();
-    let mut are_large = are_closing(&mesh.triangles, &vertices);
+    let seen = |places: &[Vector3<f64>]| -> Vec<Vector3<f64>> {
+        places.iter().map(Vector3::normalize).collect()
+    };
+    let mut are_large = are_closing(&mesh.triangles, &seen(&vertices));
+    let plain = seen(&plain);
+    let is_coarse =
+        |[from, to]: [u32; 2]| plain[from as usize].dot(&plain[to as usize]) < LARGE.cos();
     let mut are_coarse = false;
     for (is_large, corners) in are_large.iter_mut().zip(&mesh.triangles) {
-        let is_coarse = widest(corners, &plain) > LARGE;
-        *is_large |= is_coarse;
-        are_coarse |= is_coarse;
+        if edges(corners).into_iter().any(is_coarse) {
+            *is_large = true;
+            are_coarse = true;
+        }
     }
     if !are_large.contains(&true) {
         return OnFaces::default();
