@@ -112,6 +112,19 @@ mod tests {
     use approx::assert_relative_eq;
     use std::f64::consts::PI;
 
+    /// The edges that a second triangle lacks, in its sense.
+    fn open_edges(mesh: &Mesh) -> Vec<[u32; 2]> {
+        let mut edges = Vec::new();
+        crate::scan::each_edge(mesh.vertices.len(), &mesh.triangles, |edge| {
+            match (edge.forward, edge.backward) {
+                (1, 0) => edges.push([edge.ends[1], edge.ends[0]]),
+                (0, 1) => edges.push(edge.ends),
+                _ => {}
+            }
+        });
+        edges
+    }
+
     #[test]
     fn a_removed_patch_is_closed_by_a_fan_or_by_least_area() {
         for (parts, resolution) in [(2_u32, 12_u32), (40, 160)] {
@@ -128,14 +141,7 @@ mod tests {
             let mut open = full.clone();
             open.triangles.retain(is_kept);
             assert!(open.triangles.len() < full.triangles.len());
-            let mut edges = Vec::new();
-            crate::scan::each_edge(open.vertices.len(), &open.triangles, |edge| {
-                match (edge.forward, edge.backward) {
-                    (1, 0) => edges.push([edge.ends[1], edge.ends[0]]),
-                    (0, 1) => edges.push(edge.ends),
-                    _ => {}
-                }
-            });
+            let edges = open_edges(&open);
             let rims = super::super::rims::rims(&edges);
             assert_eq!(rims.len(), 1);
             assert_eq!(rims[0].len() > LEAST_AREA_CORNERS, parts > 2);
@@ -161,14 +167,7 @@ mod tests {
             .copied()
             .collect();
         mesh.triangles.retain(|t| !of_tip[1..].contains(t));
-        let mut edges = Vec::new();
-        crate::scan::each_edge(mesh.vertices.len(), &mesh.triangles, |edge| {
-            match (edge.forward, edge.backward) {
-                (1, 0) => edges.push([edge.ends[1], edge.ends[0]]),
-                (0, 1) => edges.push(edge.ends),
-                _ => {}
-            }
-        });
+        let edges = open_edges(&mesh);
         let rims = super::super::rims::rims(&edges);
         let (closed, filled) = fill(mesh, &rims, 0.5).expect("a small hole");
         assert_eq!(filled.triangles, edges.len() - 2);
