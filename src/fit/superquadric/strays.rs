@@ -49,3 +49,40 @@ pub(super) fn strays(cloud: &Cloud, bodies: &[Body]) -> Option<Vec<bool>> {
     let count = strays.iter().filter(|is_stray| **is_stray).count();
     (count as f64 >= least).then_some(strays)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::form::Form;
+    use super::super::search::best;
+    use super::*;
+    use crate::fit::Context;
+    use crate::shapes::Sampling;
+    use nalgebra::Point3;
+
+    #[test]
+    fn points_strewn_about_a_ball_are_astray_and_its_beak_is_not() {
+        let ball = Sampling::Fibonacci.directions(3000, 0).unwrap();
+        let noise = (0..).map(|i| 0.004 * ((f64::from(i) * 0.618_033_989).fract() - 0.5));
+        let noisy = ball.into_iter().zip(noise).map(|(n, off)| n * (1.0 + off));
+        let ball: Vec<Point3<f64>> = noisy.map(Point3::from).collect();
+        let cloud = Cloud::new(&ball, None, Form::Single.parameters()).unwrap();
+        let found = best(&cloud, Form::Single, &Context::default()).unwrap();
+        assert_eq!(strays(&cloud, &found.bodies), None);
+        let mut beaked = cloud.clone();
+        for point in &mut beaked.points {
+            let inside = 1.0 - point.angle(&Vector3::x()) / 0.5;
+            *point *= 1.0 + 0.6 * inside.max(0.0).powi(2);
+        }
+        assert_eq!(strays(&beaked, &found.bodies), None);
+        let mut strewn = cloud;
+        for point in strewn.points.iter_mut().step_by(20) {
+            *point *= 1.3;
+        }
+        let told = strays(&strewn, &found.bodies).unwrap();
+        assert!(
+            told.iter()
+                .enumerate()
+                .all(|(at, is_stray)| *is_stray == (at % 20 == 0))
+        );
+    }
+}
