@@ -2,6 +2,7 @@
 
 mod bounds_tree;
 mod contour;
+mod edges;
 mod least_area;
 mod parts;
 mod relaxed;
@@ -9,6 +10,7 @@ mod winding;
 
 pub(crate) use bounds_tree::{Bounds, BoundsTree};
 pub(crate) use contour::{Grid, contour};
+pub(crate) use edges::{edges, undirected};
 pub(crate) use least_area::{LEAST_AREA_CORNERS, least_area};
 pub(crate) use parts::{part, parts};
 pub(crate) use relaxed::relaxed;
@@ -100,14 +102,14 @@ impl Mesh {
             if corners.iter().any(|&c| c as usize >= self.vertices.len()) {
                 return Err(MeshDefect::IndexOutOfRange { triangle });
             }
-            for (from, to) in edges(corners) {
+            for [from, to] in edges(corners) {
                 if directed.insert((from, to), ()).is_some() {
                     return Err(MeshDefect::EdgeUsedTwice { from, to });
                 }
             }
         }
         for corners in &self.triangles {
-            for (from, to) in edges(corners) {
+            for [from, to] in edges(corners) {
                 if !directed.contains_key(&(to, from)) {
                     return Err(MeshDefect::OpenEdge { from, to });
                 }
@@ -120,10 +122,6 @@ impl Mesh {
         }
         Ok(())
     }
-}
-
-fn edges(&[a, b, c]: &[u32; 3]) -> [(u32, u32); 3] {
-    [(a, b), (b, c), (c, a)]
 }
 
 /// As [`Mesh::normals`], of some triangles between vertices.

@@ -23,8 +23,8 @@ pub(crate) fn largest_gap(directions: &[Vector3<f64>]) -> f64 {
 
 /// Half-angle and middle of the largest cap without any of these unit vectors.
 pub(crate) fn largest_cap(directions: &[Vector3<f64>]) -> (f64, Vector3<f64>) {
-    let caps = largest_caps(directions, 1).into_iter();
-    caps.fold((0.0, Vector3::z()), |_, cap| cap)
+    let cap = largest_caps(directions, 1).pop();
+    cap.unwrap_or((0.0, Vector3::z()))
 }
 
 /// The same of that cap, of the largest one elsewhere, and so on, so many at most.

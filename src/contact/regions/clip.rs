@@ -5,7 +5,7 @@
 //! and its moments are sums over the oriented segments of its rim, which are spans of its edges, and the lines in which
 //! it crosses triangles of the other surface.
 
-use super::patch::sorted;
+use crate::mesh::undirected;
 use crate::predicates::orient3d;
 use nalgebra::{Point3, Vector3};
 use std::collections::HashMap;
@@ -97,7 +97,7 @@ fn pierced(one: &Side<'_>, two: &Side<'_>, pairs: impl Iterator<Item = [u32; 2]>
     let mut found = Pierced::new();
     for [own, other] in pairs {
         let [a, b, c] = one.triangles[own as usize];
-        for edge in [[a, b], [b, c], [c, a]].map(sorted) {
+        for edge in [[a, b], [b, c], [c, a]].map(undirected) {
             let Some(piercing) = piercing(one, edge, two, other) else {
                 continue;
             };
@@ -129,7 +129,7 @@ fn piercing(one: &Side<'_>, edge: [u32; 2], two: &Side<'_>, triangle: u32) -> Op
     // An edge of triangles is seen from its end of lower number, so that both its triangles see the same.
     let passes = |from: usize, to: usize| {
         let ends = [corners[from], corners[to]];
-        let [low, high] = sorted(ends).map(|i| two.vertices[i as usize]);
+        let [low, high] = undirected(ends).map(|i| two.vertices[i as usize]);
         let is_left = orient3d([p, q, low], high) > 0.0;
         is_left == (ends[0] < ends[1])
     };
@@ -166,7 +166,7 @@ fn flooded(side: &Side<'_>, pierced: &Pierced) -> (Vec<bool>, bool) {
         let mut left = vec![start as u32];
         while let Some(from) = left.pop() {
             for &to in &beside[from as usize] {
-                let edge = sorted([from, to]);
+                let edge = undirected([from, to]);
                 let times = pierced.get(&edge).map_or(0, Vec::len);
                 let there = inside[from as usize].map(|is_inside| is_inside != (times % 2 == 1));
                 match inside[to as usize] {
@@ -191,7 +191,7 @@ fn line<'a>(
     pierced: &'a Pierced,
 ) -> impl Iterator<Item = Point3<f64>> + 'a {
     let [a, b, c] = side.triangles[triangle as usize];
-    let edges = [[a, b], [b, c], [c, a]].map(sorted);
+    let edges = [[a, b], [b, c], [c, a]].map(undirected);
     edges.into_iter().filter_map(move |edge| {
         let all = pierced.get(&edge)?;
         let found = all.iter().find(|piercing| piercing.triangle == other)?;
@@ -208,7 +208,7 @@ fn add_spans(
     rim: &mut Vec<Segment>,
 ) {
     for [from, to] in [[a, b], [b, c], [c, a]] {
-        let edge = sorted([from, to]);
+        let edge = undirected([from, to]);
         let [low, high] = edge.map(|end| side.vertices[end as usize]);
         let mut since = inside[edge[0] as usize].then_some(low);
         let turned = |[p, q]: Segment| match from < to {

@@ -1,6 +1,6 @@
 //! A part of a surface as triangles that are made smaller where two bodies are near each other.
 
-use crate::mesh::Bounds;
+use crate::mesh::{Bounds, undirected};
 use crate::model::Surface;
 use nalgebra::{Isometry3, Point3, Vector3};
 use std::collections::HashMap;
@@ -67,10 +67,10 @@ impl Patch {
         let mut triangles = Vec::with_capacity(4 * self.triangles.len());
         for &[a, b, c] in &self.triangles {
             let [d, e, f] = [[a, b], [b, c], [c, a]].map(|edge| {
-                *middles.entry(sorted(edge)).or_insert_with(|| {
+                *middles.entry(undirected(edge)).or_insert_with(|| {
                     let [one, two] = edge.map(|end| directions[end as usize]);
                     directions.push((one + two).normalize());
-                    ends.push(sorted(edge));
+                    ends.push(undirected(edge));
                     directions.len() as u32 - 1
                 })
             });
@@ -176,8 +176,4 @@ fn points(surface: &(impl Surface + ?Sized), directions: &[Vector3<f64>]) -> Vec
     let centre = surface.frame().centre;
     let places = surface.places(directions).into_iter();
     places.map(|place| centre + place).collect()
-}
-
-pub(super) fn sorted([a, b]: [u32; 2]) -> [u32; 2] {
-    [a.min(b), a.max(b)]
 }

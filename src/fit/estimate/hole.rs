@@ -28,9 +28,6 @@ const SHARE: f64 = 0.5;
 /// prior draws it.
 const ABOUT_RIM: [f64; 2] = [1.05, 1.25];
 
-/// The tip of the cone counts as no farther above the surface than so many times the radius of the hole.
-const STEEPEST: f64 = 1.0;
-
 /// Points round a hole are looked at within so many times its half-angle.
 const ROUND_HOLE: f64 = 2.0;
 
@@ -103,7 +100,8 @@ impl Hole {
         let end = radius(&middle);
         let bulge = end * (1.0 - half_angle.cos());
         let missing = tip_of_cone(&middle, half_angle, radius).map_or(0.0, |tip| tip - end);
-        let most = STEEPEST * end * half_angle.sin();
+        // A tip as far off as the hole is wide: steeper cones may not close at all.
+        let most = end * half_angle.sin();
         Self {
             middle,
             half_angle,

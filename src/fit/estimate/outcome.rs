@@ -33,6 +33,7 @@ pub(crate) struct Estimate {
     pub(crate) factor: Option<Arc<Factor>>,
     /// The points of which the cloud is the patch means.
     pub(super) dense: Option<Dense>,
+    /// What is known once it was asked for.
     pub(super) derived: Derived,
 }
 
@@ -67,6 +68,7 @@ impl Estimate {
         posterior.given_factored(&self.spectrum, self.factor.clone())
     }
 
+    /// The holes between its points, in the stretched space.
     pub(super) fn holes(&self) -> &Holes {
         let holes = || Holes::new(&self.cloud.directions, self.degree, &self.coefficients);
         self.derived.holes.get_or_init(holes)

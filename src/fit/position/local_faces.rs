@@ -127,12 +127,24 @@ fn faces(scan: &Scan) -> Result<Faces, FitError> {
     if scan.topology.is_none() {
         usable(scan)?;
         let (points, repeated) = without_repeats(Cow::Borrowed(&scan.points));
-        let warnings: Vec<FitWarning> = repeated.into_iter().collect();
-        return crusted(&points, warnings.clone()).or_else(|error| {
-            let kept = without_alone(&points).ok_or(error.clone())?;
-            let outliers = points.len() - kept.len();
-            let left_out = [FitWarning::Outliers { outliers }];
-            crusted(&kept, [&warnings[..], &left_out].concat()).map_err(|_| error)
+        let mut warnings: Vec<FitWarning> = repeated.into_iter().collect();
+        let (mesh, points) = match surface_of_points(&points) {
+            Ok(mesh) => (mesh, points.into_owned()),
+            Err(error) => {
+                let Some(kept) = without_alone(&points) else {
+                    return Err(error);
+                };
+                let mesh = surface_of_points(&kept).map_err(|_| error)?;
+                let outliers = points.len() - kept.len();
+                warnings.push(FitWarning::Outliers { outliers });
+                (mesh, kept)
+            }
+        };
+        return Ok(Faces {
+            mesh,
+            points: Some(points),
+            kind: ReferenceKind::Crust,
+            warnings,
         });
     }
     let surface = scanned_surface(scan)?;
@@ -145,16 +157,6 @@ fn faces(scan: &Scan) -> Result<Faces, FitError> {
         }),
         _ => Err(FitError::NoFaces),
     }
-}
-
-/// Those of the crust of points.
-fn crusted(points: &[Point3<f64>], warnings: Vec<FitWarning>) -> Result<Faces, FitError> {
-    Ok(Faces {
-        mesh: surface_of_points(points)?,
-        points: Some(points.to_vec()),
-        kind: ReferenceKind::Crust,
-        warnings,
-    })
 }
 
 /// The mesh without the vertices that no triangle names.

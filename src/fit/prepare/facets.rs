@@ -2,7 +2,7 @@
 //! where the surface is.
 
 use crate::disjoint_sets::DisjointSets;
-use crate::mesh::Mesh;
+use crate::mesh::{Mesh, edges, undirected};
 use crate::model::Frame;
 use crate::sphere::cube_grid;
 use crate::spread::median;
@@ -102,7 +102,7 @@ fn are_closing(triangles: &[[u32; 3]], seen: &[Vector3<f64>]) -> Vec<bool> {
             .into_iter()
             .filter(|ends| times(*ends) > LONG)
         {
-            let beside = *part_of.entry(ends).or_insert(at);
+            let beside = *part_of.entry(undirected(ends)).or_insert(at);
             sets.join(beside, at);
         }
     }
@@ -138,12 +138,6 @@ fn usual(triangles: &[[u32; 3]], vertices: usize, length: impl Fn([u32; 2]) -> f
     about
         .map(|lengths| median(lengths).unwrap_or(0.0))
         .collect()
-}
-
-/// The edges of a triangle, the lower end first.
-fn edges(corners: &[u32; 3]) -> [[u32; 2]; 3] {
-    let [a, b, c] = *corners;
-    [[a, b], [b, c], [c, a]].map(|[from, to]| [from.min(to), from.max(to)])
 }
 
 /// Points on the large faces of a mesh.

@@ -1,6 +1,6 @@
 //! Closing holes by triangles over their rims.
 
-use crate::mesh::{LEAST_AREA_CORNERS, Mesh, least_area, parts};
+use crate::mesh::{LEAST_AREA_CORNERS, Mesh, edges, least_area, parts, undirected};
 use nalgebra::{Point3, Vector3};
 use std::collections::HashSet;
 
@@ -60,25 +60,16 @@ pub(super) fn fill(
     Ok((mesh, fill))
 }
 
-/// An edge by its ends, the lower one first.
-fn edge(from: u32, to: u32) -> [u32; 2] {
-    [from.min(to), from.max(to)]
-}
-
-fn edges_of(corners: &[u32; 3]) -> [[u32; 2]; 3] {
-    let [a, b, c] = *corners;
-    [edge(a, b), edge(b, c), edge(c, a)]
-}
-
-/// The edges of a mesh between vertices of some rims.
+/// The edges of a mesh between vertices of some rims, whichever way.
 fn edges_between(mesh: &Mesh, rims: &[Vec<u32>]) -> HashSet<[u32; 2]> {
     let mut is_on_rim = vec![false; mesh.vertices.len()];
     for vertex in rims.iter().flatten() {
         is_on_rim[*vertex as usize] = true;
     }
-    let edges = mesh.triangles.iter().flat_map(edges_of);
+    let edges = mesh.triangles.iter().flat_map(edges);
     edges
         .filter(|ends| ends.iter().all(|end| is_on_rim[*end as usize]))
+        .map(undirected)
         .collect()
 }
 
@@ -86,14 +77,14 @@ fn edges_between(mesh: &Mesh, rims: &[Vec<u32>]) -> HashSet<[u32; 2]> {
 /// corners, whose edges coincide.
 fn close(mesh: &mut Mesh, rim: &[u32], known: &mut HashSet<[u32; 2]>) {
     let corners: Vec<Point3<f64>> = rim.iter().map(|&i| mesh.vertices[i as usize]).collect();
-    let may_be = |i: usize, k: usize| !known.contains(&edge(rim[i], rim[k]));
+    let may_be = |i: usize, k: usize| !known.contains(&undirected([rim[i], rim[k]]));
     let is_small = corners.len() <= LEAST_AREA_CORNERS;
     if let Some(triangles) = is_small.then(|| least_area(&corners, may_be)).flatten() {
         let named = triangles
             .into_iter()
             .map(|triangle| triangle.map(|i| rim[i]));
         let named: Vec<[u32; 3]> = named.collect();
-        known.extend(named.iter().flat_map(edges_of));
+        known.extend(named.iter().flat_map(edges).map(undirected));
         mesh.triangles.extend(named);
         return;
     }
