@@ -20,6 +20,7 @@ mod estimate;
 mod estimated;
 mod figures;
 mod gaps;
+mod hole;
 mod kind;
 mod linear;
 mod local_cells;

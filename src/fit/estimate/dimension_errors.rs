@@ -16,13 +16,13 @@
 
 use super::dimensions::{End, Extent, Reach};
 use super::functionals::combined;
-use super::hole::Holes;
 use super::left_out::LeftOut;
 use super::outcome::Estimate;
 use super::outcome::{slope_variance, variance};
 use super::posterior::Conditioned;
 use super::tips::Tips;
 use crate::fit::figures::{INERTIA, by_size, squares_by_size};
+use crate::fit::hole::Holes;
 use crate::fit::turn::{OF_RANGE, TURNS, are_apart, by_inertia};
 use crate::measure::PrincipalInertia;
 use crate::sphere::HarmonicBasis;

@@ -22,7 +22,6 @@ mod dimensions;
 mod draws;
 mod errors;
 mod functionals;
-mod hole;
 mod information;
 mod left_out;
 mod leverage;

@@ -2,11 +2,13 @@
 
 use super::cloud::Cloud;
 use super::dense::Factor;
-use super::hole::Holes;
 use super::posterior::{Conditioned, Posterior};
 use super::spectrum::Spectrum;
 use super::sums::Sums;
 use crate::fit::gaps::random_gap;
+use crate::fit::hole::Holes;
+use crate::sphere::HarmonicBasis;
+use crate::vectorize::dot;
 use nalgebra::Vector3;
 use std::sync::{Arc, OnceLock};
 
@@ -70,7 +72,14 @@ impl Estimate {
 
     /// The holes between its points, in the stretched space.
     pub(super) fn holes(&self) -> &Holes {
-        let holes = || Holes::new(&self.cloud.directions, self.degree, &self.coefficients);
+        let holes = || {
+            let basis = HarmonicBasis::new(self.degree);
+            let mut harmonics = vec![0.0; self.coefficients.len()];
+            Holes::new(&self.cloud.directions, |n| {
+                basis.evaluate(n, &mut harmonics);
+                n * dot(&harmonics, &self.coefficients)
+            })
+        };
         self.derived.holes.get_or_init(holes)
     }
 

@@ -38,7 +38,7 @@ pub(super) struct Cloud<'a> {
     /// The others, by their places in triangles.
     inside: Vec<OnMesh>,
     /// Whether they are the points of the scan, and the vertices are none.
-    is_of_points: bool,
+    pub(super) is_of_points: bool,
     /// Those between which the points are the middles.
     pub(super) voxels: Option<Voxels>,
     /// Of the ellipsoid of equal moments.

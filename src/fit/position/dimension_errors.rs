@@ -26,6 +26,8 @@ pub(super) struct Lengths<'a> {
     pub(super) functions: &'a Functions,
     pub(super) functionals: &'a Functionals,
     pub(super) covariance: &'a SMatrix<f64, FIGURES, FIGURES>,
+    /// What holes may hide of them.
+    pub(super) of_holes: &'a FigureVector,
     /// From the integrals to the figures.
     pub(super) jacobian: &'a SMatrix<f64, INTEGRALS, INTEGRALS>,
     /// Covariance of the entries of the inertia tensor.
@@ -49,7 +51,9 @@ impl Lengths<'_> {
     /// The square along a principal axis.
     fn along(&self, axis: usize, length: f64, ends: &Ends<'_>) -> f64 {
         let (extent, range) = extent(self.functionals, self.jacobian, &self.inertia, axis);
-        let mut squares = extent.dot(&(self.covariance * extent)) + range * range;
+        let of_points = extent.dot(&(self.covariance * extent));
+        let of_holes = extent.dot(self.of_holes);
+        let mut squares = of_points + of_holes * of_holes + range * range;
         let mut higher = 0.0;
         for end in &self.functionals.ends[axis] {
             higher += self.higher(end);

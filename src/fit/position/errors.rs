@@ -16,6 +16,7 @@
 //!   as it is more than they scatter; and the same of the vertices alone, for the body bulges over faces that are chords;
 //!   and of points without faces the same by the area that is nearest to each, for where they are sparse each tells more;
 //! - of [voxels](super::voxels), that those inside are not the grain: flat sides may lie anywhere between two layers;
+//! - of points without faces what a [hole](crate::fit::hole) between them may hide;
 //! - what is [not resolved](Solved::unresolved): a part of it is taken to have the same sign everywhere;
 //! - of the area what second order brings: ripples of noise that the surface has, and of the grain that it has not;
 //!
@@ -31,6 +32,7 @@ use super::functions::{Functions, Rows};
 use super::least_squares::values;
 use super::voxels::Hidden;
 use crate::fit::figures::{INERTIA, INTEGRALS, derivatives, form, mass, unlist};
+use crate::fit::hole::Holes;
 use crate::fit::linear::BlockFactor;
 use crate::fit::neighbours::Neighbours;
 use crate::model::{NoInterval, Position, StandardErrors};
@@ -71,9 +73,12 @@ impl Solved<'_> {
         let covariance = self.covariance(&functionals, &distances);
         let unresolved = self.unresolved(&distances);
 
+        let of_holes = self.of_holes(&functionals);
+
         let (best, _) = mass(&functionals.moments);
         let jacobian = derivatives(&functionals.moments);
-        let block = covariance.fixed_view::<INTEGRALS, INTEGRALS>(0, 0);
+        let beside_holes = covariance + of_holes * of_holes.transpose();
+        let block = beside_holes.fixed_view::<INTEGRALS, INTEGRALS>(0, 0);
         let mut of_mass = jacobian * block * jacobian.transpose();
         let voxels = self.cloud.voxels.as_ref();
         let hidden = voxels
@@ -98,6 +103,7 @@ impl Solved<'_> {
             functions: self.functions,
             functionals: &functionals,
             covariance: &covariance,
+            of_holes: &of_holes,
             jacobian: &jacobian,
             inertia: inertia.into_owned(),
             unresolved,
@@ -164,6 +170,17 @@ impl Solved<'_> {
         let sum: SMatrix<f64, FIGURES, FIGURES> =
             influences.iter().map(|psi| psi * psi.transpose()).sum();
         sum * self.held_out().powi(2)
+    }
+
+    /// The changes of the figures by what holes between points without faces may hide.
+    fn of_holes(&self, functionals: &Functionals) -> FigureVector {
+        let cloud = self.cloud;
+        if !cloud.is_of_points {
+            return FigureVector::zeros();
+        }
+        let directions = &cloud.directions[cloud.vertices()..];
+        let holes = Holes::new(directions, |n| self.surface.point(n));
+        functionals.moved(|n| holes.hidden(n).0)
     }
 
     /// Squares and products of the changes of the figures if the surface moved to the samples, to those held out, to the

@@ -119,6 +119,13 @@ impl Functionals {
         })
     }
 
+    /// The changes of the figures if the surface moved outward by so much in each direction.
+    pub(super) fn moved(&self, by: impl Fn(&Vector3<f64>) -> f64) -> FigureVector {
+        let each = self.places.iter();
+        each.map(|place| place.changes * (place.along.norm() * by(&place.direction)))
+            .sum()
+    }
+
     /// The share of the sphere whose places are lower than an end by less than this.
     pub(super) fn share_within(&self, depth: f64, end: &End) -> f64 {
         let least = end.point.dot(&end.along) - depth;

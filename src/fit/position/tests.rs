@@ -240,6 +240,37 @@ fn errors_are_those_of_noise_and_hold_the_truth() {
     assert!((one - other).component_div(&errors.moments).amax() < 3.0);
 }
 
+/// Of a banana without one of its ends the area would be five errors too small.
+#[test]
+fn errors_hold_what_holes_hide() {
+    let noisy = CurledOptions::clean(Curled::Banana).with_noise(0.002);
+    let seen = synthesize_curled(&noisy.with_points(5000)).unwrap();
+    let truth = seen.truth.properties;
+    let fitted = |points: Vec<Point3<f64>>| {
+        let scan = Scan::from_points(points);
+        let fit = fit_position(&scan, &FitOptions::default(), &Context::default()).unwrap();
+        let errors = fit.errors.unwrap();
+        let grain = PositionGrain::new(fit.frame, fit.surface).unwrap();
+        (grain_properties(&grain).properties, errors)
+    };
+    let whole = seen.mesh.vertices;
+    let middle = truth.centroid;
+    let away = |point: &Point3<f64>| (point - middle).norm();
+    let end = whole
+        .iter()
+        .copied()
+        .reduce(|a, b| if away(&b) > away(&a) { b } else { a });
+    let mut cut = whole.clone();
+    cut.retain(|point| (point - end.unwrap()).norm() > 0.17);
+    let (_, of_whole) = fitted(whole);
+    let (found, of_cut) = fitted(cut);
+    assert!(of_cut.area > 2.0 * of_whole.area && of_cut.volume > 2.0 * of_whole.volume);
+    assert!((found.area - truth.area).abs() < 2.0 * of_cut.area);
+    assert!((found.volume - truth.volume).abs() < 2.0 * of_cut.volume);
+    let [cut, whole] = [of_cut, of_whole].map(|errors| errors.dimensions.max());
+    assert!(cut > 1.5 * whole, "{cut} {whole}");
+}
+
 /// Directions along and against the principal axes, and how far the surface reaches in each.
 fn ends(grain: &PositionGrain) -> [[(Vector3<f64>, f64); 2]; 3] {
     let axes = grain_properties(grain).properties.principal().unwrap().axes;
