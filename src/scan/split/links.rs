@@ -86,7 +86,11 @@ impl Links {
     }
 }
 
-fn sixth_distance(tree: &ImmutableKdTree<f64, 3>, place: &[f64; 3]) -> f64 {
+/// The distance of the sixth nearest from a point of the tree.
+pub(super) fn sixth_distance<const K: usize>(
+    tree: &ImmutableKdTree<f64, K>,
+    place: &[f64; K],
+) -> f64 {
     const COUNT: NonZero<usize> = NonZero::new(SIXTH + 1).expect("above zero");
     let found = tree
         .query(place)

@@ -5,15 +5,16 @@
 //! goes on beside its grains. The plane's noise is told by the points below it: those above may be of grains. What is
 //! not thin beside the grains is no plane, but a layer of them.
 
-use super::links::{nearest, nearest_distance};
+use super::links::{nearest, nearest_distance, sixth_distance};
 use crate::polygon_hull::polygon_hull;
 use crate::sphere::across;
-use crate::spread::{covariance, robust_deviation};
+use crate::spread::{covariance, median, robust_deviation};
 use kiddo::ImmutableKdTree;
 use nalgebra::{Point3, Unit, Vector2, Vector3};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
+use std::ops::Range;
 
 /// Points by which planes are compared.
 const MOST_COMPARED: usize = 1500;
@@ -30,11 +31,15 @@ const LEAST_SHARE: f64 = 0.05;
 /// Share of the points that may lie below it: noise, dust.
 const MOST_BELOW: f64 = 0.02;
 
-/// Distance, as a share of the size of the scan, at which a point lies on a plane that is tried ...
-const FIRST_REACH: f64 = 2e-3;
+/// Distances, as shares of the size of the scan, at which a point lies on a plane that is tried, one after the other until there
+/// is one: of a wide tray the first holds the lower half of its grains too ...
+const FIRST_REACHES: [f64; 3] = [2e-3, 5e-4, 1.25e-4];
 
 /// ... that of the plane that was found is so many standard deviations of its noise, ...
 const DEVIATIONS: f64 = 5.0;
+
+/// Noise that is less than the coordinates were rounded by shows in so many of these steps.
+const STEPS: f64 = 3.5;
 
 /// ... between these shares of the size: rounding to 32 bits far from the origin, and what is no plane.
 const LEAST_REACH: f64 = 1e-6;
@@ -55,8 +60,14 @@ const ROUNDS: usize = 12;
 /// Share of a tray that is covered by nothing, at least ...
 const LEAST_BARE: f64 = 0.15;
 
-/// ... within so many times the distance between its points.
+/// ... within so many times the distance between its points, ...
 const BARE: f64 = 4.0;
+
+/// ... or so many times that between the points above it, where these are denser.
+const BARE_OF_ABOVE: f64 = 2.5;
+
+/// About how far the sixth neighbour is, in distances between points of a surface.
+const SIXTH: f64 = 1.4;
 
 /// Standard deviations of the noise by which the outermost of some thousand points are too far out.
 const OUTERMOST: f64 = 2.0;
@@ -78,19 +89,29 @@ pub struct Plane {
 impl Plane {
     /// The plane that carries the points, if there is one.
     pub(super) fn carrying(points: &[Point3<f64>]) -> Option<Self> {
-        let step = points.len().div_ceil(MOST_COMPARED);
-        let drawn: Vec<Point3<f64>> = points.iter().step_by(step).copied().collect();
+        let some = |most: usize| {
+            let step = points.len().div_ceil(most);
+            points.iter().step_by(step).copied().collect()
+        };
+        let compared: Vec<Point3<f64>> = some(MOST_COMPARED);
         let size = size(points)?;
-        let tried = Self::most_met(&drawn, FIRST_REACH * size)?;
-        let step = points.len().div_ceil(MOST_REFINED);
-        let drawn: Vec<Point3<f64>> = points.iter().step_by(step).copied().collect();
-        let plane = tried.refined(&drawn, size)?;
-        let on = points.iter().filter(|point| plane.carries(point)).count();
-        let is_tray = on as f64 >= LEAST_SHARE * points.len() as f64
-            && plane.is_clear_below(points)
-            && plane.is_thin(points, on)
-            && plane.is_bare(points, on);
-        is_tray.then_some(plane)
+        let refining: Vec<Point3<f64>> = some(MOST_REFINED);
+        let rounding = rounding(&refining);
+        let mut largest = LARGEST_REACH;
+        FIRST_REACHES.into_iter().find_map(|reach| {
+            let reaches = LEAST_REACH * size..std::mem::replace(&mut largest, reach) * size;
+            let plane = Self::most_met(&compared, reach * size)?;
+            let plane = plane.refined(&refining, reaches, &rounding)?;
+            plane.is_tray(points).then_some(plane)
+        })
+    }
+
+    fn is_tray(&self, points: &[Point3<f64>]) -> bool {
+        let on = points.iter().filter(|point| self.carries(point)).count();
+        on as f64 >= LEAST_SHARE * points.len() as f64
+            && self.is_clear_below(points)
+            && self.is_thin(points, on)
+            && self.is_bare(points, on)
     }
 
     /// Whether a point lies on the plane.
@@ -153,7 +174,12 @@ impl Plane {
     }
 
     /// The plane through the points that it carries, and how far these scatter about it.
-    fn refined(mut self, points: &[Point3<f64>], size: f64) -> Option<Self> {
+    fn refined(
+        mut self,
+        points: &[Point3<f64>],
+        reaches: Range<f64>,
+        rounding: &Vector3<f64>,
+    ) -> Option<Self> {
         let mut core = self.reach;
         for _ in 0..ROUNDS {
             let near = points
@@ -171,10 +197,14 @@ impl Plane {
             let is_turned = normal.dot(&self.normal) < 0.0;
             self.normal = if is_turned { -normal } else { normal };
             self.point = from + shift;
-            let heights = points.iter().map(|point| self.height(point));
-            let below = heights.filter(|height| (-self.reach..0.0).contains(height));
-            let reach = DEVIATIONS * robust_deviation(below);
-            self.reach = reach.clamp(LEAST_REACH * size, LARGEST_REACH * size);
+            let step = self.normal.abs().dot(rounding);
+            let below = |reach: f64| {
+                let heights = points.iter().map(|point| self.height(point));
+                heights.filter(move |height| (-reach..0.0).contains(height))
+            };
+            let deviation = robust_deviation(below(self.reach));
+            let reach = DEVIATIONS * deviation.max(root_mean_square(below(STEPS * step)));
+            self.reach = reach.clamp(reaches.start, reaches.end);
             core = CORE / DEVIATIONS * self.reach;
         }
         Some(self)
@@ -204,22 +234,17 @@ impl Plane {
 
     /// Whether much of the plane has nothing above it: a face of a body has.
     fn is_bare(&self, points: &[Point3<f64>], on: usize) -> bool {
-        let above: Vec<[f64; 2]> = points
-            .iter()
-            .filter(|point| !self.carries(point))
-            .map(|point| self.seen(point))
-            .collect();
-        let carried: Vec<[f64; 2]> = points
-            .iter()
-            .filter(|point| self.carries(point))
-            .step_by(on.div_ceil(MOST_COMPARED))
-            .map(|point| self.seen(point))
-            .collect();
-        let Some(tree) = tree(above) else { return true };
-        let spacing = self.spacing(points, on);
-        let is_bare = |place: &&[f64; 2]| nearest_distance(&tree, place) > BARE * spacing;
-        let bare = carried.iter().filter(is_bare).count();
-        bare as f64 > LEAST_BARE * carried.len() as f64
+        let (carried, above): (Vec<&Point3<f64>>, Vec<&Point3<f64>>) =
+            points.iter().partition(|point| self.carries(point));
+        let Some(seen) = tree(above.iter().map(|point| self.seen(point)).collect()) else {
+            return true;
+        };
+        let within = (BARE * self.spacing(points, on)).min(BARE_OF_ABOVE * spacing_of(&above));
+        let places = carried.iter().step_by(on.div_ceil(MOST_COMPARED));
+        let places: Vec<[f64; 2]> = places.map(|point| self.seen(point)).collect();
+        let is_bare = |place: &&[f64; 2]| nearest_distance(&seen, place) > within;
+        let bare = places.iter().filter(is_bare).count();
+        bare as f64 > LEAST_BARE * places.len() as f64
     }
 
     /// The grains of points that lie on the plane, as a flat underside does. Below a grain the plane itself is hidden,
@@ -266,6 +291,22 @@ fn holds(corners: &[Vector2<f64>], place: &Vector2<f64>, margin: f64) -> bool {
             .all(|inwards| inwards > 0.0)
 }
 
+/// By how much coordinates along each axis differ at least, which of numbers that were rounded is what they were rounded to.
+fn rounding(points: &[Point3<f64>]) -> Vector3<f64> {
+    Vector3::from_fn(|axis, _| {
+        let mut values: Vec<f64> = points.iter().map(|point| point[axis]).collect();
+        values.sort_unstable_by(f64::total_cmp);
+        let steps = values.windows(2).map(|pair| pair[1] - pair[0]);
+        let least = steps.filter(|&step| step > 0.0).reduce(f64::min);
+        least.unwrap_or(0.0)
+    })
+}
+
+fn root_mean_square(values: impl Iterator<Item = f64>) -> f64 {
+    let (count, sum) = values.fold((0.0, 0.0), |(count, sum), x| (count + 1.0, sum + x * x));
+    (sum / f64::max(count, 1.0)).sqrt()
+}
+
 /// The diagonal of the box round the points.
 fn size(points: &[Point3<f64>]) -> Option<f64> {
     let first = points.first()?.coords;
@@ -275,9 +316,25 @@ fn size(points: &[Point3<f64>]) -> Option<f64> {
     Some((high - low).norm())
 }
 
+/// About how far points of surfaces are apart.
+fn spacing_of(points: &[&Point3<f64>]) -> f64 {
+    let places: Vec<[f64; 3]> = points.iter().map(|&&point| point.into()).collect();
+    let step = places.len().div_ceil(MOST_COMPARED).max(1);
+    let some: Vec<[f64; 3]> = places.iter().step_by(step).copied().collect();
+    let Some(tree) = tree(places) else { return 0.0 };
+    let mut sixth: Vec<f64> = some
+        .iter()
+        .map(|place| sixth_distance(&tree, place))
+        .collect();
+    median(&mut sixth).unwrap_or(0.0) / SIXTH
+}
+
 /// A tree of the places; none of none.
-fn tree(places: Vec<[f64; 2]>) -> Option<ImmutableKdTree<f64, 2>> {
+fn tree<const K: usize>(places: Vec<[f64; K]>) -> Option<ImmutableKdTree<f64, K>> {
     ImmutableKdTree::new_from_slice(&places)
         .ok()
         .filter(|_| !places.is_empty())
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,72 @@
+use super::*;
+use rand_distr::{Distribution, StandardNormal, Uniform};
+
+/// Points of a table of this width and depth, with noise of this much.
+fn table(sides: [f64; 2], count: usize, noise: f64) -> Vec<Point3<f64>> {
+    let mut generator = ChaCha8Rng::seed_from_u64(1);
+    let [across, along] = sides.map(|side| Uniform::new(0.0, side).unwrap());
+    let points = (0..count).map(|_| {
+        let [x, y] = [&across, &along].map(|range| range.sample(&mut generator));
+        let off: f64 = StandardNormal.sample(&mut generator);
+        Point3::new(x, y, noise * off)
+    });
+    points.collect()
+}
+
+/// Points of an ellipsoid that stands on the table here.
+fn grain(semi_axes: Vector3<f64>, x: f64, y: f64, count: usize) -> Vec<Point3<f64>> {
+    let directions = crate::shapes::Sampling::Fibonacci.directions(count, 0);
+    let middle = Point3::new(x, y, semi_axes.z);
+    let points = directions.unwrap().into_iter();
+    points
+        .map(|n| middle + n.component_mul(&semi_axes))
+        .collect()
+}
+
+#[test]
+fn a_table_is_found_whatever_its_points_were_rounded_to() {
+    let step = 0.01;
+    for noise in [0.0, 0.2, 0.3, 0.5, 0.7, 1.0, 1.5, 3.0] {
+        let mut points = table([40.0, 30.0], 10_000, noise * step);
+        let on_table = points.len();
+        points.extend(grain(Vector3::new(6.0, 3.0, 2.5), 20.0, 15.0, 3000));
+        for coordinate in points.iter_mut().flat_map(|point| point.coords.iter_mut()) {
+            *coordinate = (*coordinate / step).round() * step;
+        }
+        let plane = Plane::carrying(&points).unwrap();
+        assert!(plane.normal.z > 1.0 - 1e-6);
+        let on = points[..on_table]
+            .iter()
+            .filter(|point| plane.carries(point));
+        let above = points[on_table..]
+            .iter()
+            .filter(|point| plane.carries(point));
+        let (on, above) = (on.count(), above.count());
+        assert!(
+            on * 100 > 98 * on_table && above < 100,
+            "{noise}: {on}, {above}"
+        );
+    }
+}
+
+/// Most points are of grains, which hide much of the table, and lie within a few thousandths of the width of the tray.
+#[test]
+fn a_sparse_table_is_found_between_many_low_grains() {
+    let mut points = table([160.0, 70.0], 22_000, 0.01);
+    let semi_axes = Vector3::new(3.4, 1.05, 0.9);
+    for at in 0..300 {
+        let [x, y] = [at % 20, at / 20].map(f64::from);
+        points.extend(grain(semi_axes, 4.0 + 8.0 * x, 4.0 + 4.4 * y, 300));
+    }
+    let plane = Plane::carrying(&points).unwrap();
+    assert!(
+        plane.normal.z > 1.0 - 1e-6 && plane.reach < 0.1,
+        "{plane:?}"
+    );
+}
+
+#[test]
+fn the_least_step_between_coordinates_tells_what_they_were_rounded_to() {
+    let points = [[0.5, 1.0, 0.0], [2.0, 1.0, 0.25], [1.0, 1.0, 1.0]].map(Point3::from);
+    assert_eq!(rounding(&points), Vector3::new(0.5, 0.0, 0.25));
+}
