@@ -58,6 +58,7 @@ pub(super) fn run(args: MeshArgs, console: Console) -> Result<()> {
             let mesh = grain.mesh(resolution);
             progress.stage("Writing");
             outputs::write(&args.output, |file| format.write(&mesh, file))?;
+            doubts.extend(solid::lacking(&grain, &mesh));
             (mesh.vertices.len(), mesh.triangles.len())
         }
         MeshFormat::Ply | MeshFormat::Vtp | MeshFormat::Glb => {
@@ -72,6 +73,7 @@ pub(super) fn run(args: MeshArgs, console: Console) -> Result<()> {
             outputs::write(&args.output, |file| {
                 format.write_detailed(&surface.mesh, &detail, file)
             })?;
+            doubts.extend(solid::lacking(&grain, &surface.mesh));
             (surface.mesh.vertices.len(), surface.mesh.triangles.len())
         }
     };

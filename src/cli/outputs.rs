@@ -2,6 +2,7 @@
 
 use super::args::FitArgs;
 use super::inputs::is_stream;
+use super::solid;
 use crate::engines::InputFile;
 use crate::export::{MeshFormat, WriteError, sweep, write_atomically};
 use crate::model::{Grain, Surface, grain_to_json};
@@ -97,18 +98,20 @@ pub(super) fn write(
     Ok(stream.flush()?)
 }
 
-/// Writes the mesh of a grain and its model, where they are asked for.
-pub(super) fn write_grain(args: &FitArgs, grain: &Grain) -> Result<()> {
+/// Writes the mesh of a grain and its model, where they are asked for; gives what is odd about the mesh.
+pub(super) fn write_grain(args: &FitArgs, grain: &Grain) -> Result<Option<String>> {
+    let mut doubt = None;
     if let Some(path) = &args.mesh {
         let format = MeshFormat::of(path).unwrap_or(MeshFormat::Ply);
         let mesh = grain.mesh(args.meshing.resolution.into());
         write(path, |file| format.write(&mesh, file))?;
+        doubt = solid::lacking(grain, &mesh);
     }
     if let Some(path) = &args.output {
         let text = grain_to_json(grain);
         write(path, |file| Ok(writeln!(file, "{text}")?))?;
     }
-    Ok(())
+    Ok(doubt)
 }
 
 /// Draws the portrait of a grain into a PNG file.

@@ -3,7 +3,7 @@
 use super::args::InputArgs;
 use super::inputs;
 use crate::fit::scanned_surface;
-use crate::measure::{MassProperties, Scheme, Survey, scanned_body};
+use crate::measure::{MassProperties, Scheme, Survey, mesh_properties, scanned_body};
 use crate::mesh::Mesh;
 use crate::model::{Grain, Surface};
 use crate::report::{Unit, Withheld, sentences};
@@ -71,6 +71,24 @@ fn of_scan(scan: &Scan, name: &str, unit: Option<Unit>) -> Result<Solid> {
         mesh: surface.mesh.clone(),
         properties,
         grain: None,
+    })
+}
+
+/// Share of its area that the mesh of a union may lack before it is told.
+const LACKING: f64 = 5e-3;
+
+/// Tells of a mesh that lacks area of its grain: that of a union, where clefts between parts are narrower than its triangles.
+pub(super) fn lacking(grain: &Grain, mesh: &Mesh) -> Option<String> {
+    (grain.hidden_share() > 0.0).then_some(())?;
+    let area = Survey::of_grain(grain, Scheme::Exact).area().ok()?;
+    let share = 1.0 - mesh_properties(mesh).ok()?.area / area;
+    (share > LACKING).then(|| {
+        format!(
+            "The mesh has {:.1} % less area than the model, and may have handles that it has not: clefts between its parts are \
+             narrower than the triangles. Mesh it with a larger --resolution, and take figures from the model \
+             (grainform measure).",
+            100.0 * share
+        )
     })
 }
 

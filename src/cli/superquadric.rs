@@ -36,7 +36,7 @@ pub(super) fn run(
         );
     }
     let progress = console.progress();
-    let (grain, scan, report) = fitted(args, form)?;
+    let (grain, scan, mut report) = fitted(args, form)?;
     if args.png.is_some() {
         solid::is_seen_whole(
             &grain,
@@ -45,7 +45,7 @@ pub(super) fn run(
         )?;
     }
     progress.stage("Writing");
-    outputs::write_grain(args, &grain)?;
+    report.warnings.extend(outputs::write_grain(args, &grain)?);
     if let Some(path) = &args.png {
         let title = format!("{}: {} points", args.fitting.name(), scan.points().len());
         outputs::write_picture(path, &grain, Some(&scan), title, args.fitting.unit)?;

@@ -14,8 +14,8 @@ pub enum ContactError {
     /// The gap does not open in all directions: a hollow, a saddle or a flat side. They touch along a
     /// line or in several places.
     #[error(
-        "the surfaces do not part in all directions from the point of contact (relative curvatures \
-         {} and {}); Hertz's theory needs a gap that opens", significant(*larger, 4), significant(*smaller, 4)
+        "by their curvatures the surfaces do not part in all directions from the point of contact ({} and {}, one relative to \
+         the other); Hertz's theory needs a gap that opens", significant(*larger, 4), significant(*smaller, 4)
     )]
     NotConvex {
         /// The larger relative curvature A.

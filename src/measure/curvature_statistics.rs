@@ -8,6 +8,9 @@ use rayon::prelude::*;
 use serde::Serialize;
 use std::f64::consts::PI;
 
+/// Curvature of a flat side by rounding, in one over the root of the area.
+const ROUNDING: f64 = 1e-9;
+
 /// Share of the total curvature that nodes may miss.
 const MISSED: f64 = 0.01;
 
@@ -147,10 +150,12 @@ impl CurvatureStatistics {
         self.gauss_bonnet_error().abs() > MISSED
     }
 
-    /// Share of the area where the surface is convex: both principal curvatures above zero.
+    /// Share of the area where the surface is convex: no principal curvature below zero, by more than rounding.
     pub fn convex_share(&self) -> f64 {
-        let convex = |[_, second]: [f64; 2]| f64::from(second > 0.0);
-        self.integral(convex) / self.integral(|_| 1.0)
+        let area = self.integral(|_| 1.0);
+        let least = -ROUNDING / area.sqrt();
+        let convex = |[_, second]: [f64; 2]| f64::from(second > least);
+        self.integral(convex) / area
     }
 
     /// Roundness: the mean, by area, of the radius of curvature 1/k1 at the corners over the radius R
@@ -302,5 +307,12 @@ mod tests {
         // Corners of radii 1/2 and 1/4 of an inscribed radius of 1, by area.
         assert_relative_eq!(found.roundness(1.0), (3.0 * 0.5 + 0.25) / 4.0);
         assert_relative_eq!(found.convex_share(), 10.0 / 11.0);
+    }
+
+    #[test]
+    fn flat_sides_are_convex() {
+        let shape = Superquadric::single([2.0, 1.5, 1.0], 20.0, 20.0).unwrap();
+        let grain = SuperquadricGrain::single(Frame::SCAN, shape).unwrap();
+        assert_relative_eq!(CurvatureStatistics::new(&grain).convex_share(), 1.0);
     }
 }

@@ -90,6 +90,33 @@ fn its_mesh_is_its_own_surface() {
     assert!((told / volume() - 1.0).abs() < 1e-4, "{told}");
 }
 
+/// Balls round a corner that meet by a twentieth of their radius: clefts between them are narrower than triangles.
+#[test]
+fn what_a_mesh_lacks_in_clefts_is_told_and_is_not_measured() {
+    let places = [[0.0, 0.0], [1.9, 0.0], [3.8, 0.0], [3.8, 1.9], [3.8, 3.8]];
+    let folder = balls(&places.map(|[x, y]| [x, y, 0.0]));
+    let words = ["measure", "u.json", "--only", "area,convexity"];
+    let found = json(&folder, &words);
+    let number = |value: &serde_json::Value| value.as_f64().unwrap();
+    // The hull is the triangle of the outer centres, rounded by a ball.
+    let (sides, triangle) = (2.0 * 3.8 + 3.8 * 2.0_f64.sqrt(), 3.8 * 3.8 / 2.0);
+    let hull = 2.0 * triangle + PI * sides + 4.0 * PI;
+    let told = number(&found["convexity"]["area"]) * number(&found["area"]);
+    assert!((told / hull - 1.0).abs() < 1e-3, "{told} {hull}");
+
+    let coarse = ["mesh", "u.json", "--resolution", "16", "-o", "u.stl"];
+    let told = errors(&grainform(&folder, &coarse));
+    assert!(told.contains("less area than the model"), "{told}");
+    let mesh = json(&folder, &["measure", "u.stl", "--only", "area"]);
+    let share = 100.0 * (1.0 - number(&mesh["area"]) / number(&found["area"]));
+    let share = format!("has {share:.1} % less");
+    assert!(told.contains(&share), "{told} {share}");
+    let mut fine = coarse;
+    fine[3] = "400";
+    let told = errors(&grainform(&folder, &fine));
+    assert!(!told.contains("less area"), "{told}");
+}
+
 #[test]
 fn what_takes_its_surface_over_directions_is_refused() {
     let folder = elbow();

@@ -70,6 +70,11 @@ impl<'a> Body<'a> {
         }
     }
 
+    /// Whether no centre sees all of it: a union of superquadrics.
+    pub(super) fn has_hidden(&self) -> bool {
+        matches!(self, Self::Grain(grain, _) if grain.hidden_share() > 0.0)
+    }
+
     /// Area, volume, centroid and inertia; those of a union are known.
     pub(super) fn measured(
         &self,

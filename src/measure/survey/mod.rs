@@ -305,7 +305,14 @@ impl<'a> Survey<'a> {
     /// When there is no convex hull, or nothing is inside, or there are several bodies.
     pub fn convexity(&self) -> Result<Convexity, SurveyError> {
         self.one_body()?;
-        Ok(Convexity::new(self.mesh(), self.hull()?)?.checked()?)
+        // The mesh of a union closes clefts between its parts; of all others mesh and hull are short of the body alike.
+        let found = match self.unit_union() {
+            Some(union) if self.body.has_hidden() => {
+                Convexity::of_known(&union.properties, self.hull()?)
+            }
+            _ => Convexity::new(self.mesh(), self.hull()?),
+        };
+        Ok(found?.checked()?)
     }
 
     /// The ellipsoid of equal moments.
