@@ -33,7 +33,7 @@ use format::Format;
 pub(crate) use repeated::distinct;
 pub use source::{MAX_BYTES, read_bytes, read_stream};
 pub use split::{Cut, Plane, Split, SplitGrain, split, split_labels, split_uncut};
-pub(crate) use split::{has_neck, voxels_have_neck};
+pub(crate) use split::{are_two_grains, has_neck, voxels_have_neck};
 pub use topology::Topology;
 pub(crate) use topology::each_edge;
 #[cfg(feature = "cli")]

@@ -13,7 +13,7 @@ use crate::fit::warning::FitWarning;
 use crate::measure::{Unit, equivalent_radius, mesh_properties};
 use crate::mesh::Mesh;
 use crate::model::Frame;
-use crate::scan::Scan;
+use crate::scan::{Scan, are_two_grains};
 use nalgebra::{Matrix3, Point3, Vector3};
 use std::borrow::Cow;
 
@@ -127,7 +127,8 @@ fn faces(scan: &Scan) -> Result<Faces, FitError> {
     if scan.topology.is_none() {
         usable(scan)?;
         let (points, repeated) = without_repeats(Cow::Borrowed(&scan.points));
-        let mut warnings: Vec<FitWarning> = repeated.into_iter().collect();
+        let neck = are_two_grains(&points).then_some(FitWarning::Neck);
+        let mut warnings: Vec<FitWarning> = repeated.into_iter().chain(neck).collect();
         let (mesh, points) = match surface_of_points(&points) {
             Ok(mesh) => (mesh, points.into_owned()),
             Err(error) => {

@@ -11,22 +11,22 @@ mod dust;
 mod labels;
 mod links;
 mod neck;
+mod one_body;
 mod outline;
 mod plane;
 mod spacing;
 
 pub use labels::split_labels;
+pub(crate) use one_body::{are_two_grains, has_neck, voxels_have_neck};
 pub use plane::Plane;
-use spacing::covering;
 
-use super::drawn::{by_coordinates, drawn};
+use super::drawn::by_coordinates;
 use super::{ParseError, Scan, VolumeError, VoxelBody};
 use bodies::bodies;
 use cut::{Necks, Part, Parts, cut};
 use dust::{LEAST_POINTS, without_dust};
 use links::Links;
 use nalgebra::Point3;
-use neck::Neck;
 use rayon::prelude::*;
 use std::cmp::Ordering;
 use std::collections::BTreeSet;
@@ -116,32 +116,6 @@ fn split_at(scan: &Scan, necks: Necks) -> Result<Split, ParseError> {
         .grains
         .sort_by(|one, other| by_place(&one.scan, &other.scan));
     Ok(split)
-}
-
-/// Thickness of the slabs between voxels beside those between scattered points.
-const THINNER: f64 = 0.7;
-
-/// Points by which a neck is looked for in a scan of one body.
-const NECK_POINTS: usize = 4000;
-
-/// Whether a cloud without faces, taken for one body, has a neck at which [`split`] would cut it.
-pub(crate) fn has_neck(points: &[Point3<f64>]) -> bool {
-    let drawn = drawn(points, NECK_POINTS);
-    // Between rows of points thin slabs hold few of them; a neck is a waist in thick slabs too.
-    neck_of(&drawn, 1.0).is_some_and(|neck| neck.is_narrow())
-        && neck_of(&drawn, 2.0).is_some_and(|neck| neck.is_waist())
-}
-
-/// The same of the middles between voxels inside and outside, whose rows are as near as their points, so that thin slabs tell: the
-/// neck of two equal grains may lie between two thick ones. Of 130 bodies of voxels without a neck none has one, however broad.
-pub(crate) fn voxels_have_neck(points: &[Point3<f64>]) -> bool {
-    neck_of(&drawn(points, NECK_POINTS), THINNER).is_some_and(|neck| neck.may_part_two())
-}
-
-/// The neck of points in slabs that are so many times as thick as rows of them are apart.
-fn neck_of(points: &[Point3<f64>], times: f64) -> Option<Neck> {
-    let distance = covering(points, Links::new(points)?.distance);
-    Neck::find(points, times * distance)
 }
 
 fn split_faces(scan: &Scan) -> Split {

@@ -1,11 +1,9 @@
 use super::*;
 use crate::mesh::Mesh;
-use crate::model::Superquadric;
 use crate::shapes::{
     Body, Origin, Sampling, SynthOptions, SyntheticTray, TrayOptions, synthesize, synthesize_tray,
 };
 use nalgebra::{Rotation3, Vector3};
-use std::f64::consts::{PI, TAU};
 
 fn tray() -> SyntheticTray {
     let options = TrayOptions::clean(12).with_noise(0.002);
@@ -208,48 +206,6 @@ fn parts_of_a_mesh_are_grains_in_the_order_of_their_places_and_points_met_often_
     assert_eq!(found.grains.len(), 3);
     let points: usize = found.grains.iter().map(|grain| grain.indices.len()).sum();
     assert_eq!(points, loose.len());
-}
-
-#[test]
-fn a_cloud_of_two_grains_that_touch_has_a_neck_and_one_grain_has_none() {
-    let grain = |body: Body| {
-        let options = SynthOptions {
-            points: 3000,
-            ..SynthOptions::clean(body)
-        };
-        synthesize(&options).unwrap().points
-    };
-    for body in [Body::Bean, Body::Chickpea, Body::Maize] {
-        assert!(!has_neck(&grain(body)), "{body:?}");
-    }
-    // A bean is 14.05 long and 7.95 wide: the second lies behind the first, or beside it.
-    for aside in [Vector3::new(14.0, 0.0, 0.0), Vector3::new(0.0, 8.0, 0.0)] {
-        let mut points = grain(Body::Bean);
-        points.extend(grain(Body::Bean).iter().map(|point| point + aside));
-        assert!(has_neck(&points), "{aside}");
-    }
-}
-
-#[test]
-fn a_plate_whose_points_are_dense_in_the_middle_has_no_neck() {
-    for axes in [[10.0, 10.0, 0.5], [1.0, 1.0, 15.0]] {
-        let plate = Superquadric::single(axes, 8.0, 2.0).unwrap();
-        let options = SynthOptions::clean(plate).with_points(6146);
-        assert!(!has_neck(&synthesize(&options).unwrap().points), "{axes:?}");
-    }
-}
-
-#[test]
-fn a_grain_scanned_in_rings_has_no_neck() {
-    let rings = (0..12).flat_map(|ring| {
-        let (sin, cos) = (PI * (f64::from(ring) + 0.5) / 12.0).sin_cos();
-        (0..300).map(move |at| {
-            let azimuth = TAU * f64::from(at) / 300.0;
-            let n = Vector3::new(cos, sin * azimuth.cos(), sin * azimuth.sin());
-            Point3::from(n.component_mul(&Vector3::new(4.0, 3.0, 2.5)))
-        })
-    });
-    assert!(!has_neck(&rings.collect::<Vec<_>>()));
 }
 
 /// Balls of some radii about places on a line, each wound inwards where its radius is negative.

@@ -1,0 +1,139 @@
+//! Whether what is taken for one body has a neck, as two grains that touch have.
+
+use super::links::Links;
+use super::neck::Neck;
+use super::spacing::covering;
+use crate::scan::drawn::drawn;
+use nalgebra::Point3;
+
+/// Thickness of slabs in which narrow necks show, beside those that rows of points need.
+const THIN: f64 = 0.5;
+
+/// The same between voxels.
+const THIN_OF_VOXELS: f64 = 0.7;
+
+/// Points by which a neck is looked for in a scan of one body.
+const NECK_POINTS: usize = 4000;
+
+/// Whether a cloud without faces, taken for one body, has a neck at which [`split`] would cut it.
+pub(crate) fn has_neck(points: &[Point3<f64>]) -> bool {
+    let drawn = drawn(points, NECK_POINTS);
+    let waist = |times: f64| neck_of(&drawn, times).filter(Neck::is_waist);
+    // Between rows of points thin slabs hold few of them; a neck is a waist in thick slabs too.
+    waist(THIN).is_some_and(|neck| {
+        neck.is_between_two(&drawn)
+            || waist(1.0).is_some_and(|neck| neck.is_narrow()) && waist(2.0).is_some()
+    })
+}
+
+/// Whether a cloud has a neck between two grains, each of which its outline follows: of a bent body the arms may have a neck that is
+/// as narrow.
+pub(crate) fn are_two_grains(points: &[Point3<f64>]) -> bool {
+    let drawn = drawn(points, NECK_POINTS);
+    neck_of(&drawn, THIN).is_some_and(|neck| neck.is_between_two(&drawn))
+}
+
+/// The same of the middles between voxels inside and outside, whose rows are as near as their points, so that thin slabs tell: the
+/// neck of two equal grains may lie between two thick ones. Of 130 bodies of voxels without a neck none has one, however broad.
+pub(crate) fn voxels_have_neck(points: &[Point3<f64>]) -> bool {
+    let drawn = drawn(points, NECK_POINTS);
+    let neck = |times: f64| neck_of(&drawn, times).filter(Neck::may_part_two);
+    neck(THIN_OF_VOXELS).is_some()
+        || neck(THIN).is_some_and(|neck| neck.is_narrow() || neck.is_between_two(&drawn))
+}
+
+/// The neck of points in slabs that are so many times as thick as rows of them are apart.
+fn neck_of(points: &[Point3<f64>], times: f64) -> Option<Neck> {
+    let distance = covering(points, Links::new(points)?.distance);
+    Neck::find(points, times * distance)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::Superquadric;
+    use crate::shapes::{
+        Body, Curled, CurledOptions, Sampling, SynthOptions, synthesize, synthesize_curled,
+    };
+    use nalgebra::Vector3;
+    use std::f64::consts::{PI, TAU};
+
+    #[test]
+    fn a_cloud_of_two_grains_that_touch_has_a_neck_and_one_grain_has_none() {
+        let grain = |body: Body| {
+            let options = SynthOptions {
+                points: 3000,
+                ..SynthOptions::clean(body)
+            };
+            synthesize(&options).unwrap().points
+        };
+        for body in [Body::Bean, Body::Chickpea, Body::Maize] {
+            assert!(!has_neck(&grain(body)), "{body:?}");
+        }
+        // A bean is 14.05 long and 7.95 wide: the second lies behind the first, or beside it.
+        for aside in [Vector3::new(14.0, 0.0, 0.0), Vector3::new(0.0, 8.0, 0.0)] {
+            let mut points = grain(Body::Bean);
+            points.extend(grain(Body::Bean).iter().map(|point| point + aside));
+            assert!(has_neck(&points), "{aside}");
+        }
+    }
+
+    #[test]
+    fn a_plate_whose_points_are_dense_in_the_middle_has_no_neck() {
+        for axes in [[10.0, 10.0, 0.5], [1.0, 1.0, 15.0]] {
+            let plate = Superquadric::single(axes, 8.0, 2.0).unwrap();
+            let options = SynthOptions::clean(plate).with_points(6146);
+            assert!(!has_neck(&synthesize(&options).unwrap().points), "{axes:?}");
+        }
+    }
+
+    #[test]
+    fn a_grain_scanned_in_rings_has_no_neck() {
+        let rings = (0..12).flat_map(|ring| {
+            let (sin, cos) = (PI * (f64::from(ring) + 0.5) / 12.0).sin_cos();
+            (0..300).map(move |at| {
+                let azimuth = TAU * f64::from(at) / 300.0;
+                let n = Vector3::new(cos, sin * azimuth.cos(), sin * azimuth.sin());
+                Point3::from(n.component_mul(&Vector3::new(4.0, 3.0, 2.5)))
+            })
+        });
+        assert!(!has_neck(&rings.collect::<Vec<_>>()));
+    }
+
+    /// What is bare of two ellipsoids along the axes.
+    fn pair(ellipsoids: [(Vector3<f64>, Vector3<f64>); 2]) -> Vec<Point3<f64>> {
+        let directions = Sampling::Fibonacci.directions(3000, 0).unwrap();
+        let [one, other] = ellipsoids;
+        let bare = |(middle, semi_axes): (Vector3<f64>, Vector3<f64>),
+                    other: (Vector3<f64>, Vector3<f64>)| {
+            let places = directions
+                .iter()
+                .map(|n| Point3::from(middle + n.component_mul(&semi_axes)));
+            let is_outside =
+                |place: &Point3<f64>| (place.coords - other.0).component_div(&other.1).norm() > 1.0;
+            places.filter(is_outside).collect::<Vec<_>>()
+        };
+        [bare(one, other), bare(other, one)].concat()
+    }
+
+    #[test]
+    fn a_broad_neck_shows_in_thin_slabs_and_between_grains_of_two_sizes() {
+        let long = Vector3::new(20.0, 10.0, 9.0);
+        for (aside, other) in [
+            (Vector3::new(0.0, 18.0, 0.0), Vector3::new(18.0, 10.0, 9.0)),
+            (Vector3::new(24.5, 0.0, 0.0), Vector3::new(6.0, 5.0, 5.0)),
+        ] {
+            let points = pair([(Vector3::zeros(), long), (aside, other)]);
+            assert!(has_neck(&points) && are_two_grains(&points), "{aside}");
+        }
+        let one = pair([(Vector3::zeros(), long), (Vector3::zeros(), long * 0.5)]);
+        assert!(!has_neck(&one));
+    }
+
+    #[test]
+    fn the_arms_of_a_hook_are_no_grains() {
+        let hook = CurledOptions::clean(Curled::Hook).with_points(3000);
+        let points = synthesize_curled(&hook).unwrap().mesh.vertices;
+        assert!(!are_two_grains(&points));
+    }
+}
