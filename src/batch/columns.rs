@@ -157,21 +157,24 @@ fn of_measure(measure: Measure) -> Vec<Figure> {
             "intermediate_to_long",
             "short_to_intermediate",
         ]),
-        Measure::Form => plain(&["aspect_ratio", "elongation", "flatness"]),
+        Measure::Form => known(name, &["aspect_ratio", "elongation", "flatness"]),
         Measure::Spheres => ["inscribed", "enclosing"]
             .map(|ball| {
                 let radius = figure(name, &format!("{ball}_radius"), &format!("{ball}/radius"));
                 with_error(radius, format!("/{name}/{ball}/radius_standard_error"))
             })
             .into(),
-        Measure::Sphericity => plain(&[
-            "wadell",
-            "operational",
-            "inscribed_enclosing",
-            "inscribed_enclosing_root",
-            "krumbein",
-            "maximum_projection",
-        ]),
+        Measure::Sphericity => known(
+            name,
+            &[
+                "wadell",
+                "operational",
+                "inscribed_enclosing",
+                "inscribed_enclosing_root",
+                "krumbein",
+                "maximum_projection",
+            ],
+        ),
         Measure::Convexity => plain(&["volume", "area"]),
         Measure::Ellipsoid => numbered(name, ["a", "b", "c"], "semi_axes"),
         Measure::Projections => (0..3)
@@ -211,6 +214,15 @@ fn of_measure(measure: Measure) -> Vec<Figure> {
             .collect(),
         _ => vec![figure(name, "", "")],
     }
+}
+
+/// Parts of a measure of which the record holds standard errors, too.
+fn known(name: &str, parts: &[&str]) -> Vec<Figure> {
+    let part = |part: &&str| {
+        let error = format!("/{name}/standard_errors/{part}");
+        with_error(figure(name, part, part), error)
+    };
+    parts.iter().map(part).collect()
 }
 
 fn numbered(name: &str, parts: [&str; 3], list: &str) -> Vec<Figure> {

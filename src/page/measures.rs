@@ -20,9 +20,11 @@ pub(crate) struct MeasureRow {
     pub definition: String,
 }
 
-/// The error of the largest curvature, and how that of a radius ends: they stand beside these and are no rows of their own.
+/// The error of the largest curvature, how that of a radius ends, and where those of ratios are: they stand beside these and are no
+/// rows of their own.
 const LARGEST_ERROR: &str = "curvature.largest_error";
 const RADIUS_ERROR: &str = "radius_standard_error";
+const RATIO_ERRORS: &str = ".standard_errors.";
 
 /// Entries of a list that are shown.
 const MOST_ENTRIES: usize = 12;
@@ -42,7 +44,10 @@ impl MeasureRow {
         for row in &mut rows {
             row.error = error(&row.name, &measures, &errors);
         }
-        rows.retain(|row| row.name != LARGEST_ERROR && !row.name.ends_with(RADIUS_ERROR));
+        let is_error = |name: &str| {
+            name == LARGEST_ERROR || name.ends_with(RADIUS_ERROR) || name.contains(RATIO_ERRORS)
+        };
+        rows.retain(|row| !is_error(&row.name));
         rows
     }
 }
@@ -121,6 +126,9 @@ fn error(name: &str, measures: &Value, errors: &Value) -> Option<String> {
         "spheres.inscribed.radius" | "spheres.enclosing.radius" => {
             measures.pointer(&at(&name.replace("radius", RADIUS_ERROR)))
         }
+        name if name.starts_with("form.") || name.starts_with("sphericity.") => {
+            measures.pointer(&at(&name.replace('.', RATIO_ERRORS)))
+        }
         "principal.moments" => errors.pointer("/moments"),
         "area" | "volume" => errors.pointer(&at(name)),
         name if name.starts_with("dimensions.") => errors.pointer(&at(name)),
@@ -186,6 +194,7 @@ mod tests {
             "area": 2.5,
             "curvature": {"larger": {"largest": 7.0, "mean": 1.0}, "largest_error": 0.5},
             "dimensions": {"length": 3.0},
+            "form": {"elongation": 0.5, "standard_errors": {"elongation": 0.25}},
             "principal": {"moments": [1.0, 2.0, 3.0]},
             "roundness": 0.5,
             "spheres": {"inscribed": {"radius": 2.0, "radius_standard_error": 0.125}},
@@ -208,6 +217,7 @@ mod tests {
                 ("curvature.larger.largest", Some("0.500000")),
                 ("curvature.larger.mean", None),
                 ("dimensions.length", Some("0.750000")),
+                ("form.elongation", Some("0.250000")),
                 ("principal.moments", Some("0, 0, 0")),
                 ("roundness", None),
                 ("spheres.inscribed.radius", Some("0.125000")),

@@ -44,7 +44,7 @@ pub use hertz::HertzLaw;
 pub use measure::{
     BoxRecord, CurvatureRecord, Dimensions, EllipsoidRecord, FacesRecord, FillRecord, Measure,
     MeasureReport, Measured, Measures, NotMeasured, Principal, ProjectionRecord, SphereRecord,
-    Spheres, UnknownMeasure,
+    Spheres, UnknownMeasure, WithErrors,
 };
 #[cfg(feature = "cli")]
 pub(crate) use measure::{Withheld, by_reason};

@@ -344,3 +344,49 @@ fn a_fit_tells_measure_of_holes_and_of_curvature() {
         }
     }
 }
+
+/// A ratio is as uncertain as both of its lengths, at most; a record, a text and a table tell it alike.
+#[test]
+fn ratios_have_standard_errors() {
+    let folder = folder();
+    let synth = "synth bean --points 1538 --noise 0.02 -o s.ply";
+    succeed(&folder, &synth.split(' ').collect::<Vec<_>>());
+    succeed(&folder, &["fit", "s.ply", "-o", "m.json"]);
+    let only = "dimensions,form,sphericity";
+    let words = ["measure", "m.json", "--only", only];
+    let found = json(&folder, &words);
+    let at = |path: &str| {
+        found
+            .pointer(path)
+            .and_then(serde_json::Value::as_f64)
+            .unwrap()
+    };
+    let off = |side: &str| {
+        at(&format!("/standard_errors/dimensions/{side}")) / at(&format!("/dimensions/{side}"))
+    };
+    let told = at("/form/standard_errors/elongation") / at("/form/elongation");
+    assert!(
+        (told / (off("length") + off("width")) - 1.0).abs() < 1e-9,
+        "{told}"
+    );
+    let wadell = at("/sphericity/standard_errors/wadell");
+    assert!((1e-5..1e-2).contains(&wadell), "{wadell}");
+    let text = succeed(&folder, &words);
+    let lines = text
+        .lines()
+        .filter(|line| line.starts_with("form") || line.starts_with("sphericity"));
+    let counts: Vec<_> = lines.map(|line| line.matches(" ± ").count()).collect();
+    assert_eq!(counts, [3, 6], "{text}");
+
+    succeed(&folder, &["batch", "s.ply", "-o", "lot", "--only", only]);
+    let row = &super::batch::rows(&folder.path().join("lot/results.csv"))[0];
+    for name in [
+        "form.flatness",
+        "sphericity.krumbein",
+        "sphericity.inscribed_enclosing",
+    ] {
+        let path = format!("/{}", name.replace('.', "/standard_errors/"));
+        let told = row[&format!("{name}_se")].parse::<f64>().unwrap();
+        assert!((told / at(&path) - 1.0).abs() < 1e-9, "{name}: {told}");
+    }
+}

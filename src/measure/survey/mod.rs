@@ -4,6 +4,7 @@ mod body;
 mod curved;
 mod error;
 mod from_centroid;
+mod ratio_errors;
 mod touching;
 mod unit_size;
 

@@ -11,7 +11,7 @@ pub use names::{Measure, UnknownMeasure};
 pub(super) use records::rows;
 pub use records::{
     BoxRecord, CurvatureRecord, Dimensions, EllipsoidRecord, Principal, ProjectionRecord,
-    SphereRecord, Spheres,
+    SphereRecord, Spheres, WithErrors,
 };
 pub(crate) use withheld::{Withheld, by_reason};
 
@@ -116,13 +116,13 @@ pub struct Measures {
     pub ratios: Option<SideRatios>,
     /// Ratios of the extents along the principal axes.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub form: Option<Form>,
+    pub form: Option<WithErrors<Form>>,
     /// The largest inscribed and the smallest enclosing sphere.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub spheres: Option<Spheres>,
     /// Sphericity in its forms.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub sphericity: Option<Sphericity>,
+    pub sphericity: Option<WithErrors<Sphericity>>,
     /// Roundness of the corners.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub roundness: Option<f64>,
@@ -325,14 +325,19 @@ impl Measures {
             Measure::Dimensions => self.dimensions = Some(Dimensions::new(survey.dimensions()?)),
             Measure::MinimumBox => self.minimum_box = Some(survey.minimum_box()?.into()),
             Measure::Ratios => self.ratios = Some(survey.side_ratios()?),
-            Measure::Form => self.form = Some(survey.form()?),
+            Measure::Form => {
+                self.form = Some(WithErrors::new(survey.form()?, survey.form_errors()?));
+            }
             Measure::Spheres => {
                 self.spheres = Some(Spheres {
                     inscribed: inscribed(survey).ok(),
                     enclosing: SphereRecord::new(survey.enclosing()?, survey.enclosing_error()?),
                 });
             }
-            Measure::Sphericity => self.sphericity = Some(survey.sphericity()?),
+            Measure::Sphericity => {
+                let errors = survey.sphericity_errors()?;
+                self.sphericity = Some(WithErrors::new(survey.sphericity()?, errors));
+            }
             Measure::Roundness => self.roundness = Some(survey.roundness()?),
             Measure::Regularity => self.regularity = Some(survey.regularity()?),
             Measure::Angularity => self.angularity = Some(survey.angularity()?),

@@ -50,6 +50,26 @@ impl Dimensions {
     }
 }
 
+/// Pure numbers, and how well they are known.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct WithErrors<T> {
+    /// The numbers.
+    #[serde(flatten)]
+    pub figures: T,
+    /// Their standard errors, at most; `null` where they are not known.
+    pub standard_errors: Option<T>,
+}
+
+impl<T> WithErrors<T> {
+    pub(in crate::report) fn new(figures: T, standard_errors: Option<T>) -> Self {
+        Self {
+            figures,
+            standard_errors,
+        }
+    }
+}
+
 /// A box in any orientation.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[non_exhaustive]

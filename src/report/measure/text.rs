@@ -2,9 +2,9 @@
 
 use super::{
     BoxRecord, Dimensions, MeasureReport, Measured, Principal, ProjectionRecord, SphereRecord,
-    by_reason,
+    WithErrors, by_reason,
 };
-use crate::measure::Distribution;
+use crate::measure::{Distribution, Form, Sphericity};
 use crate::report::escape::escaped;
 use crate::report::number::{short, triple, with_error};
 use crate::report::unit::Labels;
@@ -169,23 +169,26 @@ impl MeasureReport {
             )?;
         }
         if let Some(form) = measures.form {
+            let told = |of: fn(&Form) -> f64| ratio(&form, of);
             writeln!(
                 f,
-                "form          aspect ratio L/T {:.4}, elongation W/L {:.4}, flatness T/W {:.4}",
-                form.aspect_ratio, form.elongation, form.flatness
+                "form          aspect ratio L/T {}, elongation W/L {}, flatness T/W {}",
+                told(|form| form.aspect_ratio),
+                told(|form| form.elongation),
+                told(|form| form.flatness)
             )?;
         }
         if let Some(sphericity) = measures.sphericity {
+            let told = |of: fn(&Sphericity) -> f64| ratio(&sphericity, of);
             writeln!(
                 f,
-                "sphericity    Wadell {:.4}, operational {:.4}, spheres {:.4} (root {:.4}), \
-                 Krumbein {:.4}, maximum projection {:.4}",
-                sphericity.wadell,
-                sphericity.operational,
-                sphericity.inscribed_enclosing,
-                sphericity.inscribed_enclosing_root,
-                sphericity.krumbein,
-                sphericity.maximum_projection
+                "sphericity    Wadell {}, operational {}, spheres {} (root {}), Krumbein {}, maximum projection {}",
+                told(|sphericity| sphericity.wadell),
+                told(|sphericity| sphericity.operational),
+                told(|sphericity| sphericity.inscribed_enclosing),
+                told(|sphericity| sphericity.inscribed_enclosing_root),
+                told(|sphericity| sphericity.krumbein),
+                told(|sphericity| sphericity.maximum_projection)
             )?;
         }
         for (name, value) in [
@@ -268,6 +271,15 @@ impl MeasureReport {
             )?;
         }
         Ok(())
+    }
+}
+
+/// A pure number, with its standard error where it is known.
+fn ratio<T>(ratios: &WithErrors<T>, of: fn(&T) -> f64) -> String {
+    let value = of(&ratios.figures);
+    match &ratios.standard_errors {
+        Some(errors) => with_error(value, Some(of(errors))),
+        None => format!("{value:.4}"),
     }
 }
 

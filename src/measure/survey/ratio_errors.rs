@@ -1,0 +1,158 @@
+//! How well form and sphericity are known: products of powers of sizes that have standard errors.
+//!
+//! The relative error of x^a y^b is |a| dx/x + |b| dy/y at most, whatever the errors of x and of y have to do with each other, and
+//! that is told.
+
+use super::{Survey, SurveyError};
+use crate::measure::{Form, Sphericity};
+use nalgebra::Vector3;
+
+impl Survey<'_> {
+    /// Standard errors, at most, of the ratios of [`Self::form`]. `None` where the grain tells none of its dimensions.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::form`].
+    pub fn form_errors(&self) -> Result<Option<Form>, SurveyError> {
+        let form = self.form()?;
+        Ok(self.relative_dimension_errors()?.map(|off| Form {
+            aspect_ratio: form.aspect_ratio * (off.x + off.z),
+            elongation: form.elongation * (off.x + off.y),
+            flatness: form.flatness * (off.y + off.z),
+        }))
+    }
+
+    /// The same of [`Self::sphericity`]. `None` where the grain tells no errors of its area and volume, of its dimensions or of its
+    /// spheres.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::sphericity`].
+    pub fn sphericity_errors(&self) -> Result<Option<Sphericity>, SurveyError> {
+        let sphericity = self.sphericity()?;
+        let (Ok(errors), Some(off)) = (self.standard_errors(), self.relative_dimension_errors()?)
+        else {
+            return Ok(None);
+        };
+        let (Some(inscribed), Some(enclosing)) = (self.inscribed_error()?, self.enclosing_error()?)
+        else {
+            return Ok(None);
+        };
+        let (area, volume) = (errors.area / self.area()?, errors.volume / self.volume()?);
+        let inscribed = inscribed / self.inscribed()?.radius;
+        let enclosing = enclosing / self.enclosing()?.radius;
+        let spheres = inscribed + enclosing;
+        Ok(Some(Sphericity {
+            wadell: sphericity.wadell * (2.0 / 3.0 * volume + area),
+            operational: sphericity.operational * (volume / 3.0 + enclosing),
+            inscribed_enclosing: sphericity.inscribed_enclosing * spheres,
+            inscribed_enclosing_root: sphericity.inscribed_enclosing_root * spheres / 2.0,
+            krumbein: sphericity.krumbein * (2.0 * off.x + off.y + off.z) / 3.0,
+            maximum_projection: sphericity.maximum_projection * (off.x + off.y + 2.0 * off.z) / 3.0,
+        }))
+    }
+
+    /// Of length, width and thickness, as shares of them.
+    fn relative_dimension_errors(&self) -> Result<Option<Vector3<f64>>, SurveyError> {
+        let Ok(errors) = self.standard_errors() else {
+            return Ok(None);
+        };
+        Ok(Some(errors.dimensions.component_div(&self.dimensions()?)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::measure::Scheme;
+    use crate::model::{Grain, LocalError, LocalErrors, StandardErrors, grain_from_json};
+    use crate::sphere::CubeCell;
+    use approx::assert_relative_eq;
+
+    /// An egg with errors of its sizes of so many percent: area, volume, length, width, thickness, and of all its surface.
+    fn egg(percent: [f64; 5], surface: f64) -> Grain {
+        let text = r#"{"format": "grainform model", "version": 5, "centre": [1, 2, 3],
+            "axes": [[1, 0, 0], [0, 1, 0], [0, 0, 1]], "harmonics": [12, 0, 0, 0, 0, 0, 1, 0, 0.5]}"#;
+        let grain = grain_from_json(text).unwrap();
+        let survey = Survey::of_grain(&grain, Scheme::Exact);
+        let [area, volume, length, width, thickness] = percent.map(|share| share / 100.0);
+        let errors = StandardErrors {
+            area: area * survey.area().unwrap(),
+            volume: volume * survey.volume().unwrap(),
+            dimensions: survey
+                .dimensions()
+                .unwrap()
+                .component_mul(&Vector3::new(length, width, thickness)),
+            ..StandardErrors::NONE
+        };
+        let place = LocalError {
+            place: surface,
+            curvature: 0.0,
+        };
+        let local = CubeCell::uniform(LocalErrors::PARTS)
+            .iter()
+            .map(|_| place)
+            .collect();
+        grain
+            .with_standard_errors(Ok(errors))
+            .with_local_errors(LocalErrors::new(local))
+    }
+
+    #[test]
+    fn errors_of_ratios_are_the_sums_of_those_of_their_sizes() {
+        let grain = egg([1.0, 3.0, 0.5, 0.25, 2.0], 0.02);
+        let survey = Survey::of_grain(&grain, Scheme::Exact);
+        let (form, off) = (
+            survey.form().unwrap(),
+            survey.form_errors().unwrap().unwrap(),
+        );
+        assert_relative_eq!(
+            off.aspect_ratio / form.aspect_ratio,
+            0.025,
+            max_relative = 1e-12
+        );
+        assert_relative_eq!(
+            off.elongation / form.elongation,
+            0.0075,
+            max_relative = 1e-12
+        );
+        assert_relative_eq!(off.flatness / form.flatness, 0.0225, max_relative = 1e-12);
+        let (found, off) = (
+            survey.sphericity().unwrap(),
+            survey.sphericity_errors().unwrap().unwrap(),
+        );
+        assert_relative_eq!(off.wadell / found.wadell, 0.03, max_relative = 1e-12);
+        assert_relative_eq!(
+            off.krumbein / found.krumbein,
+            0.0325 / 3.0,
+            max_relative = 1e-12
+        );
+        let maximum_projection = 0.0475 / 3.0;
+        assert_relative_eq!(
+            off.maximum_projection / found.maximum_projection,
+            maximum_projection,
+            max_relative = 1e-12
+        );
+        let inside =
+            survey.inscribed_error().unwrap().unwrap() / survey.inscribed().unwrap().radius;
+        let outside =
+            survey.enclosing_error().unwrap().unwrap() / survey.enclosing().unwrap().radius;
+        assert_relative_eq!(
+            off.operational / found.operational,
+            0.01 + outside,
+            max_relative = 1e-12
+        );
+        let spheres = off.inscribed_enclosing / found.inscribed_enclosing;
+        assert_relative_eq!(spheres, inside + outside, max_relative = 1e-12);
+        let root = off.inscribed_enclosing_root / found.inscribed_enclosing_root;
+        assert_relative_eq!(root, spheres / 2.0, max_relative = 1e-12);
+    }
+
+    #[test]
+    fn without_errors_of_sizes_there_are_none_of_ratios() {
+        let grain = egg([0.0; 5], 0.0).with_standard_errors(Err(crate::model::NoInterval::NotTold));
+        let survey = Survey::of_grain(&grain, Scheme::Exact);
+        assert_eq!(survey.form_errors(), Ok(None));
+        assert_eq!(survey.sphericity_errors(), Ok(None));
+    }
+}
