@@ -84,9 +84,8 @@ pub(super) fn lacking(grain: &Grain, mesh: &Mesh) -> Option<String> {
     let share = 1.0 - mesh_properties(mesh).ok()?.area / area;
     (share > LACKING).then(|| {
         format!(
-            "The mesh has {:.1} % less area than the model, and may have handles that it has not: clefts between its parts are \
-             narrower than the triangles. Mesh it with a larger --resolution, and take figures from the model \
-             (grainform measure).",
+            "The mesh has {:.1} % less area than the model: it closes clefts between parts that are narrower than its \
+             triangles. Mesh it with a larger --resolution, and take figures from the model (grainform measure).",
             100.0 * share
         )
     })

@@ -1,7 +1,7 @@
 //! How much of its convex hull a body fills.
 
 use super::bounds::{OutOfBounds, between, ratio};
-use super::{MassProperties, MeshIntegralError, mesh_properties};
+use super::{MeshIntegralError, mesh_properties};
 use crate::Mesh;
 use serde::Serialize;
 
@@ -22,16 +22,7 @@ impl Convexity {
     ///
     /// When either has no volume.
     pub fn new(mesh: &Mesh, hull: &Mesh) -> Result<Self, MeshIntegralError> {
-        Self::of_known(&mesh_properties(mesh)?, hull)
-    }
-
-    /// That of a body whose area and volume are known, and its hull.
-    ///
-    /// # Errors
-    ///
-    /// When the hull has no volume.
-    pub(super) fn of_known(body: &MassProperties, hull: &Mesh) -> Result<Self, MeshIntegralError> {
-        let hull = mesh_properties(hull)?;
+        let (body, hull) = (mesh_properties(mesh)?, mesh_properties(hull)?);
         Ok(Self {
             volume: body.volume / hull.volume,
             area: hull.area / body.area,

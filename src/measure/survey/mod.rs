@@ -13,7 +13,8 @@ use super::extents::Extents;
 use super::unit::Unit;
 use super::{
     Ball, Convexity, CurvatureStatistics, EquivalentEllipsoid, Form, MassProperties, OrientedBox,
-    Outline, PrincipalInertia, ScannedBody, SideRatios, SolidProperties, Sphericity, project,
+    Outline, PrincipalInertia, ScannedBody, SideRatios, SolidProperties, Sphericity,
+    mesh_properties, project,
 };
 use crate::Mesh;
 use crate::model::{Grain, NoInterval, Radial, StandardErrors, StarSurface};
@@ -306,14 +307,12 @@ impl<'a> Survey<'a> {
     /// When there is no convex hull, or nothing is inside, or there are several bodies.
     pub fn convexity(&self) -> Result<Convexity, SurveyError> {
         self.one_body()?;
+        let mut found = Convexity::new(self.mesh(), self.hull()?)?;
         // The mesh of a union closes clefts between its parts; of all others mesh and hull are short of the body alike.
-        let found = match self.unit_union() {
-            Some(union) if self.body.has_hidden() => {
-                Convexity::of_known(&union.properties, self.hull()?)
-            }
-            _ => Convexity::new(self.mesh(), self.hull()?),
-        };
-        Ok(found?.checked()?)
+        if let Some(union) = self.unit_union().filter(|_| self.body.has_hidden()) {
+            found.area = mesh_properties(self.hull()?)?.area / union.properties.area;
+        }
+        Ok(found.checked()?)
     }
 
     /// The ellipsoid of equal moments.

@@ -12,6 +12,9 @@ const MOST_CUTS: usize = 12;
 /// with edges below .04, of three balls or more that touch above .1, as of bent bodies.
 const FOLLOWED: f64 = 0.1;
 
+/// The same of smooth grains at most, among which no broad neck is looked for: of two that touch it is above .028.
+const SMOOTH: f64 = 0.015;
+
 /// What is done at the necks of clumps.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Necks {
@@ -48,9 +51,8 @@ pub(super) fn cut(places: &[Point3<f64>], clump: Vec<u32>, distance: f64, necks:
         let has_waist = neck.is_some();
         let is_last = whole.len() + left.len() >= most_cuts;
         let cut = neck.filter(|_| !is_last).and_then(|neck| {
-            let sides = sides(&points, &neck.cut(&own)?);
-            let are_grains = sides.iter().all(|side| side.len() >= LEAST_POINTS);
-            are_grains.then_some((neck, sides))
+            let sides = grains(&points, &neck.cut(&own)?)?;
+            Some((neck, sides))
         });
         match cut {
             Some((neck, sides)) => {
@@ -67,25 +69,44 @@ pub(super) fn cut(places: &[Point3<f64>], clump: Vec<u32>, distance: f64, necks:
     if cuts.len() > 1 {
         settle(places, &mut whole, &cuts);
     }
-    let parts = whole.into_iter().zip(waists);
-    Parts {
-        parts: parts
-            .map(|(points, has_waist)| Part {
-                may_touch: has_waist || Outline::misses(&of(&points)) > FOLLOWED,
+    let mut parts = Vec::with_capacity(whole.len());
+    for (points, has_waist) in whole.into_iter().zip(waists) {
+        let own = of(&points);
+        let missed = Outline::misses(&own);
+        let broad = (missed > SMOOTH)
+            .then(|| Neck::between_two(&own, distance))
+            .flatten();
+        let cut = broad.as_ref().filter(|_| cuts.len() < most_cuts);
+        let sides = cut.and_then(|neck| grains(&points, &neck.cut(&own)?));
+        match (broad, sides) {
+            (Some(neck), Some(sides)) => {
+                cuts.push(neck);
+                parts.extend(sides.map(|points| Part {
+                    points,
+                    may_touch: false,
+                }));
+            }
+            (broad, _) => parts.push(Part {
+                may_touch: has_waist || broad.is_some() || missed > FOLLOWED,
                 points,
-            })
-            .collect(),
+            }),
+        }
+    }
+    Parts {
+        parts,
         neck: cuts.iter().map(Neck::width).fold(0.0, f64::max),
     }
 }
 
-/// The points before and beyond a neck.
-fn sides(points: &[u32], beyond: &[bool]) -> [Vec<u32>; 2] {
-    [false, true].map(|side| {
+/// The points before and beyond a neck, if they are enough for grains.
+fn grains(points: &[u32], beyond: &[bool]) -> Option<[Vec<u32>; 2]> {
+    let sides = [false, true].map(|side| {
         let own = points
             .iter()
             .zip(beyond)
             .filter(|(_, other)| **other == side);
-        own.map(|(point, _)| *point).collect()
-    })
+        own.map(|(point, _)| *point).collect::<Vec<u32>>()
+    });
+    let are_grains = sides.iter().all(|side| side.len() >= LEAST_POINTS);
+    are_grains.then_some(sides)
 }

@@ -23,8 +23,11 @@ const STEPS: [f64; 2] = [0.15, 0.01];
 /// Slabs that the points are cut in along an axis; each is as wide as neighbours are apart, at least.
 const SLABS: usize = 24;
 
+/// Thickness of slabs in which broad necks show, beside those that rows of points need.
+pub(super) const THIN: f64 = 0.5;
+
 /// Half the width of the slabs by which a neck is placed, as a share of the distance of neighbours, ...
-const THIN: f64 = 0.07;
+const PLACED: f64 = 0.07;
 
 /// ... and places that are tried on each side.
 const PLACES: i32 = 60;
@@ -46,6 +49,13 @@ const WAIST: f64 = 0.7;
 /// Outline of a neck over the smaller of the largest on both sides, at most. Sections are told by how far points scatter, and
 /// of a plate whose points are dense in the middle they scatter least there.
 const OUTLINED: f64 = 0.85;
+
+/// The same of a neck that shows in thin slabs only. Of grains that touch it is below .6; of peanuts with a waist of three quarters
+/// and more, of which one half is denser, above.
+const OUTLINED_BROAD: f64 = 0.6;
+
+/// Points in a thin slab over those in the fuller one beside it, at least: between rows there are fewer.
+const HELD: f64 = 0.2;
 
 /// RMS distance from two outlines over that from one. Of grains that touch it is below .12, with noise of 1 % too.
 const TWO: f64 = 0.33;
@@ -72,6 +82,10 @@ pub(super) struct Neck {
     width: f64,
     /// Section over the smaller of the largest on both sides.
     ratio: f64,
+    /// The same of the areas of their convex outlines, which points that are dense on one side do not change.
+    outlined: f64,
+    /// Points in its slab over those in the fuller of the slabs beside it.
+    held: f64,
     /// Radius of the smaller of these.
     radius: f64,
 }
@@ -99,14 +113,21 @@ impl Neck {
         // Of few points a section may be a line by chance; all of them decide.
         let rays: Vec<Vector3<f64>> = points.iter().map(|point| point - origin).collect();
         let neck = narrowest(&rays, &axis, distance)?;
-        neck.is_outlined(&rays).then(|| Self {
+        let outlined = neck.outlined(&rays);
+        (outlined < OUTLINED).then(|| Self {
+            outlined,
             at: neck.placed(&rays, distance) + axis.dot(&origin.coords),
             ..neck
         })
     }
 
-    /// Whether the convex outlines of its sections have a neck too.
-    fn is_outlined(&self, rays: &[Vector3<f64>]) -> bool {
+    /// The neck that shows in thin slabs, if outlines on both sides of it tell two grains.
+    pub(super) fn between_two(points: &[Point3<f64>], distance: f64) -> Option<Self> {
+        Self::find(points, THIN * distance).filter(|neck| neck.is_between_two(points))
+    }
+
+    /// The convex outline of the neck over the smaller of the largest on both sides.
+    fn outlined(&self, rays: &[Vector3<f64>]) -> f64 {
         let [u, v] = across(&self.axis);
         let mut sections: BTreeMap<i64, Vec<Vector2<f64>>> = BTreeMap::new();
         for ray in rays {
@@ -123,7 +144,7 @@ impl Neck {
             };
             *largest = largest.max(hull_area(&polygon_hull(places)));
         }
-        own < OUTLINED * below.min(above)
+        own / below.min(above)
     }
 
     /// Where the neck is smallest, by slabs much thinner than its own.
@@ -137,7 +158,7 @@ impl Neck {
         let section = |at: f64| {
             let mut sum = Sums::default();
             for &[height, x, y] in &near {
-                if (height - at).abs() < THIN * distance {
+                if (height - at).abs() < PLACED * distance {
                     sum.add(x, y);
                 }
             }
@@ -178,7 +199,7 @@ impl Neck {
 
     /// Whether outlines on both sides of it tell two grains.
     pub(super) fn is_between_two(&self, points: &[Point3<f64>]) -> bool {
-        self.may_part_two() && {
+        self.may_part_two() && self.outlined < OUTLINED_BROAD && self.held > HELD && {
             let beyond = self.beyond(points);
             are_two(points, &beyond) && are_followed(points, &beyond)
         }
@@ -318,6 +339,7 @@ fn narrowest(rays: &[Vector3<f64>], axis: &Vector3<f64>, distance: f64) -> Optio
     after.reverse();
     let mut below = 0.0;
     let mut best: Option<Neck> = None;
+    let held = |slab: usize| sums.get(slab).map_or(1.0, |sums| sums.count.max(1.0));
     for slab in 0..slabs {
         let share = (below + 0.5 * sums[slab].count) / rays.len() as f64;
         below += sums[slab].count;
@@ -331,6 +353,8 @@ fn narrowest(rays: &[Vector3<f64>], axis: &Vector3<f64>, distance: f64) -> Optio
                 at: low + (slab as f64 + 0.5) * width,
                 width,
                 ratio,
+                outlined: ratio,
+                held: sums[slab].count / held(slab.wrapping_sub(1)).max(held(slab + 1)),
                 radius: (2.0 * beside).sqrt(),
             });
         }

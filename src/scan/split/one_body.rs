@@ -1,15 +1,12 @@
 //! Whether what is taken for one body has a neck, as two grains that touch have.
 
 use super::links::Links;
-use super::neck::Neck;
+use super::neck::{Neck, THIN};
 use super::spacing::covering;
 use crate::scan::drawn::drawn;
 use nalgebra::Point3;
 
-/// Thickness of slabs in which narrow necks show, beside those that rows of points need.
-const THIN: f64 = 0.5;
-
-/// The same between voxels.
+/// Thickness of slabs in which necks between voxels show, likewise.
 const THIN_OF_VOXELS: f64 = 0.7;
 
 /// Points by which a neck is looked for in a scan of one body.
@@ -20,17 +17,16 @@ pub(crate) fn has_neck(points: &[Point3<f64>]) -> bool {
     let drawn = drawn(points, NECK_POINTS);
     let waist = |times: f64| neck_of(&drawn, times).filter(Neck::is_waist);
     // Between rows of points thin slabs hold few of them; a neck is a waist in thick slabs too.
-    waist(THIN).is_some_and(|neck| {
-        neck.is_between_two(&drawn)
-            || waist(1.0).is_some_and(|neck| neck.is_narrow()) && waist(2.0).is_some()
-    })
+    let is_thick = || waist(1.0).is_some_and(|neck| neck.is_narrow()) && waist(2.0).is_some();
+    waist(THIN).is_some() && (are_two_grains(&drawn) || is_thick())
 }
 
 /// Whether a cloud has a neck between two grains, each of which its outline follows: of a bent body the arms may have a neck that is
 /// as narrow.
 pub(crate) fn are_two_grains(points: &[Point3<f64>]) -> bool {
     let drawn = drawn(points, NECK_POINTS);
-    neck_of(&drawn, THIN).is_some_and(|neck| neck.is_between_two(&drawn))
+    let links = Links::new(&drawn);
+    links.is_some_and(|links| Neck::between_two(&drawn, links.distance).is_some())
 }
 
 /// The same of the middles between voxels inside and outside, whose rows are as near as their points, so that thin slabs tell: the
@@ -39,7 +35,8 @@ pub(crate) fn voxels_have_neck(points: &[Point3<f64>]) -> bool {
     let drawn = drawn(points, NECK_POINTS);
     let neck = |times: f64| neck_of(&drawn, times).filter(Neck::may_part_two);
     neck(THIN_OF_VOXELS).is_some()
-        || neck(THIN).is_some_and(|neck| neck.is_narrow() || neck.is_between_two(&drawn))
+        || neck(THIN).is_some_and(|neck| neck.is_narrow())
+        || are_two_grains(&drawn)
 }
 
 /// The neck of points in slabs that are so many times as thick as rows of them are apart.
@@ -128,6 +125,20 @@ mod tests {
         }
         let one = pair([(Vector3::zeros(), long), (Vector3::zeros(), long * 0.5)]);
         assert!(!has_neck(&one));
+    }
+
+    /// Sections told by how far points scatter are too small where a dense half begins.
+    #[test]
+    fn a_peanut_of_which_one_half_is_denser_has_no_neck() {
+        let peanut = |n: &Vector3<f64>| {
+            let waist = 1.0 - 0.2 * (-(n.z / 0.35).powi(2)).exp();
+            Point3::new(waist * n.x, waist * n.y, 2.0 * n.z)
+        };
+        let directions = Sampling::Fibonacci.directions(8000, 0).unwrap();
+        let points = directions.iter().enumerate();
+        let kept = points.filter(|(at, n)| n.z > 0.0 || at % 8 == 0);
+        let points: Vec<_> = kept.map(|(_, n)| peanut(n)).collect();
+        assert!(!has_neck(&points) && !are_two_grains(&points));
     }
 
     #[test]

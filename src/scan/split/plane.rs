@@ -6,7 +6,7 @@
 //! not thin beside the grains is no plane, but a layer of them.
 
 use super::links::{nearest, nearest_distance, sixth_distance};
-use crate::polygon_hull::polygon_hull;
+use crate::polygon_hull::{hull_area, polygon_hull};
 use crate::sphere::across;
 use crate::spread::{covariance, median, robust_deviation};
 use kiddo::ImmutableKdTree;
@@ -63,8 +63,15 @@ const LEAST_BARE: f64 = 0.15;
 /// ... within so many times the distance between its points, ...
 const BARE: f64 = 4.0;
 
-/// ... or so many times that between the points above it, where these are denser.
+/// ... or so many times that between the points above it, where these are denser and the plane goes on beyond them, ...
 const BARE_OF_ABOVE: f64 = 2.5;
+
+/// ... over so many times their outline: a face of a body does not.
+const BEYOND: f64 = 1.05;
+
+/// Share of what is above a plane that lies over its outline, at least: the rest of a grain that was seen from above only hangs
+/// down round its top.
+const LEAST_UNDER: f64 = 0.25;
 
 /// About how far the sixth neighbour is, in distances between points of a surface.
 const SIXTH: f64 = 1.4;
@@ -232,19 +239,32 @@ impl Plane {
         (sides[0] * sides[1] / on as f64).sqrt()
     }
 
-    /// Whether much of the plane has nothing above it: a face of a body has.
+    /// Whether much of the plane has nothing above it: a face of a body does not.
     fn is_bare(&self, points: &[Point3<f64>], on: usize) -> bool {
         let (carried, above): (Vec<&Point3<f64>>, Vec<&Point3<f64>>) =
             points.iter().partition(|point| self.carries(point));
-        let Some(seen) = tree(above.iter().map(|point| self.seen(point)).collect()) else {
-            return true;
-        };
-        let within = (BARE * self.spacing(points, on)).min(BARE_OF_ABOVE * spacing_of(&above));
+        let seen: Vec<[f64; 2]> = above.iter().map(|point| self.seen(point)).collect();
+        let outline = self.outline(&carried);
+        let is_under = |place: &&[f64; 2]| holds(&outline, &(**place).into(), 0.0);
+        if (seen.iter().filter(is_under).count() as f64) < LEAST_UNDER * seen.len() as f64 {
+            return false;
+        }
+        let Some(seen) = tree(seen) else { return true };
+        let mut within = BARE * self.spacing(points, on);
+        if hull_area(&outline) > BEYOND * hull_area(&self.outline(&above)) {
+            within = within.min(BARE_OF_ABOVE * spacing_of(&above));
+        }
         let places = carried.iter().step_by(on.div_ceil(MOST_COMPARED));
         let places: Vec<[f64; 2]> = places.map(|point| self.seen(point)).collect();
         let is_bare = |place: &&[f64; 2]| nearest_distance(&seen, place) > within;
         let bare = places.iter().filter(is_bare).count();
         bare as f64 > LEAST_BARE * places.len() as f64
+    }
+
+    /// The convex outline of points, as seen along the normal.
+    fn outline(&self, points: &[&Point3<f64>]) -> Vec<Vector2<f64>> {
+        let seen = points.iter().map(|point| self.seen(point).into());
+        polygon_hull(seen.collect())
     }
 
     /// The grains of points that lie on the plane, as a flat underside does. Below a grain the plane itself is hidden,

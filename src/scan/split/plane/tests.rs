@@ -70,3 +70,18 @@ fn the_least_step_between_coordinates_tells_what_they_were_rounded_to() {
     let points = [[0.5, 1.0, 0.0], [2.0, 1.0, 0.25], [1.0, 1.0, 1.0]].map(Point3::from);
     assert_eq!(rounding(&points), Vector3::new(0.5, 0.0, 0.25));
 }
+
+/// Nothing covers the sides of a grain of which the lower half was not seen.
+#[test]
+fn the_side_of_half_a_grain_is_no_table() {
+    for seed in 0..12 {
+        let mut generator = ChaCha8Rng::seed_from_u64(seed);
+        let mut half = grain(Vector3::new(8.0, 3.5, 3.0), 0.0, 0.0, 4000);
+        half.retain(|point| point.z > 3.0);
+        for point in &mut half {
+            let off: f64 = StandardNormal.sample(&mut generator);
+            *point += (point.coords - Vector3::new(0.0, 0.0, 3.0)).normalize() * (0.02 * off);
+        }
+        assert_eq!(Plane::carrying(&half), None, "{seed}");
+    }
+}
