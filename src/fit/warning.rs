@@ -32,7 +32,7 @@ pub enum FitWarning {
         /// Their number.
         others: usize,
     },
-    /// The points have a neck, at which [`split`](crate::scan::split) would cut them apart.
+    /// The scan has a neck, at which [`split`](crate::scan::split) would cut its points apart.
     Neck,
     /// A place stands in many rows, and counts once.
     Repeated {

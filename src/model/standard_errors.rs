@@ -83,7 +83,7 @@ pub enum NoInterval {
     },
     /// There are fewer points than coefficients of positions.
     FewPoints,
-    /// The points have a neck: if these are two grains that touch, a radius rounds off what lies between them.
+    /// The scan has a neck: if these are two grains that touch, a radius rounds off what lies between them.
     Neck,
     /// The figures are not finite.
     NotFinite,

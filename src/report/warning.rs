@@ -98,7 +98,8 @@ impl FitWarning {
             }
             Self::Neck => write!(
                 f,
-                "The points have a neck, as of two grains that touch: if these are two, split them (grainform split)."
+                "The scan has a neck, as of two grains that touch: if these are two, cut them apart (grainform split does, of points \
+                 without faces)."
             ),
             Self::Repeated { place, times } => write!(
                 f,
@@ -264,7 +265,7 @@ impl fmt::Display for NoInterval {
                 f,
                 "in this unit squares of the figures are beyond the range of numbers; change the unit"
             ),
-            Self::Neck => write!(f, "the points have a neck, as of two grains that touch"),
+            Self::Neck => write!(f, "the scan has a neck, as of two grains that touch"),
             Self::Contradicted => write!(
                 f,
                 "the polyhedron through the points contradicts the figures"

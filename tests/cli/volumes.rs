@@ -378,11 +378,11 @@ fn a_label_of_two_grains_is_told_by_its_neck() {
         )
     };
     let (warnings, has_none) = balls(23.0);
-    assert!(warnings.contains("have a neck") && has_none, "{warnings}");
+    assert!(warnings.contains("has a neck") && has_none, "{warnings}");
     let split = json(&folder, &["split", "ct.nrrd", "-o", "grains"]);
     assert!(split["warnings"].to_string().contains("neck"), "{split}");
     let (warnings, has_none) = balls(8.0);
-    assert!(!warnings.contains("have a neck") && !has_none, "{warnings}");
+    assert!(!warnings.contains("has a neck") && !has_none, "{warnings}");
 }
 
 #[test]

@@ -10,17 +10,20 @@ use crate::fit::error::FitError;
 use crate::fit::warning::FitWarning;
 use crate::fit::without::without;
 use crate::measure::{
-    Dust, FacesDefect, Fill, SelfCrossing, scanned_body, self_crossing, without_dust,
+    Dust, FacesDefect, Fill, SelfCrossing, even_places, scanned_body, self_crossing, without_dust,
 };
 use crate::mesh::Mesh;
 use crate::model::Unseen;
-use crate::scan::{Scan, voxels_have_neck};
+use crate::scan::{Scan, are_two_grains, voxels_have_neck};
 use nalgebra::Point3;
 use std::borrow::Cow;
 use std::ops::RangeInclusive;
 
 /// Sizes beyond which volumes are no numbers.
 const SIZES: RangeInclusive<f64> = 1e-100..=1e100;
+
+/// Places of faces among which a neck is looked for.
+const NECK_PLACES: usize = 4000;
 
 /// Finds the surface that a scan draws: its own faces if they enclose one body, small holes closed, else the
 /// triangulation of the directions of its points, without outliers, as seen from their mean.
@@ -37,12 +40,26 @@ pub fn scanned_surface(scan: &Scan) -> Result<ScannedSurface<'_>, FitError> {
         Some(_) => from_parts(scan),
         None => from_directions(Cow::Borrowed(&scan.points)),
     }?;
-    if surface.kind == ReferenceKind::Faces && scan.scatter > 0.0 {
-        surface.kind = ReferenceKind::Voxels;
-        let neck = voxels_have_neck(&surface.points).then_some(FitWarning::Neck);
-        surface.warnings.extend(neck);
+    if surface.kind == ReferenceKind::Faces {
+        let has_neck = match scan.scatter > 0.0 {
+            true => {
+                surface.kind = ReferenceKind::Voxels;
+                voxels_have_neck(&surface.points)
+            }
+            false => faces_have_neck(&surface.mesh),
+        };
+        surface
+            .warnings
+            .extend(has_neck.then_some(FitWarning::Neck));
     }
     Ok(surface)
+}
+
+/// Whether faces, taken for one body, have a neck between two grains.
+fn faces_have_neck(mesh: &Mesh) -> bool {
+    let places = even_places(mesh, NECK_PLACES).into_iter();
+    let places: Vec<Point3<f64>> = places.map(|even| even.place.into()).collect();
+    are_two_grains(&places)
 }
 
 /// Refuses points that can be those of no body: not finite, too far apart for numbers, or in a plane.
@@ -205,5 +222,32 @@ fn filled(mesh: Mesh, fill: Option<Fill>) -> ScannedSurface<'static> {
         faces: Some(faces),
         warnings: fill.map(FitWarning::Filled).into_iter().collect(),
         ..closed(mesh, Cow::Owned(points))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::Vector3;
+
+    #[test]
+    fn faces_round_two_grains_have_a_neck_and_those_of_one_grain_none() {
+        let has_neck = |radius: &dyn Fn(&Vector3<f64>) -> f64| {
+            let scan = Scan::from_mesh(Mesh::radial(32, radius)).unwrap();
+            let surface = scanned_surface(&scan).unwrap();
+            surface.warnings.contains(&FitWarning::Neck)
+        };
+        // Balls of radius 1 about places this far from the centre.
+        let balls = |apart: f64| {
+            move |n: &Vector3<f64>| {
+                let across = apart * apart * (1.0 - n.z * n.z);
+                apart * n.z.abs() + (1.0 - across).sqrt()
+            }
+        };
+        assert!(has_neck(&balls(0.85)));
+        assert!(!has_neck(&balls(0.4)));
+        assert!(!has_neck(
+            &|n| 1.0 / n.component_div(&Vector3::new(1.0, 1.5, 3.0)).norm()
+        ));
     }
 }
