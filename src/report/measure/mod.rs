@@ -306,7 +306,8 @@ impl Measures {
     pub(super) fn may_have_errors(&self) -> bool {
         let sums = self.area.is_some() || self.volume.is_some() || self.centroid.is_some();
         let moments = self.inertia.is_some() || self.principal.is_some();
-        sums || moments || self.dimensions.is_some()
+        let ratios = self.form.is_some() || self.sphericity.is_some();
+        sums || moments || ratios || self.dimensions.is_some()
     }
 
     fn take(&mut self, measure: Measure, survey: &Survey<'_>) -> Result<(), SurveyError> {

@@ -3,7 +3,10 @@
 use super::dust::LEAST_POINTS;
 use super::neck::{Neck, settle};
 use super::outline::Outline;
-use nalgebra::Point3;
+use crate::sphere::cube_grid;
+use crate::spread::covariance;
+use nalgebra::{Point3, Vector3};
+use std::f64::consts::PI;
 
 /// Cuts of one clump, at most so many one after the other.
 const MOST_CUTS: usize = 12;
@@ -14,6 +17,12 @@ const FOLLOWED: f64 = 0.1;
 
 /// The same of smooth grains at most, among which no broad neck is looked for: of two that touch it is above .028.
 const SMOOTH: f64 = 0.015;
+
+/// Directions from the middle of a grain in which no points lie this near, in radians: of half a ball there are some of 63 degrees.
+const UNSEEN: f64 = 45.0 * PI / 180.0;
+
+/// Cells along an edge of the cube of these directions.
+const LOOKED_AT: usize = 4;
 
 /// What is done at the necks of clumps.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -69,6 +78,7 @@ pub(super) fn cut(places: &[Point3<f64>], clump: Vec<u32>, distance: f64, necks:
     if cuts.len() > 1 {
         settle(places, &mut whole, &cuts);
     }
+    let may_cut = cuts.is_empty() && most_cuts > 0;
     let mut parts = Vec::with_capacity(whole.len());
     for (points, has_waist) in whole.into_iter().zip(waists) {
         let own = of(&points);
@@ -76,7 +86,7 @@ pub(super) fn cut(places: &[Point3<f64>], clump: Vec<u32>, distance: f64, necks:
         let broad = (missed > SMOOTH)
             .then(|| Neck::between_two(&own, distance))
             .flatten();
-        let cut = broad.as_ref().filter(|_| cuts.len() < most_cuts);
+        let cut = broad.as_ref().filter(|_| may_cut && is_seen_round(&own));
         let sides = cut.and_then(|neck| grains(&points, &neck.cut(&own)?));
         match (broad, sides) {
             (Some(neck), Some(sides)) => {
@@ -98,6 +108,20 @@ pub(super) fn cut(places: &[Point3<f64>], clump: Vec<u32>, distance: f64, necks:
     }
 }
 
+/// Whether points lie all round their middle: an outline follows half of a bent grain, or of one with a waist, as well as a grain.
+fn is_seen_round(points: &[Point3<f64>]) -> bool {
+    let Some(first) = points.first() else {
+        return false;
+    };
+    let (middle, _) = covariance(points.iter().map(|point| point - first));
+    let rays = points
+        .iter()
+        .filter_map(|point| (point - first - middle).try_normalize(0.0));
+    let rays: Vec<Vector3<f64>> = rays.collect();
+    let is_seen = |n: &Vector3<f64>| rays.iter().any(|ray| ray.dot(n) > UNSEEN.cos());
+    cube_grid(LOOKED_AT).0.iter().all(is_seen)
+}
+
 /// The points before and beyond a neck, if they are enough for grains.
 fn grains(points: &[u32], beyond: &[bool]) -> Option<[Vec<u32>; 2]> {
     let sides = [false, true].map(|side| {
@@ -109,4 +133,24 @@ fn grains(points: &[u32], beyond: &[bool]) -> Option<[Vec<u32>; 2]> {
     });
     let are_grains = sides.iter().all(|side| side.len() >= LEAST_POINTS);
     are_grains.then_some(sides)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shapes::Sampling;
+
+    #[test]
+    fn half_a_grain_is_not_seen_all_round() {
+        let directions = Sampling::Fibonacci.directions(2000, 0).unwrap();
+        for semi_axes in [[1.0, 1.0, 1.0], [20.0, 12.0, 3.0], [2.0, 9.0, 2.0]] {
+            let places = directions
+                .iter()
+                .map(|n| n.component_mul(&Vector3::from(semi_axes)));
+            let mut points: Vec<Point3<f64>> = places.map(Point3::from).collect();
+            assert!(is_seen_round(&points), "{semi_axes:?}");
+            points.retain(|point| point.z > 0.0);
+            assert!(!is_seen_round(&points), "{semi_axes:?}");
+        }
+    }
 }
