@@ -40,12 +40,7 @@ impl Links {
             return None;
         }
         let tree = ImmutableKdTree::new_from_slice(&places).ok()?;
-        let step = places.len().div_ceil(MOST_COMPARED);
-        let drawn: Vec<&[f64; 3]> = places.iter().step_by(step).collect();
-        let mut sixth: Vec<f64> = drawn
-            .par_iter()
-            .map(|place| sixth_distance(&tree, place))
-            .collect();
+        let mut sixth = sixth_distances(&tree, &places, MOST_COMPARED);
         let at = (SPARSE * (sixth.len() - 1) as f64) as usize;
         let (_, sparse, _) = sixth.select_nth_unstable_by(at, f64::total_cmp);
         let distance = REACH * *sparse;
@@ -86,11 +81,19 @@ impl Links {
     }
 }
 
-/// The distance of the sixth nearest from a point of the tree.
-pub(super) fn sixth_distance<const K: usize>(
-    tree: &ImmutableKdTree<f64, K>,
-    place: &[f64; K],
-) -> f64 {
+/// The distances of the sixth nearest from some of the places of a tree, so many at most.
+pub(super) fn sixth_distances(
+    tree: &ImmutableKdTree<f64, 3>,
+    places: &[[f64; 3]],
+    most: usize,
+) -> Vec<f64> {
+    let step = places.len().div_ceil(most).max(1);
+    let drawn: Vec<&[f64; 3]> = places.iter().step_by(step).collect();
+    let drawn = drawn.par_iter();
+    drawn.map(|place| sixth_distance(tree, place)).collect()
+}
+
+fn sixth_distance(tree: &ImmutableKdTree<f64, 3>, place: &[f64; 3]) -> f64 {
     const COUNT: NonZero<usize> = NonZero::new(SIXTH + 1).expect("above zero");
     let found = tree
         .query(place)

@@ -198,7 +198,7 @@ impl Neck {
     }
 
     /// Whether outlines on both sides of it tell two grains.
-    pub(super) fn is_between_two(&self, points: &[Point3<f64>]) -> bool {
+    fn is_between_two(&self, points: &[Point3<f64>]) -> bool {
         self.may_part_two() && self.outlined < OUTLINED_BROAD && self.held > HELD && {
             let beyond = self.beyond(points);
             are_two(points, &beyond) && are_followed(points, &beyond)
@@ -278,8 +278,12 @@ pub(super) fn settle(places: &[Point3<f64>], grains: &mut [Vec<u32>], necks: &[N
 }
 
 fn outline(points: &[Point3<f64>], is_of: impl Fn(usize) -> bool) -> Option<Outline> {
-    let own = (0..points.len()).filter(|&i| is_of(i)).map(|i| points[i]);
-    Outline::through(&own.collect::<Vec<_>>())
+    Outline::through(&those(points, is_of))
+}
+
+fn those(points: &[Point3<f64>], is_of: impl Fn(usize) -> bool) -> Vec<Point3<f64>> {
+    let own = (0..points.len()).filter(|&i| is_of(i));
+    own.map(|i| points[i]).collect()
 }
 
 /// Whether the outlines of both sides are much nearer to the points than one of all.
@@ -299,14 +303,10 @@ fn are_two(points: &[Point3<f64>], beyond: &[bool]) -> bool {
 
 /// Whether the outline of either side is its points' own: the arms of a bent body have none that is.
 fn are_followed(points: &[Point3<f64>], beyond: &[bool]) -> bool {
-    [false, true].into_iter().all(|side| {
-        let own = points
-            .iter()
-            .zip(beyond)
-            .filter(|(_, is_beyond)| **is_beyond == side);
-        let own: Vec<Point3<f64>> = own.map(|(point, _)| *point).collect();
-        Outline::misses(&own) < FOLLOWED
-    })
+    let mut sides = [false, true]
+        .map(|side| those(points, |i| beyond[i] == side))
+        .into_iter();
+    sides.all(|own| Outline::misses(&own) < FOLLOWED)
 }
 
 /// The smallest section along an axis between larger ones.

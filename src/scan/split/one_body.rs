@@ -6,7 +6,7 @@ use super::spacing::covering;
 use crate::scan::drawn::drawn;
 use nalgebra::Point3;
 
-/// Thickness of slabs in which necks between voxels show, likewise.
+/// The same of slabs in which necks between voxels show.
 const THIN_OF_VOXELS: f64 = 0.7;
 
 /// Points by which a neck is looked for in a scan of one body.
@@ -18,15 +18,13 @@ pub(crate) fn has_neck(points: &[Point3<f64>]) -> bool {
     let waist = |times: f64| neck_of(&drawn, times).filter(Neck::is_waist);
     // Between rows of points thin slabs hold few of them; a neck is a waist in thick slabs too.
     let is_thick = || waist(1.0).is_some_and(|neck| neck.is_narrow()) && waist(2.0).is_some();
-    waist(THIN).is_some() && (are_two_grains(&drawn) || is_thick())
+    waist(THIN).is_some() && (between_two(&drawn) || is_thick())
 }
 
 /// Whether a cloud has a neck between two grains, each of which its outline follows: of a bent body the arms may have a neck that is
 /// as narrow.
 pub(crate) fn are_two_grains(points: &[Point3<f64>]) -> bool {
-    let drawn = drawn(points, NECK_POINTS);
-    let links = Links::new(&drawn);
-    links.is_some_and(|links| Neck::between_two(&drawn, links.distance).is_some())
+    between_two(&drawn(points, NECK_POINTS))
 }
 
 /// The same of the middles between voxels inside and outside, whose rows are as near as their points, so that thin slabs tell: the
@@ -36,7 +34,12 @@ pub(crate) fn voxels_have_neck(points: &[Point3<f64>]) -> bool {
     let neck = |times: f64| neck_of(&drawn, times).filter(Neck::may_part_two);
     neck(THIN_OF_VOXELS).is_some()
         || neck(THIN).is_some_and(|neck| neck.is_narrow())
-        || are_two_grains(&drawn)
+        || between_two(&drawn)
+}
+
+fn between_two(points: &[Point3<f64>]) -> bool {
+    let links = Links::new(points);
+    links.is_some_and(|links| Neck::between_two(points, links.distance).is_some())
 }
 
 /// The neck of points in slabs that are so many times as thick as rows of them are apart.

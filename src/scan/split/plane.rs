@@ -5,7 +5,7 @@
 //! goes on beside its grains. The plane's noise is told by the points below it: those above may be of grains. What is
 //! not thin beside the grains is no plane, but a layer of them.
 
-use super::links::{nearest, nearest_distance, sixth_distance};
+use super::links::{nearest, nearest_distance, sixth_distances};
 use crate::polygon_hull::{hull_area, polygon_hull};
 use crate::sphere::across;
 use crate::spread::{covariance, median, robust_deviation};
@@ -249,7 +249,9 @@ impl Plane {
         if (seen.iter().filter(is_under).count() as f64) < LEAST_UNDER * seen.len() as f64 {
             return false;
         }
-        let Some(seen) = tree(seen) else { return true };
+        let Some(seen) = tree(&seen) else {
+            return true;
+        };
         let mut within = BARE * self.spacing(points, on);
         if hull_area(&outline) > BEYOND * hull_area(&self.outline(&above)) {
             within = within.min(BARE_OF_ABOVE * spacing_of(&above));
@@ -288,7 +290,7 @@ impl Plane {
             .zip(&seen)
             .flat_map(|(grain, seen)| seen.iter().map(move |_| grain))
             .collect();
-        let Some(tree) = tree(seen.concat()) else {
+        let Some(tree) = tree(&seen.concat()) else {
             return vec![None; on.len()];
         };
         on.par_iter()
@@ -339,19 +341,16 @@ fn size(points: &[Point3<f64>]) -> Option<f64> {
 /// About how far points of surfaces are apart.
 fn spacing_of(points: &[&Point3<f64>]) -> f64 {
     let places: Vec<[f64; 3]> = points.iter().map(|&&point| point.into()).collect();
-    let step = places.len().div_ceil(MOST_COMPARED).max(1);
-    let some: Vec<[f64; 3]> = places.iter().step_by(step).copied().collect();
-    let Some(tree) = tree(places) else { return 0.0 };
-    let mut sixth: Vec<f64> = some
-        .iter()
-        .map(|place| sixth_distance(&tree, place))
-        .collect();
+    let Some(tree) = tree(&places) else {
+        return 0.0;
+    };
+    let mut sixth = sixth_distances(&tree, &places, MOST_COMPARED);
     median(&mut sixth).unwrap_or(0.0) / SIXTH
 }
 
 /// A tree of the places; none of none.
-fn tree<const K: usize>(places: Vec<[f64; K]>) -> Option<ImmutableKdTree<f64, K>> {
-    ImmutableKdTree::new_from_slice(&places)
+fn tree<const K: usize>(places: &[[f64; K]]) -> Option<ImmutableKdTree<f64, K>> {
+    ImmutableKdTree::new_from_slice(places)
         .ok()
         .filter(|_| !places.is_empty())
 }
