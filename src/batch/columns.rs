@@ -151,12 +151,15 @@ fn of_measure(measure: Measure) -> Vec<Figure> {
                 with_error(figure(name, side, side), error)
             })
             .into(),
-        Measure::MinimumBox => plain(&["length", "width", "thickness", "volume"]),
-        Measure::Ratios => plain(&[
-            "short_to_long",
-            "intermediate_to_long",
-            "short_to_intermediate",
-        ]),
+        Measure::MinimumBox => known(name, &["length", "width", "thickness", "volume"]),
+        Measure::Ratios => known(
+            name,
+            &[
+                "short_to_long",
+                "intermediate_to_long",
+                "short_to_intermediate",
+            ],
+        ),
         Measure::Form => known(name, &["aspect_ratio", "elongation", "flatness"]),
         Measure::Spheres => ["inscribed", "enclosing"]
             .map(|ball| {
@@ -175,16 +178,21 @@ fn of_measure(measure: Measure) -> Vec<Figure> {
                 "maximum_projection",
             ],
         ),
-        Measure::Convexity => plain(&["volume", "area"]),
-        Measure::Ellipsoid => numbered(name, ["a", "b", "c"], "semi_axes"),
+        Measure::Convexity => known(name, &["volume", "area"]),
+        Measure::Ellipsoid => numbered(name, ["a", "b", "c"], "semi_axes")
+            .into_iter()
+            .enumerate()
+            .map(|(i, axis)| with_error(axis, format!("/{name}/semi_axes_standard_errors/{i}")))
+            .collect(),
         Measure::Projections => (0..3)
             .flat_map(|i| {
                 OUTLINE.map(|part| {
-                    figure(
-                        name,
-                        &format!("{}.{part}", ALONG[i]),
-                        &format!("{i}/{part}"),
-                    )
+                    let at = format!("{i}/{part}");
+                    let found = figure(name, &format!("{}.{part}", ALONG[i]), &at);
+                    match part {
+                        "roundness" => found,
+                        _ => with_error(found, format!("/{name}/{i}{ERRORS}/{part}")),
+                    }
                 })
             })
             .collect(),
@@ -219,7 +227,7 @@ fn of_measure(measure: Measure) -> Vec<Figure> {
 /// Parts of a measure of which the record holds standard errors, too.
 fn known(name: &str, parts: &[&str]) -> Vec<Figure> {
     let part = |part: &&str| {
-        let error = format!("/{name}/standard_errors/{part}");
+        let error = format!("/{name}{ERRORS}/{part}");
         with_error(figure(name, part, part), error)
     };
     parts.iter().map(part).collect()

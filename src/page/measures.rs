@@ -20,11 +20,11 @@ pub(crate) struct MeasureRow {
     pub definition: String,
 }
 
-/// The error of the largest curvature, how that of a radius ends, and where those of ratios are: they stand beside these and are no
-/// rows of their own.
+/// The error of the largest curvature, where the errors of a record's figures stand, and how the name of one beside a figure goes on:
+/// they are told with their figures and are no rows of their own.
 const LARGEST_ERROR: &str = "curvature.largest_error";
-const RADIUS_ERROR: &str = "radius_standard_error";
-const RATIO_ERRORS: &str = ".standard_errors.";
+const ERRORS: &str = "standard_errors";
+const ERROR: &str = "_standard_error";
 
 /// Entries of a list that are shown.
 const MOST_ENTRIES: usize = 12;
@@ -40,40 +40,50 @@ impl MeasureRow {
         let measures = record(serde_json::to_value(measures));
         let errors = record(serde_json::to_value(errors));
         let mut rows = Vec::new();
-        collect("", &measures, unit, &mut rows);
+        collect("", (&measures, None), unit, &mut rows);
         for row in &mut rows {
-            row.error = error(&row.name, &measures, &errors);
+            let own = row.error.take();
+            row.error = own.or_else(|| error(&row.name, &measures, &errors));
         }
-        let is_error = |name: &str| {
-            name == LARGEST_ERROR || name.ends_with(RADIUS_ERROR) || name.contains(RATIO_ERRORS)
-        };
-        rows.retain(|row| !is_error(&row.name));
+        rows.retain(|row| row.name != LARGEST_ERROR);
         rows
     }
 }
 
-fn collect(name: &str, value: &Value, unit: Option<Unit>, rows: &mut Vec<MeasureRow>) {
+/// Adds the rows of a value, which may have an error.
+fn collect(
+    name: &str,
+    (value, error): (&Value, Option<&Value>),
+    unit: Option<Unit>,
+    rows: &mut Vec<MeasureRow>,
+) {
     let below = |part: &str| match name {
         "" => part.to_owned(),
         name => format!("{name}.{part}"),
     };
     match value {
         Value::Object(parts) => {
-            for (part, value) in parts {
-                collect(&below(part), value, unit, rows);
+            let figures = parts
+                .iter()
+                .filter(|(part, _)| *part != ERRORS && !part.contains(ERROR));
+            for (part, value) in figures {
+                let of_record = parts.get(ERRORS).and_then(|errors| errors.get(part));
+                let beside = ["", "s"].map(|end| parts.get(&format!("{part}{ERROR}{end}")));
+                let error = beside.into_iter().flatten().next().or(of_record);
+                collect(&below(part), (value, error), unit, rows);
             }
         }
         Value::Array(parts) if parts.iter().any(Value::is_object) => {
             for (at, part) in parts.iter().enumerate() {
                 let along = part.get("along").and_then(Value::as_str);
                 let part_name = along.map_or(at.to_string(), str::to_owned);
-                collect(&below(&part_name), part, unit, rows);
+                collect(&below(&part_name), (part, None), unit, rows);
             }
         }
-        _ => rows.extend(text(value).map(|text| MeasureRow {
+        _ => rows.extend(text(value).map(|value| MeasureRow {
             name: name.to_owned(),
-            value: text,
-            error: None,
+            value,
+            error: error.and_then(text),
             unit: unit_of(name, unit),
             definition: definition(&plain(name)).unwrap_or_default(),
         })),
@@ -118,17 +128,11 @@ fn text(value: &Value) -> Option<String> {
     }
 }
 
-/// The standard error of a measure, where it is known.
+/// The standard error of a measure that stands apart from it, where it is known.
 fn error(name: &str, measures: &Value, errors: &Value) -> Option<String> {
     let at = |name: &str| format!("/{}", name.replace('.', "/"));
     let found = match name {
         "curvature.larger.largest" => measures.pointer(&at(LARGEST_ERROR)),
-        "spheres.inscribed.radius" | "spheres.enclosing.radius" => {
-            measures.pointer(&at(&name.replace("radius", RADIUS_ERROR)))
-        }
-        name if name.starts_with("form.") || name.starts_with("sphericity.") => {
-            measures.pointer(&at(&name.replace('.', RATIO_ERRORS)))
-        }
         "principal.moments" => errors.pointer("/moments"),
         "area" | "volume" => errors.pointer(&at(name)),
         name if name.starts_with("dimensions.") => errors.pointer(&at(name)),

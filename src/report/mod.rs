@@ -42,9 +42,9 @@ pub use fit::{FitReport, ReferenceRecord, Seconds, Skipped};
 pub use harmonics::{largest_loss, write_harmonics};
 pub use hertz::HertzLaw;
 pub use measure::{
-    BoxRecord, CurvatureRecord, Dimensions, EllipsoidRecord, FacesRecord, FillRecord, Measure,
-    MeasureReport, Measured, Measures, NotMeasured, Principal, ProjectionRecord, SphereRecord,
-    Spheres, UnknownMeasure, WithErrors,
+    BoxRecord, BoxSides, CurvatureRecord, Dimensions, EllipsoidRecord, FacesRecord, FillRecord,
+    Measure, MeasureReport, Measured, Measures, NotMeasured, OutlineFigures, Principal,
+    ProjectionRecord, SphereRecord, Spheres, UnknownMeasure, WithErrors,
 };
 #[cfg(feature = "cli")]
 pub(crate) use measure::{Withheld, by_reason};

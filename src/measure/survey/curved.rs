@@ -29,15 +29,16 @@ impl Survey<'_> {
             .get_or_init(|| CurvatureStatistics::new(surface).in_unit(self.unit.length)))
     }
 
-    /// Standard error of the largest principal curvature, where the grain tells it: also by how much it is more than the
-    /// surface turns there, for of all places the sharpest ripple is told.
+    /// Standard error of the largest principal curvature, where the grain tells any errors, which beside edges it does not: also
+    /// by how much it is more than the surface turns there, for of all places the sharpest ripple is told.
     ///
     /// # Errors
     ///
     /// As [`Self::curvature`].
     pub fn largest_curvature_error(&self) -> Result<Option<f64>, SurveyError> {
         let sharpest = self.curvature()?.sharpest();
-        let Some(error) = self.body.local_error(&sharpest) else {
+        let told = self.standard_errors().ok();
+        let Some(error) = told.and_then(|_| self.body.local_error(&sharpest)) else {
             return Ok(None);
         };
         let error = error

@@ -3,9 +3,8 @@
 mod body;
 mod curved;
 mod error;
+mod errors;
 mod from_centroid;
-mod ratio_errors;
-mod touching;
 mod unit_size;
 
 use super::elements::Element;
@@ -21,6 +20,7 @@ use crate::model::{Grain, NoInterval, Radial, StandardErrors, StarSurface};
 pub(crate) use body::Measured;
 use body::{Body, Inside};
 pub use error::SurveyError;
+pub use errors::OutlineErrors;
 use nalgebra::{Matrix3, Vector3};
 use std::cell::OnceCell;
 use std::f64::consts::PI;

@@ -2,16 +2,18 @@
 
 mod faces;
 mod names;
+mod outline;
 pub(super) mod records;
 mod text;
 mod withheld;
 
 pub use faces::{FacesRecord, FillRecord};
 pub use names::{Measure, UnknownMeasure};
+pub use outline::{OutlineFigures, ProjectionRecord};
 pub(super) use records::rows;
 pub use records::{
-    BoxRecord, CurvatureRecord, Dimensions, EllipsoidRecord, Principal, ProjectionRecord,
-    SphereRecord, Spheres, WithErrors,
+    BoxRecord, BoxSides, CurvatureRecord, Dimensions, EllipsoidRecord, Principal, SphereRecord,
+    Spheres, WithErrors,
 };
 pub(crate) use withheld::{Withheld, by_reason};
 
@@ -113,7 +115,7 @@ pub struct Measures {
     pub minimum_box: Option<BoxRecord>,
     /// Ratios of the sides of the box of least volume.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub ratios: Option<SideRatios>,
+    pub ratios: Option<WithErrors<SideRatios>>,
     /// Ratios of the extents along the principal axes.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub form: Option<WithErrors<Form>>,
@@ -134,7 +136,7 @@ pub struct Measures {
     pub angularity: Option<f64>,
     /// The body against its convex hull.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub convexity: Option<Convexity>,
+    pub convexity: Option<WithErrors<Convexity>>,
     /// The ellipsoid of equal moments.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub ellipsoid: Option<EllipsoidRecord>,
@@ -306,8 +308,10 @@ impl Measures {
     pub(super) fn may_have_errors(&self) -> bool {
         let sums = self.area.is_some() || self.volume.is_some() || self.centroid.is_some();
         let moments = self.inertia.is_some() || self.principal.is_some();
-        let ratios = self.form.is_some() || self.sphericity.is_some();
-        sums || moments || ratios || self.dimensions.is_some()
+        let boxes = self.minimum_box.is_some() || self.ratios.is_some();
+        let ratios = self.form.is_some() || self.sphericity.is_some() || self.convexity.is_some();
+        let shapes = self.ellipsoid.is_some() || self.projections.is_some();
+        sums || moments || boxes || ratios || shapes || self.dimensions.is_some()
     }
 
     fn take(&mut self, measure: Measure, survey: &Survey<'_>) -> Result<(), SurveyError> {
@@ -324,8 +328,14 @@ impl Measures {
             Measure::Inertia => self.inertia = Some(rows(&survey.inertia()?)),
             Measure::Principal => self.principal = Some(Principal::new(&survey.principal()?)),
             Measure::Dimensions => self.dimensions = Some(Dimensions::new(survey.dimensions()?)),
-            Measure::MinimumBox => self.minimum_box = Some(survey.minimum_box()?.into()),
-            Measure::Ratios => self.ratios = Some(survey.side_ratios()?),
+            Measure::MinimumBox => {
+                let errors = survey.minimum_box_errors()?;
+                self.minimum_box = Some(BoxRecord::new(survey.minimum_box()?, errors));
+            }
+            Measure::Ratios => {
+                let errors = survey.side_ratio_errors()?;
+                self.ratios = Some(WithErrors::new(survey.side_ratios()?, errors));
+            }
             Measure::Form => {
                 self.form = Some(WithErrors::new(survey.form()?, survey.form_errors()?));
             }
@@ -342,15 +352,23 @@ impl Measures {
             Measure::Roundness => self.roundness = Some(survey.roundness()?),
             Measure::Regularity => self.regularity = Some(survey.regularity()?),
             Measure::Angularity => self.angularity = Some(survey.angularity()?),
-            Measure::Convexity => self.convexity = Some(survey.convexity()?),
-            Measure::Ellipsoid => self.ellipsoid = Some(survey.ellipsoid()?.into()),
+            Measure::Convexity => {
+                let errors = survey.convexity_errors()?;
+                self.convexity = Some(WithErrors::new(survey.convexity()?, errors));
+            }
+            Measure::Ellipsoid => {
+                let errors = survey.ellipsoid_errors()?;
+                self.ellipsoid = Some(EllipsoidRecord::new(survey.ellipsoid()?, errors));
+            }
             Measure::Projections => {
-                let [length, width, thickness] = survey.projections()?;
-                self.projections = Some([
-                    ProjectionRecord::new("length", &length),
-                    ProjectionRecord::new("width", &width),
-                    ProjectionRecord::new("thickness", &thickness),
-                ]);
+                let outlines = survey.projections()?;
+                let errors = survey.projection_errors(&outlines)?;
+                let seen = |along, i: usize| {
+                    let errors = errors.as_ref().map(|errors| &errors[i]);
+                    ProjectionRecord::new(along, &outlines[i], errors)
+                };
+                self.projections =
+                    Some([seen("length", 0), seen("width", 1), seen("thickness", 2)]);
             }
             Measure::Curvature => {
                 let error = survey.largest_curvature_error()?;

@@ -1,8 +1,7 @@
 //! The parts of a report of measures.
 
 use crate::measure::{
-    Ball, CurvatureStatistics, Distribution, EquivalentEllipsoid, OrientedBox, Outline,
-    PrincipalInertia,
+    Ball, CurvatureStatistics, Distribution, EquivalentEllipsoid, OrientedBox, PrincipalInertia,
 };
 use nalgebra::{Matrix3, Vector3};
 use serde::Serialize;
@@ -50,11 +49,11 @@ impl Dimensions {
     }
 }
 
-/// Pure numbers, and how well they are known.
+/// Figures, and how well they are known.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct WithErrors<T> {
-    /// The numbers.
+    /// The figures.
     #[serde(flatten)]
     pub figures: T,
     /// Their standard errors, at most; `null` where they are not known.
@@ -74,6 +73,19 @@ impl<T> WithErrors<T> {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct BoxRecord {
+    /// Its sides and its volume.
+    #[serde(flatten)]
+    pub sides: WithErrors<BoxSides>,
+    /// Centre.
+    pub centre: [f64; 3],
+    /// A unit axis for each side.
+    pub axes: [[f64; 3]; 3],
+}
+
+/// The sides of a box.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct BoxSides {
     /// Longest side.
     pub length: f64,
     /// Middle side.
@@ -82,20 +94,27 @@ pub struct BoxRecord {
     pub thickness: f64,
     /// Volume.
     pub volume: f64,
-    /// Centre.
-    pub centre: [f64; 3],
-    /// A unit axis for each side.
-    pub axes: [[f64; 3]; 3],
 }
 
-impl From<OrientedBox> for BoxRecord {
-    fn from(found: OrientedBox) -> Self {
-        let [length, width, thickness] = found.extents.into();
+impl BoxRecord {
+    /// With the standard errors of its sides, which may all be of one sign.
+    pub(super) fn new(found: OrientedBox, errors: Option<Vector3<f64>>) -> Self {
+        let sides = |sides: Vector3<f64>, volume: f64| {
+            let [length, width, thickness] = sides.into();
+            BoxSides {
+                length,
+                width,
+                thickness,
+                volume,
+            }
+        };
+        let volume = found.volume();
+        let errors = errors.map(|off| {
+            let share = off.component_div(&found.extents).sum();
+            sides(off, volume * share)
+        });
         Self {
-            length,
-            width,
-            thickness,
-            volume: found.volume(),
+            sides: WithErrors::new(sides(found.extents, volume), errors),
             centre: found.centre.coords.into(),
             axes: rows(&found.axes.transpose()),
         }
@@ -140,82 +159,18 @@ impl SphereRecord {
 pub struct EllipsoidRecord {
     /// Semi-axes, descending.
     pub semi_axes: [f64; 3],
+    /// Their standard errors, at most; `null` where they are not known.
+    pub semi_axes_standard_errors: Option<[f64; 3]>,
     /// A unit axis for each semi-axis.
     pub axes: [[f64; 3]; 3],
 }
 
-impl From<EquivalentEllipsoid> for EllipsoidRecord {
-    fn from(ellipsoid: EquivalentEllipsoid) -> Self {
+impl EllipsoidRecord {
+    pub(super) fn new(ellipsoid: EquivalentEllipsoid, errors: Option<Vector3<f64>>) -> Self {
         Self {
             semi_axes: ellipsoid.semi_axes.into(),
+            semi_axes_standard_errors: errors.map(Into::into),
             axes: rows(&ellipsoid.axes.transpose()),
-        }
-    }
-}
-
-/// The outline of a body seen along an axis, see [`Outline`].
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-#[non_exhaustive]
-pub struct ProjectionRecord {
-    /// "length", "width" or "thickness".
-    pub along: &'static str,
-    /// Area.
-    pub area: f64,
-    /// Perimeter.
-    pub perimeter: f64,
-    /// Diameter of the circle of equal area.
-    pub equivalent_diameter: f64,
-    /// Largest distance between parallel tangents.
-    pub largest_feret: f64,
-    /// Smallest distance between parallel tangents.
-    pub smallest_feret: f64,
-    /// Diameter of the smallest enclosing circle.
-    pub enclosing_diameter: f64,
-    /// Diameter of the largest inscribed circle.
-    pub inscribed_diameter: f64,
-    /// Area over that of the enclosing circle.
-    pub area_sphericity: f64,
-    /// Equivalent over enclosing diameter.
-    pub diameter_sphericity: f64,
-    /// Inscribed over enclosing diameter.
-    pub circle_ratio: f64,
-    /// Square root of the circle ratio.
-    pub riley_sphericity: f64,
-    /// Perimeter of the circle of equal area over the perimeter.
-    pub perimeter_sphericity: f64,
-    /// 4 pi area over the perimeter squared.
-    pub circularity: f64,
-    /// Smallest over largest Feret diameter.
-    pub width_to_length: f64,
-    /// Area over that of the convex hull.
-    pub solidity: f64,
-    /// Perimeter of the convex hull over the perimeter.
-    pub convexity: f64,
-    /// Mean radius of the corners over the inscribed radius.
-    pub roundness: f64,
-}
-
-impl ProjectionRecord {
-    pub(super) fn new(along: &'static str, outline: &Outline) -> Self {
-        Self {
-            along,
-            area: outline.area,
-            perimeter: outline.perimeter,
-            equivalent_diameter: outline.equivalent_diameter(),
-            largest_feret: outline.largest_feret,
-            smallest_feret: outline.smallest_feret,
-            enclosing_diameter: outline.enclosing_diameter,
-            inscribed_diameter: outline.inscribed_diameter,
-            area_sphericity: outline.area_sphericity().min(1.0),
-            diameter_sphericity: outline.diameter_sphericity().min(1.0),
-            circle_ratio: outline.circle_ratio().min(1.0),
-            riley_sphericity: outline.riley_sphericity().min(1.0),
-            perimeter_sphericity: outline.perimeter_sphericity().min(1.0),
-            circularity: outline.circularity().min(1.0),
-            width_to_length: outline.width_to_length().min(1.0),
-            solidity: outline.solidity().min(1.0),
-            convexity: outline.convexity().min(1.0),
-            roundness: outline.roundness.min(1.0),
         }
     }
 }

@@ -1,10 +1,10 @@
 //! The report of measures for a person.
 
 use super::{
-    BoxRecord, Dimensions, MeasureReport, Measured, Principal, ProjectionRecord, SphereRecord,
-    WithErrors, by_reason,
+    BoxSides, Dimensions, MeasureReport, Measured, OutlineFigures, Principal, ProjectionRecord,
+    SphereRecord, WithErrors, by_reason,
 };
-use crate::measure::{Distribution, Form, Sphericity};
+use crate::measure::{Convexity, Distribution, Form, SideRatios, Sphericity};
 use crate::report::escape::escaped;
 use crate::report::number::{short, triple, with_error};
 use crate::report::unit::Labels;
@@ -123,19 +123,15 @@ impl MeasureReport {
                 told(|dimensions| dimensions.thickness)
             )?;
         }
-        if let Some(BoxRecord {
-            length,
-            width,
-            thickness,
-            volume,
-            ..
-        }) = measures.minimum_box
-        {
-            let [length, width, thickness] = [length, width, thickness].map(short);
-            let volume = short(volume);
+        if let Some(found) = measures.minimum_box {
+            let told = |of: fn(&BoxSides) -> f64| length(&found.sides, of);
             writeln!(
                 f,
-                "minimum box   {length} x {width} x {thickness}{mm} = {volume}{}",
+                "minimum box   {} x {} x {}{mm} = {}{}",
+                told(|sides| sides.length),
+                told(|sides| sides.width),
+                told(|sides| sides.thickness),
+                told(|sides| sides.volume),
                 labels.volume()
             )?;
         }
@@ -150,11 +146,10 @@ impl MeasureReport {
             )?;
         }
         if let Some(ellipsoid) = measures.ellipsoid {
-            writeln!(
-                f,
-                "ellipsoid     semi-axes {}{mm}",
-                triple(ellipsoid.semi_axes)
-            )?;
+            let errors = ellipsoid.semi_axes_standard_errors;
+            let told = |i: usize| with_error(ellipsoid.semi_axes[i], errors.map(|off| off[i]));
+            let semi_axes = [0, 1, 2].map(told).join("  ");
+            writeln!(f, "ellipsoid     semi-axes {semi_axes}{mm}")?;
         }
         Ok(())
     }
@@ -162,10 +157,13 @@ impl MeasureReport {
     fn shape(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let measures = &self.measures;
         if let Some(ratios) = measures.ratios {
+            let told = |of: fn(&SideRatios) -> f64| ratio(&ratios, of);
             writeln!(
                 f,
-                "ratios        S/L {:.4}, I/L {:.4}, S/I {:.4} of the minimum box",
-                ratios.short_to_long, ratios.intermediate_to_long, ratios.short_to_intermediate
+                "ratios        S/L {}, I/L {}, S/I {} of the minimum box",
+                told(|ratios| ratios.short_to_long),
+                told(|ratios| ratios.intermediate_to_long),
+                told(|ratios| ratios.short_to_intermediate)
             )?;
         }
         if let Some(form) = measures.form {
@@ -201,10 +199,12 @@ impl MeasureReport {
             }
         }
         if let Some(convexity) = measures.convexity {
+            let told = |of: fn(&Convexity) -> f64| ratio(&convexity, of);
             writeln!(
                 f,
-                "convexity     volume {:.4}, area {:.4}",
-                convexity.volume, convexity.area
+                "convexity     volume {}, area {}",
+                told(|convexity| convexity.volume),
+                told(|convexity| convexity.area)
             )?;
         }
         Ok(())
@@ -283,22 +283,35 @@ fn ratio<T>(ratios: &WithErrors<T>, of: fn(&T) -> f64) -> String {
     }
 }
 
+/// A length, an area or a volume, likewise.
+fn length<T>(lengths: &WithErrors<T>, of: fn(&T) -> f64) -> String {
+    with_error(
+        of(&lengths.figures),
+        lengths.standard_errors.as_ref().map(of),
+    )
+}
+
 /// One outline: sizes, and the forms of sphericity that are used most.
 fn outline(f: &mut fmt::Formatter<'_>, seen: &ProjectionRecord, labels: Labels) -> fmt::Result {
+    let size = |of: fn(&OutlineFigures) -> f64| length(&seen.outline, of);
     writeln!(
         f,
         "outline       along the {}: area {}{}, perimeter {}{mm}, Feret {} x {}{mm},",
         seen.along,
-        short(seen.area),
+        size(|seen| seen.area),
         labels.area(),
-        short(seen.perimeter),
-        short(seen.largest_feret),
-        short(seen.smallest_feret),
+        size(|seen| seen.perimeter),
+        size(|seen| seen.largest_feret),
+        size(|seen| seen.smallest_feret),
         mm = labels.length()
     )?;
+    let told = |of: fn(&OutlineFigures) -> f64| ratio(&seen.outline, of);
     writeln!(
         f,
-        "              circularity {:.4}, circle ratio {:.4}, solidity {:.4}, roundness {:.4}",
-        seen.circularity, seen.circle_ratio, seen.solidity, seen.roundness
+        "              circularity {}, circle ratio {}, solidity {}, roundness {:.4}",
+        told(|seen| seen.circularity),
+        told(|seen| seen.circle_ratio),
+        told(|seen| seen.solidity),
+        seen.roundness
     )
 }

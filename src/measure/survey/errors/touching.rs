@@ -1,6 +1,6 @@
 //! How well the radii of the spheres inside and around a grain are known.
 
-use super::{Survey, SurveyError};
+use super::{OF_MESH, Survey, SurveyError, root_mean_square};
 use crate::measure::Ball;
 use crate::sphere::cube_grid;
 
@@ -9,9 +9,6 @@ const LOOKED_AT: usize = 24;
 
 /// A sphere touches the surface where this is farther from it by no more than this share of the radius.
 const NEAR: f64 = 0.01;
-
-/// Share of its radius by which a sphere of a mesh of a smooth grain may be off.
-const OF_MESH: f64 = 1e-4;
 
 impl Survey<'_> {
     /// Standard error of the radius of the [inscribed sphere](Self::inscribed): as the surface may be off where the sphere touches
@@ -42,20 +39,21 @@ impl Survey<'_> {
     }
 
     fn touching_error(&self, ball: Ball) -> Option<f64> {
+        self.standard_errors().ok()?;
         let surface = self.body.surface().ok()?;
         let (directions, _) = cube_grid(LOOKED_AT);
         let places = surface.places(&directions).into_iter();
         let apart = places.map(|place| ((place - ball.centre.coords).norm() - ball.radius).abs());
         let apart: Vec<f64> = apart.collect();
         let nearest = apart.iter().copied().fold(f64::INFINITY, f64::min);
-        let mut squares = Vec::new();
+        let mut touched = Vec::new();
         for (n, apart) in directions.iter().zip(apart) {
             if apart <= nearest + NEAR * ball.radius {
-                squares.push(self.body.local_error(n)?.place.powi(2));
+                touched.push(self.body.local_error(n)?.place);
             }
         }
-        let square = squares.iter().sum::<f64>() / squares.len() as f64;
-        Some(square.sqrt().hypot(OF_MESH * ball.radius) * self.unit.length)
+        let error = root_mean_square(&touched).hypot(OF_MESH * ball.radius);
+        Some(error * self.unit.length)
     }
 }
 

@@ -5,7 +5,6 @@
 
 use super::{Survey, SurveyError};
 use crate::measure::{Form, Sphericity};
-use nalgebra::Vector3;
 
 impl Survey<'_> {
     /// Standard errors, at most, of the ratios of [`Self::form`]. `None` where the grain tells none of its dimensions.
@@ -51,52 +50,14 @@ impl Survey<'_> {
             maximum_projection: sphericity.maximum_projection * (off.x + off.y + 2.0 * off.z) / 3.0,
         }))
     }
-
-    /// Of length, width and thickness, as shares of them.
-    fn relative_dimension_errors(&self) -> Result<Option<Vector3<f64>>, SurveyError> {
-        let Ok(errors) = self.standard_errors() else {
-            return Ok(None);
-        };
-        Ok(Some(errors.dimensions.component_div(&self.dimensions()?)))
-    }
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::testing::egg;
     use super::*;
     use crate::measure::Scheme;
-    use crate::model::{Grain, LocalError, LocalErrors, StandardErrors, grain_from_json};
-    use crate::sphere::CubeCell;
     use approx::assert_relative_eq;
-
-    /// An egg with errors of its sizes of so many percent: area, volume, length, width, thickness, and of all its surface.
-    fn egg(percent: [f64; 5], surface: f64) -> Grain {
-        let text = r#"{"format": "grainform model", "version": 5, "centre": [1, 2, 3],
-            "axes": [[1, 0, 0], [0, 1, 0], [0, 0, 1]], "harmonics": [12, 0, 0, 0, 0, 0, 1, 0, 0.5]}"#;
-        let grain = grain_from_json(text).unwrap();
-        let survey = Survey::of_grain(&grain, Scheme::Exact);
-        let [area, volume, length, width, thickness] = percent.map(|share| share / 100.0);
-        let errors = StandardErrors {
-            area: area * survey.area().unwrap(),
-            volume: volume * survey.volume().unwrap(),
-            dimensions: survey
-                .dimensions()
-                .unwrap()
-                .component_mul(&Vector3::new(length, width, thickness)),
-            ..StandardErrors::NONE
-        };
-        let place = LocalError {
-            place: surface,
-            curvature: 0.0,
-        };
-        let local = CubeCell::uniform(LocalErrors::PARTS)
-            .iter()
-            .map(|_| place)
-            .collect();
-        grain
-            .with_standard_errors(Ok(errors))
-            .with_local_errors(LocalErrors::new(local))
-    }
 
     #[test]
     fn errors_of_ratios_are_the_sums_of_those_of_their_sizes() {

@@ -1,0 +1,148 @@
+//! How well the least box, the ellipsoid of equal moments and the convex hull are known.
+
+use super::{OF_MESH, Survey, SurveyError, root_mean_square};
+use crate::measure::{Convexity, SideRatios};
+use crate::sphere::cube_grid;
+use nalgebra::Vector3;
+
+/// Cells along an edge of the cube of directions of the surface that are looked at.
+const LOOKED_AT: usize = 12;
+
+impl Survey<'_> {
+    /// Standard errors, at most, of the sides of the [least box](Self::minimum_box): each that of the dimension that is known worst, as
+    /// a share, for the box need not lie along the dimensions. `None` where the grain tells none of these.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::minimum_box`].
+    pub fn minimum_box_errors(&self) -> Result<Option<Vector3<f64>>, SurveyError> {
+        let share = self.relative_side_error()?;
+        let sides = self.minimum_box()?.extents;
+        Ok(share.map(|share| sides * share))
+    }
+
+    /// The same of the [ratios of its sides](Self::side_ratios).
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::side_ratios`].
+    pub fn side_ratio_errors(&self) -> Result<Option<SideRatios>, SurveyError> {
+        let ratios = self.side_ratios()?;
+        let share = self.relative_side_error()?;
+        Ok(share.map(|share| SideRatios {
+            short_to_long: ratios.short_to_long * 2.0 * share,
+            intermediate_to_long: ratios.intermediate_to_long * 2.0 * share,
+            short_to_intermediate: ratios.short_to_intermediate * 2.0 * share,
+        }))
+    }
+
+    fn relative_side_error(&self) -> Result<Option<f64>, SurveyError> {
+        let off = self.relative_dimension_errors()?;
+        Ok(off.map(|off| off.max().hypot(OF_MESH)))
+    }
+
+    /// Standard errors, at most, of the semi-axes of the [ellipsoid of equal moments](Self::ellipsoid), a² = 5 (J + K - I) / 2 V
+    /// with the moments I about this axis, J and K about the others.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::ellipsoid`].
+    pub fn ellipsoid_errors(&self) -> Result<Option<Vector3<f64>>, SurveyError> {
+        let semi_axes = self.ellipsoid()?.semi_axes;
+        let moments = self.principal()?.moments;
+        let volume = self.volume()?;
+        Ok(self.standard_errors().ok().map(|errors| {
+            let (all, off) = (moments.sum(), errors.moments.sum());
+            semi_axes.zip_map(&moments, |semi_axis, moment| {
+                let square = off / (all - 2.0 * moment) + errors.volume / volume;
+                0.5 * semi_axis * square
+            })
+        }))
+    }
+
+    /// Standard errors, at most, of [how much of its hull the body fills](Self::convexity): as the surface may be off, all of it alike
+    /// where the hull touches it and not at all elsewhere. `None` where the grain does not tell how well its surface is known.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::convexity`].
+    pub fn convexity_errors(&self) -> Result<Option<Convexity>, SurveyError> {
+        let found = self.convexity()?;
+        let (Ok(errors), Some(surface)) = (self.standard_errors(), self.surface_error()) else {
+            return Ok(None);
+        };
+        let (area, volume) = (self.area()?, self.volume()?);
+        let hull = (surface * area / volume).hypot(OF_MESH);
+        Ok(Some(Convexity {
+            volume: found.volume * (hull + errors.volume / volume),
+            area: found.area * (2.0 / 3.0 * hull + errors.area / area),
+        }))
+    }
+
+    /// How far the surface may be off, the root mean square over directions.
+    fn surface_error(&self) -> Option<f64> {
+        let (directions, _) = cube_grid(LOOKED_AT);
+        let places = directions.iter();
+        let places = places.map(|n| Some(self.body.local_error(n)?.place));
+        let places: Vec<f64> = places.collect::<Option<_>>()?;
+        Some(root_mean_square(&places) * self.unit.length)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::testing::egg;
+    use super::*;
+    use crate::measure::Scheme;
+    use approx::assert_relative_eq;
+
+    #[test]
+    fn the_least_box_and_its_ratios_are_as_uncertain_as_the_worst_dimension() {
+        let grain = egg([0.0, 0.0, 0.5, 1.0, 0.2], 0.02);
+        let survey = Survey::of_grain(&grain, Scheme::Exact);
+        let (sides, off) = (
+            survey.minimum_box().unwrap().extents,
+            survey.minimum_box_errors().unwrap().unwrap(),
+        );
+        assert_relative_eq!(off, sides * 0.01_f64.hypot(OF_MESH), max_relative = 1e-9);
+        let (ratios, off) = (
+            survey.side_ratios().unwrap(),
+            survey.side_ratio_errors().unwrap().unwrap(),
+        );
+        assert_relative_eq!(
+            off.short_to_long / ratios.short_to_long,
+            0.02,
+            max_relative = 1e-3
+        );
+    }
+
+    /// a² = 5 (J + K - I) / 2 V: of moments that are off by one, two and three percent, and a volume by four.
+    #[test]
+    fn semi_axes_are_as_uncertain_as_the_moments_and_the_volume() {
+        let grain = egg([5.0, 4.0, 0.5, 1.0, 0.2], 0.02);
+        let survey = Survey::of_grain(&grain, Scheme::Exact);
+        let off = survey.ellipsoid_errors().unwrap().unwrap();
+        let semi_axes = survey.ellipsoid().unwrap().semi_axes;
+        let moments = survey.principal().unwrap().moments;
+        let errors = 0.01 * moments.x + 0.02 * moments.y + 0.03 * moments.z;
+        let square = errors / (moments.y + moments.z - moments.x) + 0.04;
+        assert_relative_eq!(off.x / semi_axes.x, square / 2.0, max_relative = 1e-9);
+    }
+
+    #[test]
+    fn a_hull_may_be_off_as_the_surface_is() {
+        let grain = egg([5.0, 4.0, 0.5, 1.0, 0.2], 0.02);
+        let survey = Survey::of_grain(&grain, Scheme::Exact);
+        let (found, off) = (
+            survey.convexity().unwrap(),
+            survey.convexity_errors().unwrap().unwrap(),
+        );
+        let hull = 0.02 * survey.area().unwrap() / survey.volume().unwrap();
+        assert_relative_eq!(off.volume / found.volume, hull + 0.04, max_relative = 1e-3);
+        assert_relative_eq!(
+            off.area / found.area,
+            hull * 2.0 / 3.0 + 0.05,
+            max_relative = 1e-3
+        );
+    }
+}
