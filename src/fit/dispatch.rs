@@ -31,7 +31,9 @@ impl PreparedScan<'_> {
             Seams::None => independent(self, options, context),
             Seams::Blended => estimated(self, options, context),
         })?;
-        fitted.warnings.extend(sound::check(&fitted, options)?);
+        fitted
+            .warnings
+            .extend(sound::check(&fitted, options, self.is_rod)?);
         if self.may_be_known {
             fitted = fitted.between_points();
         }

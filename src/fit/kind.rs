@@ -87,7 +87,7 @@ pub fn fit_scan(
                         position @ (FitError::NoInside
                         | FitError::OffCrust { .. }
                         | FitError::FarFromPoints { .. }),
-                    ) => Err(neither(error, position)),
+                    ) => rod(scan, options, context, neither(error, position)),
                     found => found,
                 },
             },
@@ -98,6 +98,22 @@ pub fn fit_scan(
             }
             found => found,
         },
+    }
+}
+
+/// A thin rod, if the scan is one, where neither kind could be fitted for the reasons of this error.
+fn rod(
+    scan: &Scan,
+    options: &FitOptions,
+    context: &Context<'_>,
+    error: FitError,
+) -> Result<Fitted, FitError> {
+    let Ok(Some(rod)) = PreparedScan::of_rod(scan, options.symmetry) else {
+        return Err(error);
+    };
+    match rod.fit(options, context) {
+        Err(FitError::Cancelled) => Err(FitError::Cancelled),
+        found => found.map_err(|_| error),
     }
 }
 

@@ -40,7 +40,11 @@ const CLEARLY_FINE: f64 = 1.2;
 
 /// Refuses a radius that is not above zero everywhere, which is proved and not sampled, and a surface far from its
 /// points. With such a radius the volume and the moments are above zero too.
-pub(super) fn check(fitted: &Fitted, options: &FitOptions) -> Result<Option<FitWarning>, FitError> {
+pub(super) fn check(
+    fitted: &Fitted,
+    options: &FitOptions,
+    is_rod: bool,
+) -> Result<Option<FitWarning>, FitError> {
     let is_asked_for = options.degree.is_some();
     let rms = fitted.residuals.rms;
     let (off, far) = match (fitted.search.choice().estimate_rms, &fitted.posterior) {
@@ -56,7 +60,11 @@ pub(super) fn check(fitted: &Fitted, options: &FitOptions) -> Result<Option<FitW
         (None, _) => (rms, FAR),
     };
     let share = off / fitted.mean_radius;
-    if share.is_nan() || share > far {
+    let is_far = |share: f64| share.is_nan() || share > far;
+    // Of a rod the distance along a ray counts as a share of it; a hole hides that there is no rod.
+    let seen = fitted.posterior.as_ref();
+    let seen = seen.filter(|_| is_rod && fitted.grain.unseen().is_none());
+    if is_far(share) && seen.is_none_or(|rod| is_far(rod.relative_residual())) {
         return Err(FitError::FarFromPoints { share });
     }
     if fitted.grain.unseen().is_none() && fitted.points > FEW_POINTS && !is_asked_for {

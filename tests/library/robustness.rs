@@ -229,3 +229,31 @@ fn a_half_twenty_times_denser_does_not_bias_area_or_volume() {
         }
     }
 }
+
+/// Points at random over an ellipsoid that is twenty times as long as wide, with noise across its surface. Rays graze its sides: along
+/// them the noise is ten times as large.
+#[test]
+fn noisy_rods_are_fitted() {
+    for count in [8000, 30_000] {
+        let random = |seed| Sampling::Random.directions(count, seed).unwrap();
+        let (places, others) = (random(1), random(2));
+        let points = places.iter().zip(&others).filter_map(|(n, other)| {
+            let across = n.xy().norm();
+            let normal = Vector3::new(n.x, n.y, n.z / 20.0).normalize();
+            // Of a random direction each coordinate is even between -1 and 1: a deviation of 0.015 here.
+            let noise = 0.015 * 3.0_f64.sqrt() * other.z;
+            let place = Point3::new(n.x, n.y, 20.0 * n.z) + normal * noise;
+            (0.5 * (other.x + 1.0) < across).then_some(place)
+        });
+        let scan = Scan::from_points(points.collect());
+        let fitted = fit(&scan, &FitOptions::default()).expect("a rod");
+        let survey = fitted.survey();
+        let errors = fitted.standard_errors(&survey).expect("errors");
+        let exact = 80.0 * std::f64::consts::PI / 3.0;
+        let off = survey.volume().unwrap() - exact;
+        assert!(
+            off.abs() < 3.0 * errors.volume && errors.volume < 3e-3 * exact,
+            "{count}: {off} of {errors:?}"
+        );
+    }
+}

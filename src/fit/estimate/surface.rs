@@ -76,6 +76,11 @@ impl Estimate {
         self.mean_square().sqrt() * self.plain_length()
     }
 
+    /// The same as a share of the radius in each direction.
+    pub(crate) fn relative_residual(&self) -> f64 {
+        self.mean_square().sqrt()
+    }
+
     /// Mean square of its points' residuals, in units of the mean radius.
     fn mean_square(&self) -> f64 {
         match self.dense {

@@ -31,6 +31,7 @@ pub(crate) use largest::whole_or_largest;
 pub use reference::{Reference, ReferenceKind};
 pub(crate) use samples::{CellGrid, Sample, Samples};
 pub use scanned::ScannedSurface;
+use surface::rod_surface;
 pub use surface::scanned_surface;
 pub(crate) use surface::usable;
 
@@ -78,6 +79,8 @@ pub struct PreparedScan<'a> {
     pub(crate) may_be_known: bool,
     /// Whether faces are large, and not only beside those about them.
     pub(crate) has_large_faces: bool,
+    /// Whether it is fitted as a thin rod.
+    pub(super) is_rod: bool,
     points: Cow<'a, [Point3<f64>]>,
     representatives: Option<Vec<Point3<f64>>>,
 }
@@ -88,7 +91,30 @@ impl<'a> PreparedScan<'a> {
     /// # Errors
     /// [`FitError`] if the scan is not one closed surface round a centre.
     pub fn new(scan: &'a Scan, symmetry: Symmetry) -> Result<Self, FitError> {
-        let mut surface = scanned_surface(scan)?;
+        Self::of_surface(scan, scanned_surface(scan)?, symmetry)
+    }
+
+    /// The same of the points of a thin rod, whose sides rays graze: along them noise is many times as large as across, and
+    /// neighbours in direction may be far from each other. `None` of all else.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub(super) fn of_rod(scan: &'a Scan, symmetry: Symmetry) -> Result<Option<Self>, FitError> {
+        let Some(surface) = rod_surface(scan)? else {
+            return Ok(None);
+        };
+        let prepared = Self::of_surface(scan, surface, symmetry)?;
+        Ok(Some(Self {
+            is_rod: true,
+            ..prepared
+        }))
+    }
+
+    fn of_surface(
+        scan: &Scan,
+        mut surface: ScannedSurface<'a>,
+        symmetry: Symmetry,
+    ) -> Result<Self, FitError> {
         // Moments go with the fifth power of the size, and would be the first to leave the range of numbers.
         let unit = Unit::of(&surface.mesh);
         let mesh = unit.mesh(&surface.mesh);
@@ -141,6 +167,7 @@ impl<'a> PreparedScan<'a> {
             unseen: surface.unseen,
             may_be_known: surface.is_sparse || surface.is_many,
             has_large_faces,
+            is_rod: false,
             points: surface.points,
             representatives: surface.representatives,
         })

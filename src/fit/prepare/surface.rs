@@ -3,6 +3,7 @@
 
 use super::by_direction::middle;
 use super::reference::ReferenceKind;
+use super::rounder::rounder_of_rod;
 use super::scanned::ScannedSurface;
 use super::thin::{Thinned, WHOLE_CLOUD, select, thin};
 use super::triangulated::from_directions;
@@ -15,7 +16,7 @@ use crate::measure::{
 use crate::mesh::Mesh;
 use crate::model::Unseen;
 use crate::scan::{Scan, are_two_grains, voxels_have_neck};
-use nalgebra::Point3;
+use nalgebra::{Matrix3, Point3};
 use std::borrow::Cow;
 use std::ops::RangeInclusive;
 
@@ -38,7 +39,7 @@ pub fn scanned_surface(scan: &Scan) -> Result<ScannedSurface<'_>, FitError> {
             from_faces(scan, &topology.unreferenced)
         }
         Some(_) => from_parts(scan),
-        None => from_directions(Cow::Borrowed(&scan.points)),
+        None => from_directions(Cow::Borrowed(&scan.points), None),
     }?;
     if surface.kind == ReferenceKind::Faces {
         let has_neck = match scan.scatter > 0.0 {
@@ -53,6 +54,18 @@ pub fn scanned_surface(scan: &Scan) -> Result<ScannedSurface<'_>, FitError> {
             .extend(has_neck.then_some(FitWarning::Neck));
     }
     Ok(surface)
+}
+
+/// The same of points without faces that are those of a rod, seen in a space in which it is as wide as long. `None` of all else.
+///
+/// # Errors
+/// As [`scanned_surface`].
+pub(super) fn rod_surface(scan: &Scan) -> Result<Option<ScannedSurface<'_>>, FitError> {
+    usable(scan)?;
+    let map =
+        rounder_of_rod(&scan.points, &middle(&scan.points)).filter(|_| scan.topology.is_none());
+    let surface = map.map(|map| from_directions(Cow::Borrowed(&scan.points), Some(map)));
+    surface.transpose()
 }
 
 /// Whether faces, taken for one body, have a neck between two grains.
@@ -132,7 +145,12 @@ fn closed(mesh: Mesh, points: Cow<'_, [Point3<f64>]>) -> ScannedSurface<'_> {
     let representatives = (points.len() > WHOLE_CLOUD).then(|| {
         let Thinned {
             representatives, ..
-        } = thin(&points, &middle(&points), f64::INFINITY);
+        } = thin(
+            &points,
+            &middle(&points),
+            &Matrix3::identity(),
+            f64::INFINITY,
+        );
         select(&points, &representatives)
     });
     ScannedSurface {
@@ -153,7 +171,7 @@ fn from_parts(scan: &Scan) -> Result<ScannedSurface<'static>, FitError> {
     let cleaned = without_dust(scan);
     let body = scanned_body(cleaned.as_ref().map_or(scan, |(cleaned, _)| cleaned));
     let Some(body) = body else {
-        return from_directions(Cow::Owned(scan.points.clone()));
+        return from_directions(Cow::Owned(scan.points.clone()), None);
     };
     match (body.defect, body.bodies, body.cavities) {
         (Some(FacesDefect::Open { .. }), parts @ 2.., _) => {
@@ -169,7 +187,7 @@ fn from_parts(scan: &Scan) -> Result<ScannedSurface<'static>, FitError> {
     let mut surface = match body.defect {
         None => filled(body.mesh, body.fill),
         Some(defect) => {
-            let cloud = from_directions(Cow::Owned(body.mesh.vertices.clone()))?;
+            let cloud = from_directions(Cow::Owned(body.mesh.vertices.clone()), None)?;
             let unseen = match defect {
                 FacesDefect::Open { holes, share } => Some(Unseen::Open { holes, share }),
                 _ => cloud.unseen,

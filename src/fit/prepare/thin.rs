@@ -8,7 +8,7 @@
 use super::bin::{BINS, bin};
 use super::samples::{Sample, order};
 use crate::buckets::Buckets;
-use nalgebra::{Point3, Rotation3};
+use nalgebra::{Matrix3, Point3, Rotation3};
 
 /// Clouds up to this size are used whole.
 pub(crate) const WHOLE_CLOUD: usize = 16_384;
@@ -17,14 +17,19 @@ pub(crate) const WHOLE_CLOUD: usize = 16_384;
 pub(crate) struct Thinned {
     /// Indices of the representatives, by bin.
     pub(crate) representatives: Vec<u32>,
-    /// Indices of points whose radius differs from their bin's median by more than `apart`
+    /// Indices of points whose radius after the map differs from their bin's median by more than `apart`
     /// (relative), sorted.
     pub(crate) strays: Vec<u32>,
 }
 
-/// Thins `points` as seen from `centre`.
-pub(crate) fn thin(points: &[Point3<f64>], centre: &Point3<f64>, apart: f64) -> Thinned {
-    let turn = Rotation3::from_euler_angles(0.37, 1.13, 2.71);
+/// Thins `points` as seen from `centre` after a linear map.
+pub(super) fn thin(
+    points: &[Point3<f64>],
+    centre: &Point3<f64>,
+    map: &Matrix3<f64>,
+    apart: f64,
+) -> Thinned {
+    let turn = Rotation3::from_euler_angles(0.37, 1.13, 2.71).matrix() * map;
     let bins: Vec<u32> = points
         .iter()
         .map(|p| bin(&(turn * (p - centre))) as u32)
@@ -39,7 +44,7 @@ pub(crate) fn thin(points: &[Point3<f64>], centre: &Point3<f64>, apart: f64) -> 
         keyed.clear();
         keyed.extend(members.iter().map(|&index| {
             let p = points[index as usize];
-            ([p.x, p.y, p.z, (p - centre).norm()], index)
+            ([p.x, p.y, p.z, (map * (p - centre)).norm()], index)
         }));
         // Ties in radius are broken by position, so that the order of the points does not matter.
         let middle = keyed.len() / 2;

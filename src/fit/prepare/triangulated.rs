@@ -18,7 +18,7 @@ use crate::fit::without::without;
 use crate::measure::Unit;
 use crate::mesh::Mesh;
 use crate::scan::has_neck;
-use nalgebra::Point3;
+use nalgebra::{Matrix3, Point3};
 use std::borrow::Cow;
 
 /// Share of strays beyond which the scan holds more than one grain.
@@ -36,12 +36,13 @@ const MOST_WITH_TWINS: usize = 4 * WHOLE_CLOUD;
 /// Rounds of leaving out strays.
 const STRAY_ROUNDS: usize = 5;
 
-/// The surface of points alone.
+/// The surface of points alone; a rod after a `map` that makes it as wide as long, for along it directions differ by little.
 ///
 /// # Errors
 /// [`FitError`] if they are of several bodies, or too many of them lie on no surface round a centre.
 pub(super) fn from_directions(
     points: Cow<'_, [Point3<f64>]>,
+    map: Option<Matrix3<f64>>,
 ) -> Result<ScannedSurface<'_>, FitError> {
     let (points, repeated) = without_repeats(points);
     let given = points.len();
@@ -75,7 +76,12 @@ pub(super) fn from_directions(
             let Thinned {
                 representatives,
                 strays,
-            } = thin(&points, &centre, LEAST_STRAY);
+            } = thin(
+                &points,
+                &centre,
+                &map.unwrap_or(Matrix3::identity()),
+                LEAST_STRAY,
+            );
             refuse_background(strays.len(), points.len())?;
             let representatives = select(&points, &representatives);
             let (mesh, _) = one_surface(&representatives, &centre)?;
