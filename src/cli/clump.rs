@@ -26,7 +26,8 @@ pub(super) fn run(args: ClumpArgs, console: Console) -> Result<()> {
     let name = inputs::name(&args.path);
     let found = clump(&solid.mesh, &solid.properties, args.spheres.target())
         .with_context(|| format!("cannot make a clump of {name}"))?;
-    let report = ClumpReport::new(name, &found, args.unit, solid.warnings);
+    let report = ClumpReport::new(name, &found, args.unit, solid.warnings)
+        .with_volume_error(solid.volume_error);
     if let Some(path) = &args.output {
         write(path, &report)?;
     }

@@ -94,12 +94,15 @@ fn deck(args: &ExportDemArgs, subjects: &[Subject]) -> Result<(Deck, Vec<String>
         let failed = || format!("cannot make a clump of {input}");
         let found = clump(&solid.mesh, &solid.properties, args.deck.spheres.target())
             .with_context(failed)?;
-        let kind = Kind::new(name, &found, metres, density).with_context(failed)?;
+        let kind = Kind::new(name, &found, metres, density)
+            .with_context(failed)?
+            .with_doubts(&solid.warnings);
         kinds.push(match solid.grain.as_ref().and_then(single) {
             Some(shape) => kind.with_superquadric(&shape, metres),
             None => kind,
         });
-        let report = ClumpReport::new(input.clone(), &found, Some(args.unit), Vec::new());
+        let report = ClumpReport::new(input.clone(), &found, Some(args.unit), Vec::new())
+            .with_volume_error(solid.volume_error);
         told.push(format!("grain         {name}\n{report}"));
     }
     let grains = args.deck.grains.unwrap_or(GRAINS);

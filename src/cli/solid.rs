@@ -2,8 +2,8 @@
 
 use super::args::InputArgs;
 use super::inputs;
-use crate::fit::scanned_surface;
-use crate::measure::{MassProperties, Scheme, Survey, mesh_properties, scanned_body};
+use crate::fit::{self, FitOptions, Kind};
+use crate::measure::{MassProperties, ScannedBody, Scheme, Survey, mesh_properties, scanned_body};
 use crate::mesh::Mesh;
 use crate::model::{Grain, Surface};
 use crate::report::{Unit, Withheld, sentences};
@@ -20,7 +20,9 @@ pub(super) struct Solid {
     pub(super) mesh: Mesh,
     /// Those of a model are its own, not its mesh's.
     pub(super) properties: MassProperties,
-    /// The model, if it is one.
+    /// Standard error of the volume, where a model tells it.
+    pub(super) volume_error: Option<f64>,
+    /// The model, if it is one; of points without faces, what is fitted to them.
     pub(super) grain: Option<Grain>,
     /// What is odd about a scan, or not to be relied on of a model: whole sentences.
     pub(super) warnings: Vec<String>,
@@ -29,48 +31,63 @@ pub(super) struct Solid {
 /// Reads a model or a scan; the content decides.
 pub(super) fn read(path: &Path, input: &InputArgs, unit: Option<Unit>) -> Result<Solid> {
     let name = inputs::name(path);
-    let unusable = || format!("{name} encloses no grain");
     let bytes = inputs::read(path, &input.limit)?;
     if inputs::is_model(path, &bytes, input)? {
-        let grain = inputs::parse_model(path, &bytes)?;
-        return Ok(Solid {
-            properties: Survey::of_grain(&grain, Scheme::Exact)
-                .properties()
-                .with_context(unusable)?,
-            mesh: grain.mesh(RESOLUTION),
-            warnings: Withheld::of(&grain, false).sentences(&name),
-            grain: Some(grain),
-        });
+        return of_grain(inputs::parse_model(path, &bytes)?, &name);
     }
     let scan = inputs::parse_scan(path, &bytes, input, unit)?;
-    inputs::explained(of_scan(&scan, &name, unit), &scan)
+    let found = match scanned_body(&scan) {
+        Some(faces) => of_faces(faces, &scan, &name),
+        None => of_points(&scan, &name, unit),
+    };
+    inputs::explained(found, &scan)
 }
 
-fn of_scan(scan: &Scan, name: &str, unit: Option<Unit>) -> Result<Solid> {
-    let unusable = || format!("{name} encloses no grain");
-    if let Some(scanned) = scanned_body(scan) {
-        if scanned.bodies > 1 {
-            bail!("{name} holds {} bodies; split it first", scanned.bodies);
-        }
-        let properties = Survey::of_scanned(&scanned)
-            .properties()
-            .with_context(unusable)?;
-        let crossing = scanned.crossing.map(|found| format!("Of {name}, {found}."));
-        return Ok(Solid {
-            mesh: scanned.mesh,
-            properties,
-            grain: None,
-            warnings: scan.warnings.iter().cloned().chain(crossing).collect(),
-        });
-    }
-    let surface = scanned_surface(scan).with_context(unusable)?;
-    let survey = Survey::of_mesh(&surface.mesh).with_context(unusable)?;
-    let properties = survey.properties()?;
+fn unusable(name: &str) -> String {
+    format!("{name} encloses no grain")
+}
+
+fn of_grain(grain: Grain, name: &str) -> Result<Solid> {
+    let properties = Survey::of_grain(&grain, Scheme::Exact)
+        .properties()
+        .with_context(|| unusable(name))?;
     Ok(Solid {
-        warnings: sentences(&scan.warnings, &surface.warnings, unit),
-        mesh: surface.mesh.clone(),
         properties,
+        volume_error: grain.standard_errors().ok().map(|errors| errors.volume),
+        mesh: grain.mesh(RESOLUTION),
+        warnings: Withheld::of(&grain, false).sentences(name),
+        grain: Some(grain),
+    })
+}
+
+fn of_faces(scanned: ScannedBody, scan: &Scan, name: &str) -> Result<Solid> {
+    if scanned.bodies > 1 {
+        bail!("{name} holds {} bodies; split it first", scanned.bodies);
+    }
+    let properties = Survey::of_scanned(&scanned)
+        .properties()
+        .with_context(|| unusable(name))?;
+    let crossing = scanned.crossing.map(|found| format!("Of {name}, {found}."));
+    Ok(Solid {
+        mesh: scanned.mesh,
+        properties,
+        volume_error: None,
         grain: None,
+        warnings: scan.warnings.iter().cloned().chain(crossing).collect(),
+    })
+}
+
+/// The grain that is fitted to points: the polyhedron through them is too small.
+fn of_points(scan: &Scan, name: &str, unit: Option<Unit>) -> Result<Solid> {
+    let options = FitOptions {
+        kind: Kind::Auto,
+        ..FitOptions::default()
+    };
+    let fitted = fit::fit_scan(scan, &options, &fit::Context::default())
+        .with_context(|| format!("cannot fit {name}"))?;
+    Ok(Solid {
+        warnings: sentences(&scan.warnings, &fitted.warnings, unit),
+        ..of_grain(fitted.grain_with_errors(), name)?
     })
 }
 

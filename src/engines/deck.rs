@@ -147,6 +147,7 @@ impl Deck {
                 mass: kind.mass(),
                 moments: kind.moments(),
                 superquadric: None,
+                doubts: Vec::new(),
             })
         });
         let kinds = kinds.collect::<Result<Vec<_>, InvalidDeck>>()?;

@@ -20,6 +20,8 @@ pub struct Kind {
     pub moments: Vector3<f64>,
     /// The grain as one superquadric of equal octants, if it is fitted as one, in metres along its own axes.
     pub superquadric: Option<Superquadric>,
+    /// What is not to be relied on of it: whole sentences.
+    pub doubts: Vec<String>,
 }
 
 /// Why a clump is no [`Kind`].
@@ -62,6 +64,7 @@ impl Kind {
             mass: density * volume * metres.powi(3),
             moments: principal.moments * (density * metres.powi(5)),
             superquadric: None,
+            doubts: Vec::new(),
         };
         let numbers = [kind.mass, kind.moments.x, kind.moments.y, kind.moments.z];
         match numbers.iter().all(|x| x.is_normal() && *x > 0.0) {
@@ -78,6 +81,13 @@ impl Kind {
             superquadric,
             ..self
         }
+    }
+
+    /// The same grain with what is not to be relied on of it, which the folder's README tells.
+    #[must_use]
+    pub fn with_doubts(self, doubts: &[String]) -> Self {
+        let doubts = doubts.to_vec();
+        Self { doubts, ..self }
     }
 
     /// The radius of the ball about the centre of mass that holds all of it, as spheres and as a superquadric, in metres.

@@ -1,6 +1,6 @@
 //! What `grainform clump` tells, and saves.
 
-use super::number::{percent, short, triple};
+use super::number::{percent, short, triple, with_error};
 use super::unit::{Labels, Unit};
 use crate::clump::Clump;
 use crate::digits::plural;
@@ -30,6 +30,8 @@ pub struct ClumpReport {
     pub volume_error: f64,
     /// Volume of the grain.
     pub volume: f64,
+    /// Its standard error; `null` where there is none.
+    pub volume_standard_error: Option<f64>,
     /// Centroid of the grain.
     pub centroid: [f64; 3],
     /// Inertia of the grain about its centroid at density one, along the axes of the scan.
@@ -70,9 +72,19 @@ impl ClumpReport {
             equivalent_radius,
             volume_error: clump.volume_error,
             volume: clump.grain.volume,
+            volume_standard_error: None,
             centroid: clump.grain.centroid.into(),
             inertia: clump.grain.inertia.into(),
             warnings,
+        }
+    }
+
+    /// The same with how well the volume of the grain is known.
+    #[must_use]
+    pub fn with_volume_error(self, volume_standard_error: Option<f64>) -> Self {
+        Self {
+            volume_standard_error,
+            ..self
         }
     }
 
@@ -112,9 +124,9 @@ impl fmt::Display for ClumpReport {
         )?;
         writeln!(
             f,
-            "volume        {} beside the grain's {}{}, known to 0.01 %",
+            "volume        {} (known to 0.01 %) beside the grain's {}{}",
             percent(self.volume_error),
-            short(self.volume),
+            with_error(self.volume, self.volume_standard_error),
             labels.volume()
         )?;
         write!(

@@ -1,4 +1,5 @@
 use super::{errors, folder, grain, grainform, json, names, number, succeed};
+use serde_json::Value;
 use std::f64::consts::PI;
 use std::path::Path;
 use std::process::Command;
@@ -24,6 +25,12 @@ fn read(folder: &Path, name: &str) -> String {
     std::fs::read_to_string(folder.join(name)).unwrap_or_else(|error| panic!("{name}: {error}"))
 }
 
+/// These measures of what is fitted to the points of the bean.
+fn of_fit(folder: &TempDir, only: &str) -> Value {
+    succeed(folder, &["fit", &grain("bean.ply"), "-o", "bean.json"]);
+    json(folder, &["measure", "bean.json", "--only", only])
+}
+
 #[test]
 fn a_folder_holds_mass_and_inertia_of_the_grain() {
     let folder = folder();
@@ -38,10 +45,7 @@ fn a_folder_holds_mass_and_inertia_of_the_grain() {
         ["README", "bodies.in", "data.clumps", "in.settle"]
     );
     assert_eq!(read(&dem, "README").lines().count(), 3);
-    let measured = json(
-        &folder,
-        &["measure", &grain("bean.ply"), "--only", "volume,principal"],
-    );
+    let measured = of_fit(&folder, "volume,principal");
     let bodies = read(&dem, "bodies.in");
     let first: Vec<f64> = bodies
         .lines()
@@ -80,10 +84,7 @@ fn shapes_for_nist_are_centred_and_their_loss_is_told() {
         .collect();
     assert_eq!(lines.len(), 21 * 21);
     // a_00 is the mean radius times sqrt(4 pi), in metres.
-    let measured = json(
-        &folder,
-        &["measure", &grain("bean.ply"), "--only", "spheres,spectrum"],
-    );
+    let measured = of_fit(&folder, "spheres,spectrum");
     let power = measured["spectrum"]["power"][0].as_f64().unwrap();
     assert_eq!(lines[0][..2], [0.0, 0.0]);
     assert!((lines[0][2] / (power.sqrt() * 1e-3) - 1.0).abs() < 1e-9);
@@ -186,6 +187,17 @@ fn what_no_engine_can_run_is_refused_in_a_sentence() {
         let message = errors(&output);
         assert!(message.contains(sentence), "{message}");
     }
+}
+
+#[test]
+fn a_folder_tells_what_is_not_to_be_relied_on() {
+    let folder = folder();
+    let synth = "synth sphere --missing-cap 50 -o hole.ply";
+    succeed(&folder, &synth.split(' ').collect::<Vec<_>>());
+    let words = "export-dem hole.ply --engine yade --unit mm -o dem";
+    succeed(&folder, &words.split(' ').collect::<Vec<_>>());
+    let readme = read(&folder.path().join("dem"), "README");
+    assert!(readme.contains("hole: No point lies within"), "{readme}");
 }
 
 #[test]

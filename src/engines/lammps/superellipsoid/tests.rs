@@ -153,6 +153,7 @@ fn other_grains_and_round_walls_are_left_to_clumps() {
     let mut mixed = deck;
     mixed.kinds.push(Kind {
         superquadric: None,
+        doubts: Vec::new(),
         ..mixed.kinds[0].clone()
     });
     assert!(files(&mixed).is_none() && remarks(&mixed).is_empty());
