@@ -14,6 +14,9 @@ const CONFIDENCE: f64 = 0.95;
 /// Logarithm of the least weight that counts beside the largest.
 const LEAST: f64 = -14.0;
 
+/// The most steps in place of one in which a variance is taken where the odds of an effect size change from 0 to 1 within one.
+const MOST_STEPS: f64 = 16.0;
+
 /// Halvings of the reach in which the end of an interval is looked for.
 const HALVINGS: usize = 30;
 
@@ -61,11 +64,6 @@ pub(super) fn intervals(lots: [Sample; 2]) -> Option<Intervals> {
         deviation: lot.deviation / unit,
         ..lot
     });
-    let [first, second] = lots.map(|lot| variances(&lot));
-    let cases: Vec<Case> = first
-        .iter()
-        .flat_map(|one| second.iter().map(|other| case(lots, *one, *other)))
-        .collect();
     let [one, other] = lots;
     let own = case(
         lots,
@@ -73,6 +71,21 @@ pub(super) fn intervals(lots: [Sample; 2]) -> Option<Intervals> {
         (1.0, other.deviation.powi(2)),
     );
     let difference = other.mean - one.mean;
+    // Of the lot that tells more of the scale the steps are finer, and what is summed over them is smooth in the other's.
+    let steepness = lots.map(|lot| {
+        let scale = lot.deviation.powi(2) / (4.0 * own.scale.powi(2));
+        step(&lot) * scale * difference.abs() / own.error
+    });
+    let finer = usize::from(steepness[1] > steepness[0]);
+    let steps = |i: usize| match i == finer {
+        true => steepness[i].ceil().clamp(1.0, MOST_STEPS),
+        false => 1.0,
+    };
+    let [first, second] = [0, 1].map(|i| variances(&lots[i], steps(i)));
+    let cases: Vec<Case> = first
+        .iter()
+        .flat_map(|one| second.iter().map(|other| case(lots, *one, *other)))
+        .collect();
     let below = |value: f64| share(&cases, |case| (value - difference) / case.error);
     let effect_below = |value: f64| {
         share(&cases, |case| {
@@ -88,10 +101,10 @@ pub(super) fn intervals(lots: [Sample; 2]) -> Option<Intervals> {
 /// Variances that a population may have, each with its weight, which has no unit.
 ///
 /// With χ² = k exp(y) of k degrees of freedom the density of y is as exp(k / 2 (y - exp(y))): smooth, and nil far out,
-/// so that sums at equal steps of y are integrals.
-fn variances(lot: &Sample) -> Vec<(f64, f64)> {
+/// so that sums at equal steps of y are integrals: at so many in place of one.
+fn variances(lot: &Sample, steps: f64) -> Vec<(f64, f64)> {
     let freedom = lot.count as f64 - 1.0;
-    let step = (0.5 / freedom).sqrt();
+    let step = step(lot) / steps;
     let weight = |y: f64| 0.5 * freedom * (y + 1.0 - y.exp());
     let counts = |y: &f64| weight(*y) > LEAST;
     let up = (0..).map(|i| step * f64::from(i)).take_while(counts);
@@ -99,6 +112,11 @@ fn variances(lot: &Sample) -> Vec<(f64, f64)> {
     up.chain(down)
         .map(|y| (weight(y).exp(), lot.deviation.powi(2) / y.exp()))
         .collect()
+}
+
+/// Half a standard deviation of y.
+fn step(lot: &Sample) -> f64 {
+    (0.5 / (lot.count as f64 - 1.0)).sqrt()
 }
 
 fn case(lots: [Sample; 2], one: (f64, f64), other: (f64, f64)) -> Case {
@@ -177,6 +195,25 @@ mod tests {
         assert_relative_eq!(found.effect[1], 4.818_324, max_relative = 1e-4);
         let found = intervals([still, sample(2, 0.0, 2_f64.sqrt())]).unwrap();
         assert_relative_eq!(found.difference[1], 12.706_205, max_relative = 1e-4);
+    }
+
+    /// The difference is known well, and the effect size is as the scale: beside a still lot as the root of χ², whose quantiles
+    /// of 29 degrees of freedom are 16.0471 and 45.7223; of two alike by twenty million draws.
+    #[test]
+    fn large_effects_are_as_uncertain_as_the_scale() {
+        let end = |quantile: f64| 1e4 * (2.0 * quantile / 29.0).sqrt();
+        for (deviation, ends) in [
+            (1e-9, [16.0471, 45.7223].map(end)),
+            (1.0, [7978.0, 11664.2]),
+        ] {
+            for (one, other) in [(deviation, 1.0), (1.0, deviation)] {
+                let lots = [sample(30, 0.0, one), sample(30, 1e4, other)];
+                let found = intervals(lots).unwrap().effect;
+                for (found, end) in found.into_iter().zip(ends) {
+                    assert_relative_eq!(found, end, max_relative = 3e-3);
+                }
+            }
+        }
     }
 
     /// Shares of intervals of so many pairs of normal lots that hold the truth, of the difference and of the effect.

@@ -7,7 +7,7 @@ use crate::annotate::{Annotated, ScanDeviation};
 use crate::export::{Detail, MeshFormat};
 use crate::model::{Grain, Surface};
 use crate::portrait::colours;
-use crate::report::{Withheld, percent};
+use crate::report::Withheld;
 use anyhow::{Result, bail};
 use std::path::Path;
 
@@ -121,8 +121,10 @@ fn unseen(args: &MeshArgs, surface: &Annotated) -> Result<Option<String>> {
         );
     }
     let told = || {
-        let share = percent(share);
-        format!("The scan has no points near {share} of the surface: no distance is told there.")
+        let share = 100.0 * share;
+        format!(
+            "The scan has no points near {share:.1} % of the surface: no distance is told there."
+        )
     };
     Ok((share > UNSEEN).then(told))
 }

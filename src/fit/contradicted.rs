@@ -2,6 +2,7 @@
 
 use super::outcome::Fitted;
 use super::prepare::ReferenceKind;
+use super::warning::FitWarning;
 use crate::model::{Contradicted, NoInterval, Surface};
 
 /// By how much area or volume may differ from those of the polyhedron through the points that a surface was fitted to. With
@@ -20,6 +21,9 @@ const VOUCHING: f64 = 4.0;
 /// for it.
 const WILD: f64 = 0.3;
 
+/// Share by which area or volume may be larger than those of closed faces, without a known error, before it is told.
+const TOLD: f64 = 0.01;
+
 /// Cells along the edge of a cube of the mesh by which a surface's reach is told.
 const RESOLUTION: usize = 32;
 
@@ -35,8 +39,27 @@ impl Fitted {
         if is_closed && may_contradict {
             let contradicted = self.contradicted();
             self.grain = self.grain.with_contradicted(contradicted);
+            let beyond = self.beyond_faces();
+            self.warnings.extend(beyond);
         }
         self
+    }
+
+    /// Tells of a surface that is larger than closed faces by an amount that no error explains: between corners of coarse faces it
+    /// may ripple.
+    fn beyond_faces(&self) -> Option<FitWarning> {
+        let is_of_faces = self.reference.kind == ReferenceKind::Faces;
+        (is_of_faces && self.grain.contradicted().is_none()).then_some(())?;
+        let survey = self.survey();
+        let told = survey.properties().ok()?;
+        let [area, volume] = [
+            told.area / self.reference.area - 1.0,
+            told.volume / self.reference.volume - 1.0,
+        ];
+        (area.max(volume) > TOLD).then_some(())?;
+        let errors = self.errors_of_points(&told, &survey.dimensions().ok()?);
+        matches!(errors, Err(NoInterval::Unresolved { .. }))
+            .then_some(FitWarning::BeyondFaces { area, volume })
     }
 
     fn contradicted(&self) -> Option<Contradicted> {
@@ -87,9 +110,10 @@ impl Fitted {
 
 #[cfg(test)]
 mod tests {
-    use crate::fit::{FitOptions, fit};
+    use crate::fit::prepare::ReferenceKind;
+    use crate::fit::{FitOptions, FitWarning, fit};
     use crate::mesh::Mesh;
-    use crate::model::{NoInterval, Superquadric};
+    use crate::model::{NoInterval, StandardErrors, StarSurface, Superquadric};
     use crate::scan::Scan;
     use crate::shapes::{SynthOptions, synthesize};
     use approx::assert_relative_eq;
@@ -120,6 +144,28 @@ mod tests {
         fitted.reference.volume = own.volume;
         let fitted = fitted.beside_polyhedron();
         assert!(fitted.grain_with_errors().contradicted().is_some());
+    }
+
+    /// The faces cut off the edges of a brick.
+    #[test]
+    fn what_is_larger_than_closed_faces_and_has_no_error_is_told() {
+        let brick = Superquadric::single([3.0, 2.0, 1.0], 20.0, 20.0).unwrap();
+        let mesh = Mesh::radial(12, |n| brick.radius(n));
+        let mut fitted = fit(&Scan::from_mesh(mesh).unwrap(), &FitOptions::default()).unwrap();
+        let told = |warning: &FitWarning| match warning {
+            FitWarning::BeyondFaces { area, volume } => *area > 0.02 && *volume > 0.02,
+            _ => false,
+        };
+        assert!(fitted.warnings.iter().any(told), "{:?}", fitted.warnings);
+        fitted.reference.area *= 1.02;
+        fitted.reference.volume *= 1.02;
+        assert_eq!(fitted.beyond_faces(), None);
+        fitted.reference.area /= 1.02;
+        fitted.errors = Some(Ok(StandardErrors::NONE));
+        assert_eq!(fitted.beyond_faces(), None);
+        fitted.errors = None;
+        fitted.reference.kind = ReferenceKind::Directions;
+        assert_eq!(fitted.beyond_faces(), None);
     }
 
     /// Few of the points that a centre sees lie on the rim of a plate.

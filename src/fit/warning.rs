@@ -86,6 +86,13 @@ pub enum FitWarning {
         /// The direction, in the scan's frame.
         direction: Vector3<f64>,
     },
+    /// Area or volume are larger than those of the scan's closed faces, and no error is known.
+    BeyondFaces {
+        /// Share of the area.
+        area: f64,
+        /// Share of the volume.
+        volume: f64,
+    },
     /// Part of the surface faces away from the best centre and is smoothed over.
     NotStarShaped {
         /// Its share of the area.

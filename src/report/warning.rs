@@ -164,6 +164,13 @@ impl FitWarning {
                 direction.y,
                 direction.z
             ),
+            Self::BeyondFaces { area, volume } => write!(
+                f,
+                "The surface has {} area and {} volume beside the scan's own closed faces, and it is not known which are right: \
+                 between coarse faces it may ripple. Where the faces are the body, take the figures of the scan (grainform measure).",
+                percent(area),
+                percent(volume)
+            ),
             Self::NotStarShaped { share } => write!(
                 f,
                 "The surface is not quite star-shaped: {:.2} % of its area faces away from the best \

@@ -31,8 +31,8 @@ const RUN: &str = "Run";
 /// how good it is.
 ///
 /// Scans are read from PLY, STL, OBJ and XYZ files and from segmented volumes (NRRD, MetaImage, NIfTI, TIFF stacks,
-/// .npy), packed with gzip or not. The name - is standard input, or
-/// standard output; what is said beside an output goes to standard error. Lengths are in the scan's unit. Exit
+/// .npy), packed with gzip or not. The name - is standard input where one scan or model is read, and standard output
+/// where one file is written; what is said beside an output goes to standard error. Lengths are in the scan's unit. Exit
 /// codes: 0 all done; 1 done, but some inputs of a batch failed; 2 bad usage or
 /// unusable input.
 #[derive(Parser)]

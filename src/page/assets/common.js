@@ -59,11 +59,24 @@ function ticks(low, high, most) {
   return marks;
 }
 
-// A number in four digits at most.
-function told(value) {
+// A number in four digits at most, or so many.
+function told(value, digits = 4) {
   if (value === 0) return '0';
   const size = Math.abs(value);
-  return size >= 1e-4 && size < 1e6 ? String(Number(value.toPrecision(4))) : value.toExponential(2).replace(/\.?0+e/, 'e');
+  return size >= 1e-4 && size < 1e6 ? String(Number(value.toPrecision(digits)))
+    : value.toExponential(digits - 2).replace(/\.?0+e/, 'e');
+}
+
+// Marks of an axis, each in so many digits that it is told where it is.
+function toldApart(marks) {
+  const step = Math.min(...marks.slice(1).map((mark, at) => mark - marks[at]));
+  return marks.map((mark) => {
+    for (let digits = 4; digits < 15; digits += 1) {
+      const text = told(mark, digits);
+      if (!(Math.abs(Number(text) - mark) > 0.01 * step)) return text;
+    }
+    return told(mark, 15);
+  });
 }
 
 const isDark = () => matchMedia('(prefers-color-scheme: dark)').matches;

@@ -5,7 +5,7 @@ const FIELDS = {
   deviation: { title: 'scan − surface', power: 1, isSigned: true },
   mean_curvature: { title: 'mean curvature', power: -1 },
   gaussian_curvature: { title: 'Gaussian curvature', power: -2 },
-  radius: { title: 'distance from the centre', power: 1 },
+  radius: { title: 'distance from the model’s centre', power: 1 },
   segment: { title: 'segment', power: 0 },
 };
 

@@ -9,9 +9,11 @@ function colourBar(range, steps, title, width = 230) {
   const rows = [...steps].reverse().map(([r, g, b], at) => el('rect', {
     x: 0, y: 24 + (at * height) / steps.length, width: 18, height: height / steps.length + 0.5, fill: `rgb(${r},${g},${b})`,
   }));
-  const marks = ticks(range[0], range[1], 8).map((mark) => {
+  const places = ticks(range[0], range[1], 8);
+  const texts = toldApart(places);
+  const marks = places.map((mark, at) => {
     const y = 24 + height * (1 - (mark - range[0]) / (range[1] - range[0]));
-    return [el('line', { class: 'axis', x1: 18, x2: 23, y1: y, y2: y }), el('text', { x: 27, y: y + 4 }, told(mark))];
+    return [el('line', { class: 'axis', x1: 18, x2: 23, y1: y, y2: y }), el('text', { x: 27, y: y + 4 }, texts[at])];
   });
   return el('svg', { width, height: height + 36 }, el('text', { x: 0, y: 14 }, title), rows, marks);
 }
@@ -60,12 +62,13 @@ function axisOf(values, isLog, from, to) {
 }
 
 function frame(title, x, y, xTitle, yTitle, [left, top, width, height]) {
-  const across = x.marks.map((mark) => [
+  const [acrossTexts, upTexts] = [x.marks, y.marks].map(toldApart);
+  const across = x.marks.map((mark, at) => [
     el('line', { class: 'grid', x1: x.place(mark), x2: x.place(mark), y1: top, y2: top + height }),
-    el('text', { x: x.place(mark), y: top + height + 16, 'text-anchor': 'middle' }, told(mark))]);
-  const up = y.marks.map((mark) => [
+    el('text', { x: x.place(mark), y: top + height + 16, 'text-anchor': 'middle' }, acrossTexts[at])]);
+  const up = y.marks.map((mark, at) => [
     el('line', { class: 'grid', x1: left, x2: left + width, y1: y.place(mark), y2: y.place(mark) }),
-    el('text', { x: left - 6, y: y.place(mark) + 4, 'text-anchor': 'end' }, told(mark))]);
+    el('text', { x: left - 6, y: y.place(mark) + 4, 'text-anchor': 'end' }, upTexts[at])]);
   return [el('text', { x: left, y: 14 }, title), across, up, el('rect', { class: 'axis', x: left, y: top, width, height }),
     el('text', { x: left + width / 2, y: top + height + 34, 'text-anchor': 'middle' }, xTitle),
     el('text', { x: 12, y: top + height / 2, 'text-anchor': 'middle', transform: `rotate(-90 12 ${top + height / 2})` }, yTitle)];

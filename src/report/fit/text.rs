@@ -10,6 +10,9 @@ use crate::report::unit::Labels;
 use crate::sphere::Symmetry;
 use std::fmt;
 
+/// Share of the mean radius up to which noise is not told from none: no search goes below 3e-6.
+const LEAST_NOISE: f64 = 3.5e-6;
+
 impl ReferenceRecord {
     /// What it is, in words.
     fn description(&self) -> &'static str {
@@ -191,7 +194,11 @@ impl FitReport {
             writeln!(f, "asymmetry     RMS {}", self.of_radius(asymmetry))?;
         }
         if let Some(noise) = self.noise {
-            writeln!(f, "noise         {}", self.of_radius(noise))?;
+            let bound = match noise <= LEAST_NOISE * self.mean_radius {
+                true => "at most ",
+                false => "",
+            };
+            writeln!(f, "noise         {bound}{}", self.of_radius(noise))?;
         }
         let radius = short(self.mean_radius);
         match self.surface {
