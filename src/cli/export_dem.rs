@@ -184,5 +184,10 @@ fn shapes(
         let real: Vec<f64> = found.coefficients.iter().map(|a| a * metres).collect();
         grains.push((name.clone(), AnmExpansion::from_real(&real)));
     }
-    Ok((anm_files(&grains), told))
+    let doubts = subjects.iter().flat_map(|subject| {
+        let name = &subject.name;
+        let doubts = subject.solid.warnings.iter();
+        doubts.map(move |doubt| format!("{name}: {doubt}"))
+    });
+    Ok((anm_files(&grains, &doubts.collect::<Vec<_>>()), told))
 }

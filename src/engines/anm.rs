@@ -53,8 +53,8 @@ pub fn write_anm(expansion: &AnmExpansion) -> String {
     text
 }
 
-/// The folder: a file of coefficients for each grain, and a README.
-pub fn anm_files(grains: &[(String, AnmExpansion)]) -> Vec<InputFile<'static>> {
+/// The folder: a file of coefficients for each grain, and a README, which ends in what is not to be relied on: whole sentences.
+pub fn anm_files(grains: &[(String, AnmExpansion)], doubts: &[String]) -> Vec<InputFile<'static>> {
     let mut files: Vec<InputFile<'static>> = grains
         .iter()
         .map(|(name, expansion)| InputFile::new(format!("{name}.anm"), write_anm(expansion)))
@@ -66,9 +66,10 @@ pub fn anm_files(grains: &[(String, AnmExpansion)]) -> Vec<InputFile<'static>> {
         format!(
             "Shapes for LAMMPS with the package SPHERHARM: atom_style spherharm {degree} {} {}\nLines `n m Re Im`: \
              r(theta, phi) = sum of a_n^m Y_n^m about the centre of mass, orthonormal, with the phase of Condon and \
-             Shortley, a_n^-m = (-1)^m conj a_n^m, as the particles of NIST are published.\nSI units: r and a in m.\n",
+             Shortley, a_n^-m = (-1)^m conj a_n^m, as the particles of NIST are published.\nSI units: r and a in m.\n{}",
             2 * degree + 10,
             names.join(" "),
+            doubts.iter().map(|doubt| format!("{doubt}\n")).collect::<String>(),
         ),
     ));
     files

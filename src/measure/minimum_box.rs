@@ -73,6 +73,23 @@ const NEARBY: f64 = 0.02;
 ///
 /// [`MeshIntegralError`] if the mesh is broken or has no volume.
 pub fn minimum_box(hull: &Mesh) -> Result<OrientedBox, MeshIntegralError> {
+    Ok(least_boxes(hull)?.least)
+}
+
+/// The box of least volume, and others.
+#[derive(Debug, Clone)]
+pub(super) struct LeastBoxes {
+    pub(super) least: OrientedBox,
+    /// Boxes near other local minima of the volume, some of which may be hardly larger.
+    pub(super) others: Vec<OrientedBox>,
+}
+
+/// The same, with what else was found on the way.
+///
+/// # Errors
+///
+/// As [`minimum_box`].
+pub(super) fn least_boxes(hull: &Mesh) -> Result<LeastBoxes, MeshIntegralError> {
     let mut unit = of_unit_size(hull);
     let frame = own_frame(&unit)?;
     for vertex in &mut unit.vertices {
@@ -103,8 +120,10 @@ pub fn minimum_box(hull: &Mesh) -> Result<OrientedBox, MeshIntegralError> {
     }
     let principal = box_along(&unit.vertices, &Matrix3::identity());
     let mut least = (principal.volume(), Matrix3::identity());
+    let mut others = Vec::with_capacity(starts.len());
     for start in starts {
         let mut best = few.refine(start, apart / 2.0, 2, apart * COARSE);
+        others.push(best.axes);
         let mut is_refined = false;
         for _ in 0..ROUNDS {
             // With more points it can only become larger; of small hulls, smaller when it is refined.
@@ -146,7 +165,11 @@ pub fn minimum_box(hull: &Mesh) -> Result<OrientedBox, MeshIntegralError> {
             least = (volume, best.axes);
         }
     }
-    Ok(box_along(&hull.vertices, &(frame * least.1)))
+    let along = |axes: Matrix3<f64>| box_along(&hull.vertices, &(frame * axes));
+    Ok(LeastBoxes {
+        least: along(least.1),
+        others: others.into_iter().map(along).collect(),
+    })
 }
 
 /// The principal axes of a mesh, a rotation, of which the first two point to where it reaches farther from its centroid.

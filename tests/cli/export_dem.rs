@@ -194,10 +194,12 @@ fn a_folder_tells_what_is_not_to_be_relied_on() {
     let folder = folder();
     let synth = "synth sphere --missing-cap 50 -o hole.ply";
     succeed(&folder, &synth.split(' ').collect::<Vec<_>>());
-    let words = "export-dem hole.ply --engine yade --unit mm -o dem";
-    succeed(&folder, &words.split(' ').collect::<Vec<_>>());
-    let readme = read(&folder.path().join("dem"), "README");
-    assert!(readme.contains("hole: No point lies within"), "{readme}");
+    for engine in ["yade", "anm"] {
+        let words = format!("export-dem hole.ply --engine {engine} --unit mm -o {engine}");
+        succeed(&folder, &words.split(' ').collect::<Vec<_>>());
+        let readme = read(&folder.path().join(engine), "README");
+        assert!(readme.contains("hole: No point lies within"), "{readme}");
+    }
 }
 
 #[test]

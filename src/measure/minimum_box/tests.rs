@@ -161,3 +161,24 @@ fn broken_meshes_are_refused() {
         Err(MeshIntegralError::MissingVertex { .. })
     ));
 }
+
+/// On each side of a triangle stands a rectangle round it of twice its area: of a prism over one of sides 3, 4 and 5 two boxes are as
+/// small, 3 by 4 and 5 by 2.4 wide.
+#[test]
+fn boxes_that_are_as_small_are_among_the_others() {
+    let corners = [[0.0, 0.0], [3.0, 0.0], [0.0, 4.0]];
+    let corners = corners
+        .iter()
+        .flat_map(|[x, y]| [0.0, 2.0].map(|z| [*x, *y, z]));
+    let prism = hull(&corners.collect::<Vec<_>>(), [0.3, 0.2, 0.1]);
+    let found = least_boxes(&prism).unwrap();
+    assert_relative_eq!(found.least.volume(), 24.0, max_relative = 1e-9);
+    for sides in [[4.0, 3.0, 2.0], [5.0, 2.4, 2.0]] {
+        let is_like = |other: &OrientedBox| (other.extents - Vector3::from(sides)).amax() < 0.05;
+        assert!(
+            found.others.iter().any(is_like),
+            "{sides:?} {:?}",
+            found.others
+        );
+    }
+}

@@ -9,6 +9,7 @@ mod unit_size;
 
 use super::elements::Element;
 use super::extents::Extents;
+use super::minimum_box::LeastBoxes;
 use super::unit::Unit;
 use super::{
     Ball, Convexity, CurvatureStatistics, EquivalentEllipsoid, Form, MassProperties, OrientedBox,
@@ -20,7 +21,7 @@ use crate::model::{Grain, NoInterval, Radial, StandardErrors, StarSurface};
 pub(crate) use body::Measured;
 use body::{Body, Inside};
 pub use error::SurveyError;
-pub use errors::OutlineErrors;
+pub use errors::{BoxErrors, OutlineErrors};
 use nalgebra::{Matrix3, Vector3};
 use std::cell::OnceCell;
 use std::f64::consts::PI;
@@ -65,7 +66,7 @@ pub struct Survey<'a> {
     mesh: OnceCell<Mesh>,
     finer_mesh: OnceCell<Option<Mesh>>,
     hull: OnceCell<Result<Mesh, SurveyError>>,
-    minimum_box: OnceCell<Result<OrientedBox, SurveyError>>,
+    least_boxes: OnceCell<Result<LeastBoxes, SurveyError>>,
     elements: OnceCell<Vec<Element>>,
     inscribed: OnceCell<Result<Ball, SurveyError>>,
     enclosing: OnceCell<Result<Ball, SurveyError>>,
@@ -138,7 +139,7 @@ impl<'a> Survey<'a> {
             mesh: OnceCell::new(),
             finer_mesh: OnceCell::new(),
             hull: OnceCell::new(),
-            minimum_box: OnceCell::new(),
+            least_boxes: OnceCell::new(),
             elements: OnceCell::new(),
             inscribed: OnceCell::new(),
             enclosing: OnceCell::new(),

@@ -5,10 +5,11 @@ use super::body::{Body, Measured};
 use super::error::SurveyError;
 use crate::Mesh;
 use crate::measure::extents::{Extents, RESOLUTION, Reach};
+use crate::measure::minimum_box::{LeastBoxes, least_boxes};
 use crate::measure::sag::finer_resolution;
 use crate::measure::{
     Ball, EquivalentEllipsoid, MassProperties, OrientedBox, PrincipalInertia, SolidProperties,
-    convex_hull, enclosing_ball, extents, inscribed_ball, minimum_box,
+    convex_hull, enclosing_ball, extents, inscribed_ball,
 };
 use crate::model::Surface;
 use nalgebra::{Matrix3, Vector3};
@@ -105,14 +106,23 @@ impl Survey<'_> {
     }
 
     pub(super) fn unit_minimum_box(&self) -> Result<OrientedBox, SurveyError> {
+        Ok(self.unit_least_boxes()?.least)
+    }
+
+    /// The box of least volume, and others that may be hardly larger.
+    pub(super) fn unit_least_boxes(&self) -> Result<&LeastBoxes, SurveyError> {
         let least = || {
-            let found = minimum_box(self.hull()?)?;
+            let found = least_boxes(self.hull()?)?;
             Ok(match self.reach() {
-                Some(reach) => reach.hold(&found.axes),
+                Some(reach) => LeastBoxes {
+                    least: reach.hold(&found.least.axes),
+                    ..found
+                },
                 None => found,
             })
         };
-        self.minimum_box.get_or_init(least).clone()
+        let found = self.least_boxes.get_or_init(least);
+        found.as_ref().map_err(Clone::clone)
     }
 
     pub(super) fn unit_inscribed(&self) -> Result<Ball, SurveyError> {

@@ -310,7 +310,8 @@ impl Measures {
         let moments = self.inertia.is_some() || self.principal.is_some();
         let boxes = self.minimum_box.is_some() || self.ratios.is_some();
         let ratios = self.form.is_some() || self.sphericity.is_some() || self.convexity.is_some();
-        let shapes = self.ellipsoid.is_some() || self.projections.is_some();
+        let shapes =
+            self.spheres.is_some() || self.ellipsoid.is_some() || self.projections.is_some();
         sums || moments || boxes || ratios || shapes || self.dimensions.is_some()
     }
 

@@ -1,7 +1,8 @@
 //! The parts of a report of measures.
 
 use crate::measure::{
-    Ball, CurvatureStatistics, Distribution, EquivalentEllipsoid, OrientedBox, PrincipalInertia,
+    Ball, BoxErrors, CurvatureStatistics, Distribution, EquivalentEllipsoid, OrientedBox,
+    PrincipalInertia,
 };
 use nalgebra::{Matrix3, Vector3};
 use serde::Serialize;
@@ -97,8 +98,7 @@ pub struct BoxSides {
 }
 
 impl BoxRecord {
-    /// With the standard errors of its sides, which may all be of one sign.
-    pub(super) fn new(found: OrientedBox, errors: Option<Vector3<f64>>) -> Self {
+    pub(super) fn new(found: OrientedBox, errors: Option<BoxErrors>) -> Self {
         let sides = |sides: Vector3<f64>, volume: f64| {
             let [length, width, thickness] = sides.into();
             BoxSides {
@@ -108,13 +108,9 @@ impl BoxRecord {
                 volume,
             }
         };
-        let volume = found.volume();
-        let errors = errors.map(|off| {
-            let share = off.component_div(&found.extents).sum();
-            sides(off, volume * share)
-        });
+        let errors = errors.map(|off| sides(off.extents, off.volume));
         Self {
-            sides: WithErrors::new(sides(found.extents, volume), errors),
+            sides: WithErrors::new(sides(found.extents, found.volume()), errors),
             centre: found.centre.coords.into(),
             axes: rows(&found.axes.transpose()),
         }

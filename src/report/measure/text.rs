@@ -8,7 +8,7 @@ use crate::measure::{Convexity, Distribution, Form, SideRatios, Sphericity};
 use crate::report::escape::escaped;
 use crate::report::number::{short, triple, with_error};
 use crate::report::unit::Labels;
-use std::fmt;
+use std::fmt::{self, Write as _};
 
 /// Degrees of the spectrum that are shown.
 const DEGREES_SHOWN: usize = 8;
@@ -28,21 +28,23 @@ impl fmt::Display for MeasureReport {
             let area = faces.filled.map_or(String::new(), |_| labels.area());
             writeln!(f, "bodies        {faces}{area}")?;
         }
-        self.mass(f)?;
-        self.size(f)?;
-        self.shape(f)?;
-        self.surface(f)?;
+        let mut told = String::new();
+        self.mass(&mut told)?;
+        self.size(&mut told)?;
+        self.shape(&mut told)?;
+        self.surface(&mut told)?;
+        f.write_str(&told)?;
         for (names, reason) in by_reason(&self.not_measured) {
             writeln!(f, "{names:<13} not measured: {reason}")?;
         }
-        self.errors(f)?;
+        self.errors(f, told.contains('±'))?;
         write!(f, "Lengths are in {}, the density is 1.", labels.name())
     }
 }
 
 impl MeasureReport {
     /// What stands after ±, or why nothing does.
-    fn errors(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+    fn errors(&self, f: &mut fmt::Formatter<'_>, are_told: bool) -> fmt::Result {
         let measures = &self.measures;
         if !measures.may_have_errors() {
             return Ok(());
@@ -56,17 +58,19 @@ impl MeasureReport {
         if let Some(reason) = &self.no_standard_errors {
             return writeln!(f, "No standard errors: {reason}.");
         }
-        writeln!(f, "Figures after ± are standard errors.")?;
+        if are_told {
+            writeln!(f, "Figures after ± are standard errors.")?;
+        }
         if measures.centroid.is_some() || measures.inertia.is_some() {
             writeln!(
                 f,
-                "Those of centroid and inertia, along the grain's own axes, are told with --json."
+                "Standard errors of centroid and inertia, along the grain's own axes, are told with --json."
             )?;
         }
         Ok(())
     }
 
-    fn mass(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+    fn mass(&self, f: &mut String) -> fmt::Result {
         let labels = Labels(self.unit);
         let measures = &self.measures;
         let errors = self.standard_errors.as_ref();
@@ -106,7 +110,7 @@ impl MeasureReport {
         Ok(())
     }
 
-    fn size(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+    fn size(&self, f: &mut String) -> fmt::Result {
         let labels = Labels(self.unit);
         let mm = labels.length();
         let measures = &self.measures;
@@ -154,7 +158,7 @@ impl MeasureReport {
         Ok(())
     }
 
-    fn shape(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+    fn shape(&self, f: &mut String) -> fmt::Result {
         let measures = &self.measures;
         if let Some(ratios) = measures.ratios {
             let told = |of: fn(&SideRatios) -> f64| ratio(&ratios, of);
@@ -210,7 +214,7 @@ impl MeasureReport {
         Ok(())
     }
 
-    fn surface(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+    fn surface(&self, f: &mut String) -> fmt::Result {
         let labels = Labels(self.unit);
         let measures = &self.measures;
         for projection in measures.projections.iter().flatten() {
@@ -292,7 +296,7 @@ fn length<T>(lengths: &WithErrors<T>, of: fn(&T) -> f64) -> String {
 }
 
 /// One outline: sizes, and the forms of sphericity that are used most.
-fn outline(f: &mut fmt::Formatter<'_>, seen: &ProjectionRecord, labels: Labels) -> fmt::Result {
+fn outline(f: &mut String, seen: &ProjectionRecord, labels: Labels) -> fmt::Result {
     let size = |of: fn(&OutlineFigures) -> f64| length(&seen.outline, of);
     writeln!(
         f,

@@ -12,6 +12,7 @@ mod testing;
 mod touching;
 
 pub use outlines::OutlineErrors;
+pub use sizes::BoxErrors;
 
 use super::{Survey, SurveyError};
 use nalgebra::Vector3;

@@ -5,7 +5,7 @@ use crate::measure::{Curvature, Outline};
 use crate::model::StandardErrors;
 use crate::sphere::cube_grid;
 use nalgebra::{Matrix3, Vector3};
-use std::f64::consts::{FRAC_PI_4, TAU};
+use std::f64::consts::{FRAC_PI_2, TAU};
 
 /// Cells along an edge of the cube of directions of the surface that are looked at.
 const LOOKED_AT: usize = 24;
@@ -14,12 +14,19 @@ const LOOKED_AT: usize = 24;
 /// that is nearest to it.
 const ON_RIM: f64 = 0.05;
 
+/// Axes whose turn has a larger standard deviation, in radians, may point anywhere between them.
+const LARGEST_TURN: f64 = 0.1;
+
+/// Turns to either side that are looked at.
+const TURNS: u32 = 4;
+
 /// Standard errors, at most, of what is measured of an outline, as shares of it; those of ratios are sums of these, each times its
 /// power.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct OutlineErrors {
-    /// Of the area: as the surface may be off on the rim, all of that alike, and as the axis that it is seen along may be turned.
+    /// Of the area: as the surface may be off on the rim, all of that alike, at least as the two dimensions that are seen are, and as
+    /// the axis that it is seen along may be turned.
     pub area: f64,
     /// Of the perimeter: of that too, and of the area of the whole surface, which holds what fine detail adds.
     pub perimeter: f64,
@@ -53,10 +60,14 @@ impl Survey<'_> {
         let of = |i: usize| {
             let outline = &outlines[i];
             let (rim, turned) = (rims[i], turned[i].hypot(OF_MESH));
-            let diameter = off[(i + 1) % 3].max(off[(i + 2) % 3]).hypot(OF_MESH);
+            let (one, other) = (off[(i + 1) % 3], off[(i + 2) % 3]);
+            let diameter = one.max(other).hypot(OF_MESH);
+            let seen = one.hypot(other);
+            let own_area = (rim * outline.perimeter / outline.area).max(seen);
+            let own_perimeter = (rim * TAU / outline.perimeter).max(0.5 * seen);
             OutlineErrors {
-                area: (rim * outline.perimeter / outline.area).hypot(turned),
-                perimeter: (rim * TAU / outline.perimeter).hypot(area).hypot(turned),
+                area: own_area.hypot(turned),
+                perimeter: own_perimeter.hypot(area).hypot(turned),
                 diameter,
                 inscribed: diameter.max(2.0 * rim / outline.inscribed_diameter),
             }
@@ -107,11 +118,18 @@ impl Survey<'_> {
             let straight = covered(&axis);
             let changes = (1..3).map(|ahead| {
                 let j = (i + ahead) % 3;
-                let gap = (moments[(i, i)] - moments[(j, j)]).abs();
-                let (sin, cos) = off[(i, j)].atan2(gap).min(FRAC_PI_4).sin_cos();
-                let across = axes.column(j) * sin;
+                let (sd, gap) = (off[(i, j)], (moments[(i, i)] - moments[(j, j)]).abs());
+                let most = if sd < LARGEST_TURN * gap {
+                    sd / gap
+                } else {
+                    FRAC_PI_2
+                };
+                let turns = (1..=TURNS).flat_map(|turn| {
+                    let (sin, cos) = (most * f64::from(turn) / f64::from(TURNS)).sin_cos();
+                    [sin, -sin].map(|sin| axis * cos + axes.column(j) * sin)
+                });
                 let change = |axis: Vector3<f64>| (covered(&axis) / straight - 1.0).abs();
-                change(axis * cos + across).max(change(axis * cos - across))
+                turns.map(change).fold(0.0, f64::max)
             });
             changes.fold(0.0, f64::hypot)
         };
@@ -138,12 +156,14 @@ mod tests {
     #[test]
     fn an_outline_is_as_uncertain_as_the_surface_on_its_rim_and_the_dimensions_that_are_seen() {
         let (outlines, errors) = told(&egg([5.0, 4.0, 3.0, 2.0, 1.0], 0.02));
-        for (i, diameter) in [(0, 0.02), (1, 0.03), (2, 0.03)] {
+        for (i, one, other) in [(0, 0.02, 0.01), (1, 0.01, 0.03), (2, 0.03, 0.02)] {
             let (outline, off) = (&outlines[i], errors[i]);
-            let area = 0.02 * outline.perimeter / outline.area;
+            let seen = f64::hypot(one, other);
+            let area = (0.02 * outline.perimeter / outline.area).max(seen);
             assert_relative_eq!(off.area, area, max_relative = 1e-3);
-            let perimeter = (0.02 * TAU / outline.perimeter).hypot(0.05);
-            assert_relative_eq!(off.perimeter, perimeter, max_relative = 1e-3);
+            let perimeter = (0.02 * TAU / outline.perimeter).max(seen / 2.0);
+            assert_relative_eq!(off.perimeter, perimeter.hypot(0.05), max_relative = 1e-3);
+            let diameter = f64::max(one, other);
             assert_relative_eq!(off.diameter, diameter, max_relative = 1e-3);
             assert_relative_eq!(off.inscribed, diameter, max_relative = 1e-3);
         }

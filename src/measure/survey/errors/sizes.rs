@@ -1,6 +1,7 @@
 //! How well the least box, the ellipsoid of equal moments and the convex hull are known.
 
 use super::{OF_MESH, Survey, SurveyError, root_mean_square};
+use crate::measure::minimum_box::LeastBoxes;
 use crate::measure::{Convexity, SideRatios};
 use crate::sphere::cube_grid;
 use nalgebra::Vector3;
@@ -8,17 +9,44 @@ use nalgebra::Vector3;
 /// Cells along an edge of the cube of directions of the surface that are looked at.
 const LOOKED_AT: usize = 12;
 
+/// Standard errors, at most, of a box of least volume.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct BoxErrors {
+    /// Of length, width and thickness.
+    pub extents: Vector3<f64>,
+    /// Of the volume.
+    pub volume: f64,
+}
+
 impl Survey<'_> {
-    /// Standard errors, at most, of the sides of the [least box](Self::minimum_box): each that of the dimension that is known worst, as
-    /// a share, for the box need not lie along the dimensions. `None` where the grain tells none of these.
+    /// Standard errors, at most, of the [least box](Self::minimum_box). Of the sides each that of the dimension that is known worst, as
+    /// a share, for the box need not lie along the dimensions, and by what other boxes differ whose volumes are no larger than
+    /// that of this one may be: any of them may be the least. Of the volume that of
+    /// three such dimensions. `None` where the grain tells no errors of its dimensions.
     ///
     /// # Errors
     ///
     /// As [`Self::minimum_box`].
-    pub fn minimum_box_errors(&self) -> Result<Option<Vector3<f64>>, SurveyError> {
-        let share = self.relative_side_error()?;
-        let sides = self.minimum_box()?.extents;
-        Ok(share.map(|share| sides * share))
+    pub fn minimum_box_errors(&self) -> Result<Option<BoxErrors>, SurveyError> {
+        let Some(off) = self.relative_dimension_errors()? else {
+            return Ok(None);
+        };
+        let share = off.max().hypot(OF_MESH);
+        let LeastBoxes { least, others } = self.unit_least_boxes()?;
+        let volume = 3.0 * share * least.volume();
+        let largest = least.volume() + volume;
+        let rivals = others.iter().filter(|other| other.volume() <= largest);
+        let apart = rivals.fold(Vector3::zeros(), |apart: Vector3<f64>, other| {
+            apart.sup(&(other.extents - least.extents).abs())
+        });
+        let sides = least
+            .extents
+            .zip_map(&apart, |side, apart| (side * share).hypot(apart));
+        Ok(Some(BoxErrors {
+            extents: self.unit.vector(&sides),
+            volume: self.unit.volume(volume),
+        }))
     }
 
     /// The same of the [ratios of its sides](Self::side_ratios).
@@ -28,17 +56,15 @@ impl Survey<'_> {
     /// As [`Self::side_ratios`].
     pub fn side_ratio_errors(&self) -> Result<Option<SideRatios>, SurveyError> {
         let ratios = self.side_ratios()?;
-        let share = self.relative_side_error()?;
-        Ok(share.map(|share| SideRatios {
-            short_to_long: ratios.short_to_long * 2.0 * share,
-            intermediate_to_long: ratios.intermediate_to_long * 2.0 * share,
-            short_to_intermediate: ratios.short_to_intermediate * 2.0 * share,
+        let sides = self.minimum_box()?.extents;
+        Ok(self.minimum_box_errors()?.map(|off| {
+            let off = off.extents.component_div(&sides);
+            SideRatios {
+                short_to_long: ratios.short_to_long * (off.z + off.x),
+                intermediate_to_long: ratios.intermediate_to_long * (off.y + off.x),
+                short_to_intermediate: ratios.short_to_intermediate * (off.z + off.y),
+            }
         }))
-    }
-
-    fn relative_side_error(&self) -> Result<Option<f64>, SurveyError> {
-        let off = self.relative_dimension_errors()?;
-        Ok(off.map(|off| off.max().hypot(OF_MESH)))
     }
 
     /// Standard errors, at most, of the semi-axes of the [ellipsoid of equal moments](Self::ellipsoid), a² = 5 (J + K - I) / 2 V
@@ -96,24 +122,31 @@ mod tests {
     use crate::measure::Scheme;
     use approx::assert_relative_eq;
 
+    /// Of a round egg boxes that lie otherwise are larger by some percent.
     #[test]
-    fn the_least_box_and_its_ratios_are_as_uncertain_as_the_worst_dimension() {
-        let grain = egg([0.0, 0.0, 0.5, 1.0, 0.2], 0.02);
-        let survey = Survey::of_grain(&grain, Scheme::Exact);
-        let (sides, off) = (
-            survey.minimum_box().unwrap().extents,
-            survey.minimum_box_errors().unwrap().unwrap(),
-        );
-        assert_relative_eq!(off, sides * 0.01_f64.hypot(OF_MESH), max_relative = 1e-9);
-        let (ratios, off) = (
-            survey.side_ratios().unwrap(),
-            survey.side_ratio_errors().unwrap().unwrap(),
-        );
+    fn the_least_box_and_its_ratios_are_as_uncertain_as_the_worst_dimension_and_boxes_as_small() {
+        let told = |percent: f64| {
+            let grain = egg([0.0, 0.0, percent / 2.0, percent, percent / 5.0], 0.02);
+            let survey = Survey::of_grain(&grain, Scheme::Exact);
+            let ratios = survey.side_ratios().unwrap();
+            let off = survey.side_ratio_errors().unwrap().unwrap();
+            let found = survey.minimum_box().unwrap();
+            let errors = survey.minimum_box_errors().unwrap().unwrap();
+            let ratio = off.short_to_long / ratios.short_to_long;
+            (found, errors, ratio)
+        };
+        let (found, off, ratio) = told(0.1);
+        let share = 0.001_f64.hypot(OF_MESH);
+        assert_relative_eq!(off.extents, found.extents * share, max_relative = 1e-9);
         assert_relative_eq!(
-            off.short_to_long / ratios.short_to_long,
-            0.02,
-            max_relative = 1e-3
+            off.volume,
+            3.0 * share * found.volume(),
+            max_relative = 1e-9
         );
+        assert_relative_eq!(ratio, 2.0 * share, max_relative = 1e-9);
+        let (found, off, _) = told(1.0);
+        assert!(off.extents.z > 1.5 * 0.01 * found.extents.z, "{off:?}");
+        assert_relative_eq!(off.volume, 0.03 * found.volume(), max_relative = 1e-3);
     }
 
     /// a² = 5 (J + K - I) / 2 V: of moments that are off by one, two and three percent, and a volume by four.
