@@ -11,6 +11,7 @@ use super::outcome::{Fitted, KindChoice, Rival};
 use super::position::MOST_COEFFICIENTS;
 use super::positioned::positioned;
 use super::prepare::PreparedScan;
+use super::rod::rod;
 use super::scatter::scatter;
 use super::warning::FitWarning;
 use crate::measure::{Deviation, feet};
@@ -54,9 +55,6 @@ const MOST_DUST: f64 = 0.03;
 /// Most vertices of a scan whose distances from a radius are compared with those from a position.
 const MOST_COMPARED: usize = 4000;
 
-/// Most points of a rod whose distances are compared with their scatter.
-const MOST_FOLLOWED: usize = 20_000;
-
 /// Fits a grain to a scan, of the kind that the options ask for or that suits it.
 ///
 /// # Errors
@@ -90,7 +88,7 @@ pub fn fit_scan(
                         position @ (FitError::NoInside
                         | FitError::OffCrust { .. }
                         | FitError::FarFromPoints { .. }),
-                    ) => rod(scan, options, context, neither(error, position)),
+                    ) => rod(scan, options, context).unwrap_or(Err(neither(error, position))),
                     found => found,
                 },
             },
@@ -102,42 +100,6 @@ pub fn fit_scan(
             found => found,
         },
     }
-}
-
-/// A thin rod, if the scan is one, where neither kind could be fitted for the reasons of this error.
-fn rod(
-    scan: &Scan,
-    options: &FitOptions,
-    context: &Context<'_>,
-    error: FitError,
-) -> Result<Fitted, FitError> {
-    let Ok(Some(rod)) = PreparedScan::of_rod(scan, options.symmetry) else {
-        return Err(error);
-    };
-    match rod.fit(options, context) {
-        Err(FitError::Cancelled) => Err(FitError::Cancelled),
-        Ok(fitted) if is_followed(&fitted, scan, options) => Ok(fitted),
-        _ => Err(error),
-    }
-}
-
-/// Whether the points of a rod, but as many of the farthest as were left out, lie no farther from it than they scatter about their
-/// neighbours: what has a stalk or a ball at its side is no rod.
-fn is_followed(rod: &Fitted, scan: &Scan, options: &FitOptions) -> bool {
-    let points = scan.points();
-    let every = points.len().div_ceil(MOST_FOLLOWED).max(1);
-    let some: Vec<Point3<f64>> = points.iter().step_by(every).copied().collect();
-    let feet = feet(&rod.grain, &some).into_iter();
-    let mut places: Vec<(f64, Vector3<f64>)> = feet
-        .zip(&some)
-        .map(|(foot, point)| (foot.distance.abs(), point - rod.grain.frame().centre))
-        .collect();
-    places.sort_by(|one, other| one.0.total_cmp(&other.0));
-    places.truncate(places.len() * rod.points.min(points.len()) / points.len());
-    let (distances, places): (Vec<f64>, Vec<Vector3<f64>>) = places.into_iter().unzip();
-    let rms = Deviation::of(distances.into_iter().map(|distance| (distance, 1.0))).rms();
-    let good = options.tolerance.length(rod.mean_radius);
-    scatter(&places).is_some_and(|scatter| rms <= FAR * scatter.max(good))
 }
 
 /// Why no kind can be fitted.

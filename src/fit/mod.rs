@@ -33,6 +33,7 @@ mod positioned;
 mod prepare;
 mod quadric;
 mod repeated;
+mod rod;
 mod samples;
 mod scatter;
 mod segments;

@@ -13,6 +13,7 @@ mod fit;
 mod harmonics;
 mod idle;
 mod measure;
+mod measure_errors;
 mod mesh;
 mod model_errors;
 mod positions;

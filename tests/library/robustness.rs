@@ -245,7 +245,8 @@ fn noisy_rods_are_fitted() {
             let place = Point3::new(n.x, n.y, 20.0 * n.z) + normal * noise;
             (0.5 * (other.x + 1.0) < across).then_some(place)
         });
-        let scan = Scan::from_points(points.collect());
+        let mut points: Vec<_> = points.collect();
+        let scan = Scan::from_points(points.clone());
         let fitted = fit(&scan, &FitOptions::default()).expect("a rod");
         let survey = fitted.survey();
         let errors = fitted.standard_errors(&survey).expect("errors");
@@ -255,5 +256,14 @@ fn noisy_rods_are_fitted() {
             off.abs() < 3.0 * errors.volume && errors.volume < 3e-3 * exact,
             "{count}: {off} of {errors:?}"
         );
+        // With a stalk at its side it is none.
+        let stalk = places[..count / 20].iter().enumerate().map(|(i, n)| {
+            let height = 1.0 + 4.0 * i as f64 / (count / 20) as f64;
+            let across = n.yz().normalize() * 0.4;
+            Point3::new(height, across.x, 5.0 + across.y)
+        });
+        points.extend(stalk);
+        let with_stalk = fit(&Scan::from_points(points), &FitOptions::default());
+        assert!(with_stalk.is_err(), "{count}");
     }
 }

@@ -22,8 +22,8 @@ pub struct BoxErrors {
 impl Survey<'_> {
     /// Standard errors, at most, of the [least box](Self::minimum_box). Of the sides each that of the dimension that is known worst, as
     /// a share, for the box need not lie along the dimensions, and by what other boxes differ whose volumes are no larger than
-    /// that of this one may be: any of them may be the least. Of the volume that of
-    /// three such dimensions. `None` where the grain tells no errors of its dimensions.
+    /// that of this one may be: any of them may be the least. Of the volume that of three such dimensions. `None` where the grain
+    /// tells no errors of its dimensions.
     ///
     /// # Errors
     ///
