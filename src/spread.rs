@@ -69,6 +69,13 @@ pub(crate) fn median(values: &mut [f64]) -> Option<f64> {
     (!values.is_empty()).then(|| *values.select_nth_unstable_by(middle, f64::total_cmp).1)
 }
 
+/// The root of the mean of the squares; zero of none.
+pub(crate) fn root_mean_square(values: impl IntoIterator<Item = f64>) -> f64 {
+    let squares = values.into_iter().map(|x| x * x);
+    let (count, sum) = squares.fold((0.0, 0.0), |(count, sum), x| (count + 1.0, sum + x));
+    (sum / f64::max(count, 1.0)).sqrt()
+}
+
 /// The value that a quarter of them are below.
 pub(crate) fn lower_quartile(values: &mut [f64]) -> Option<f64> {
     let at = values.len() / 4;

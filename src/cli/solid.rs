@@ -2,7 +2,7 @@
 
 use super::args::InputArgs;
 use super::inputs;
-use crate::fit::{self, FitOptions, Kind};
+use crate::fit::{FitOptions, fit};
 use crate::measure::{MassProperties, ScannedBody, Scheme, Survey, mesh_properties, scanned_body};
 use crate::mesh::Mesh;
 use crate::model::{Grain, Surface};
@@ -79,12 +79,7 @@ fn of_faces(scanned: ScannedBody, scan: &Scan, name: &str) -> Result<Solid> {
 
 /// The grain that is fitted to points: the polyhedron through them is too small.
 fn of_points(scan: &Scan, name: &str, unit: Option<Unit>) -> Result<Solid> {
-    let options = FitOptions {
-        kind: Kind::Auto,
-        ..FitOptions::default()
-    };
-    let fitted = fit::fit_scan(scan, &options, &fit::Context::default())
-        .with_context(|| format!("cannot fit {name}"))?;
+    let fitted = fit(scan, &FitOptions::default()).with_context(|| format!("cannot fit {name}"))?;
     Ok(Solid {
         warnings: sentences(&scan.warnings, &fitted.warnings, unit),
         ..of_grain(fitted.grain_with_errors(), name)?

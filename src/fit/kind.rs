@@ -12,7 +12,7 @@ use super::position::MOST_COEFFICIENTS;
 use super::positioned::positioned;
 use super::prepare::PreparedScan;
 use super::rod::rod;
-use super::scatter::scatter;
+use super::scatter::{FAR, scatter};
 use super::warning::FitWarning;
 use crate::measure::{Deviation, feet};
 use crate::model::{Grain, StarSurface, Surface};
@@ -33,10 +33,6 @@ const LOOKED_AT: usize = 24;
 /// What a radius does not see is far from it in few places: the mean of all distances is then less than this share of
 /// their RMS. Of noise it is .80 (Geary 1935).
 const LONG_TAILS: f64 = 0.74;
-
-/// So many times farther off than points scatter a radius does not follow a smooth body. Of stones and of bodies with edges
-/// it is 1.0 at most, of a mushroom 1.9, of a banana 35.
-const FAR: f64 = 1.5;
 
 /// So many times larger than their scatter their noise is something else. Of bodies with noise it is 1.5 at most, of a
 /// blackberry whose bumps are taken for noise 2.1.

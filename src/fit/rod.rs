@@ -6,7 +6,7 @@ use super::error::FitError;
 use super::options::FitOptions;
 use super::outcome::Fitted;
 use super::prepare::PreparedScan;
-use super::scatter::scatter;
+use super::scatter::{FAR, scatter};
 use crate::measure::{Deviation, feet};
 use crate::model::Surface;
 use crate::scan::{Scan, drawn};
@@ -14,9 +14,6 @@ use nalgebra::Vector3;
 
 /// Most points whose distances are compared with their scatter.
 const MOST_COMPARED: usize = 20_000;
-
-/// So many times farther off than they scatter points are not those of a rod.
-const FAR: f64 = 1.5;
 
 /// The radius of a rod; `None` of scans of all else.
 ///

@@ -6,6 +6,10 @@ use super::quadric::{NUMBERS, off_quadric};
 use crate::scan::by_coordinates;
 use nalgebra::{Matrix3, Vector3};
 
+/// So many times farther off than points scatter a radius does not follow a smooth body. Of stones and of bodies with edges
+/// it is 1.0 at most, of a mushroom 1.9, of a banana 35.
+pub(super) const FAR: f64 = 1.5;
+
 /// Points that are looked at, evenly spread along an axis; ...
 const MOST_LOOKED_AT: usize = 300;
 

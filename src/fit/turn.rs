@@ -8,12 +8,8 @@
 //! but for j with nearly the same moment: such axes have no direction of their own.
 
 use super::figures::form;
-use crate::measure::PrincipalInertia;
+use crate::measure::{PrincipalInertia, are_apart};
 use nalgebra::{Matrix3, Matrix6, SVector, Vector3};
-
-/// Axes whose turn has a larger standard deviation, in radians, have no direction of their own: their moments differ
-/// by less than 5 standard deviations of that difference, which is twice that of the entry between them.
-const LARGEST_TURN: f64 = 0.1;
 
 /// Standard error of an extent along such an axis, as a share of the range of extents that it may have: it may be told at one
 /// end of it and be at the other.
@@ -21,12 +17,6 @@ pub(super) const OF_RANGE: f64 = 0.6;
 
 /// Steps of half a turn at which the extents along such axes are compared.
 pub(super) const TURNS: usize = 8;
-
-/// Whether two axes are told apart, by the standard deviation of the entry of the inertia tensor between them and the gap
-/// between their moments.
-pub(super) fn are_apart(sd: f64, gap: f64) -> bool {
-    sd < LARGEST_TURN * gap.abs()
-}
 
 /// Variance of the entry i, j of the inertia tensor along its principal axes, by the covariance of its entries.
 pub(super) fn entry_variance(

@@ -145,6 +145,16 @@ pub(super) fn right_handed(axes: &Matrix3<f64>, columns: [usize; 2]) -> Matrix3<
     Matrix3::from_columns(&[first, second, first.cross(&second)])
 }
 
+/// Axes whose turn has a larger standard deviation, in radians, have no direction of their own: their moments differ
+/// by less than 5 standard deviations of that difference, which is twice that of the entry between them.
+const LARGEST_TURN: f64 = 0.1;
+
+/// Whether two axes are told apart, by the standard deviation of the entry of the inertia tensor between them and the gap
+/// between their moments.
+pub(crate) fn are_apart(sd: f64, gap: f64) -> bool {
+    sd < LARGEST_TURN * gap.abs()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -72,6 +72,7 @@ pub use four_triangles::four_triangles;
 pub use hull::{HullError, convex_hull};
 pub use inscribed_ball::{InscribedBallError, inscribed_ball};
 pub use integrals::{grain_properties, integrate};
+pub(crate) use mass::are_apart;
 pub use mass::{MassProperties, Moments, PrincipalInertia};
 pub(crate) use medial::medial_balls;
 pub use mesh::{MeshIntegralError, mesh_properties};

@@ -11,8 +11,8 @@ use super::functionals::{End, FIGURES, FigureVector, Functionals};
 use super::functions::Functions;
 use super::voxels::Hidden;
 use crate::fit::figures::{INERTIA, INTEGRALS, squares_by_size};
-use crate::fit::turn::{OF_RANGE, are_apart, by_inertia, entry_variance};
-use crate::measure::PrincipalInertia;
+use crate::fit::turn::{OF_RANGE, by_inertia, entry_variance};
+use crate::measure::{PrincipalInertia, are_apart};
 use nalgebra::{Matrix6, SMatrix, Vector3};
 
 /// Least standard errors, relative.

@@ -8,7 +8,7 @@
 use super::links::{nearest, nearest_distance, sixth_distances};
 use crate::polygon_hull::{hull_area, polygon_hull};
 use crate::sphere::across;
-use crate::spread::{covariance, median, robust_deviation};
+use crate::spread::{covariance, median, robust_deviation, root_mean_square};
 use kiddo::ImmutableKdTree;
 use nalgebra::{Point3, Unit, Vector2, Vector3};
 use rand::{Rng, SeedableRng};
@@ -322,11 +322,6 @@ fn rounding(points: &[Point3<f64>]) -> Vector3<f64> {
         let least = steps.filter(|&step| step > 0.0).reduce(f64::min);
         least.unwrap_or(0.0)
     })
-}
-
-fn root_mean_square(values: impl Iterator<Item = f64>) -> f64 {
-    let (count, sum) = values.fold((0.0, 0.0), |(count, sum), x| (count + 1.0, sum + x * x));
-    (sum / f64::max(count, 1.0)).sqrt()
 }
 
 /// The diagonal of the box round the points.

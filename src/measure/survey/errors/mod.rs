@@ -29,9 +29,3 @@ impl Survey<'_> {
         Ok(Some(errors.dimensions.component_div(&self.dimensions()?)))
     }
 }
-
-/// The root of the mean of squares.
-fn root_mean_square(values: &[f64]) -> f64 {
-    let squares: f64 = values.iter().map(|value| value * value).sum();
-    (squares / values.len() as f64).sqrt()
-}

@@ -1,9 +1,10 @@
 //! How well outlines are known.
 
-use super::{OF_MESH, Survey, SurveyError, root_mean_square};
-use crate::measure::{Curvature, Outline};
+use super::{OF_MESH, Survey, SurveyError};
+use crate::measure::{Curvature, Outline, are_apart};
 use crate::model::StandardErrors;
 use crate::sphere::cube_grid;
+use crate::spread::root_mean_square;
 use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -13,9 +14,6 @@ const LOOKED_AT: usize = 24;
 /// Cosine of the angle between a normal and the plane of an outline up to which a place is on its rim, beyond that of the place
 /// that is nearest to it.
 const ON_RIM: f64 = 0.05;
-
-/// Axes whose turn has a larger standard deviation, in radians, may point anywhere between them.
-const LARGEST_TURN: f64 = 0.1;
 
 /// Turns to either side that are looked at.
 const TURNS: u32 = 4;
@@ -90,7 +88,7 @@ impl Survey<'_> {
             let limit = places.iter().fold(1.0, least) + ON_RIM;
             let is_on = |(normal, _): &&(Vector3<f64>, f64)| normal[axis] <= limit;
             let places = places.iter().filter(is_on).map(|(_, place)| *place);
-            root_mean_square(&places.collect::<Vec<f64>>()) * self.unit.length
+            root_mean_square(places) * self.unit.length
         };
         Some([0, 1, 2].map(rim))
     }
@@ -119,10 +117,9 @@ impl Survey<'_> {
             let changes = (1..3).map(|ahead| {
                 let j = (i + ahead) % 3;
                 let (sd, gap) = (off[(i, j)], (moments[(i, i)] - moments[(j, j)]).abs());
-                let most = if sd < LARGEST_TURN * gap {
-                    sd / gap
-                } else {
-                    FRAC_PI_2
+                let most = match are_apart(sd, gap) {
+                    true => sd / gap,
+                    false => FRAC_PI_2,
                 };
                 let turns = (1..=TURNS).flat_map(|turn| {
                     let (sin, cos) = (most * f64::from(turn) / f64::from(TURNS)).sin_cos();
@@ -139,11 +136,10 @@ impl Survey<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::testing::egg;
+    use super::super::testing::{egg, local_errors};
     use super::*;
     use crate::measure::Scheme;
-    use crate::model::{Grain, LocalError, LocalErrors};
-    use crate::sphere::CubeCell;
+    use crate::model::Grain;
     use approx::assert_relative_eq;
 
     fn told(grain: &Grain) -> ([Outline; 3], [OutlineErrors; 3]) {
@@ -175,16 +171,8 @@ mod tests {
         let grain = egg([0.0; 5], 0.0);
         let axes = Survey::of_grain(&grain, Scheme::Exact).unit_axes().unwrap();
         let along = axes.column(0).into_owned();
-        let local = CubeCell::uniform(LocalErrors::PARTS);
-        let error = |cell: &CubeCell| LocalError {
-            place: if cell.middle().dot(&along).abs() > 0.8 {
-                0.1
-            } else {
-                0.0
-            },
-            curvature: 0.0,
-        };
-        let local = LocalErrors::new(local.iter().map(error).collect());
+        let is_tip = |n: &Vector3<f64>| n.dot(&along).abs() > 0.8;
+        let local = local_errors(|n| if is_tip(n) { 0.1 } else { 0.0 });
         let (outlines, errors) = told(&grain.with_local_errors(local));
         let inscribed = 2.0 * errors[1].area * outlines[1].area
             / (outlines[1].perimeter * outlines[1].inscribed_diameter);

@@ -1,9 +1,10 @@
 //! How well the least box, the ellipsoid of equal moments and the convex hull are known.
 
-use super::{OF_MESH, Survey, SurveyError, root_mean_square};
+use super::{OF_MESH, Survey, SurveyError};
 use crate::measure::minimum_box::LeastBoxes;
 use crate::measure::{Convexity, SideRatios};
 use crate::sphere::cube_grid;
+use crate::spread::root_mean_square;
 use nalgebra::Vector3;
 
 /// Cells along an edge of the cube of directions of the surface that are looked at.
@@ -111,7 +112,7 @@ impl Survey<'_> {
         let places = directions.iter();
         let places = places.map(|n| Some(self.body.local_error(n)?.place));
         let places: Vec<f64> = places.collect::<Option<_>>()?;
-        Some(root_mean_square(&places) * self.unit.length)
+        Some(root_mean_square(places) * self.unit.length)
     }
 }
 

@@ -25,15 +25,17 @@ pub(super) fn egg(percent: [f64; 5], surface: f64) -> Grain {
             .component_mul(&Vector3::new(length, width, thickness)),
         ..StandardErrors::NONE
     };
-    let place = LocalError {
-        place: surface,
-        curvature: 0.0,
-    };
-    let local = CubeCell::uniform(LocalErrors::PARTS)
-        .iter()
-        .map(|_| place)
-        .collect();
     grain
         .with_standard_errors(Ok(errors))
-        .with_local_errors(LocalErrors::new(local))
+        .with_local_errors(local_errors(|_| surface))
+}
+
+/// Errors of a surface, which is so well known in a direction.
+pub(super) fn local_errors(place: impl Fn(&Vector3<f64>) -> f64) -> Option<LocalErrors> {
+    let cells = CubeCell::uniform(LocalErrors::PARTS);
+    let error = |cell: &CubeCell| LocalError {
+        place: place(&cell.middle()),
+        curvature: 0.0,
+    };
+    LocalErrors::new(cells.iter().map(error).collect())
 }

@@ -1,8 +1,9 @@
 //! How well the radii of the spheres inside and around a grain are known.
 
-use super::{OF_MESH, Survey, SurveyError, root_mean_square};
+use super::{OF_MESH, Survey, SurveyError};
 use crate::measure::Ball;
 use crate::sphere::cube_grid;
+use crate::spread::root_mean_square;
 
 /// Cells along an edge of the cube of directions of the surface that are looked at: each cell of errors holds four.
 const LOOKED_AT: usize = 24;
@@ -52,39 +53,31 @@ impl Survey<'_> {
                 touched.push(self.body.local_error(n)?.place);
             }
         }
-        let error = root_mean_square(&touched).hypot(OF_MESH * ball.radius);
+        let error = root_mean_square(touched).hypot(OF_MESH * ball.radius);
         Some(error * self.unit.length)
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::testing::local_errors;
     use super::*;
     use crate::measure::Scheme;
-    use crate::model::{Grain, LocalError, LocalErrors, StandardErrors, grain_from_json};
-    use crate::sphere::CubeCell;
+    use crate::model::{Grain, StandardErrors, grain_from_json};
     use approx::assert_relative_eq;
 
     /// A spindle along z, of which the ends are less well known than the sides.
     fn spindle(ends: f64, sides: f64, length: f64) -> Grain {
         let text = r#"{"format": "grainform model", "version": 5, "centre": [1, 2, 3],
             "axes": [[1, 0, 0], [0, 1, 0], [0, 0, 1]], "harmonics": [12, 0, 0, 0, 0, 0, 1, 0, 0]}"#;
-        let errors = CubeCell::uniform(LocalErrors::PARTS);
-        let errors = errors.iter().map(|cell| LocalError {
-            place: if cell.middle().z.abs() > 0.8 {
-                ends
-            } else {
-                sides
-            },
-            curvature: 0.0,
-        });
         let figures = StandardErrors {
             dimensions: nalgebra::Vector3::new(length, 0.0, 0.0),
             ..StandardErrors::NONE
         };
         let grain = grain_from_json(text).unwrap();
         let grain = grain.with_standard_errors(Ok(figures));
-        grain.with_local_errors(LocalErrors::new(errors.collect()))
+        let is_end = |n: &nalgebra::Vector3<f64>| n.z.abs() > 0.8;
+        grain.with_local_errors(local_errors(|n| if is_end(n) { ends } else { sides }))
     }
 
     fn of_mesh(error: f64, radius: f64) -> f64 {
