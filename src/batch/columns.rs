@@ -58,6 +58,14 @@ pub(super) const FIRST: [(&str, Kind); 20] = [
     ("warnings", Kind::Text),
 ];
 
+/// Whether a table with such columns may be one of `batch`.
+pub(super) fn are_results<'a>(names: impl Iterator<Item = &'a str> + Clone) -> bool {
+    let [(scan, _), (status, _), ..] = FIRST;
+    [scan, status]
+        .iter()
+        .all(|own| names.clone().any(|name| name == *own))
+}
+
 /// Where the standard errors stand in the report of measures.
 const ERRORS: &str = "/standard_errors";
 

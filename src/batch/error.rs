@@ -1,5 +1,6 @@
 //! Why a batch, or a comparison of two, cannot go on.
 
+use super::csv_table::CsvError;
 use crate::export::SaveError;
 use std::io;
 use std::path::PathBuf;
@@ -153,12 +154,20 @@ pub(crate) enum TableError {
         source: io::Error,
     },
     /// The file is no CSV.
-    #[error("cannot read {} as CSV: {source}", path.display())]
-    Csv {
+    #[error(transparent)]
+    Csv(#[from] CsvError),
+    /// A column of numbers has commas where its decimals begin.
+    #[error(
+        "the numbers in column {column} of {} have commas before their decimals, such as {cell}: save it with points",
+        path.display()
+    )]
+    DecimalCommas {
         /// The file.
         path: PathBuf,
-        /// Why.
-        source: csv::Error,
+        /// The column.
+        column: String,
+        /// One of its cells.
+        cell: String,
     },
     /// The file is no Parquet.
     #[error("cannot read {} as Parquet: {source}", path.display())]

@@ -1,9 +1,11 @@
 //! Reading results again.
 
-use super::columns::FIRST;
+use super::columns::{FIRST, are_results};
+use super::csv_table::csv_table;
 use super::error::TableError;
 use super::queue::without_label;
 use crate::digits::plural;
+use csv::StringRecord;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::Field;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
@@ -47,12 +49,26 @@ pub(crate) fn read_lot(path: &Path) -> Result<Lot, TableError> {
 /// [`TableError`] where there are none.
 pub(crate) fn read_results(path: &Path) -> Result<Lot, TableError> {
     let table = read_table(path)?;
-    let [(scan, _), (status, _), ..] = FIRST;
-    let has = |own: &str| table.names.iter().any(|name| name == own);
-    match has(scan) && has(status) {
-        true => Ok(table.figures()),
-        false => Err(TableError::NotOurs { path: path.into() }),
-    }
+    check_ours(path, table.names.iter().map(String::as_str))?;
+    Ok(table.figures())
+}
+
+/// The names of the columns of results of a batch in CSV, and the rows.
+///
+/// # Errors
+/// [`TableError`] where it is none, or another table.
+pub(crate) fn results_table(path: &Path) -> Result<(StringRecord, Vec<StringRecord>), TableError> {
+    let (names, rows) = csv_table(path)?;
+    check_ours(path, names.iter())?;
+    Ok((names, rows))
+}
+
+fn check_ours<'a>(
+    path: &Path,
+    names: impl Iterator<Item = &'a str> + Clone,
+) -> Result<(), TableError> {
+    let error = || TableError::NotOurs { path: path.into() };
+    are_results(names).then_some(()).ok_or_else(error)
 }
 
 fn read_table(path: &Path) -> Result<Lot, TableError> {
@@ -69,8 +85,9 @@ fn read_table(path: &Path) -> Result<Lot, TableError> {
     }
 }
 
+/// The table that is edited and shown, if it is there.
 fn table_in(folder: &Path) -> Result<PathBuf, TableError> {
-    let paths = ["results.parquet", "results.csv"].map(|name| folder.join(name));
+    let paths = ["results.csv", "results.parquet"].map(|name| folder.join(name));
     let found = paths.into_iter().find(|path| path.is_file());
     found.ok_or_else(|| TableError::NoResults {
         folder: folder.into(),
@@ -151,26 +168,38 @@ impl Lot {
 }
 
 fn of_csv(path: &Path) -> Result<Lot, TableError> {
-    let failed = |source| TableError::Csv {
-        path: path.into(),
-        source,
-    };
-    let mut reader = csv::Reader::from_path(path).map_err(failed)?;
-    let names = reader.headers().map_err(failed)?.clone();
+    let (names, rows) = csv_table(path)?;
     let mut lot = Lot::of_columns(names.iter());
-    for record in reader.records() {
-        let record = record.map_err(failed)?;
-        if !lot.hear(&names.iter().zip(&record).collect()) {
+    let mut commas = None;
+    for row in &rows {
+        if !lot.hear(&names.iter().zip(row).collect()) {
             continue;
         }
-        for (at, cell) in record.iter().enumerate() {
+        for (at, cell) in row.iter().enumerate() {
             match cell.trim() {
                 "" => {}
                 cell => lot.take(at, cell.parse().unwrap_or(f64::INFINITY)),
             }
+            if is_decimal_comma(cell) {
+                commas.get_or_insert((at, cell));
+            }
         }
     }
-    Ok(lot)
+    match commas.filter(|(at, _)| lot.values[*at].is_empty()) {
+        Some((at, cell)) => Err(TableError::DecimalCommas {
+            path: path.into(),
+            column: names[at].into(),
+            cell: cell.into(),
+        }),
+        None => Ok(lot),
+    }
+}
+
+/// Whether it is a number but for the comma before its decimals.
+fn is_decimal_comma(cell: &str) -> bool {
+    let cell = cell.trim();
+    let is_number = |text: &str| text.parse::<f64>().is_ok_and(f64::is_finite);
+    !is_number(cell) && is_number(&cell.replacen(',', ".", 1))
 }
 
 fn of_parquet(path: &Path) -> Result<Lot, TableError> {
@@ -201,4 +230,19 @@ fn of_parquet(path: &Path) -> Result<Lot, TableError> {
         }
     }
     Ok(lot)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::is_decimal_comma;
+
+    #[test]
+    fn a_comma_before_decimals_is_told_from_other_texts() {
+        for cell in ["21,5", " -0,25 ", "1,5e3"] {
+            assert!(is_decimal_comma(cell), "{cell}");
+        }
+        for cell in ["21.5", "1,2,3", "bean, large", "inf", ""] {
+            assert!(!is_decimal_comma(cell), "{cell}");
+        }
+    }
 }

@@ -94,8 +94,7 @@ fn measure_scan(
 fn between_voxels(volume: f64, unit: Option<Unit>) -> String {
     let unit = unit.map_or(String::new(), |unit| format!(" {unit}³"));
     format!(
-        "The faces go through the middles between voxels inside and outside: their steps make the area of a round grain \
-         larger, by a tenth or, where voxels are longer than wide, by more, and they cut off the corners of voxels, whose \
+        "The faces go through the middles between voxels inside and outside, and cut off the corners of voxels, whose \
          volume is {}{unit}. Fit the volume, and measure the model.",
         short(volume)
     )

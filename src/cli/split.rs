@@ -6,7 +6,7 @@ use super::{inputs, outputs, threads};
 use crate::export::{save_mesh, write_points_ply};
 use crate::mesh::Mesh;
 use crate::report::SplitReport;
-use crate::scan::{Scan, Volume, split, split_labels, split_uncut};
+use crate::scan::{Scan, Split, Volume, split, split_labels, split_uncut};
 use anyhow::{Context, Result, bail};
 use std::path::Path;
 
@@ -37,6 +37,9 @@ pub(super) fn run(args: SplitArgs, console: Console) -> Result<()> {
             inputs::explained(found.with_context(failed), &scan)?
         }
     };
+    if found.grains.is_empty() {
+        bail!("cannot split {name}: {}", no_grain(&found));
+    }
     progress.stage("Writing");
     outputs::make_folder(&args.output)?;
     let [of_surface, of_voxels] = EXTENSIONS;
@@ -60,6 +63,15 @@ pub(super) fn run(args: SplitArgs, console: Console) -> Result<()> {
         .extend(earlier(&args.output, found.grains.len(), extension));
     let written = args.output.display().to_string();
     console.tell(&report, args.json, [written], &report.warnings)
+}
+
+/// Why there is none.
+fn no_grain(found: &Split) -> String {
+    let reasons: Vec<String> = found.left_out.iter().map(ToString::to_string).collect();
+    match reasons.is_empty() {
+        true => "nothing in it is large enough for a grain".into(),
+        false => format!("it holds no whole grain: {}", reasons.join("; ")),
+    }
 }
 
 /// What to say where the folder has grains of an earlier split beside so many of this one.

@@ -69,7 +69,7 @@ fn fitted_to(
     args: &FitArgs,
     form: SuperquadricArg,
     scan: &Scan,
-    others_left_out: Option<FitWarning>,
+    others_left_out: Vec<FitWarning>,
 ) -> Result<(Grain, SuperquadricReport)> {
     let (name, unit) = (args.fitting.name(), args.fitting.unit);
     let failed = || format!("cannot fit {name}");

@@ -3,6 +3,7 @@
 use super::outcome::Fitted;
 use super::prepare::ReferenceKind;
 use super::warning::FitWarning;
+use crate::measure::extents_of_points;
 use crate::model::{Contradicted, NoInterval, Surface};
 
 /// By how much area or volume may differ from those of the polyhedron through the points that a surface was fitted to. With
@@ -39,7 +40,7 @@ impl Fitted {
         if is_closed && may_contradict {
             let contradicted = self.contradicted();
             self.grain = self.grain.with_contradicted(contradicted);
-            let beyond = self.beyond_faces();
+            let beyond = self.beyond_faces().or_else(|| self.beyond_points());
             self.warnings.extend(beyond);
         }
         self
@@ -60,6 +61,19 @@ impl Fitted {
         let errors = self.errors_of_points(&told, &survey.dimensions().ok()?);
         matches!(errors, Err(NoInterval::Unresolved { .. }))
             .then_some(FitWarning::BeyondFaces { area, volume })
+    }
+
+    /// Tells of a surface that hides edges and reaches beyond the points: beside edges it ripples.
+    fn beyond_points(&self) -> Option<FitWarning> {
+        let points = self.edged.as_deref()?;
+        let survey = self.survey();
+        let dimensions = survey.dimensions().ok()?;
+        let of_points = extents_of_points(points, &survey.dimension_axes().ok()?);
+        let is_beyond = (0..3).any(|i| dimensions[i] > (1.0 + TOLD) * of_points[i]);
+        is_beyond.then_some(FitWarning::BeyondPoints {
+            dimensions,
+            of_points,
+        })
     }
 
     fn contradicted(&self) -> Option<Contradicted> {
@@ -115,8 +129,9 @@ mod tests {
     use crate::mesh::Mesh;
     use crate::model::{NoInterval, StandardErrors, StarSurface, Superquadric};
     use crate::scan::Scan;
-    use crate::shapes::{SynthOptions, synthesize};
+    use crate::shapes::{Body, Sampling, SynthOptions, synthesize};
     use approx::assert_relative_eq;
+    use nalgebra::Vector3;
 
     /// The fit of a closed mesh, had its faces so many times the area and the volume.
     #[test]
@@ -166,6 +181,37 @@ mod tests {
         fitted.errors = None;
         fitted.reference.kind = ReferenceKind::Directions;
         assert_eq!(fitted.beyond_faces(), None);
+    }
+
+    /// Beside its edges the surface of a brick ripples.
+    #[test]
+    fn what_reaches_beyond_the_points_beside_edges_is_told_with_their_extents() {
+        let sides = Vector3::new(2.0, 1.5, 1.0);
+        let options = SynthOptions::clean(Body::Cuboid)
+            .with_axes(sides)
+            .with_points(3000)
+            .with_sampling(Sampling::Random);
+        let points = synthesize(&options).unwrap().points;
+        let mut fitted = fit(&Scan::from_points(points), &FitOptions::default()).unwrap();
+        let found = fitted.beyond_points().unwrap();
+        assert!(fitted.warnings.contains(&found), "{:?}", fitted.warnings);
+        let FitWarning::BeyondPoints {
+            dimensions,
+            of_points,
+        } = found
+        else {
+            panic!("{found:?}");
+        };
+        assert_relative_eq!(dimensions, fitted.survey().dimensions().unwrap());
+        assert_relative_eq!(of_points, 2.0 * sides, max_relative = 0.004);
+        assert!(dimensions.x > 1.02 * of_points.x, "{dimensions}");
+        let most = (0..3).map(|i| dimensions[i] / of_points[i]);
+        let most = most.fold(0.0, f64::max);
+        let points = fitted.edged.as_mut().unwrap();
+        points.iter_mut().for_each(|point| *point *= most / 1.009);
+        assert_eq!(fitted.beyond_points(), None);
+        fitted.edged = None;
+        assert_eq!(fitted.beyond_points(), None);
     }
 
     /// Few of the points that a centre sees lie on the rim of a plate.

@@ -100,6 +100,9 @@ pub fn fit_scan(
 
 /// Why no kind can be fitted.
 fn neither(radius: FitError, position: FitError) -> FitError {
+    if radius == position {
+        return radius;
+    }
     FitError::NoKind {
         radius: radius.into(),
         position: position.into(),

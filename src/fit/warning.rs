@@ -20,7 +20,7 @@ pub enum FitWarning {
         /// Their number.
         parts: usize,
     },
-    /// Hollows in the scan that are too small to be refused were left out: the fitted surface has none.
+    /// Hollows in the scan, too small to be refused or in the largest of several bodies, were left out: the fitted surface has none.
     Pores {
         /// Their number.
         pores: usize,
@@ -92,6 +92,13 @@ pub enum FitWarning {
         area: f64,
         /// Share of the volume.
         volume: f64,
+    },
+    /// The surface is longer, wider or thicker than its points, and no error is known.
+    BeyondPoints {
+        /// Length, width and thickness of the surface.
+        dimensions: Vector3<f64>,
+        /// Extents of the points along the same axes.
+        of_points: Vector3<f64>,
     },
     /// Part of the surface faces away from the best centre and is smoothed over.
     NotStarShaped {

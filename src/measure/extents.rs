@@ -9,10 +9,15 @@ use nalgebra::{Matrix3, Point3, Vector3};
 /// Extents of a mesh along three unit axes (columns of `axes`): the sides of the smallest box with
 /// these axes that holds all vertices, which must be finite. Zero of a mesh without vertices.
 pub fn extents(mesh: &Mesh, axes: &Matrix3<f64>) -> Vector3<f64> {
-    if mesh.vertices.is_empty() {
+    extents_of_points(&mesh.vertices, axes)
+}
+
+/// The same of points.
+pub(crate) fn extents_of_points(points: &[Point3<f64>], axes: &Matrix3<f64>) -> Vector3<f64> {
+    if points.is_empty() {
         return Vector3::zeros();
     }
-    let [low, high] = bounds(&mesh.vertices, axes);
+    let [low, high] = bounds(points, axes);
     high - low
 }
 

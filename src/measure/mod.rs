@@ -63,9 +63,9 @@ pub use deviation::Deviation;
 pub use ellipsoid::EquivalentEllipsoid;
 pub use enclosing_ball::{Ball, EnclosingBallError, enclosing_ball};
 pub(crate) use even_places::{EvenPlace, even_places};
-#[cfg(feature = "cli")]
-pub(crate) use extents::box_along;
 pub use extents::extents;
+#[cfg(feature = "cli")]
+pub(crate) use extents::{box_along, extents_of_points};
 pub use feet::{Foot, feet};
 pub use form::{Form, SideRatios};
 pub use four_triangles::four_triangles;
@@ -81,8 +81,8 @@ pub use oriented_box::OrientedBox;
 pub use outline::Outline;
 pub use projection::{ProjectionError, project};
 pub use roundness::ROUNDNESS_ORDER;
-pub(crate) use scanned::{Dust, are_steps, largest_part, spikes, without_dust};
 pub use scanned::{FacesDefect, Fill, ScannedBody, scanned_body};
+pub(crate) use scanned::{LeftOut, are_steps, largest_part, spikes, without_dust};
 pub use self_crossing::SelfCrossing;
 pub(crate) use self_crossing::self_crossing;
 #[cfg(feature = "cli")]

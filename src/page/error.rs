@@ -1,5 +1,6 @@
 //! Why a folder of results is not shown.
 
+use crate::batch::{CsvError, TableError};
 use std::io;
 use std::path::PathBuf;
 use thiserror::Error;
@@ -88,14 +89,12 @@ pub(crate) enum LotError {
         /// Names of measures.
         measures: Vec<String>,
     },
-    /// The table is none.
-    #[error("cannot read {} as CSV: {source}", path.display())]
-    Csv {
-        /// The file.
-        path: PathBuf,
-        /// Why.
-        source: csv::Error,
-    },
+    /// The table of results is none.
+    #[error(transparent)]
+    Results(#[from] TableError),
+    /// That of truths is none.
+    #[error(transparent)]
+    Truth(#[from] CsvError),
     /// The journal of the results cannot be read.
     #[error("cannot read the journal of {}: {source}", folder.display())]
     Journal {

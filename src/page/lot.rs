@@ -2,9 +2,8 @@
 
 use super::error::LotError;
 use super::surfaces::Surfaces;
-use super::table::{table, texts};
 use super::truth::Truth;
-use crate::batch::{RowKey, SavedModels};
+use crate::batch::{RowKey, SavedModels, results_table, texts};
 use csv::StringRecord;
 use serde::Serialize;
 use std::collections::BTreeSet;
@@ -48,7 +47,8 @@ impl LotPart {
                 folder: folder.into(),
             });
         }
-        let (columns, rows) = table(&path)?;
+        let (names, rows) = results_table(&path)?;
+        let columns = texts(&names);
         let keys: Vec<RowKey> = rows.iter().map(|row| key(&columns, row)).collect();
         let paths: Vec<String> = keys.iter().map(|key| key.path.into()).collect();
         let known = truth.map(|path| Truth::read(path, folder, &paths, &columns));

@@ -13,7 +13,6 @@ mod measures;
 mod packed;
 mod search;
 mod surfaces;
-mod table;
 mod truth;
 
 pub(crate) use assemble::write_page;

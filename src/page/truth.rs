@@ -1,7 +1,7 @@
 //! What is known of the grains of a folder of results.
 
 use super::error::LotError;
-use super::table::{table, texts};
+use crate::batch::{csv_table, texts};
 use crate::digits::plural;
 use csv::StringRecord;
 use serde::Serialize;
@@ -34,13 +34,13 @@ impl Truth {
         paths: &[String],
         columns: &[String],
     ) -> Result<Self, LotError> {
-        let (own, rows) = table(path)?;
+        let (own, rows) = csv_table(path)?;
         let found = found(path, &rows, paths)?;
         let named: HashSet<usize> = found.iter().flatten().copied().collect();
         let row = |at: &Option<usize>| at.map(|at| texts(&rows[at]));
         let truth = Self {
             rows: found.iter().map(row).collect(),
-            columns: own,
+            columns: texts(&own),
             strays: rows.len() - named.len(),
         };
         truth.check(path, folder, paths, columns)?;

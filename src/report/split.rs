@@ -98,7 +98,11 @@ impl SplitReport {
                 grain.file
             ),
         });
-        let warnings: Vec<String> = cut_apart(&grains).into_iter().chain(touching).collect();
+        let warnings = cut_apart(&grains)
+            .into_iter()
+            .chain(small(split))
+            .chain(touching);
+        let warnings: Vec<String> = warnings.collect();
         let left_out = split
             .left_out
             .iter()
@@ -126,6 +130,21 @@ impl SplitReport {
     pub fn in_unit(self, unit: Option<Unit>) -> Self {
         Self { unit, ..self }
     }
+}
+
+/// What was left out for its size beside the grains, where it is more than these.
+fn small(split: &Split) -> Option<String> {
+    (split.small > split.grains.len()).then(|| {
+        format!(
+            "{} left out as dust, for {} small beside what was kept: if that is a table or a box, take it out of the scan, and \
+             split again.",
+            match split.small {
+                1 => "1 clump was".into(),
+                small => format!("{small} clumps were"),
+            },
+            if split.small == 1 { "it is" } else { "they are" },
+        )
+    })
 }
 
 /// Which grains were cut apart, on what evidence, and what to do if one of them was cut in two.

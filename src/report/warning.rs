@@ -6,6 +6,7 @@ use crate::digits::{plural, significant};
 use crate::fit::{FitWarning, Rejection};
 use crate::measure::{FacesDefect, Fill};
 use crate::model::{Contradicted, NoInterval, Unseen};
+use nalgebra::Vector3;
 use std::fmt;
 
 impl fmt::Display for Rejection {
@@ -84,7 +85,7 @@ impl FitWarning {
                 f,
                 "The scan has {} in it, which the fitted surface has not: area and volume are those of the grain \
                  without hollows, and these make {} % of its volume.",
-                plural(pores, "small hollow"),
+                plural(pores, "hollow"),
                 significant(100.0 * share, 2)
             ),
             Self::OthersLeftOut { others: 1 } => {
@@ -170,6 +171,17 @@ impl FitWarning {
                  between coarse faces it may ripple. Where the faces are the body, take the figures of the scan (grainform measure).",
                 percent(area),
                 percent(volume)
+            ),
+            Self::BeyondPoints {
+                dimensions,
+                of_points,
+            } => write!(
+                f,
+                "The surface reaches beyond its points: {}{unit} beside {}{unit}. Next to sharp edges it ripples; of a body that has \
+                 such, take the sizes of the points (grainform measure, of the scan).",
+                sides(&dimensions),
+                sides(&of_points),
+                unit = labels.length()
             ),
             Self::NotStarShaped { share } => write!(
                 f,
@@ -318,6 +330,11 @@ fn rejected(
              with the least held-out error was taken, and it {reason}. {advice}"
         ),
     }
+}
+
+fn sides(lengths: &Vector3<f64>) -> String {
+    let sides = lengths.iter().map(|&side| short(side));
+    sides.collect::<Vec<_>>().join(" x ")
 }
 
 /// The sentences of a reader's and a fit's warnings; lengths with their unit, if it is known.

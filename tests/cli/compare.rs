@@ -1,6 +1,6 @@
 //! Two lots beside each other.
 
-use super::{errors, folder, grainform, json};
+use super::{errors, folder, grainform, json, succeed};
 
 #[test]
 fn a_table_of_something_else_is_not_compared() {
@@ -104,4 +104,40 @@ fn lots_that_were_fitted_otherwise_or_share_grains_are_told_to_be() {
         errors(&grainform(&folder, &["compare", "a.csv", "c.csv"])),
         ""
     );
+}
+
+#[test]
+fn of_a_folder_the_table_that_is_edited_is_compared() {
+    let folder = folder();
+    let words = ["synth", "bean", "--points", "300", "-o", "a.ply"];
+    succeed(&folder, &words);
+    let only = ["--only", "volume", "--quiet"];
+    succeed(
+        &folder,
+        &[&["batch", "a.ply", "-o", "r"], &only[..]].concat(),
+    );
+    let path = folder.path().join("r/results.csv");
+    let table = std::fs::read_to_string(&path).unwrap();
+    let row = table.lines().nth(1).unwrap();
+    std::fs::write(&path, format!("{table}{}\n", row.replace("a.ply", "b.ply"))).unwrap();
+    let report = json(&folder, &["compare", "r", "r"]);
+    assert_eq!(report["measures"][0]["counts"][0], 2, "{report}");
+}
+
+#[test]
+fn numbers_with_decimal_commas_and_columns_that_others_part_are_refused() {
+    let folder = folder();
+    let compared = |table: &str| {
+        std::fs::write(folder.path().join("t.csv"), table).unwrap();
+        let output = grainform(&folder, &["compare", "t.csv", "t.csv"]);
+        assert_eq!(output.status.code(), Some(2), "{table}");
+        errors(&output)
+    };
+    let told = compared("path,status,volume\na.ply,ok,\"21,5\"\nb.ply,ok,\"3,25\"\n");
+    assert!(
+        told.contains("column volume of t.csv have commas") && told.contains("21,5"),
+        "{told}"
+    );
+    let told = compared("path;status;volume\na.ply;ok;21,5\n");
+    assert!(told.contains("semicolons part its columns"), "{told}");
 }

@@ -312,3 +312,38 @@ fn stats_and_warnings_go_to_standard_error_and_quiet_silences() {
     let report: Value = serde_json::from_slice(&object.stdout).unwrap();
     assert!(!report["warnings"].as_array().unwrap().is_empty());
 }
+
+#[test]
+fn a_surface_that_ripples_beside_edges_is_told_with_the_sizes_of_its_points() {
+    let folder = folder();
+    let words = [
+        "synth",
+        "cuboid",
+        "--axes",
+        "2,1.5,1",
+        "--points",
+        "3000",
+        "--sampling",
+        "random",
+    ];
+    succeed(&folder, &[&words[..], &["-o", "box.xyz"]].concat());
+    let told = errors(&grainform(&folder, &["fit", "box.xyz", "--unit", "mm"]));
+    let sizes = json(
+        &folder,
+        &[
+            "measure",
+            "box.xyz",
+            "--only",
+            "minimum_box",
+            "--unit",
+            "mm",
+        ],
+    );
+    let length = number(&sizes["minimum_box"], "length");
+    assert!((length / 4.0 - 1.0).abs() < 0.003, "{length}");
+    let sides = told.split_once("reaches beyond its points: ").unwrap().1;
+    let (surface, points) = sides.split_once(" mm beside ").unwrap();
+    let first = |sides: &str| sides.split(" x ").next().unwrap().parse::<f64>().unwrap();
+    assert!(first(surface) > 4.04, "{told}");
+    assert!((first(points) / 4.0 - 1.0).abs() < 0.003, "{told}");
+}

@@ -115,3 +115,43 @@ fn a_grain_does_not_replace_the_scan_that_it_is_split_from() {
     }
     assert!(before == std::fs::read(&scan).unwrap());
 }
+
+#[test]
+fn grains_that_are_small_beside_a_table_are_told_and_a_scan_of_dust_is_refused() {
+    let folder = folder();
+    // A block, and two that are a hundredth as large.
+    let mut mesh = String::new();
+    for (block, (side, x)) in [(100, 0), (1, 200), (1, 300)].into_iter().enumerate() {
+        for corner in 0..8 {
+            let [i, j, k] = [corner & 1, corner >> 1 & 1, corner >> 2].map(|bit| bit * side);
+            mesh += &format!("v {} {j} {k}\n", i + x);
+        }
+        for corners in [
+            [1, 3, 4, 2],
+            [5, 6, 8, 7],
+            [1, 2, 6, 5],
+            [3, 7, 8, 4],
+            [1, 5, 7, 3],
+            [2, 4, 8, 6],
+        ] {
+            let [a, b, c, d] = corners.map(|corner| corner + 8 * block);
+            mesh += &format!("f {a} {b} {c} {d}\n");
+        }
+    }
+    std::fs::write(folder.path().join("all.obj"), mesh).unwrap();
+    let report = json(&folder, &["split", "all.obj", "-o", "grains"]);
+    assert_eq!(report["dust"], 2);
+    let told = report["warnings"][0].as_str().unwrap();
+    assert!(
+        told.starts_with("2 clumps were left out as dust, for they are small"),
+        "{told}"
+    );
+
+    let few: String = (0..20).map(|i| format!("{i} {} 0\n", i * i)).collect();
+    std::fs::write(folder.path().join("few.xyz"), few).unwrap();
+    let refused = grainform(&folder, &["split", "few.xyz", "-o", "none"]);
+    assert_eq!(refused.status.code(), Some(2));
+    let told = errors(&refused);
+    assert!(told.contains("large enough for a grain"), "{told}");
+    assert!(!folder.path().join("none").exists());
+}

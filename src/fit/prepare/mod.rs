@@ -11,6 +11,7 @@ mod gap;
 mod holes;
 mod largest;
 mod layers;
+mod left_out;
 mod pieces;
 mod reference;
 mod rounder;

@@ -2,6 +2,7 @@
 //! triangulation of their directions.
 
 use super::by_direction::middle;
+use super::left_out::told;
 use super::reference::ReferenceKind;
 use super::rounder::rounder_of_rod;
 use super::scanned::ScannedSurface;
@@ -11,7 +12,7 @@ use crate::fit::error::FitError;
 use crate::fit::warning::FitWarning;
 use crate::fit::without::without;
 use crate::measure::{
-    Dust, FacesDefect, Fill, SelfCrossing, even_places, scanned_body, self_crossing, without_dust,
+    FacesDefect, Fill, SelfCrossing, even_places, scanned_body, self_crossing, without_dust,
 };
 use crate::mesh::Mesh;
 use crate::model::Unseen;
@@ -204,21 +205,11 @@ fn from_parts(scan: &Scan) -> Result<ScannedSurface<'static>, FitError> {
             }
         }
     };
-    let dust = cleaned.into_iter().flat_map(|(_, dust)| told(dust));
+    let dust = cleaned
+        .into_iter()
+        .flat_map(|(_, dust)| told(dust, |parts| FitWarning::Dust { parts }));
     surface.warnings.extend(dust.chain(crossing));
     Ok(surface)
-}
-
-/// What to say of parts that were left out.
-fn told(dust: Dust) -> impl Iterator<Item = FitWarning> {
-    let Dust {
-        specks: parts,
-        pores,
-        share,
-    } = dust;
-    let specks = (parts > 0).then_some(FitWarning::Dust { parts });
-    let pores = (pores > 0).then_some(FitWarning::Pores { pores, share });
-    specks.into_iter().chain(pores)
 }
 
 /// Of faces whose small holes are closed by triangles, which were not seen.

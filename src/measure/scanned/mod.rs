@@ -16,7 +16,7 @@ use crate::scan::{Scan, each_edge};
 use bodies::arrange;
 pub use fill::Fill;
 use fill::fill;
-pub(crate) use parts::{Dust, largest_part, without_dust};
+pub(crate) use parts::{LeftOut, largest_part, without_dust};
 use rims::rims;
 use thiserror::Error;
 pub(crate) use traces::{are_steps, spikes};

@@ -1,7 +1,9 @@
 //! The parts of a scan's faces that share no point, by their size.
 
-use crate::mesh::{Mesh, part, parts};
+use crate::mesh::{Bounds, Mesh, part, parts};
 use crate::scan::Scan;
+use nalgebra::Point3;
+use std::ptr;
 
 /// A part with less than this share of the vertices, and of the area, is dust.
 const DUST: f64 = 0.01;
@@ -13,17 +15,30 @@ struct Size {
     area: f64,
     /// Below zero where it is wound inwards, as hollows are.
     volume: f64,
+    bounds: Bounds,
 }
 
-/// What was too small for bodies.
+/// Parts that were left out.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Dust {
+pub(crate) struct LeftOut {
     /// Parts that are wound outwards, or open.
-    pub(crate) specks: usize,
-    /// Parts that are wound inwards: hollows.
+    pub(crate) bodies: usize,
+    /// Parts that are wound inwards: hollows in what was kept.
     pub(crate) pores: usize,
-    /// What the hollows enclose, over what all outer surfaces do.
+    /// What the hollows enclose, over what is enclosed round them.
     pub(crate) share: f64,
+}
+
+impl LeftOut {
+    fn new(parts: &[&Size], is_pore: impl Fn(&Size) -> bool, outer: f64) -> Self {
+        let volumes = parts.iter().filter(|part| is_pore(part));
+        let pores: Vec<f64> = volumes.map(|part| part.volume.abs()).collect();
+        Self {
+            bodies: parts.len() - pores.len(),
+            pores: pores.len(),
+            share: pores.iter().sum::<f64>() / outer,
+        }
+    }
 }
 
 /// Several parts of a scan's faces.
@@ -46,13 +61,14 @@ fn sizes(scan: &Scan, mesh: &Mesh) -> Vec<Size> {
             vertices: own.vertices.len(),
             area,
             volume,
+            bounds: Bounds::new(own.vertices, 0.0),
         }
     };
     parts(mesh).into_iter().map(size).collect()
 }
 
 /// The scan without parts that are too small for bodies, and what these are; `None` if there are none.
-pub(crate) fn without_dust(scan: &Scan) -> Option<(Scan, Dust)> {
+pub(crate) fn without_dust(scan: &Scan) -> Option<(Scan, LeftOut)> {
     let mesh = scan.welded();
     let mut sizes = sizes(scan, &mesh);
     let vertices = mesh.vertices.len() as f64;
@@ -62,24 +78,19 @@ pub(crate) fn without_dust(scan: &Scan) -> Option<(Scan, Dust)> {
         |size: &mut Size| size.area <= DUST * area && size.vertices as f64 <= DUST * vertices;
     let small: Vec<Size> = sizes.extract_if(.., is_small).collect();
     let is_closed = scan.topology.as_ref().is_some_and(|own| own.closed);
-    let volumes = small.iter().map(|size| size.volume);
-    let pores: Vec<f64> = volumes
-        .filter(|volume| is_closed && *volume < 0.0)
-        .collect();
     (!small.is_empty()).then(|| {
+        let small: Vec<&Size> = small.iter().collect();
+        let is_pore = |size: &Size| is_closed && size.volume < 0.0;
+        let left_out = LeftOut::new(&small, is_pore, outer);
         let mut kept: Vec<usize> = sizes.into_iter().flat_map(|size| size.triangles).collect();
         kept.sort_unstable();
-        let dust = Dust {
-            specks: small.len() - pores.len(),
-            pores: pores.len(),
-            share: -pores.iter().sum::<f64>() / outer,
-        };
-        (scan.part(part(&mesh, &kept)), dust)
+        (scan.part(part(&mesh, &kept)), left_out)
     })
 }
 
-/// The part that encloses most, and how many others there are; `None` if there are no others.
-pub(crate) fn largest_part(scan: &Scan) -> Option<(Scan, usize)> {
+/// The part that encloses most, and what the others are; `None` if there are no others. Hollows in it are wound the other way and lie
+/// within its bounds.
+pub(crate) fn largest_part(scan: &Scan) -> Option<(Scan, LeftOut)> {
     let mesh = scan.welded();
     let sizes = sizes(scan, &mesh);
     let order = |a: &&Size, b: &&Size| {
@@ -88,6 +99,51 @@ pub(crate) fn largest_part(scan: &Scan) -> Option<(Scan, usize)> {
         volumes[0].total_cmp(&volumes[1]).then(of_equal_volume)
     };
     let largest = sizes.iter().max_by(order)?;
-    let others = sizes.len() - 1;
-    (others > 0).then(|| (scan.part(part(&mesh, &largest.triangles)), others))
+    let others: Vec<&Size> = sizes
+        .iter()
+        .filter(|size| !ptr::eq(*size, largest))
+        .collect();
+    let is_within = |size: &Size| {
+        let corners = size.bounds.corners().map(Point3::from);
+        corners.iter().all(|corner| largest.bounds.holds(corner))
+    };
+    let is_pore = |size: &Size| size.volume * largest.volume < 0.0 && is_within(size);
+    (!others.is_empty()).then(|| {
+        let left_out = LeftOut::new(&others, is_pore, largest.volume.abs());
+        (scan.part(part(&mesh, &largest.triangles)), left_out)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+    use nalgebra::Vector3;
+
+    /// A ball, wound inwards if so asked for.
+    fn add(mesh: &mut Mesh, radius: f64, aside: f64, is_inwards: bool) {
+        let ball = Mesh::radial(4, |_| radius);
+        let before = mesh.vertices.len() as u32;
+        let vertices = ball.vertices.into_iter();
+        mesh.vertices
+            .extend(vertices.map(|vertex| vertex + Vector3::x() * aside));
+        mesh.triangles
+            .extend(ball.triangles.into_iter().map(|corners| {
+                let [a, b, c] = corners.map(|corner| corner + before);
+                if is_inwards { [a, c, b] } else { [a, b, c] }
+            }));
+    }
+
+    #[test]
+    fn what_is_left_out_beside_the_largest_part_is_a_hollow_in_it_or_another_body() {
+        let mut mesh = Mesh::default();
+        add(&mut mesh, 2.0, 0.0, false);
+        add(&mut mesh, 0.5, 1.0, true);
+        add(&mut mesh, 0.5, 5.0, true);
+        add(&mut mesh, 0.5, 8.0, false);
+        let (kept, left_out) = largest_part(&Scan::from_mesh(mesh).unwrap()).unwrap();
+        assert_eq!((left_out.bodies, left_out.pores), (2, 1));
+        assert_relative_eq!(left_out.share, 0.25_f64.powi(3), max_relative = 1e-9);
+        assert_eq!(kept.points().len(), Mesh::radial(4, |_| 1.0).vertices.len());
+    }
 }

@@ -9,14 +9,38 @@ use std::f64::consts::FRAC_PI_2;
 /// Bends of more than 40 degrees are sharp.
 const SHARP: f64 = 0.766;
 
-/// Of steps such a share of the length of all edges is sharp at least, and of these such a share bends inwards: of boxes none does.
-const SHARE_OF_SHARP: f64 = 0.05;
-const SHARE_INWARDS: f64 = 0.38;
+/// Faces that voxels leave.
+struct Steps {
+    /// Nearly all of their area faces one of so many sides.
+    sides: usize,
+    /// The share of the length of all edges that is sharp at least, ...
+    sharp: f64,
+    /// ... and the share of these that bends inwards: of boxes and cut stones none does.
+    inwards: f64,
+}
 
-/// Such a share of the area of steps faces one of six sides at least, but for an angle with this cosine.
-const SIDES: usize = 6;
+/// Sides of the voxels themselves, and what marching cubes leave of voxels that are within a body or not: vertices in the middle
+/// between two voxels.
+const STEPS: [Steps; 2] = [
+    Steps {
+        sides: 6,
+        sharp: 0.05,
+        inwards: 0.38,
+    },
+    Steps {
+        sides: 50,
+        sharp: 0.1,
+        inwards: 0.15,
+    },
+];
+
+/// Such a share of the area faces a side at least, but for an angle with this cosine.
 const SHARE_OF_SIDES: f64 = 0.95;
 const SAME: f64 = 0.999;
+
+/// Of steps the first sides take more than this share of the area, of grains with texture a thousandth.
+const FIRST: usize = 6;
+const SHARE_OF_FIRST: f64 = 0.05;
 
 /// Fewer points than this are no steps and have no spikes: they are a body of large facets.
 const LEAST_POINTS: usize = 100;
@@ -27,11 +51,14 @@ const LONG: f64 = 3.0;
 const PEAKED: f64 = FRAC_PI_2;
 const FAN: usize = 12;
 
-/// Whether the faces of a closed mesh are the sides of voxels, or nearly: a fifth to a half of their area is then that of steps.
+/// Whether the faces of a closed mesh are steps between voxels, or nearly: a twelfth to a half of their area is then that of steps.
 pub(crate) fn are_steps(mesh: &Mesh) -> bool {
-    if mesh.vertices.len() < LEAST_POINTS || !is_of_six_sides(mesh) {
+    if mesh.vertices.len() < LEAST_POINTS {
         return false;
     }
+    let Some(sides) = sides(mesh) else {
+        return false;
+    };
     let (mut all, mut outwards, mut inwards) = (0.0, 0.0, 0.0);
     let corner = |at: u32| mesh.vertices[at as usize];
     each_edge(mesh.vertices.len(), &mesh.triangles, |edge| {
@@ -50,25 +77,33 @@ pub(crate) fn are_steps(mesh: &Mesh) -> bool {
         }
     });
     let sharp = outwards + inwards;
-    sharp > SHARE_OF_SHARP * all && inwards > SHARE_INWARDS * sharp
+    STEPS.iter().any(|steps| {
+        sides <= steps.sides && sharp > steps.sharp * all && inwards > steps.inwards * sharp
+    })
 }
 
-/// Whether nearly all of the area faces six sides.
-fn is_of_six_sides(mesh: &Mesh) -> bool {
+/// How many sides nearly all of the area faces. `None` if they are more than those of steps.
+fn sides(mesh: &Mesh) -> Option<usize> {
     let triangles = 0..mesh.triangles.len();
     let mut left: Vec<Vector3<f64>> = triangles.map(|at| doubled_area(mesh, at)).collect();
     let area = |normals: &[Vector3<f64>]| normals.iter().map(Vector3::norm).sum::<f64>();
     let all = area(&left);
-    for _ in 0..SIDES {
+    let most = STEPS.iter().map(|steps| steps.sides).max()?;
+    for taken in 1..=most {
         let largest = |one: &&Vector3<f64>, other: &&Vector3<f64>| {
             one.norm_squared().total_cmp(&other.norm_squared())
         };
-        let Some(&side) = left.iter().max_by(largest) else {
-            break;
-        };
+        let side = *left.iter().max_by(largest)?;
         left.retain(|normal| normal.dot(&side) <= SAME * normal.norm() * side.norm());
+        let share = 1.0 - area(&left) / all;
+        if share > SHARE_OF_SIDES {
+            return Some(taken);
+        }
+        if taken == FIRST && share < SHARE_OF_FIRST {
+            return None;
+        }
     }
-    area(&left) < (1.0 - SHARE_OF_SIDES) * all
+    None
 }
 
 /// How many vertices stand far out of those round them, or far in: of a tip, which may be as sharp, the flanks go on below.
@@ -155,18 +190,43 @@ fn tip(mesh: &Mesh, triangle: usize, ends: [u32; 2]) -> u32 {
 mod tests {
     use super::*;
     use crate::measure::trial::cubes;
-    use nalgebra::Point3;
+    use crate::mesh::{Grid, contour};
+    use nalgebra::{Point3, Rotation3};
 
     /// The sides of the voxels of a ball.
     fn steps(radius: i32) -> Mesh {
-        cubes(radius, |p| {
-            p.iter().map(|x| x * x).sum::<i32>() <= radius * radius
-        })
+        cubes(radius, |p| is_within(p, radius))
+    }
+
+    fn is_within(p: [i32; 3], radius: i32) -> bool {
+        p.iter().map(|x| x * x).sum::<i32>() <= radius * radius
+    }
+
+    /// What marching cubes make of them, moved.
+    fn between(radius: i32, moved: impl Fn(Vector3<f64>) -> Vector3<f64>) -> Mesh {
+        let side = 2 * radius as usize + 1;
+        let mut grid = Grid::new([side; 3]);
+        let line = || 0..side;
+        let places = line().flat_map(|x| line().flat_map(move |y| line().map(move |z| [x, y, z])));
+        for voxel in places.filter(|place| is_within(place.map(|x| x as i32 - radius), radius)) {
+            grid.fill(voxel);
+        }
+        let mut mesh = contour(&grid, |_, _| 0.5);
+        for vertex in &mut mesh.vertices {
+            *vertex = moved(vertex.coords).into();
+        }
+        mesh
+    }
+
+    /// Voxels that are longer than wide, along no axis of the file.
+    fn turned(place: Vector3<f64>) -> Vector3<f64> {
+        Rotation3::from_euler_angles(0.4, 0.7, 1.3) * Vector3::new(place.x, place.y, 1.7 * place.z)
     }
 
     #[test]
     fn sides_of_voxels_are_steps_and_facets_are_not() {
         assert!(are_steps(&steps(8)));
+        assert!(are_steps(&between(8, |steps| steps)) && are_steps(&between(5, turned)));
         // A grooved body, one with an edge, and one of a few facets.
         let grooved = Mesh::radial(24, |n| 1.0 - 0.3 * (-(10.0 * n.x).powi(2)).exp());
         for mesh in [grooved, Mesh::radial(8, |n| 1.0 / n.amax()), steps(1)] {

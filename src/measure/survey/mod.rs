@@ -241,6 +241,11 @@ impl<'a> Survey<'a> {
         Ok(self.unit.vector(&self.unit_dimensions()?))
     }
 
+    /// The axes of length, width and thickness, in the columns.
+    pub(crate) fn dimension_axes(&self) -> Result<Matrix3<f64>, SurveyError> {
+        self.unit_axes()
+    }
+
     /// The box of least volume.
     ///
     /// # Errors

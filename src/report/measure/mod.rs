@@ -183,7 +183,7 @@ impl MeasureReport {
         unit: Option<Unit>,
         warnings: Vec<String>,
     ) -> Self {
-        let withheld = Withheld::of_faces(scanned, only);
+        let withheld = Withheld::of_faces(scanned, of, only);
         let survey = Survey::of_scanned(scanned);
         Self::without(&withheld, input, of, &survey, only, warnings)
             .in_unit(unit)

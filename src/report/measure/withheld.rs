@@ -1,6 +1,6 @@
 //! What of a grain is not told, though it could be computed.
 
-use super::{Measure, NotMeasured};
+use super::{Measure, Measured, NotMeasured};
 use crate::fit::ScannedSurface;
 use crate::measure::{ScannedBody, SelfCrossing, are_steps};
 use crate::model::{Contradicted, Grain, Unseen};
@@ -60,10 +60,11 @@ impl Withheld {
 
     /// Of the faces of a scan, what is made of their area where that is not the area of their outside. Where the volume is
     /// not what they enclose they have no figures at all.
-    pub(super) fn of_faces(scanned: &ScannedBody, only: &[Measure]) -> Self {
+    pub(super) fn of_faces(scanned: &ScannedBody, of: Measured, only: &[Measure]) -> Self {
+        let are_steps = || of == Measured::Voxels || are_steps(&scanned.mesh);
         Self {
             crossing: scanned.crossing.filter(SelfCrossing::hides_area),
-            is_of_steps: only.iter().copied().any(is_made_of_area) && are_steps(&scanned.mesh),
+            is_of_steps: only.iter().copied().any(is_made_of_area) && are_steps(),
             ..Self::default()
         }
     }
@@ -87,8 +88,9 @@ impl Withheld {
         }
         if self.is_of_steps && is_made_of_area(measure) {
             return Some(
-                "the faces are steps, as voxels leave them, whose area is a fifth to a half larger than that of the grain; \
-                 fit the scan, and measure the model"
+                "the faces are steps, as voxels leave them, whose area is larger than that of the grain: by some tenth where they \
+                 go through the middles between voxels, by a fifth to a half where they are the sides of these; fit the scan, \
+                 and measure the model"
                     .into(),
             );
         }

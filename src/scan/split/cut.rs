@@ -2,6 +2,7 @@
 
 use super::dust::LEAST_POINTS;
 use super::neck::{Neck, settle};
+use super::one_body::has_neck;
 use super::outline::Outline;
 use crate::sphere::cube_grid;
 use crate::spread::covariance;
@@ -97,7 +98,7 @@ pub(super) fn cut(places: &[Point3<f64>], clump: Vec<u32>, distance: f64, necks:
                 }));
             }
             (broad, _) => parts.push(Part {
-                may_touch: has_waist || broad.is_some() || missed > FOLLOWED,
+                may_touch: has_waist || broad.is_some() || missed > FOLLOWED || has_neck(&own),
                 points,
             }),
         }

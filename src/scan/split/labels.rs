@@ -1,6 +1,6 @@
 //! The grains of a segmented volume: what hangs together of each label.
 
-use super::dust::without_dust;
+use super::dust::by_size;
 use super::{Split, SplitGrain, area, by_place, voxels_have_neck};
 use crate::scan::volume::{LEAST_VOXELS, Volume, VolumeError, VoxelBody};
 
@@ -25,9 +25,12 @@ pub fn split_labels(volume: &Volume, label: Option<i64>) -> Result<Split, Volume
         grains.extend(own);
         left_out.extend(reasons);
     }
-    let (grains, small) = without_dust(grains.into_iter(), 0.0, |grain| area(&grain.scan));
-    dust += small.len();
-    let voxels = small.iter().filter_map(|grain| grain.voxels.as_ref());
+    let sorted = by_size(grains.into_iter(), 0.0, |grain| area(&grain.scan));
+    dust += sorted.small.len();
+    let voxels = sorted
+        .small
+        .iter()
+        .filter_map(|grain| grain.voxels.as_ref());
     dust_points += voxels.map(VoxelBody::voxels).sum::<usize>();
     Ok(Split {
         distance: None,
@@ -35,8 +38,9 @@ pub fn split_labels(volume: &Volume, label: Option<i64>) -> Result<Split, Volume
         plane_points: 0,
         dust,
         dust_points,
+        small: sorted.small.len(),
         left_out,
-        grains,
+        grains: sorted.grains,
     })
 }
 

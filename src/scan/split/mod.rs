@@ -24,7 +24,7 @@ use super::drawn::by_coordinates;
 use super::{ParseError, Scan, VolumeError, VoxelBody};
 use bodies::bodies;
 use cut::{Necks, Part, Parts, cut};
-use dust::{LEAST_POINTS, without_dust};
+use dust::{LEAST_POINTS, by_size};
 use links::Links;
 use nalgebra::Point3;
 use rayon::prelude::*;
@@ -48,6 +48,8 @@ pub struct Split {
     pub dust: usize,
     /// Points of these; of a segmented volume their voxels.
     pub dust_points: usize,
+    /// Those of the dust that are too small for a grain only beside the others.
+    pub small: usize,
     /// Why labels of a segmented volume, or bodies of them, are no grains.
     pub left_out: Vec<VolumeError>,
 }
@@ -121,15 +123,17 @@ fn split_at(scan: &Scan, necks: Necks) -> Result<Split, ParseError> {
 fn split_faces(scan: &Scan) -> Split {
     let bodies = bodies(&scan.welded()).into_iter();
     let bodies = bodies.map(|body| scan.part(body));
-    let (grains, dust) = without_dust(bodies, 0.0, area);
+    let sorted = by_size(bodies, 0.0, area);
     Split {
         distance: None,
         plane: None,
         plane_points: 0,
-        dust: dust.len(),
-        dust_points: dust.iter().map(|body| body.points.len()).sum(),
+        dust: sorted.dust().count(),
+        dust_points: sorted.dust().map(|body| body.points.len()).sum(),
+        small: sorted.small.len(),
         left_out: Vec::new(),
-        grains: grains
+        grains: sorted
+            .grains
             .into_iter()
             .map(|scan| SplitGrain {
                 scan,
@@ -170,10 +174,12 @@ fn split_points(all: &[Point3<f64>], necks: Necks) -> Split {
     let links = Links::new(&places);
     let distance = links.as_ref().map(|links| links.distance);
     let clumps = links.map_or_else(Vec::new, |links| links.clumps());
-    let (clumps, dust) = without_dust(clumps.into_iter(), LEAST_POINTS as f64, |clump| {
+    let sorted = by_size(clumps.into_iter(), LEAST_POINTS as f64, |clump| {
         clump.len() as f64
     });
-    let cut: Vec<Parts> = clumps
+    let (dust, small) = (sorted.dust().count(), sorted.small.len());
+    let cut: Vec<Parts> = sorted
+        .grains
         .into_par_iter()
         .map(|clump| cut(&places, clump, distance.unwrap_or(0.0), necks))
         .collect();
@@ -223,8 +229,9 @@ fn split_points(all: &[Point3<f64>], necks: Necks) -> Split {
         plane_points: left.count() - dust_points,
         plane,
         distance,
-        dust: dust.len(),
+        dust,
         dust_points,
+        small,
         left_out: Vec::new(),
         grains: members
             .into_iter()

@@ -9,11 +9,14 @@ use nalgebra::Matrix3;
 /// is 3 % at a radius of 12 voxels.
 const LARGEST_SHARE: f64 = 0.05;
 
+/// Sides of an image.
+const SIDES: usize = 6;
+
 /// A label of which little lies on the border of the image is warned of. `steps` are those from a voxel to the next along each
 /// axis, in the columns.
 ///
 /// # Errors
-/// [`VolumeError::CutOff`] where much does.
+/// [`VolumeError::CutOff`] where much does, [`VolumeError::Background`] where it does so on all sides.
 pub(super) fn look(
     label: i64,
     grid: &Grid,
@@ -40,7 +43,10 @@ pub(super) fn look(
     let whole: f64 = grid.faces().into_iter().enumerate().map(area).sum();
     let share = most / whole;
     if share > LARGEST_SHARE {
-        return Err(VolumeError::CutOff { label, share });
+        return Err(match on_sides.len() {
+            SIDES => VolumeError::Background { label },
+            _ => VolumeError::CutOff { label, share },
+        });
     }
     let faces = plural(on_sides.iter().map(|(_, faces)| faces).sum(), "face");
     Ok(Some(format!(

@@ -155,6 +155,15 @@ pub enum VolumeError {
         /// Share of its boundary that lies on one side of the image.
         share: f64,
     },
+    /// A label goes on beyond all sides of the image.
+    #[error(
+        "the label {label} goes on beyond all six sides of the volume, as what surrounds the grains does: give that the value 0, or \
+         name grains by their labels (--label)"
+    )]
+    Background {
+        /// The label.
+        label: i64,
+    },
     /// The border of the image cuts bodies of a label off, which has others.
     #[error(
         "of the label {label}, {} cut off at the border of the volume, so that the size cannot be known; scan the grains \
