@@ -24,6 +24,7 @@ mod xyz;
 
 use std::path::Path;
 
+use crate::digits::significant;
 use crate::mesh::Mesh;
 use nalgebra::Point3;
 
@@ -175,6 +176,18 @@ impl Scan {
             weld::close_gaps(self, span.extent);
         }
         inspect::inspect(self);
+        if let Some((lattice, scatter)) = volume::between_voxels(self) {
+            let sides = lattice
+                .steps
+                .column_iter()
+                .map(|step| significant(step.norm(), 4));
+            self.warnings.push(format!(
+                "The vertices lie half-way between voxels of {}, as marching cubes without grey values put them: the faces are \
+                 taken as those of a segmented volume.",
+                sides.collect::<Vec<_>>().join(" x ")
+            ));
+            (self.lattice, self.scatter) = (Some(lattice), scatter);
+        }
         Ok(())
     }
 

@@ -7,6 +7,8 @@
 mod bodies;
 mod border;
 mod error;
+mod frames;
+mod half_way;
 mod lattice;
 mod metaimage;
 mod nifti;
@@ -26,6 +28,7 @@ pub use voxel_lattice::VoxelLattice;
 use super::check::check;
 use super::{ReadError, Scan, inspect, source};
 use crate::mesh::{Grid, Mesh, contour};
+use half_way::half_way;
 use nalgebra::{Matrix3, Point3, Vector3};
 use samples::Samples;
 use std::collections::BTreeMap;
@@ -353,6 +356,19 @@ impl Extent {
             self.high[axis] = self.high[axis].max(to[axis]);
         }
     }
+}
+
+/// Of closed faces whose vertices lie half-way between two voxels, where these lie, and how far the vertices are off the surface.
+pub(super) fn between_voxels(scan: &Scan) -> Option<(VoxelLattice, f64)> {
+    scan.topology.as_ref().filter(|topology| topology.closed)?;
+    let lattice = half_way(&scan.points, &scan.triangles)?;
+    let to_steps = lattice.steps.try_inverse()?;
+    let mut mesh = scan.welded();
+    for vertex in &mut mesh.vertices {
+        *vertex = (to_steps * (*vertex - lattice.first)).into();
+    }
+    let scatter = scatter::scatter(&mesh, &lattice.steps);
+    Some((lattice, scatter))
 }
 
 /// The boundary of the voxels of a grid as a scan.

@@ -1,5 +1,6 @@
 //! How far the points between voxels are off the surface.
 
+use super::voxel_lattice::between;
 use crate::mesh::{Mesh, relaxed};
 use nalgebra::Matrix3;
 
@@ -20,7 +21,7 @@ pub(super) fn scatter(contour: &Mesh, steps: &Matrix3<f64>) -> f64 {
         .iter()
         .zip(&normals)
         .map(|(vertex, normal)| {
-            let axis = vertex.coords.map(f64::fract).iamax();
+            let (axis, _) = between(&vertex.coords);
             steps.column(axis).dot(normal).powi(2) / 12.0
         });
     (squares.sum::<f64>() / contour.vertices.len() as f64).sqrt()

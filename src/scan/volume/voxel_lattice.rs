@@ -59,7 +59,7 @@ impl VoxelLattice {
 }
 
 /// The axis along which a place, in steps, is nearest to the middle between two voxels, and how far from it.
-fn between(place: &Vector3<f64>) -> (usize, f64) {
+pub(super) fn between(place: &Vector3<f64>) -> (usize, f64) {
     let off = place.map(|x| (x - x.floor() - 0.5).abs());
     let axis = off.imin();
     (axis, off[axis])

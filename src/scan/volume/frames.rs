@@ -1,0 +1,71 @@
+//! Axes that the voxels may have of which marching cubes made a mesh.
+//!
+//! What marching cubes make of voxels that are in a body or not has few sides: those of voxels, and others at fixed angles to them.
+
+use nalgebra::{Matrix3, Point3, Vector3};
+use std::iter::once;
+
+/// Triangles that are looked at.
+const LOOKED_AT: usize = 1000;
+
+/// Sides of marching cubes, one of each two that are opposite; nearly all of the area, this share of it, faces one of them.
+const SIDES: usize = 25;
+const SHARE: f64 = 0.95;
+
+/// Cosines of angles that are none, and right ones.
+const SAME: f64 = 0.9999;
+const RIGHT: f64 = 1e-3;
+
+/// Those of the file, and of a mesh of few sides any three of these that are at right angles; rotations.
+pub(super) fn frames(
+    points: &[Point3<f64>],
+    triangles: &[[u32; 3]],
+) -> impl Iterator<Item = Matrix3<f64>> {
+    let sides = sides(points, triangles);
+    let count = sides.len();
+    let triples =
+        (0..count).flat_map(move |i| (0..i).flat_map(move |j| (0..j).map(move |k| [i, j, k])));
+    let turned = triples.filter_map(move |triple| {
+        let [a, b, c] = triple.map(|side| sides[side]);
+        let are_right = [a.dot(&b), b.dot(&c), c.dot(&a)];
+        let b = (b - a * a.dot(&b)).normalize();
+        let is_frame = are_right.iter().all(|cosine| cosine.abs() < RIGHT);
+        is_frame.then(|| Matrix3::from_columns(&[a, b, a.cross(&b)]))
+    });
+    once(Matrix3::identity()).chain(turned)
+}
+
+/// The directions that nearly all faces have, up to their sign; none where these are many.
+fn sides(points: &[Point3<f64>], triangles: &[[u32; 3]]) -> Vec<Vector3<f64>> {
+    let doubled_area = |corners: &[u32; 3]| {
+        let [a, b, c] = corners.map(|corner| points[corner as usize]);
+        (b - a).cross(&(c - a))
+    };
+    let every = triangles.len().div_ceil(LOOKED_AT).max(1);
+    let some = triangles.iter().step_by(every).map(doubled_area);
+    let mut left: Vec<Vector3<f64>> = some.collect();
+    let area = |normals: &[Vector3<f64>]| normals.iter().map(Vector3::norm).sum::<f64>();
+    let all = area(&left);
+    let mut sides = Vec::new();
+    while let Some(&first) = left.first()
+        && sides.len() < SIDES
+    {
+        let cosine = |normal: &Vector3<f64>| normal.dot(&first) / (normal.norm() * first.norm());
+        let (own, others): (Vec<Vector3<f64>>, Vec<_>) = left
+            .into_iter()
+            .partition(|normal| cosine(normal).abs() > SAME);
+        let sum: Vector3<f64> = own
+            .iter()
+            .map(|normal| normal * cosine(normal).signum())
+            .sum();
+        sides.extend(sum.try_normalize(0.0));
+        left = others;
+        if own.is_empty() {
+            left.remove(0);
+        }
+    }
+    match area(&left) < (1.0 - SHARE) * all {
+        true => sides,
+        false => Vec::new(),
+    }
+}

@@ -1,0 +1,183 @@
+//! Meshes that marching cubes made of voxels which are in a body or not: vertices lie half-way between two voxels.
+//!
+//! Along each axis of the voxels places are then whole numbers of half steps. Of the three numbers of a vertex, counted from the middle of
+//! a voxel, one is odd: that of the axis along which it lies between two voxels.
+
+use super::VoxelLattice;
+use super::frames::frames;
+use nalgebra::{Matrix3, Point3, Vector3};
+
+/// Fewer vertices do not tell.
+const LEAST_POINTS: usize = 100;
+
+/// Vertices that are looked at first, and the share of them that may differ in a coordinate: of other meshes nearly all do.
+const LOOKED_AT: usize = 1000;
+const MOST_DISTINCT: f64 = 0.6;
+
+/// Coordinates this near, as a share of the extent, are one, ...
+const SAME: f64 = 2e-5;
+
+/// ... and this near to a whole number of half steps, as a share of one.
+const ON_STEP: f64 = 0.02;
+
+/// Share of the vertices that lie half-way between two voxels: where eight voxels meet without rule some programs add others.
+const SHARE: f64 = 0.99;
+
+/// The voxels between which the vertices of a mesh lie half-way, if they do.
+pub(super) fn half_way(points: &[Point3<f64>], triangles: &[[u32; 3]]) -> Option<VoxelLattice> {
+    if points.len() < LEAST_POINTS {
+        return None;
+    }
+    frames(points, triangles).find_map(|frame| {
+        let turned = points
+            .iter()
+            .map(|point| frame.tr_mul(&point.coords).into());
+        let along = along_axes(&turned.collect::<Vec<_>>())?;
+        Some(VoxelLattice {
+            first: frame * along.first,
+            steps: frame * along.steps,
+        })
+    })
+}
+
+/// The same of voxels along the axes of the points.
+fn along_axes(points: &[Point3<f64>]) -> Option<VoxelLattice> {
+    let axis = |axis: usize| Steps::new(points, axis);
+    let axes = [axis(0)?, axis(1)?, axis(2)?];
+    let mut vertices = [0; 8];
+    for point in points {
+        let odd = (0..3).map(|axis| axes[axis].is_odd(point[axis]));
+        vertices[odd.fold(0, |bits, is_odd| 2 * bits + usize::from(is_odd))] += 1;
+    }
+    // The bits of the middles of voxels: those of vertices differ from them in one.
+    let beside = |middle: usize| [4, 2, 1].map(|bit| vertices[middle ^ bit]);
+    let middle = (0..8).find(|&middle| {
+        let along = beside(middle);
+        along.iter().all(|&count| count > 0)
+            && along.iter().sum::<usize>() as f64 >= SHARE * points.len() as f64
+    })?;
+    let first = [4, 2, 1].map(|bit| f64::from(u8::from(middle & bit > 0)));
+    let place = |at: usize| axes[at].first + first[at] * axes[at].half;
+    Some(VoxelLattice {
+        first: Point3::new(place(0), place(1), place(2)),
+        steps: Matrix3::from_diagonal(&Vector3::from(axes.map(|axis| 2.0 * axis.half))),
+    })
+}
+
+/// Places along an axis that are half steps apart.
+#[derive(Clone, Copy)]
+struct Steps {
+    first: f64,
+    half: f64,
+}
+
+impl Steps {
+    /// Those that a coordinate of all points is at.
+    fn new(points: &[Point3<f64>], axis: usize) -> Option<Self> {
+        let every = points.len().div_ceil(LOOKED_AT);
+        let some: Vec<f64> = points.iter().step_by(every).map(|p| p[axis]).collect();
+        let most = (MOST_DISTINCT * some.len() as f64) as usize;
+        if levels(some).len() > most {
+            return None;
+        }
+        let levels = levels(points.iter().map(|p| p[axis]).collect());
+        let (&first, &last) = (levels.first()?, levels.last()?);
+        let mut gaps: Vec<f64> = levels.windows(2).map(|pair| pair[1] - pair[0]).collect();
+        let middle = gaps.len() / 2;
+        let (_, &mut usual, _) = gaps
+            .get(middle)
+            .is_some()
+            .then(|| gaps.select_nth_unstable_by(middle, f64::total_cmp))?;
+        let steps = Self {
+            first,
+            half: (last - first) / ((last - first) / usual).round(),
+        };
+        let is_on_step = |level: &f64| {
+            let number = (level - first) / steps.half;
+            (number - number.round()).abs() < ON_STEP
+        };
+        levels.iter().all(is_on_step).then_some(steps)
+    }
+
+    fn is_odd(&self, coordinate: f64) -> bool {
+        ((coordinate - self.first) / self.half).round() as i64 % 2 != 0
+    }
+}
+
+/// The values that differ, ascending.
+fn levels(mut values: Vec<f64>) -> Vec<f64> {
+    values.sort_unstable_by(f64::total_cmp);
+    let extent = values.last().zip(values.first());
+    let same = SAME * extent.map_or(0.0, |(last, first)| last - first);
+    values.dedup_by(|next, kept| *next - *kept <= same);
+    values
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::{Grid, Mesh, contour};
+    use approx::assert_relative_eq;
+    use nalgebra::Rotation3;
+
+    /// What marching cubes make of an ellipsoid in voxels of these sides.
+    fn between(steps: &Vector3<f64>) -> Mesh {
+        let mut grid = Grid::new([24, 24, 24]);
+        let line = || 0..24;
+        let voxels = line().flat_map(|x| line().flat_map(move |y| line().map(move |z| [x, y, z])));
+        for voxel in voxels {
+            let at = Vector3::from(voxel.map(|i| i as f64)).add_scalar(-11.3);
+            if at.component_div(&Vector3::new(10.0, 7.0, 5.0)).norm() < 1.0 {
+                grid.fill(voxel);
+            }
+        }
+        let mut mesh = contour(&grid, |_, _| 0.5);
+        for vertex in &mut mesh.vertices {
+            *vertex = vertex.coords.component_mul(steps).into();
+        }
+        mesh
+    }
+
+    #[test]
+    fn the_voxels_of_marching_cubes_are_found_whatever_their_sides_and_in_32_bits() {
+        let steps = Vector3::new(0.05, 0.05, 0.13);
+        let aside = Vector3::new(17.3, -4.0, 0.7);
+        let mesh = between(&steps);
+        let moved = mesh.vertices.iter().map(|vertex| vertex + aside);
+        let moved: Vec<Point3<f64>> = moved
+            .map(|place| place.map(|x| f64::from(x as f32)))
+            .collect();
+        let found = half_way(&moved, &mesh.triangles).unwrap();
+        let sides = found.steps.diagonal();
+        assert_relative_eq!(sides, steps, max_relative = 1e-5);
+        let from_voxel = (found.first - aside).coords.component_div(&steps);
+        let off = from_voxel.map(|x| (x - x.round()).abs());
+        assert!(off.max() < 1e-3, "{off}");
+        assert!(found.axes(&moved).iter().all(Option::is_some));
+        // Voxels along other axes than the file's.
+        let turn = Rotation3::from_euler_angles(0.4, 0.7, 1.3);
+        let turned: Vec<Point3<f64>> = mesh.vertices.iter().map(|vertex| turn * vertex).collect();
+        let found = half_way(&turned, &mesh.triangles).unwrap();
+        let volume = found.steps.determinant();
+        assert_relative_eq!(volume.abs(), steps.product(), max_relative = 1e-9);
+        assert!(found.axes(&turned).iter().all(Option::is_some));
+    }
+
+    #[test]
+    fn other_meshes_are_not_between_voxels() {
+        let steps = Vector3::new(1.0, 1.0, 1.0);
+        let mut mesh = between(&steps);
+        for vertex in mesh.vertices.iter_mut().step_by(50) {
+            vertex.x += 0.5;
+        }
+        let found = |mesh: &Mesh| half_way(&mesh.vertices, &mesh.triangles);
+        assert_eq!(found(&mesh), None);
+        assert_eq!(found(&Mesh::radial(16, |n| 1.0 + 0.2 * n.z)), None);
+        // A block whose sides are cut in squares.
+        let line = || 0..9;
+        let all = line().flat_map(|x| line().flat_map(move |y| line().map(move |z| [x, y, z])));
+        let on_side = all.filter(|place| place.iter().any(|x| [0, 8].contains(x)));
+        let block = on_side.map(|place| place.map(f64::from).into());
+        assert_eq!(along_axes(&block.collect::<Vec<_>>()), None);
+    }
+}
