@@ -43,14 +43,18 @@ pub enum ClumpError {
     },
     /// The spheres cannot be given the volume of the grain, or the surface is not that of the grain.
     #[error(
-        "its spheres would have a volume that is {} % off the grain's: is it one body, and its surface closed?",
+        "the spheres, or the surface itself, would have a volume that is {} % off the grain's: is it one body, and the \
+         surface its own?",
         significant(100.0 * excess, 3)
     )]
     Volume {
-        /// Volume of the spheres over that of the grain, less one.
+        /// Volume of the spheres, or inside the surface, over that of the grain, less one.
         excess: f64,
     },
-    /// No ball was found inside: the mesh encloses nothing, is wound inwards, or has a coordinate that is not finite.
-    #[error("no sphere was found inside the surface")]
+    /// No ball was found inside: the mesh is open, encloses nothing or next to it, is wound inwards, or has a coordinate that
+    /// is not finite.
+    #[error(
+        "no sphere was found inside the surface: is it closed, and wound counter-clockwise from outside?"
+    )]
     NoInside,
 }

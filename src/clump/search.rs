@@ -42,7 +42,7 @@ const VOLUME_STEPS: usize = 20;
 const LONGEST_OFFSET: f64 = 0.2;
 
 /// Of a grain of equivalent radius one.
-const UNIT_VOLUME: f64 = 4.0 * PI / 3.0;
+pub(super) const UNIT_VOLUME: f64 = 4.0 * PI / 3.0;
 
 /// The mesh so many times smaller about a centre, its triangles in the order of their distances from there: whatever
 /// order they came in.

@@ -152,6 +152,63 @@ fn what_encloses_nothing_has_no_clump() {
     );
 }
 
+/// A corner of a cube cut off, three of its edges being 1, 1 and `height`.
+fn corner(height: f64) -> Mesh {
+    let corners = [
+        [0.0, 0.0, 0.0],
+        [1.0, 0.0, 0.0],
+        [0.0, 1.0, 0.0],
+        [0.0, 0.0, height],
+    ];
+    Mesh {
+        vertices: corners.map(Point3::from).to_vec(),
+        triangles: vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]],
+    }
+}
+
+#[test]
+fn what_is_open_flat_or_wound_inwards_has_no_clump() {
+    let whole = corner(1.0);
+    let grain = mesh_properties(&whole).unwrap();
+    let refused = |mesh: &Mesh, grain: &MassProperties| {
+        let found = clump(mesh, grain, ClumpTarget::Error(0.2));
+        assert_eq!(found, Err(ClumpError::NoInside), "{mesh:?}");
+    };
+    let inwards = whole.triangles.iter().map(|[a, b, c]| [*a, *c, *b]);
+    let open = &whole.triangles[..3];
+    for triangles in [open[..1].to_vec(), open.to_vec(), inwards.collect()] {
+        let vertices = whole.vertices.clone();
+        let mesh = Mesh {
+            vertices,
+            triangles,
+        };
+        refused(&mesh, &grain);
+    }
+    for height in [0.0, 1e-300, 1e-16, 1e-6, 1e17] {
+        refused(&corner(height), &grain);
+        if let Ok(own) = mesh_properties(&corner(height)) {
+            refused(&corner(height), &own);
+        }
+    }
+}
+
+#[test]
+fn a_mesh_that_is_not_of_the_grain_has_no_clump() {
+    let mesh = body();
+    let grain = mesh_properties(&mesh).unwrap();
+    let other = MassProperties {
+        volume: 1e150,
+        ..grain
+    };
+    let mut far = mesh.clone();
+    far.vertices[7].x = 1e150;
+    for (mesh, grain) in [(&mesh, other), (&far, grain)] {
+        let found = clump(mesh, &grain, ClumpTarget::Spheres(3));
+        let is_refused = matches!(found, Err(ClumpError::NoInside | ClumpError::Volume { .. }));
+        assert!(is_refused, "{found:?}");
+    }
+}
+
 #[test]
 fn spheres_that_cannot_have_the_volume_of_the_grain_are_no_clump() {
     let mesh = body();

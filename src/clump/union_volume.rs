@@ -4,13 +4,16 @@ use crate::measure::Ball;
 use nalgebra::{Matrix3, Point3, Vector3};
 use rayon::prelude::*;
 
+/// The most rows across the shorter side, whose error is below 1e-5.
+const MOST_ROWS: usize = 3000;
+
 /// The most rows across the longer side that is cut, of those across the shorter one.
 const MOST_TIMES: f64 = 100.0;
 
 /// The volume of a union of balls, by rows along its longest principal axis, each of which is cut exactly; what several
-/// balls hold counts once. `rows`, one at least, is their number across the shorter of the two other sides of the union;
-/// they are as near to each other along the longer one. Zero of no balls; those of no radius, or one below zero, hold
-/// nothing.
+/// balls hold counts once. `rows`, one at least and 3000 at most, is their number across the shorter of the two other
+/// sides of the union; they are as near to each other along the longer one, and less and more are taken as these bounds. Zero of
+/// no balls; those of no radius, or one below zero, hold nothing.
 ///
 /// Error, relative to the volume: that of a sum over the rims of the balls, below 1e-4 from 300 rows on.
 pub fn union_volume(balls: &[Ball], rows: usize) -> f64 {
@@ -28,7 +31,7 @@ pub fn union_volume(balls: &[Ball], rows: usize) -> f64 {
     let ((left, width), (front, depth)) = (ends(0), ends(1));
     let across = |side: f64| {
         let times = (side / width.min(depth)).min(MOST_TIMES);
-        (times * rows.max(1) as f64).ceil() as usize
+        (times * rows.clamp(1, MOST_ROWS) as f64).ceil() as usize
     };
     let (slices, rows) = (across(width), across(depth));
     let (width, depth) = (width / slices as f64, depth / rows as f64);
@@ -146,6 +149,18 @@ mod tests {
         assert_eq!(
             [union_volume(&[hollow], 300), union_volume(&[], 300)],
             [0.0; 2]
+        );
+    }
+
+    #[test]
+    fn more_rows_than_the_most_are_the_most() {
+        let ball = Ball {
+            centre: Point3::origin(),
+            radius: 1.0,
+        };
+        assert_eq!(
+            union_volume(&[ball], usize::MAX),
+            union_volume(&[ball], MOST_ROWS)
         );
     }
 
