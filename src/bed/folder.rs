@@ -6,6 +6,7 @@ use super::rest::Rest;
 use super::settings::{BedError, BedSettings};
 use super::settle::{Bed, State};
 use super::write::{write_dump, write_vtk};
+use crate::digits::given;
 use crate::export::{SaveError, WriteError, sweep, write_atomically};
 use serde::{Deserialize, Serialize};
 use std::fs;
@@ -26,9 +27,9 @@ const FRAME: f64 = 0.05;
 /// one that begins removes the files of a former one first.
 #[derive(Debug, Clone, Copy)]
 pub struct Folder<'a> {
-    /// Where it is; it must exist.
+    /// Where it is; [`settle`](Self::settle) makes it if it is not there.
     pub path: &'a Path,
-    /// Metres of the unit of lengths in frames and `bed.vtk`; the state is in SI units.
+    /// Metres of the unit of lengths in frames and `bed.vtk`, above zero; the state is in SI units.
     pub unit: f64,
 }
 
@@ -42,6 +43,12 @@ pub enum FolderError {
     /// A file could not be written.
     #[error(transparent)]
     Save(#[from] SaveError),
+    /// The unit of lengths is not above zero, or not finite.
+    #[error("the unit of lengths must be a finite number of metres above zero, not {}", given(*unit))]
+    Unit {
+        /// The unit given, in metres.
+        unit: f64,
+    },
     /// The folder or a file in it could not be made, read or removed.
     #[error("cannot use {}", path.display())]
     Use {
@@ -134,6 +141,10 @@ impl Folder<'_> {
     /// # Errors
     /// [`FolderError`].
     pub fn settle(&self, bed: &mut Bed, mut told: impl FnMut(&Bed)) -> Result<Rest, FolderError> {
+        // Written so that NaN fails.
+        if !(self.unit > 0.0 && self.unit.is_finite()) {
+            return Err(FolderError::Unit { unit: self.unit });
+        }
         if bed.steps() == 0 {
             self.clear()?;
         }
@@ -204,4 +215,34 @@ fn digest(bed: &Bed) -> String {
         (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
     });
     format!("{hash:016x}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bed::tests::few;
+
+    #[test]
+    fn a_folder_is_made_by_a_bed_that_settles_and_has_a_unit() {
+        let (settings, kinds) = few(BedSettings {
+            most_seconds: 1e-3,
+            ..BedSettings::default()
+        });
+        let above = tempfile::tempdir().unwrap();
+        let path = &above.path().join("a/b");
+        let settled = |unit: f64| {
+            let mut bed = Bed::new(settings.clone(), kinds.clone(), &[1.0, 1.0], None).unwrap();
+            Folder { path, unit }.settle(&mut bed, |_| {})
+        };
+        for unit in [0.0, -1e-3, f64::INFINITY, f64::NAN] {
+            let found = settled(unit);
+            assert!(
+                matches!(found, Err(FolderError::Unit { .. })),
+                "{unit}: {found:?}"
+            );
+            assert!(!path.exists());
+        }
+        settled(1e-3).unwrap();
+        assert!(path.join("bed.vtk").exists());
+    }
 }

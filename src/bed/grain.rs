@@ -52,7 +52,7 @@ pub enum GrainError {
         /// The value given.
         value: f64,
     },
-    /// Lengths that are not above zero, or volume or inertia that are not finite.
+    /// Lengths that are not above zero or not finite, none at all, or such a volume or inertia.
     #[error("the size of a grain is not a length above zero")]
     Size,
 }
@@ -113,7 +113,8 @@ impl GrainKind {
             return Err(GrainError::Density { value: density });
         }
         let principal = solid.principal().ok_or(GrainError::Size)?;
-        if !(solid.volume > 0.0 && principal.moments.min() > 0.0) {
+        let is_fit = solid.volume > 0.0 && solid.volume.is_finite();
+        if !(is_fit && principal.moments.min() > 0.0) {
             return Err(GrainError::Size);
         }
         let parts = parts.iter().map(|part| {
@@ -138,6 +139,10 @@ impl GrainKind {
         });
         let parts: Vec<KindPart> = parts.collect();
         let distance = |part: &KindPart| part.part.frame.centre.coords.norm();
+        let is_finite = |part: &KindPart| (distance(part) + part.reach).is_finite();
+        if parts.is_empty() || !parts.iter().all(is_finite) {
+            return Err(GrainError::Size);
+        }
         let largest = |of: &dyn Fn(&KindPart) -> f64| parts.iter().map(of).fold(0.0, f64::max);
         Ok(Self {
             mass: density * solid.volume,
@@ -231,5 +236,37 @@ impl GrainKind {
         let frame = Frame { centre, axes };
         let parts = self.parts.iter();
         parts.map(move |KindPart { part, .. }| part.frame.within(&frame))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_clump_without_spheres_or_with_one_that_is_nowhere_is_no_grain() {
+        let found = |spheres: Vec<Ball>| {
+            let grain = MassProperties {
+                area: 4.0 * PI,
+                volume: 4.0 / 3.0 * PI,
+                centroid: Point3::origin(),
+                inertia: Matrix3::identity(),
+            };
+            let clump = Clump {
+                spheres,
+                grain,
+                rms: 0.0,
+                volume_error: 0.0,
+            };
+            GrainKind::of_clump(&clump, 1e-3, 2500.0)
+        };
+        let at = |x: f64| Ball {
+            centre: Point3::new(x, 0.0, 0.0),
+            radius: 1.0,
+        };
+        assert!(found(vec![at(0.0)]).is_ok());
+        for spheres in [vec![], vec![at(0.0), at(f64::NAN)], vec![at(f64::INFINITY)]] {
+            assert_eq!(found(spheres), Err(GrainError::Size));
+        }
     }
 }

@@ -22,6 +22,9 @@ const STRATA: f64 = 10.0;
 const MOST_STRATA: f64 = 4e6;
 const MOST_ALONG: f64 = 1e4;
 
+/// Most layers: a bed that is higher has run away.
+const MOST_LAYERS: f64 = 1e5;
+
 /// How far the core keeps from side walls, in mean diameters, and from the floor, in layers.
 const FROM_SIDES: f64 = 2.0;
 const LAYERS_FROM_FLOOR: usize = 3;
@@ -118,7 +121,7 @@ impl Tally {
 }
 
 impl Packing {
-    /// That of a bed whose fractions mean nothing.
+    /// That of a bed whose fractions mean nothing: without layers too.
     pub fn without_fractions(bed: &Bed) -> Self {
         Self {
             core: None,
@@ -129,17 +132,22 @@ impl Packing {
     }
 }
 
-/// How densely a bed is packed.
+/// How densely a bed is packed; [without fractions](Packing::without_fractions) if its surface is higher than 50 000 mean
+/// diameters, or not finite, for its grains have run away.
 pub fn packing(bed: &Bed) -> Packing {
-    let grid = Grid::new(bed);
     let surface = surface(bed.bodies());
     let diameter = 2.0 * mean_radius(bed);
     let thickness = LAYER * diameter;
-    let count = (surface / thickness).floor().max(0.0) as usize;
+    let count = (surface / thickness).floor().max(0.0);
+    // Written so that NaN fails.
+    if !(surface.is_finite() && count <= MOST_LAYERS) {
+        return Packing::without_fractions(bed);
+    }
+    let grid = Grid::new(bed);
     let tallies = |layer: usize, below: f64| {
         grid.layer(bed.settings().container, layer, thickness, diameter, below)
     };
-    let layers: Vec<[Tally; 2]> = (0..count)
+    let layers: Vec<[Tally; 2]> = (0..count as usize)
         .into_par_iter()
         .map(|layer| tallies(layer, f64::INFINITY))
         .collect();

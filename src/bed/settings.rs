@@ -18,6 +18,10 @@ pub const BED_GRAINS: RangeInclusive<usize> = 1..=1_000_000;
 /// A step as a share of the time that a Rayleigh wave takes through the smallest grain.
 const STEP: f64 = 0.2;
 
+/// Most damping along the normal, three times what is critical: with 3 beds settle, with 10 each step of [`STEP`] sends grains
+/// back faster than they came.
+const MOST_DAMPING: f64 = 3.0;
+
 /// Most triangles of a wall.
 const MOST_TRIANGLES: usize = 100_000;
 
@@ -49,7 +53,7 @@ pub struct BedSettings {
     pub friction: f64,
     /// mu_r, likewise.
     pub rolling_friction: f64,
-    /// c_n and c_t, likewise.
+    /// c_n, at most 3, and c_t, likewise.
     pub damping: [f64; 2],
     /// Downwards, in m/s².
     pub gravity: f64,
@@ -192,7 +196,12 @@ impl BedSettings {
             ),
             zero_or_above("the coefficient of friction", mu),
             zero_or_above("the coefficient of rolling friction", mu_r),
-            zero_or_above("the damping along the normal", self.damping[0]),
+            (
+                "the damping along the normal",
+                "from 0 to 3",
+                self.damping[0],
+                (0.0..=MOST_DAMPING).contains(&self.damping[0]),
+            ),
             zero_or_above("the damping across the normal", self.damping[1]),
             above_zero("the gravity", self.gravity),
             // More is a bed that moves.
@@ -287,4 +296,24 @@ impl BedSettings {
 fn smallest(kinds: &[GrainKind]) -> f64 {
     let radii = kinds.iter().map(GrainKind::radius);
     radii.fold(f64::INFINITY, f64::min)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bed::Bed;
+    use crate::bed::tests::few;
+
+    #[test]
+    fn damping_that_makes_beds_run_away_is_refused() {
+        let refused = |damping: f64| {
+            let (settings, kinds) = few(BedSettings {
+                damping: [damping, 0.2],
+                ..BedSettings::default()
+            });
+            Bed::new(settings, kinds, &[1.0, 1.0], None).is_err()
+        };
+        assert!(!refused(3.0));
+        assert!([10.0, 1e17, f64::NAN].into_iter().all(refused));
+    }
 }

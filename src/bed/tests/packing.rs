@@ -55,3 +55,20 @@ fn a_bed_with_no_room_between_its_walls_has_no_core() {
     assert!(narrow.layers.iter().all(|layer| layer.core.is_none()));
     assert!(of_width(5.1).core.is_some());
 }
+
+#[test]
+fn a_bed_that_ran_away_has_no_fractions() {
+    for height in [1e3, 1e17, 1e150, f64::INFINITY, f64::NAN] {
+        let bed = bed(
+            BedSettings::default(),
+            ball(),
+            vec![slope(0.0)],
+            [1.0, 2.0, 3.0, 4.0]
+                .map(|level| above(5e-3 * level))
+                .to_vec(),
+        );
+        let moved = bed.moved(vec![above(height); 4]).unwrap();
+        let found = packing(&moved);
+        assert!(found.core.is_none() && found.whole.is_none() && found.layers.is_empty());
+    }
+}
