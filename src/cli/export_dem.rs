@@ -189,5 +189,5 @@ fn shapes(
         let doubts = subject.solid.warnings.iter();
         doubts.map(move |doubt| format!("{name}: {doubt}"))
     });
-    Ok((anm_files(&grains, &doubts.collect::<Vec<_>>()), told))
+    Ok((anm_files(&grains, &doubts.collect::<Vec<_>>())?, told))
 }

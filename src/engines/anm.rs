@@ -40,8 +40,25 @@ impl AnmExpansion {
     }
 }
 
+/// An expansion whose coefficients are not those of all harmonics up to a degree.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "the coefficients of an expansion are 1, 4, 9 or another square number, not {coefficients}"
+)]
+pub struct InvalidAnm {
+    /// How many there are.
+    pub coefficients: usize,
+}
+
 /// The lines `n m Re Im`, degree by degree, m from n down to -n.
-pub fn write_anm(expansion: &AnmExpansion) -> String {
+///
+/// # Errors
+/// [`InvalidAnm`].
+pub fn write_anm(expansion: &AnmExpansion) -> Result<String, InvalidAnm> {
+    let coefficients = expansion.coefficients.len();
+    if coefficients == 0 || coefficients.isqrt().pow(2) != coefficients {
+        return Err(InvalidAnm { coefficients });
+    }
     let mut text = String::new();
     for degree in 0..=expansion.degree() {
         for m in (0..=2 * degree).rev() {
@@ -50,15 +67,21 @@ pub fn write_anm(expansion: &AnmExpansion) -> String {
             let _ = writeln!(text, "{degree:4}{order:4} {re:24.16e} {im:24.16e}");
         }
     }
-    text
+    Ok(text)
 }
 
 /// The folder: a file of coefficients for each grain, and a README, which ends in what is not to be relied on: whole sentences.
-pub fn anm_files(grains: &[(String, AnmExpansion)], doubts: &[String]) -> Vec<InputFile<'static>> {
-    let mut files: Vec<InputFile<'static>> = grains
-        .iter()
-        .map(|(name, expansion)| InputFile::new(format!("{name}.anm"), write_anm(expansion)))
-        .collect();
+///
+/// # Errors
+/// [`InvalidAnm`].
+pub fn anm_files(
+    grains: &[(String, AnmExpansion)],
+    doubts: &[String],
+) -> Result<Vec<InputFile<'static>>, InvalidAnm> {
+    let file = |(name, expansion): &(String, AnmExpansion)| {
+        Ok(InputFile::new(format!("{name}.anm"), write_anm(expansion)?))
+    };
+    let mut files = grains.iter().map(file).collect::<Result<Vec<_>, _>>()?;
     let names: Vec<String> = files.iter().map(|file| file.path.clone()).collect();
     let degree = grains.iter().map(|(_, e)| e.degree()).max().unwrap_or(0);
     files.push(InputFile::new(
@@ -72,5 +95,5 @@ pub fn anm_files(grains: &[(String, AnmExpansion)], doubts: &[String]) -> Vec<In
             doubts.iter().map(|doubt| format!("{doubt}\n")).collect::<String>(),
         ),
     ));
-    files
+    Ok(files)
 }

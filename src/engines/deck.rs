@@ -101,7 +101,7 @@ impl Deck {
             let [i, j, k] = [
                 index % per_row,
                 index / per_row % per_row,
-                index / (per_row * per_row),
+                index / per_row.saturating_mul(per_row),
             ];
             let across = |i: usize| (i as f64 + 0.5) * side / per_row as f64;
             // Four normal deviates point everywhere alike.
@@ -279,6 +279,7 @@ fn check(kinds: &[Kind], count: usize, material: &GrainMaterial) -> Result<(), I
     if count == 0 || kinds.is_empty() {
         return Err(InvalidDeck::NoGrains);
     }
+    kinds.iter().try_for_each(Kind::check)?;
     let most = kinds.iter().map(|kind| kind.spheres.len()).max();
     if count.saturating_mul(most.unwrap_or(0)) > Deck::MOST_SPHERES {
         return Err(InvalidDeck::TooMany {

@@ -1,5 +1,6 @@
 //! Why an engine is given nothing.
 
+use super::kind::InvalidKind;
 use crate::bed::{BedError, PaceError};
 use crate::digits::given;
 
@@ -23,6 +24,9 @@ pub enum InvalidDeck {
     /// The grains of a bed are no spheres.
     #[error("engines take grains of spheres only")]
     NoSpheres,
+    /// A kind of grain.
+    #[error("one of the grains is none that engines take")]
+    Kind(#[from] InvalidKind),
     /// The material of a bed.
     #[error(transparent)]
     Bed(#[from] BedError),

@@ -34,8 +34,11 @@ pub enum InvalidKind {
         /// The density given.
         found: f64,
     },
-    /// Mass or moments are not finite numbers above zero at this unit of length.
-    #[error("its mass or moments of inertia are out of range in SI units")]
+    /// It has no spheres.
+    #[error("it has no spheres")]
+    NoSpheres,
+    /// Mass, moments or radii are not finite numbers above zero at this unit of length, or a centre is not finite.
+    #[error("its mass, moments of inertia or lengths are out of range in SI units")]
     OutOfRange,
 }
 
@@ -66,9 +69,27 @@ impl Kind {
             superquadric: None,
             doubts: Vec::new(),
         };
-        let numbers = [kind.mass, kind.moments.x, kind.moments.y, kind.moments.z];
-        match numbers.iter().all(|x| x.is_normal() && *x > 0.0) {
-            true => Ok(kind),
+        kind.check()?;
+        Ok(kind)
+    }
+
+    /// Refuses what no engine can take.
+    pub(super) fn check(&self) -> Result<(), InvalidKind> {
+        if self.spheres.is_empty() {
+            return Err(InvalidKind::NoSpheres);
+        }
+        let spheres = self.spheres.iter().map(|ball| ball.radius);
+        let superquadric = self.superquadric.iter().map(Superquadric::bounding_radius);
+        // The box that grains fall into is made by their volume, and has one.
+        let mut above_zero = [self.mass, self.bounding_radius().powi(3)]
+            .into_iter()
+            .chain(self.moments.iter().copied())
+            .chain(spheres)
+            .chain(superquadric);
+        let mut distances = self.spheres.iter().map(|ball| ball.centre.coords.norm());
+        let is_fit = above_zero.all(|x| x.is_normal() && x > 0.0) && distances.all(f64::is_finite);
+        match is_fit {
+            true => Ok(()),
             false => Err(InvalidKind::OutOfRange),
         }
     }

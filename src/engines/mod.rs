@@ -18,7 +18,7 @@ mod readme;
 mod tests;
 mod yade;
 
-pub use anm::{AnmExpansion, anm_files, write_anm};
+pub use anm::{AnmExpansion, InvalidAnm, anm_files, write_anm};
 pub use deck::{Deck, GRAVITY, Placed};
 pub use engine::Engine;
 pub use error::InvalidDeck;

@@ -92,7 +92,7 @@ write_dump all custom settled.dump id mol type x y z radius modify sort id
 ",
         cutoff = 1.1 * deck.largest_diameter(),
         skin = 0.3 * deck.least_radius(),
-        line = LINE * look,
+        line = LINE.saturating_mul(look),
         frame = (deck.frame() / step).ceil(),
         most = deck.most_steps(),
         ends_at_rest = rest(deck.rest_energy(), look, look),

@@ -67,8 +67,8 @@ if \"${{energy}} < {rest:e}\" then &
         walls = bodies.len() + 1,
         skin = 0.3 * least,
         page = 10 * neighbours,
-        frame = LOOKS * look,
-        ends_at_rest = rest(deck.rest_energy(), look, LOOKS * look),
+        frame = LOOKS.saturating_mul(look),
+        ends_at_rest = rest(deck.rest_energy(), look, LOOKS.saturating_mul(look)),
         rest = deck.rest_energy(),
         most = (deck.seconds / step).ceil(),
     )
