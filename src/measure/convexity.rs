@@ -20,9 +20,14 @@ impl Convexity {
     ///
     /// # Errors
     ///
-    /// When either has no volume.
+    /// When either has no volume, or is wound inwards, so that it has one below zero.
     pub fn new(mesh: &Mesh, hull: &Mesh) -> Result<Self, MeshIntegralError> {
         let (body, hull) = (mesh_properties(mesh)?, mesh_properties(hull)?);
+        for volume in [body.volume, hull.volume] {
+            if volume < 0.0 {
+                return Err(MeshIntegralError::NoVolume { volume });
+            }
+        }
         Ok(Self {
             volume: body.volume / hull.volume,
             area: hull.area / body.area,
@@ -39,5 +44,29 @@ impl Convexity {
                 [0.0, f64::INFINITY],
             )?,
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_wound_inwards_has_no_convexity() {
+        let body = Mesh::radial(4, |_| 1.0);
+        let mut inwards = body.clone();
+        inwards
+            .triangles
+            .iter_mut()
+            .for_each(|corners| corners.swap(0, 1));
+        let found = Convexity::new(&body, &body).unwrap();
+        assert_eq!([found.volume, found.area], [1.0; 2]);
+        for (one, other) in [(&inwards, &body), (&body, &inwards), (&inwards, &inwards)] {
+            let found = Convexity::new(one, other);
+            assert!(matches!(
+                found,
+                Err(MeshIntegralError::NoVolume { volume }) if volume < 0.0
+            ));
+        }
     }
 }

@@ -22,7 +22,7 @@ pub enum MeshIntegralError {
     /// The mesh is empty or flat, or a coordinate is not finite: there is no centroid.
     #[error("the mesh encloses no volume ({volume})")]
     NoVolume {
-        /// The volume found: zero or not finite.
+        /// The volume found: zero or not finite, or where the winding matters below zero.
         volume: f64,
     },
 }

@@ -51,7 +51,7 @@ impl TrayOptions {
     pub fn clean(grains: usize) -> Self {
         Self {
             grains,
-            points: 6000 * grains,
+            points: grains.saturating_mul(6000),
             noise: 0.0,
             seed: 0,
         }
@@ -276,4 +276,17 @@ fn lay_out(options: &TrayOptions) -> Result<Layout, TrayError> {
         touching,
         sides,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn trays_of_more_grains_than_can_be_are_refused() {
+        for grains in [usize::MAX, usize::MAX / 6000 + 1] {
+            let found = synthesize_tray(&TrayOptions::clean(grains));
+            assert_eq!(found, Err(TrayError::Grains { grains }));
+        }
+    }
 }
