@@ -38,7 +38,8 @@ const LARGEST_RADIUS: f64 = 1e100;
 pub struct LeastRadius {
     /// No radius is less: above zero.
     pub proved: f64,
-    /// The least one that was met.
+    /// Some radius is not greater: the least one that was met, or a bound on it where the grain is
+    /// [stretched](super::Stretch).
     pub found: f64,
 }
 
@@ -97,13 +98,14 @@ impl StarGrain {
         }
         let (directions, _) = cube_grid(FIRST);
         let radii = self.local_radii(&directions);
+        let met = radii.iter().copied().fold(f64::INFINITY, f64::min);
         // In the stretched space, as the surface is.
         let mut found = f64::INFINITY;
         for (n, radius) in directions.iter().zip(radii) {
             let (q, length) = self.stretch().direction(n);
             let radius = radius * length;
             if radius.is_nan() || radius <= 0.0 {
-                return Err(self.failed(Failure::NotPositive(q, radius)));
+                return Err(self.failed(Failure::NotPositive(q, radius), met));
             }
             found = found.min(radius);
         }
@@ -146,10 +148,10 @@ impl StarGrain {
                 }
             }
         };
-        let (proved, found) = least.map_err(|failure| self.failed(failure))?;
+        let (proved, found) = least.map_err(|failure| self.failed(failure, met))?;
         let least = LeastRadius {
             proved: proved / factors.max(),
-            found: found / factors.min(),
+            found: met.min(found / factors.min()),
         };
         match least.proved >= 1.0 / LARGEST_RADIUS {
             true => Ok(least),
@@ -157,11 +159,11 @@ impl StarGrain {
         }
     }
 
-    /// In the scan's frame.
-    fn failed(&self, failure: Failure) -> InvalidGrain {
+    /// In the scan's frame, where `met` is the least of the radii tried first.
+    fn failed(&self, failure: Failure, met: f64) -> InvalidGrain {
         match failure {
             Failure::Unproved(radius) => InvalidGrain::Unproved {
-                found: radius / self.stretch().factors().min(),
+                found: met.min(radius / self.stretch().factors().min()),
             },
             Failure::NotPositive(q, radius) => {
                 let local = q.component_div(self.stretch().factors()).normalize();

@@ -120,6 +120,17 @@ fn the_bound_is_below_a_dense_sample_and_near_it() {
 }
 
 #[test]
+fn of_an_ellipsoid_the_shortest_semi_axis_is_met() {
+    let stretch = Stretch::new(Vector3::new(1.0, 0.5, 1.0 / 3.0)).expect("a stretch");
+    let ball = Whole::new(vec![(4.0 * PI).sqrt()]).expect("an expansion");
+    let ellipsoid = StarGrain::stretched(frame(), stretch, Family::Whole(ball)).expect("a grain");
+    let least = ellipsoid.least_radius().expect("a sound grain");
+    for radius in [least.proved, least.found] {
+        assert!((radius - 1.0).abs() < 1e-12, "{least:?}");
+    }
+}
+
+#[test]
 fn a_narrow_dent_between_samples_is_met() {
     // A dent of 4 degrees that goes just below zero, far from all directions tried first.
     let place = Vector3::new(0.31, 0.57, 0.76).normalize();
