@@ -25,9 +25,9 @@ use super::cap::{Cap, Places};
 use crate::vectorize::vectorize;
 use nalgebra::Vector3;
 
-/// Number of coefficients of an expansion of degree `degree`: (L+1)^2.
+/// Number of coefficients of an expansion of degree `degree`: (L+1)^2, or the largest number where that is larger.
 pub const fn coefficient_count(degree: usize) -> usize {
-    (degree + 1) * (degree + 1)
+    degree.saturating_add(1).saturating_pow(2)
 }
 
 /// Places evaluated together, so that the compiler uses the widest registers there are.

@@ -137,6 +137,9 @@ impl Cover {
     }
 
     /// The cap in which the expansion of a cell lives.
+    ///
+    /// # Panics
+    /// If there are not so many [cells](Self::cells).
     pub fn cap(&self, cell: usize) -> &Cap {
         &self.caps[cell]
     }

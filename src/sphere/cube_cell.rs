@@ -17,7 +17,11 @@ const LARGEST_REACH: f64 = MARGIN * FRAC_PI_2;
 /// Zones thinner than this, in widths of the cell, hold nothing but rounding.
 const THINNEST_ZONE: f64 = 1e-12;
 
-/// A cell on one of the six faces of the cube.
+/// A cell on one of the six faces of the cube. Other numbers than those told are of no cell, and no [`Cover`](super::Cover)
+/// takes them.
+///
+/// # Panics
+/// What tells directions, caps and solid angles does so where the face is none of the six.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct CubeCell {
     /// Face 2a + s: a the axis (0: x, 1: y, 2: z), s = 0 on the positive side and 1 on the negative.
@@ -62,13 +66,14 @@ impl CubeCell {
         Self::position(self.parts, n) == (face * parts + row) * parts + column
     }
 
-    /// The four cells of half the width that make this one.
+    /// The four cells of half the width that make this one; no cells of a face that is cut in 32 768 parts or more.
     pub fn quarters(&self) -> [Self; 4] {
+        let half = |at: u16, i: u16| at.saturating_mul(2).saturating_add(i);
         [(0, 0), (0, 1), (1, 0), (1, 1)].map(|(i, j)| Self {
             face: self.face,
-            parts: 2 * self.parts,
-            row: 2 * self.row + i,
-            column: 2 * self.column + j,
+            parts: half(self.parts, 0),
+            row: half(self.row, i),
+            column: half(self.column, j),
         })
     }
 
@@ -85,7 +90,8 @@ impl CubeCell {
     /// Angles atan t of the cell's borders: along b, along c.
     pub(super) fn angles(&self) -> [[f64; 2]; 2] {
         [self.row, self.column].map(|at| {
-            [at, at + 1].map(|i| FRAC_PI_2 * f64::from(i) / f64::from(self.parts) - FRAC_PI_4)
+            let at = f64::from(at);
+            [at, at + 1.0].map(|i| FRAC_PI_2 * i / f64::from(self.parts) - FRAC_PI_4)
         })
     }
 
@@ -187,5 +193,26 @@ impl CubeCell {
             let along_c = along_c.into_iter().filter(is_wide);
             along_c.map(move |c| FaceRectangle { cell, b, c })
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_of_no_cell_have_quarters_of_none() {
+        let (face, last) = (5, u16::MAX);
+        for [parts, row, column] in [[last; 3], [32_768, 32_767, 0], [0; 3]] {
+            let cell = CubeCell {
+                face,
+                parts,
+                row,
+                column,
+            };
+            let quarters = cell.quarters().to_vec();
+            assert!(crate::sphere::Cover::new(quarters).is_err());
+            assert!(!cell.solid_angle().is_nan() || parts == 0);
+        }
     }
 }

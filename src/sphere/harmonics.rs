@@ -18,7 +18,9 @@ use std::f64::consts::PI;
 /// Index of the harmonic of degree l and order m, from -l to l, in a list: j = l(l+1) + m. Of other orders it is that of
 /// another degree, or of none.
 pub const fn harmonic_index(degree: usize, order: isize) -> usize {
-    ((degree * (degree + 1)) as isize + order) as usize
+    degree
+        .wrapping_mul(degree.wrapping_add(1))
+        .wrapping_add_signed(order)
 }
 
 /// All real orthonormal harmonics of degree <= `degree` in the direction of the unit vector `n`, at
@@ -101,6 +103,13 @@ impl HarmonicBasis {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn orders_beyond_the_degree_have_an_index_too() {
+        assert_eq!(harmonic_index(2, -1), 5);
+        assert_eq!(harmonic_index(1, isize::MAX), isize::MAX as usize + 2);
+        assert_eq!(harmonic_index(1, isize::MIN), (isize::MIN + 2) as usize);
+    }
 
     #[test]
     fn low_degrees_match_their_closed_forms() {

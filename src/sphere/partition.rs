@@ -5,6 +5,9 @@ use super::{Cap, GaussLegendre};
 use nalgebra::Vector3;
 use std::f64::consts::{PI, TAU};
 
+/// Most parts per angle: the number of segments is one of 32 bits.
+const MOST_PARTS: usize = 65_535;
+
 /// k x k segments, numbered row by row from the north pole: segment = i_theta k + i_phi.
 ///
 /// A segment is half open: it holds its lower polar angle and azimuth, not its upper ones (the last
@@ -24,10 +27,10 @@ pub struct AngleRectangle {
 }
 
 impl AngularPartition {
-    /// The partition with `per_angle` >= 1 parts per angle (0 is taken as 1).
+    /// The partition with `per_angle` parts per angle, from 1 to 65 535: 0 is taken as 1, and more as the most.
     pub fn new(per_angle: usize) -> Self {
         Self {
-            per_angle: per_angle.max(1),
+            per_angle: per_angle.clamp(1, MOST_PARTS),
         }
     }
 
@@ -50,11 +53,11 @@ impl AngularPartition {
     /// The bounds of a segment, whose number is below [`Self::segments`]: beyond, they are no part of the sphere.
     pub fn rectangle(&self, segment: usize) -> AngleRectangle {
         let k = self.per_angle;
-        let (row, column) = (segment / k, segment % k);
-        let cut = |i: usize, whole: f64| whole * i as f64 / k as f64;
+        let (row, column) = ((segment / k) as f64, (segment % k) as f64);
+        let cut = |i: f64, whole: f64| whole * i / k as f64;
         AngleRectangle {
-            theta: [cut(row, PI), cut(row + 1, PI)],
-            phi: [cut(column, TAU), cut(column + 1, TAU)],
+            theta: [cut(row, PI), cut(row + 1.0, PI)],
+            phi: [cut(column, TAU), cut(column + 1.0, TAU)],
         }
     }
 
@@ -196,6 +199,19 @@ mod tests {
                     let cap = partition.cap(segment);
                     assert!((n - cap.centre).norm_squared() / 2.0 <= cap.height * (1.0 + 1e-7));
                 }
+            }
+        }
+    }
+
+    #[test]
+    fn any_number_of_parts_and_any_segment_has_a_value() {
+        for per_angle in [0, 1, 3, usize::MAX] {
+            let partition = AngularPartition::new(per_angle);
+            let south = partition.segment_of(&-Vector3::z());
+            assert!(south < partition.segments());
+            for segment in [partition.segments(), usize::MAX] {
+                let [low, high] = partition.rectangle(segment).theta;
+                assert!(low >= PI && high >= low);
             }
         }
     }

@@ -139,3 +139,9 @@ fn the_basis_spans_the_harmonics() {
         .expect("solved");
     assert!((design * solution - target).amax() < 1e-13);
 }
+
+#[test]
+fn any_degree_has_a_number_of_coefficients() {
+    let counts = [0, 3, usize::MAX / 2, usize::MAX].map(coefficient_count);
+    assert_eq!(counts, [1, 16, usize::MAX, usize::MAX]);
+}
