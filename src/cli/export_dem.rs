@@ -91,11 +91,10 @@ fn deck(args: &ExportDemArgs, subjects: &[Subject]) -> Result<(Deck, Vec<String>
     let density = material.density;
     let (mut kinds, mut told) = (Vec::new(), Vec::new());
     for Subject { solid, input, name } in subjects {
-        let failed = || format!("cannot make a clump of {input}");
         let found = clump(&solid.mesh, &solid.properties, args.deck.spheres.target())
-            .with_context(failed)?;
+            .with_context(|| format!("cannot make a clump of {input}"))?;
         let kind = Kind::new(name, &found, metres, density)
-            .with_context(failed)?
+            .with_context(|| format!("cannot write {input} for an engine"))?
             .with_doubts(&solid.warnings);
         kinds.push(match solid.grain.as_ref().and_then(single) {
             Some(shape) => kind.with_superquadric(&shape, metres),

@@ -164,7 +164,9 @@ if \"${{energy}} < {rest:e}\" then \"jump SELF done\"
 next look
 jump SELF again
 label done
-print \"at rest: kinetic energy ${{energy}} J\"
+if \"${{energy}} < {rest:e}\" then &
+  \"print 'at rest: kinetic energy ${{energy}} J'\" else &
+  \"print 'not at rest: kinetic energy ${{energy}} J'\"
 dump settled all custom 1 settled.dump id type x y z radius
 run 0
 ",

@@ -123,6 +123,49 @@ fn lammps_reads_spheres_in_their_places_and_the_inertia_of_each_grain_in_space()
     assert!(text(Engine::Lammps, "in.settle").contains("infile bodies.in gravity grav"));
 }
 
+/// LAMMPS refuses bodies of one particle.
+#[test]
+fn a_grain_of_one_sphere_has_another_within_it_for_lammps() {
+    let sphere = vec![clump().spheres[0]];
+    let single = Clump {
+        spheres: sphere,
+        ..clump()
+    };
+    let kind = Kind::new("a ball", &single, 1e-3, 2500.0).unwrap();
+    let deck = Deck::column(vec![kind], 3, GrainMaterial::trial(2500.0), 7).unwrap();
+    let data = written(Engine::Lammps, &deck, "data.clumps");
+    assert!(data.contains("\n6 atoms\n"), "{data}");
+    let (atoms, molecules) = data.split_once("Molecules").unwrap();
+    let rows = |text: &str, length: usize| -> Vec<Vec<f64>> {
+        let rows = text.lines().map(numbers);
+        rows.filter(|row| row.len() == length).collect()
+    };
+    let (atoms, molecules) = (rows(atoms, 7), rows(molecules, 2));
+    let of = molecules.iter().map(|row| row[1]).collect::<Vec<_>>();
+    assert_eq!(of, [1.0, 2.0, 3.0, 1.0, 2.0, 3.0]);
+    for grain in 0..3 {
+        let [own, within] = [&atoms[grain], &atoms[grain + 3]];
+        let apart =
+            Vector3::from_column_slice(&own[4..7]) - Vector3::from_column_slice(&within[4..7]);
+        let reach = apart.norm() + within[2] / 2.0;
+        assert!(apart.norm() > 0.0 && reach < 0.2 * own[2] / 2.0, "{reach}");
+    }
+    assert!(written(Engine::Lammps, &deck, "README").contains("a tiny one within it"));
+    assert!(!text(Engine::Lammps, "README").contains("a tiny one within it"));
+}
+
+#[test]
+fn scripts_tell_whether_grains_are_at_rest() {
+    for (engine, path) in [
+        (Engine::Lammps, "in.settle"),
+        (Engine::Liggghts, "in.settle"),
+        (Engine::Yade, "settle.py"),
+    ] {
+        let script = text(engine, path);
+        assert!(script.contains("not at rest"), "{script}");
+    }
+}
+
 #[test]
 fn yade_liggghts_and_mercury_are_given_the_same_grain() {
     let kind = deck().kinds.remove(0);

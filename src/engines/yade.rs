@@ -143,7 +143,8 @@ while energy() >= rest and O.iter < {most}:
     O.run(500, True)
 lost = sum(1 for clump in clumps if not (0 < O.bodies[clump].state.pos[2]
            and all(0 < O.bodies[clump].state.pos[axis] < floor[axis] for axis in (0, 1))))
-print("at rest: kinetic energy %e J, %d grains, %d lost, %d steps" % (energy(), len(clumps), lost, O.iter))
+print("%s: kinetic energy %e J, %d grains, %d lost, %d steps" % (
+    "at rest" if energy() < rest else "not at rest", energy(), len(clumps), lost, O.iter))
 with open("settled.csv", "w") as file:
     file.write("x,y,z,r\n")
     for body in O.bodies:

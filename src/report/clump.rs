@@ -107,12 +107,14 @@ impl fmt::Display for ClumpReport {
         let radii = self.spheres.iter().map(|sphere| sphere.r);
         let least = radii.clone().fold(f64::INFINITY, f64::min);
         let largest = radii.fold(0.0, f64::max);
+        let radii = match self.spheres.len() {
+            1 => format!("radius {}", short(least)),
+            _ => format!("radii {} to {}", short(least), short(largest)),
+        };
         writeln!(
             f,
-            "clump         {}, radii {} to {}{}",
+            "clump         {}, {radii}{}",
             plural(self.spheres.len(), "sphere"),
-            short(least),
-            short(largest),
             labels.length()
         )?;
         writeln!(

@@ -135,6 +135,11 @@ impl RegionsReport {
             }
         };
         let regions: Vec<_> = found.regions.iter().map(record).collect();
+        let of_points = found
+            .regions
+            .iter()
+            .any(|region| region.curvatures.is_none());
+        warnings.extend(of_points.then(|| DEPTH_OF_POINTS.into()));
         Self {
             first,
             second,
@@ -152,6 +157,9 @@ impl RegionsReport {
 
 /// Why a region has neither curvatures nor what follows from them.
 const NO_POINTS: &str = "in a region no two points were found whose line is normal to both surfaces, or flat sides lie on each other there";
+
+const DEPTH_OF_POINTS: &str = "Where no two points were found whose line is normal to both surfaces the depth is how far a point of one body \
+     in the other is from that one's surface at most, to some percent: bodies that lie deep in each other part after more than that.";
 
 fn no_errors(regions: &[ContactRegion]) -> Option<String> {
     let lack = regions.iter().filter(|region| region.errors.is_none());

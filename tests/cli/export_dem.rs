@@ -289,6 +289,15 @@ fn lammps_lets_two_hundred_grains_come_to_rest() {
     assert_lies(&settled(&dump, ' ', 3), 1000);
 }
 
+#[test]
+#[ignore = "needs LAMMPS (lmp) in the path"]
+fn lammps_lets_balls_come_to_rest() {
+    let folder = folder();
+    export(&folder, "lammps", &["--spheres", "1", "--grains", "12"]);
+    let printed = printed(&folder, "lmp", &["-in", "in.settle"]);
+    assert!(printed.contains("at rest: kinetic energy"), "{printed}");
+}
+
 /// All but what is new in LAMMPS of 2026: an ellipsoid falls, its mass made from density and shape.
 #[test]
 #[ignore = "needs LAMMPS (lmp) in the path"]

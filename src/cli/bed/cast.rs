@@ -5,6 +5,7 @@ use crate::bed::GrainKind;
 use crate::cli::args::BedArgs;
 use crate::cli::{inputs, solid};
 use crate::clump::{ClumpTarget, clump};
+use crate::digits::plural;
 use crate::report::short;
 use anyhow::{Context, Result, anyhow};
 use std::path::Path;
@@ -92,8 +93,8 @@ impl Cast {
         .with_context(|| format!("cannot make a clump of {name}"))?;
         self.warnings.extend(solid.warnings);
         self.warnings.push(format!(
-            "{name} is a clump of {} spheres here, RMS {} % of the equivalent radius off its surface.",
-            found.spheres.len(),
+            "{name} is a clump of {} here, RMS {} % of the equivalent radius off its surface.",
+            plural(found.spheres.len(), "sphere"),
             short(100.0 * found.rms / found.equivalent_radius())
         ));
         GrainKind::of_clump(&found, metres, args.density).with_context(failed)

@@ -8,13 +8,21 @@ mod script;
 mod settled;
 mod superellipsoid;
 
-use super::deck::Deck;
+use super::deck::{Deck, Placed};
 use super::file::{InputFile, row};
+use super::kind::Kind;
 use super::readme::runs;
+use crate::measure::Ball;
+use nalgebra::Vector3;
 use script::script;
 pub use settled::{Settled, SettledError};
 use std::io::{self, Write};
 pub(super) use superellipsoid::remarks;
+
+/// Radius of the second particle of a grain of one sphere, and how far from the middle it is, over the radius of the sphere: deep in
+/// it, where it touches nothing.
+const COMPANION: f64 = 1e-3;
+const ASIDE: f64 = 0.1;
 
 pub(super) fn files(deck: &Deck) -> Vec<InputFile<'_>> {
     let mut files = vec![
@@ -27,6 +35,14 @@ pub(super) fn files(deck: &Deck) -> Vec<InputFile<'_>> {
          frames shows the grains as they fall, settled.dump is where the spheres lie at the end, grains.dump the \
          grains, contacts.dump which spheres touch and how hard.",
     );
+    if deck
+        .grains
+        .iter()
+        .any(|grain| companion(kind(deck, grain)).is_some())
+    {
+        told += " A grain of one sphere has a tiny one within it, for LAMMPS moves bodies of two and more. These come last in \
+                 data.clumps, and touch nothing.";
+    }
     if let Some((more, of_them)) = superellipsoid::files(deck) {
         files.extend(more);
         told += &format!(" {of_them}");
@@ -40,29 +56,48 @@ pub(super) fn files(deck: &Deck) -> Vec<InputFile<'_>> {
     files
 }
 
-/// The spheres, each of the molecule of its grain. Their density is the material's: what moves has mass and inertia of
+fn kind<'a>(deck: &'a Deck, grain: &Placed) -> &'a Kind {
+    &deck.kinds[grain.kind]
+}
+
+/// The second particle of a kind of one sphere.
+fn companion(kind: &Kind) -> Option<Ball> {
+    let [Ball { centre, radius }] = kind.spheres[..] else {
+        return None;
+    };
+    Some(Ball {
+        centre: centre + Vector3::x() * (ASIDE * radius),
+        radius: COMPANION * radius,
+    })
+}
+
+/// The spheres, and then the companions of those that are alone, each of the molecule of its grain. Their density is the material's: what moves has mass and inertia of
 /// `bodies.in`.
 fn data(deck: &Deck, file: &mut dyn Write) -> io::Result<()> {
-    let count = deck.spheres();
     let [low, high] = match deck.cylinder {
         None => [[0.0; 2], deck.floor],
         Some(radius) => [[-radius; 2], [radius; 2]],
     };
     let height = deck.height;
+    let grains = || deck.grains.iter().enumerate();
+    let balls = || {
+        let own = grains().flat_map(|(index, grain)| {
+            let balls = kind(deck, grain).spheres.iter();
+            balls.map(move |ball| (index, grain, *ball))
+        });
+        let companions = grains().filter_map(|(index, grain)| {
+            let ball = companion(kind(deck, grain))?;
+            Some((index, grain, ball))
+        });
+        own.chain(companions).enumerate()
+    };
+    let count = balls().count();
     write!(
         file,
         "# clumps by grainform, SI units\n\n{count} atoms\n1 atom types\n{:e} {:e} xlo xhi\n{:e} {:e} ylo yhi\n\
          0 {height:e} zlo zhi\n\nAtoms # sphere\n\n",
         low[0], high[0], low[1], high[1],
     )?;
-    let balls = || {
-        let grains = deck.grains.iter().enumerate();
-        let balls = grains.flat_map(|(index, grain)| {
-            let own = deck.kinds[grain.kind].spheres.iter();
-            own.map(move |ball| (index, grain, ball))
-        });
-        balls.enumerate()
-    };
     for (at, (_, grain, ball)) in balls() {
         let place = grain.centre + grain.turn * ball.centre.coords;
         let numbers = [2.0 * ball.radius, deck.material.density];
@@ -80,7 +115,7 @@ fn data(deck: &Deck, file: &mut dyn Write) -> io::Result<()> {
 fn bodies(deck: &Deck, file: &mut dyn Write) -> io::Result<()> {
     writeln!(file, "{}", deck.grains.len())?;
     for (index, grain) in deck.grains.iter().enumerate() {
-        let kind = &deck.kinds[grain.kind];
+        let kind = kind(deck, grain);
         let inertia = kind.inertia(&grain.turn);
         let tensor = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)].map(|at| inertia[at]);
         let numbers = [kind.mass]

@@ -69,6 +69,17 @@ impl Body {
         }
     }
 
+    /// The same body of equal octants, of which a is no smaller than b.
+    pub(super) fn in_order(mut self) -> Self {
+        if self.logs[0] < self.logs[2] {
+            let [x, y, z] = [0, 1, 2].map(|axis| self.axes.column(axis).into_owned());
+            self.axes = Matrix3::from_columns(&[y, -x, z]);
+            self.logs.swap(0, 2);
+            self.logs.swap(1, 3);
+        }
+        self
+    }
+
     /// The twelve numbers.
     pub(super) fn numbers(&self) -> [f64; NUMBERS] {
         self.logs.map(f64::exp)
@@ -97,6 +108,19 @@ impl Body {
 mod tests {
     use super::*;
     use approx::assert_relative_eq;
+
+    #[test]
+    fn a_is_no_smaller_than_b_and_the_body_is_the_same() {
+        let turn = Rotation3::from_euler_angles(0.4, 0.7, 1.3).into_inner();
+        let body = Body::start(Vector3::zeros(), turn, Vector3::new(1.0, 2.0, 0.7));
+        let ordered = body.in_order();
+        let [a, _, b, ..] = ordered.numbers();
+        assert_relative_eq!(a, 2.0, max_relative = 1e-15);
+        assert_relative_eq!(b, 1.0, max_relative = 1e-15);
+        assert_relative_eq!(ordered.axes.column(0), body.axes.column(1));
+        assert_relative_eq!(ordered.axes.determinant(), 1.0, max_relative = 1e-15);
+        assert_eq!(ordered.in_order().logs, ordered.logs);
+    }
 
     #[test]
     fn bounds_hold() {

@@ -119,7 +119,8 @@ pub fn fit_multi_superquadric(
         loop {
             let best = chosen.pop().ok_or(SuperquadricFitError::NoVolume)?;
             let weighing = weighed(&best.bodies, &cloud.points, &best.weighing);
-            let found = descended(best.bodies, &cloud.points, weighing, LAST, context)?;
+            let mut found = descended(best.bodies, &cloud.points, weighing, LAST, context)?;
+            found.bodies = found.bodies.into_iter().map(Body::in_order).collect();
             let told = told(&cloud, &found, held_out.clone());
             if told.is_ok() && is_within(&found.bodies, farthest) || chosen.is_empty() {
                 return told;

@@ -1,5 +1,6 @@
 //! One superquadric.
 
+use super::bodies::Body;
 use super::cloud::Cloud;
 use super::error::SuperquadricFitError;
 use super::form::Form;
@@ -70,7 +71,10 @@ pub fn fit_superquadric(
     let cloud = Cloud::new(points, lattice, form.parameters())?;
     context.run(|| {
         let found = best(&cloud, form, context)?;
-        let (kept, found) = without_strays(&cloud, found, context)?;
+        let (kept, mut found) = without_strays(&cloud, found, context)?;
+        if form == Form::Single {
+            found.bodies = found.bodies.into_iter().map(Body::in_order).collect();
+        }
         let distances = distances(&found.bodies, &kept.points);
         let covariance = covariance(&kept, &found);
         let solid = |covariance| solid_errors(&found.bodies[0], form, cloud.size, covariance);
