@@ -176,22 +176,27 @@ impl Scan {
             weld::close_gaps(self, span.extent);
         }
         inspect::inspect(self);
-        if let Some((lattice, scatter)) = volume::between_voxels(self) {
-            let sides = lattice
-                .steps
-                .column_iter()
-                .map(|step| significant(step.norm(), 4));
-            self.warnings.push(format!(
-                "The vertices lie half-way between voxels of {}, as marching cubes without grey values put them: the faces are \
-                 taken as those of a segmented volume.",
-                sides.collect::<Vec<_>>().join(" x ")
-            ));
-            (self.lattice, self.scatter) = (Some(lattice), scatter);
-        }
+        self.look_for_voxels();
         Ok(())
     }
 
-    /// The scan that a part of its faces is: what is known of all points is true of the part's too.
+    /// Takes faces between voxels for those of a segmented volume.
+    fn look_for_voxels(&mut self) {
+        let Some((lattice, scatter)) = volume::between_voxels(self) else {
+            return;
+        };
+        let steps = lattice.steps.column_iter();
+        let sides = steps.map(|step| significant(step.norm(), 4));
+        self.warnings.push(format!(
+            "The vertices lie half-way between voxels of {}, as marching cubes without grey values put them: the faces are \
+             taken as those of a segmented volume.",
+            sides.collect::<Vec<_>>().join(" x ")
+        ));
+        (self.lattice, self.scatter) = (Some(lattice), scatter);
+    }
+
+    /// The scan that a part of its faces is: what is known of all points is true of the part's too. Bodies of voxels each may have
+    /// their own.
     pub(crate) fn part(&self, mesh: Mesh) -> Self {
         let mut part = Self {
             scatter: self.scatter,
@@ -200,6 +205,9 @@ impl Scan {
             ..Self::of_mesh(mesh)
         };
         inspect::inspect(&mut part);
+        if part.lattice.is_none() {
+            part.look_for_voxels();
+        }
         part
     }
 

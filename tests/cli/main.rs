@@ -12,6 +12,7 @@ mod export_dem;
 mod fit;
 mod harmonics;
 mod idle;
+mod labels;
 mod measure;
 mod measure_errors;
 mod mesh;

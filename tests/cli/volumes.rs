@@ -198,7 +198,7 @@ fn the_largest_of_two_bodies_with_one_label_is_fitted_as_voxels() {
 }
 
 /// The image of the balls with other labels.
-fn relabelled(folder: &Path, name: &str, label: impl Fn(usize, u8) -> u8) {
+pub(super) fn relabelled(folder: &Path, name: &str, label: impl Fn(usize, u8) -> u8) {
     balls(&folder.join("ct.nrrd"));
     let bytes = std::fs::read(folder.join("ct.nrrd")).unwrap();
     let head = header([80, 40, 20]);
@@ -510,47 +510,4 @@ fn the_limit_of_voxels_is_that_of_the_command() {
     assert!(rows[0]["reason"].contains(told), "{rows:?}");
     let words = ["measure", "one.nrrd", "--max-bytes", "64k"];
     succeed(&folder, &words);
-}
-
-#[test]
-fn a_label_that_surrounds_the_grains_is_told_as_such() {
-    let folder = folder();
-    relabelled(folder.path(), "full.nrrd", |_, old| old.max(1));
-    let report = json(&folder, &["split", "full.nrrd", "-o", "grains"]);
-    assert_eq!(report["grains"].as_array().unwrap().len(), 2);
-    let warnings = report["warnings"].to_string();
-    let told = "the label 1 goes on beyond all six sides of the volume";
-    assert!(warnings.contains(told), "{warnings}");
-    relabelled(folder.path(), "full.nrrd", |_, _| 1);
-    let told = errors(&grainform(&folder, &["split", "full.nrrd", "-o", "none"]));
-    assert!(
-        told.contains("no whole grain: the label 1 goes on"),
-        "{told}"
-    );
-}
-
-#[test]
-fn a_hollow_of_the_largest_body_is_no_other_body() {
-    let folder = folder();
-    let distance = |at: usize, middle: [usize; 3]| {
-        let place = [at % 80, at / 80 % 40, at / 3200];
-        let squares = (0..3).map(|axis| place[axis].abs_diff(middle[axis]).pow(2));
-        squares.sum::<usize>()
-    };
-    // The ball of radius 8 about (20, 20, 10) has a hollow of radius 4.
-    relabelled(folder.path(), "hollow.nrrd", |at, old| {
-        u8::from(old == 4 && distance(at, [20, 20, 10]) > 16)
-    });
-    let refused = errors(&grainform(&folder, &["fit", "hollow.nrrd"]));
-    assert!(refused.contains("1 inner surface"), "{refused}");
-    assert!(!refused.contains("either"), "{refused}");
-    let report = json(&folder, &["fit", "hollow.nrrd", "--largest"]);
-    let whole = json(&folder, &["fit", "ct.nrrd", "--label", "4"]);
-    assert_eq!(report["volume"], whole["volume"]);
-    let warnings = report["warnings"].to_string();
-    assert!(
-        warnings.contains("The scan has 1 hollow in it"),
-        "{warnings}"
-    );
-    assert!(!warnings.contains("body was left out"), "{warnings}");
 }
