@@ -119,6 +119,13 @@ pub(crate) fn measures(columns: &[String]) -> Vec<String> {
     columns.iter().filter(is_measure).cloned().collect()
 }
 
+/// Whether a column has the name of a figure.
+pub(super) fn is_figure(name: &str) -> bool {
+    figures(&Measure::ALL)
+        .iter()
+        .any(|figure| figure.name == name)
+}
+
 /// The figures of some measures, in their order.
 pub(super) fn figures(measures: &[Measure]) -> Vec<Figure> {
     measures

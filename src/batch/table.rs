@@ -1,6 +1,6 @@
 //! Reading results again.
 
-use super::columns::{FIRST, are_results};
+use super::columns::{FIRST, are_results, is_figure};
 use super::csv_table::csv_table;
 use super::error::TableError;
 use super::queue::without_label;
@@ -170,7 +170,6 @@ impl Lot {
 fn of_csv(path: &Path) -> Result<Lot, TableError> {
     let (names, rows) = csv_table(path)?;
     let mut lot = Lot::of_columns(names.iter());
-    let mut commas = None;
     for row in &rows {
         if !lot.hear(&names.iter().zip(row).collect()) {
             continue;
@@ -180,19 +179,16 @@ fn of_csv(path: &Path) -> Result<Lot, TableError> {
                 "" => {}
                 cell => lot.take(at, cell.parse().unwrap_or(f64::INFINITY)),
             }
-            if is_decimal_comma(cell) {
-                commas.get_or_insert((at, cell));
+            if is_decimal_comma(cell) && is_figure(&names[at]) {
+                return Err(TableError::DecimalCommas {
+                    path: path.into(),
+                    column: names[at].into(),
+                    cell: cell.into(),
+                });
             }
         }
     }
-    match commas.filter(|(at, _)| lot.values[*at].is_empty()) {
-        Some((at, cell)) => Err(TableError::DecimalCommas {
-            path: path.into(),
-            column: names[at].into(),
-            cell: cell.into(),
-        }),
-        None => Ok(lot),
-    }
+    Ok(lot)
 }
 
 /// Whether it is a number but for the comma before its decimals.

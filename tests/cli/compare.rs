@@ -138,6 +138,10 @@ fn numbers_with_decimal_commas_and_columns_that_others_part_are_refused() {
         told.contains("column volume of t.csv have commas") && told.contains("21,5"),
         "{told}"
     );
+    let words = "path,status,volume,plot\na.ply,ok,21.5,\"3,4\"\nb.ply,ok,20.5,\"3,5\"\n";
+    std::fs::write(folder.path().join("t.csv"), words).unwrap();
+    let report = json(&folder, &["compare", "t.csv", "t.csv"]);
+    assert_eq!(report["measures"].as_array().unwrap().len(), 1);
     let told = compared("path;status;volume\na.ply;ok;21,5\n");
     assert!(told.contains("semicolons part its columns"), "{told}");
 }

@@ -11,7 +11,7 @@ use nalgebra::{Matrix3, Point3, Vector3};
 const LEAST_POINTS: usize = 100;
 
 /// Vertices that are looked at first, and the share of them that may differ in a coordinate: of other meshes nearly all do.
-const LOOKED_AT: usize = 1000;
+const LOOKED_AT: usize = 5000;
 const MOST_DISTINCT: f64 = 0.6;
 
 /// Coordinates this near, as a share of the extent, are one, ...
@@ -20,7 +20,7 @@ const SAME: f64 = 2e-5;
 /// ... and this near to a whole number of half steps, as a share of one.
 const ON_STEP: f64 = 0.02;
 
-/// Share of the vertices that lie half-way between two voxels: where eight voxels meet without rule some programs add others.
+/// Share of the vertices that lie half-way between two voxels: where faces may go either way between eight voxels some programs add others.
 const SHARE: f64 = 0.99;
 
 /// The voxels between which the vertices of a mesh lie half-way, if they do.
