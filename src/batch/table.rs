@@ -60,7 +60,26 @@ pub(crate) fn read_results(path: &Path) -> Result<Lot, TableError> {
 pub(crate) fn results_table(path: &Path) -> Result<(StringRecord, Vec<StringRecord>), TableError> {
     let (names, rows) = csv_table(path)?;
     check_ours(path, names.iter())?;
+    check_decimals(path, &names, &rows)?;
     Ok((names, rows))
+}
+
+/// Refuses figures with decimal commas.
+fn check_decimals(
+    path: &Path,
+    names: &StringRecord,
+    rows: &[StringRecord],
+) -> Result<(), TableError> {
+    for (column, cell) in rows.iter().flat_map(|row| names.iter().zip(row)) {
+        if is_decimal_comma(cell) && is_figure(column) {
+            return Err(TableError::DecimalCommas {
+                path: path.into(),
+                column: column.into(),
+                cell: cell.into(),
+            });
+        }
+    }
+    Ok(())
 }
 
 fn check_ours<'a>(
@@ -169,6 +188,7 @@ impl Lot {
 
 fn of_csv(path: &Path) -> Result<Lot, TableError> {
     let (names, rows) = csv_table(path)?;
+    check_decimals(path, &names, &rows)?;
     let mut lot = Lot::of_columns(names.iter());
     for row in &rows {
         if !lot.hear(&names.iter().zip(row).collect()) {
@@ -178,13 +198,6 @@ fn of_csv(path: &Path) -> Result<Lot, TableError> {
             match cell.trim() {
                 "" => {}
                 cell => lot.take(at, cell.parse().unwrap_or(f64::INFINITY)),
-            }
-            if is_decimal_comma(cell) && is_figure(&names[at]) {
-                return Err(TableError::DecimalCommas {
-                    path: path.into(),
-                    column: names[at].into(),
-                    cell: cell.into(),
-                });
             }
         }
     }

@@ -136,13 +136,9 @@ impl SplitReport {
 fn small(split: &Split) -> Option<String> {
     (split.small > split.grains.len()).then(|| {
         format!(
-            "{} left out as dust, for {} small beside what was kept: if that is a table or a box, take it out of the scan, and \
-             split again.",
-            match split.small {
-                1 => "1 clump was".into(),
-                small => format!("{small} clumps were"),
-            },
-            if split.small == 1 { "it is" } else { "they are" },
+            "{} clumps were left out as dust, for they are small beside what was kept: if that is a table or a box, take it out of \
+             the scan, and split again.",
+            split.small
         )
     })
 }

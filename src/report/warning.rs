@@ -177,8 +177,8 @@ impl FitWarning {
                 of_points,
             } => write!(
                 f,
-                "The surface reaches beyond its points: {}{unit} beside {}{unit}. Next to sharp edges it ripples; of a body that has \
-                 such, take the sizes of the points (grainform measure, of the scan).",
+                "The surface reaches beyond its points: {}{unit} beside {}{unit}. Next to sharp edges and tips it ripples, and sizes are \
+                 known no better than these differ.",
                 sides(&dimensions),
                 sides(&of_points),
                 unit = labels.length()

@@ -88,7 +88,7 @@ impl Withheld {
         }
         if self.is_of_steps && is_made_of_area(measure) {
             return Some(
-                "the faces are steps, as voxels leave them, whose area is larger than that of the grain: by some tenth where they \
+                "the faces are steps, as voxels leave them, whose area is larger than that of the grain: by about a tenth where they \
                  go through the middles between voxels, by a fifth to a half where they are the sides of these; fit the scan, \
                  and measure the model"
                     .into(),

@@ -14,7 +14,7 @@ const SHARE: f64 = 0.95;
 
 /// Cosines of angles that are none, and right ones.
 const SAME: f64 = 0.9999;
-const RIGHT: f64 = 1e-3;
+const RIGHT: f64 = 3e-3;
 
 /// Those of the file, and of a mesh of few sides any three of these that are at right angles; rotations.
 pub(super) fn frames(

@@ -15,7 +15,7 @@ const LOOKED_AT: usize = 5000;
 const MOST_DISTINCT: f64 = 0.6;
 
 /// Coordinates this near, as a share of the extent, are one, ...
-const SAME: f64 = 2e-5;
+const SAME: f64 = 1e-4;
 
 /// ... and this near to a whole number of half steps, as a share of one.
 const ON_STEP: f64 = 0.02;
@@ -81,22 +81,27 @@ impl Steps {
             return None;
         }
         let levels = levels(points.iter().map(|p| p[axis]).collect());
-        let (&first, &last) = (levels.first()?, levels.last()?);
         let mut gaps: Vec<f64> = levels.windows(2).map(|pair| pair[1] - pair[0]).collect();
         let middle = gaps.len() / 2;
         let (_, &mut usual, _) = gaps
             .get(middle)
             .is_some()
             .then(|| gaps.select_nth_unstable_by(middle, f64::total_cmp))?;
-        let steps = Self {
-            first,
-            half: (last - first) / ((last - first) / usual).round(),
-        };
+        // Along straight walls vertices are whole steps apart, but for the ends.
+        let halves = [usual, usual / 2.0];
+        halves.into_iter().find_map(|half| Self::of(&levels, half))
+    }
+
+    /// Those of about this length that all levels are at.
+    fn of(levels: &[f64], about: f64) -> Option<Self> {
+        let (&first, &last) = (levels.first()?, levels.last()?);
+        let half = (last - first) / ((last - first) / about).round();
         let is_on_step = |level: &f64| {
-            let number = (level - first) / steps.half;
+            let number = (level - first) / half;
             (number - number.round()).abs() < ON_STEP
         };
-        levels.iter().all(is_on_step).then_some(steps)
+        let are_on_steps = levels.iter().all(is_on_step);
+        are_on_steps.then_some(Self { first, half })
     }
 
     fn is_odd(&self, coordinate: f64) -> bool {
@@ -104,13 +109,15 @@ impl Steps {
     }
 }
 
-/// The values that differ, ascending.
+/// The means of values that are one, ascending.
 fn levels(mut values: Vec<f64>) -> Vec<f64> {
     values.sort_unstable_by(f64::total_cmp);
-    let extent = values.last().zip(values.first());
-    let same = SAME * extent.map_or(0.0, |(last, first)| last - first);
-    values.dedup_by(|next, kept| *next - *kept <= same);
-    values
+    let ends = values.first().zip(values.last());
+    let same = SAME * ends.map_or(0.0, |(first, last)| last - first);
+    let levels = values.chunk_by(|one, next| next - one <= same);
+    levels
+        .map(|level| level.iter().sum::<f64>() / level.len() as f64)
+        .collect()
 }
 
 #[cfg(test)]
@@ -122,12 +129,18 @@ mod tests {
 
     /// What marching cubes make of an ellipsoid in voxels of these sides.
     fn between(steps: &Vector3<f64>) -> Mesh {
+        let semi_axes = Vector3::new(10.0, 7.0, 5.0);
+        made(steps, |at| at.component_div(&semi_axes).norm() < 1.0)
+    }
+
+    /// The same of a body whose middle is the origin.
+    fn made(steps: &Vector3<f64>, is_inside: impl Fn(&Vector3<f64>) -> bool) -> Mesh {
         let mut grid = Grid::new([24, 24, 24]);
         let line = || 0..24;
         let voxels = line().flat_map(|x| line().flat_map(move |y| line().map(move |z| [x, y, z])));
         for voxel in voxels {
             let at = Vector3::from(voxel.map(|i| i as f64)).add_scalar(-11.3);
-            if at.component_div(&Vector3::new(10.0, 7.0, 5.0)).norm() < 1.0 {
+            if is_inside(&at) {
                 grid.fill(voxel);
             }
         }
@@ -139,7 +152,7 @@ mod tests {
     }
 
     #[test]
-    fn the_voxels_of_marching_cubes_are_found_whatever_their_sides_and_in_32_bits() {
+    fn the_voxels_of_marching_cubes_are_found_whatever_their_sides_and_rounding() {
         let steps = Vector3::new(0.05, 0.05, 0.13);
         let aside = Vector3::new(17.3, -4.0, 0.7);
         let mesh = between(&steps);
@@ -154,6 +167,11 @@ mod tests {
         let off = from_voxel.map(|x| (x - x.round()).abs());
         assert!(off.max() < 1e-3, "{off}");
         assert!(found.axes(&moved).iter().all(Option::is_some));
+        // Places that are off by a thousandth of a voxel.
+        let off = (0..).map(|at| 1e-3 * f64::from(at).sin());
+        let rounded = mesh.vertices.iter().zip(off);
+        let rounded: Vec<Point3<f64>> = rounded.map(|(vertex, off)| vertex + steps * off).collect();
+        assert!(half_way(&rounded, &mesh.triangles).is_some());
         // Voxels along other axes than the file's.
         let turn = Rotation3::from_euler_angles(0.4, 0.7, 1.3);
         let turned: Vec<Point3<f64>> = mesh.vertices.iter().map(|vertex| turn * vertex).collect();
@@ -161,6 +179,17 @@ mod tests {
         let volume = found.steps.determinant();
         assert_relative_eq!(volume.abs(), steps.product(), max_relative = 1e-9);
         assert!(found.axes(&turned).iter().all(Option::is_some));
+    }
+
+    #[test]
+    fn the_voxels_of_bodies_with_straight_walls_are_found() {
+        let steps = Vector3::new(1.0, 1.0, 1.0);
+        let cylinder = made(&steps, |at| at.xy().norm() < 6.0 && at.z.abs() < 10.0);
+        let block = made(&steps, |at| at.amax() < 8.0);
+        for mesh in [cylinder, block] {
+            let found = half_way(&mesh.vertices, &mesh.triangles).unwrap();
+            assert_relative_eq!(found.steps, Matrix3::identity(), max_relative = 1e-12);
+        }
     }
 
     #[test]
