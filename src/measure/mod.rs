@@ -63,9 +63,10 @@ pub use deviation::Deviation;
 pub use ellipsoid::EquivalentEllipsoid;
 pub use enclosing_ball::{Ball, EnclosingBallError, enclosing_ball};
 pub(crate) use even_places::{EvenPlace, even_places};
-pub use extents::extents;
 #[cfg(feature = "cli")]
-pub(crate) use extents::{box_along, extents_of_points};
+pub(crate) use extents::box_along;
+pub use extents::extents;
+pub(crate) use extents::extents_of_points;
 pub use feet::{Foot, feet};
 pub use form::{Form, SideRatios};
 pub use four_triangles::four_triangles;
