@@ -4,8 +4,7 @@ use super::error::ClumpError;
 use super::search::UNIT_VOLUME;
 use crate::Mesh;
 use crate::measure::mesh_properties;
-use crate::mesh::{edges, undirected};
-use std::collections::HashMap;
+use crate::scan::each_edge;
 
 /// How far the volume inside a mesh may be off the grain's, as a share of it: coarse meshes of a ball lack as much.
 const MOST_OFF: f64 = 0.25;
@@ -31,15 +30,10 @@ pub(super) fn check(mesh: &Mesh) -> Result<(), ClumpError> {
 
 /// Whether each edge is walked as often one way as the other.
 fn is_closed(mesh: &Mesh) -> bool {
-    let mut walked: HashMap<[u32; 2], i64> = HashMap::new();
-    for edge in mesh.triangles.iter().flat_map(edges) {
-        *walked.entry(undirected(edge)).or_default() += match edge[0] < edge[1] {
-            true => 1,
-            false => -1,
-        };
-    }
-    let is_point = |edge: &[u32; 2]| edge[0] == edge[1];
-    walked
-        .iter()
-        .all(|(edge, excess)| *excess == 0 || is_point(edge))
+    let mut is_closed = true;
+    each_edge(mesh.vertices.len(), &mesh.triangles, |edge| {
+        let is_point = edge.ends[0] == edge.ends[1];
+        is_closed &= is_point || edge.forward == edge.backward;
+    });
+    is_closed
 }

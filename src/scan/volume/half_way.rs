@@ -5,6 +5,7 @@
 
 use super::VoxelLattice;
 use super::frames::frames;
+use crate::spread::median;
 use nalgebra::{Matrix3, Point3, Vector3};
 
 /// Fewer vertices do not tell.
@@ -28,25 +29,16 @@ pub(super) fn half_way(points: &[Point3<f64>], triangles: &[[u32; 3]]) -> Option
     if points.len() < LEAST_POINTS {
         return None;
     }
-    frames(points, triangles).find_map(|frame| {
-        let turned = points
-            .iter()
-            .map(|point| frame.tr_mul(&point.coords).into());
-        let along = along_axes(&turned.collect::<Vec<_>>())?;
-        Some(VoxelLattice {
-            first: frame * along.first,
-            steps: frame * along.steps,
-        })
-    })
+    frames(points, triangles).find_map(|frame| along(&frame, points))
 }
 
-/// The same of voxels along the axes of the points.
-fn along_axes(points: &[Point3<f64>]) -> Option<VoxelLattice> {
-    let axis = |axis: usize| Steps::new(points, axis);
+/// The same of voxels along the axes of a frame.
+fn along(frame: &Matrix3<f64>, points: &[Point3<f64>]) -> Option<VoxelLattice> {
+    let axis = |axis: usize| Steps::new(points, frame.column(axis).into_owned());
     let axes = [axis(0)?, axis(1)?, axis(2)?];
     let mut vertices = [0; 8];
     for point in points {
-        let odd = (0..3).map(|axis| axes[axis].is_odd(point[axis]));
+        let odd = axes.iter().map(|axis| axis.is_odd(point));
         vertices[odd.fold(0, |bits, is_odd| 2 * bits + usize::from(is_odd))] += 1;
     }
     // The bits of the middles of voxels: those of vertices differ from them in one.
@@ -59,41 +51,41 @@ fn along_axes(points: &[Point3<f64>]) -> Option<VoxelLattice> {
     let first = [4, 2, 1].map(|bit| f64::from(u8::from(middle & bit > 0)));
     let place = |at: usize| axes[at].first + first[at] * axes[at].half;
     Some(VoxelLattice {
-        first: Point3::new(place(0), place(1), place(2)),
-        steps: Matrix3::from_diagonal(&Vector3::from(axes.map(|axis| 2.0 * axis.half))),
+        first: frame * Point3::new(place(0), place(1), place(2)),
+        steps: Matrix3::from_columns(&axes.map(|axis| axis.along * (2.0 * axis.half))),
     })
 }
 
 /// Places along an axis that are half steps apart.
 #[derive(Clone, Copy)]
 struct Steps {
+    along: Vector3<f64>,
     first: f64,
     half: f64,
 }
 
 impl Steps {
-    /// Those that a coordinate of all points is at.
-    fn new(points: &[Point3<f64>], axis: usize) -> Option<Self> {
+    /// Those that all points are at.
+    fn new(points: &[Point3<f64>], along: Vector3<f64>) -> Option<Self> {
+        let level = |point: &Point3<f64>| along.dot(&point.coords);
         let every = points.len().div_ceil(LOOKED_AT);
-        let some: Vec<f64> = points.iter().step_by(every).map(|p| p[axis]).collect();
+        let some: Vec<f64> = points.iter().step_by(every).map(level).collect();
         let most = (MOST_DISTINCT * some.len() as f64) as usize;
         if levels(some).len() > most {
             return None;
         }
-        let levels = levels(points.iter().map(|p| p[axis]).collect());
+        let levels = levels(points.iter().map(level).collect());
         let mut gaps: Vec<f64> = levels.windows(2).map(|pair| pair[1] - pair[0]).collect();
-        let middle = gaps.len() / 2;
-        let (_, &mut usual, _) = gaps
-            .get(middle)
-            .is_some()
-            .then(|| gaps.select_nth_unstable_by(middle, f64::total_cmp))?;
+        let usual = median(&mut gaps)?;
         // Along straight walls vertices are whole steps apart, but for the ends.
         let halves = [usual, usual / 2.0];
-        halves.into_iter().find_map(|half| Self::of(&levels, half))
+        halves
+            .into_iter()
+            .find_map(|half| Self::of(along, &levels, half))
     }
 
     /// Those of about this length that all levels are at.
-    fn of(levels: &[f64], about: f64) -> Option<Self> {
+    fn of(along: Vector3<f64>, levels: &[f64], about: f64) -> Option<Self> {
         let (&first, &last) = (levels.first()?, levels.last()?);
         let half = (last - first) / ((last - first) / about).round();
         let is_on_step = |level: &f64| {
@@ -101,11 +93,12 @@ impl Steps {
             (number - number.round()).abs() < ON_STEP
         };
         let are_on_steps = levels.iter().all(is_on_step);
-        are_on_steps.then_some(Self { first, half })
+        are_on_steps.then_some(Self { along, first, half })
     }
 
-    fn is_odd(&self, coordinate: f64) -> bool {
-        ((coordinate - self.first) / self.half).round() as i64 % 2 != 0
+    fn is_odd(&self, point: &Point3<f64>) -> bool {
+        let level = self.along.dot(&point.coords);
+        ((level - self.first) / self.half).round() as i64 % 2 != 0
     }
 }
 
@@ -207,6 +200,7 @@ mod tests {
         let all = line().flat_map(|x| line().flat_map(move |y| line().map(move |z| [x, y, z])));
         let on_side = all.filter(|place| place.iter().any(|x| [0, 8].contains(x)));
         let block = on_side.map(|place| place.map(f64::from).into());
-        assert_eq!(along_axes(&block.collect::<Vec<_>>()), None);
+        let block: Vec<_> = block.collect();
+        assert_eq!(along(&Matrix3::identity(), &block), None);
     }
 }
