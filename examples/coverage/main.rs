@@ -15,6 +15,7 @@ mod particle;
 mod scanned;
 #[path = "../real/scans.rs"]
 mod scans;
+mod shapes;
 mod tally;
 mod truth;
 
@@ -83,6 +84,12 @@ fn main() -> Result<(), Box<dyn Error>> {
                 tally.add(&truth.figures, &layout.scan(truth, points, noise, seed)?)?;
             }
             row("particles", points, noise, layout, &tally);
+        }
+    }
+    if wants("shapes") && scans.exists() {
+        let particles = Particle::all(&scans.join("nist_train"))?;
+        for (points, noise) in shapes::SCANS {
+            shapes::print(&particles, points, noise)?;
         }
     }
     if wants("scanned") && scans.exists() {

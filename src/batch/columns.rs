@@ -136,9 +136,6 @@ pub(super) fn figures(measures: &[Measure]) -> Vec<Figure> {
 
 fn of_measure(measure: Measure) -> Vec<Figure> {
     let name = measure.name();
-    let plain = |parts: &[&str]| -> Vec<Figure> {
-        parts.iter().map(|part| figure(name, part, part)).collect()
-    };
     match measure {
         Measure::Area | Measure::Volume => {
             vec![with_error(figure(name, "", ""), format!("{ERRORS}/{name}"))]
@@ -204,21 +201,16 @@ fn of_measure(measure: Measure) -> Vec<Figure> {
                 OUTLINE.map(|part| {
                     let at = format!("{i}/{part}");
                     let found = figure(name, &format!("{}.{part}", ALONG[i]), &at);
-                    match part {
-                        "roundness" => found,
-                        _ => with_error(found, format!("/{name}/{i}{ERRORS}/{part}")),
-                    }
+                    with_error(found, format!("/{name}/{i}{ERRORS}/{part}"))
                 })
             })
             .collect(),
         Measure::Curvature => {
             let kinds = ["mean", "gaussian", "larger", "smaller"].into_iter();
             let of_kind = |kind, part| {
-                let found = figure(name, &format!("{kind}.{part}"), &format!("{kind}/{part}"));
-                match (kind, part) {
-                    ("larger", "largest") => with_error(found, format!("/{name}/largest_error")),
-                    _ => found,
-                }
+                let at = format!("{kind}/{part}");
+                let found = figure(name, &format!("{kind}.{part}"), &at);
+                with_error(found, format!("/{name}{ERRORS}/{at}"))
             };
             let mut all: Vec<Figure> = kinds
                 .flat_map(|kind| {
@@ -226,16 +218,23 @@ fn of_measure(measure: Measure) -> Vec<Figure> {
                         .map(|part| of_kind(kind, part))
                 })
                 .collect();
-            all.extend(plain(&["convex_share", "gauss_bonnet_error"]));
+            all.extend(known(name, &["convex_share"]));
+            all.push(figure(name, "gauss_bonnet_error", "gauss_bonnet_error"));
             all
         }
         Measure::Spectrum => SPECTRUM
             .map(|l| {
                 let at = format!("relative_amplitude/{l}");
-                figure(name, &format!("relative_amplitude_{l}"), &at)
+                let found = figure(name, &format!("relative_amplitude_{l}"), &at);
+                with_error(found, format!("/{name}{ERRORS}/{at}"))
             })
             .collect(),
-        _ => vec![figure(name, "", "")],
+        Measure::Roundness | Measure::Regularity | Measure::Angularity => {
+            vec![with_error(
+                figure(name, "", ""),
+                format!("/{name}_standard_error"),
+            )]
+        }
     }
 }
 

@@ -2,9 +2,7 @@
 
 use crate::clump::Clump;
 use crate::digits::given;
-use crate::measure::{
-    Ball, MassProperties, equivalent_radius, superquadric_properties, union_properties,
-};
+use crate::measure::{Ball, MassProperties, equivalent_radius, union_properties};
 use crate::model::{Frame, InvalidSuperquadric, MultiSuperquadric, Part, Superquadric};
 use nalgebra::{Matrix3, Point3, Vector3};
 use std::f64::consts::PI;
@@ -65,18 +63,7 @@ impl GrainKind {
     /// [`GrainError`].
     pub fn new(body: &MultiSuperquadric, metres: f64, density: f64) -> Result<Self, GrainError> {
         let body = body.times(metres);
-        let solid = match body.parts() {
-            [part] => {
-                let own = superquadric_properties(&part.shape).properties;
-                let axes = part.frame.axes;
-                MassProperties {
-                    centroid: part.frame.to_scan(&own.centroid.coords),
-                    inertia: axes * own.inertia * axes.transpose(),
-                    ..own
-                }
-            }
-            _ => union_properties(&body, TOLERANCE).properties,
-        };
+        let solid = union_properties(&body, TOLERANCE).properties;
         Self::of(body.parts(), &solid, density)
     }
 

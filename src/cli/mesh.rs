@@ -5,10 +5,12 @@ use super::console::Console;
 use super::{inputs, outputs, solid, threads};
 use crate::annotate::{Annotated, ScanDeviation};
 use crate::export::{Detail, MeshFormat};
+use crate::measure::{Deviation, mesh_properties};
 use crate::model::{Grain, Surface};
 use crate::portrait::colours;
 use crate::report::Withheld;
 use anyhow::{Result, bail};
+use std::f64::consts::PI;
 use std::path::Path;
 
 /// Bytes that a mesh takes per square of its resolution, while it is made: of places only, and with what is known at
@@ -24,6 +26,9 @@ const MANY_BYTES: u64 = 1_000_000_000;
 
 /// Share of the surface from which on it is told that a scan has no points near it.
 const UNSEEN: f64 = 0.01;
+
+/// How far off a scan of the same grain may be, as a share of the radius of a ball of its volume (RMS).
+const FAR_OFF: f64 = 0.03;
 
 pub(super) fn run(args: MeshArgs, console: Console) -> Result<()> {
     threads::start(0, console)?;
@@ -64,6 +69,7 @@ pub(super) fn run(args: MeshArgs, console: Console) -> Result<()> {
         MeshFormat::Ply | MeshFormat::Vtp | MeshFormat::Glb => {
             let surface = annotated(&args, &grain)?;
             doubts.extend(unseen(&args, &surface)?);
+            doubts.extend(far_off(&surface));
             let detail = Detail {
                 normals: &surface.normals,
                 fields: &surface.fields,
@@ -127,6 +133,22 @@ fn unseen(args: &MeshArgs, surface: &Annotated) -> Result<Option<String>> {
         )
     };
     Ok((share > UNSEEN).then(told))
+}
+
+/// Tells of a scan that is far off the surface all over: it may be that of another grain.
+fn far_off(surface: &Annotated) -> Option<String> {
+    let known = surface.field("deviation")?.iter();
+    let known = known.copied().filter(|distance| distance.is_finite());
+    let off = Deviation::of(known.map(|distance| (distance, 1.0))).rms();
+    let volume = mesh_properties(&surface.mesh).ok()?.volume;
+    let share = off / (0.75 * volume / PI).cbrt();
+    let told = || {
+        let share = 100.0 * share;
+        format!(
+            "The scan is {share:.0} % of the radius of a ball of equal volume off the surface (RMS): look whether it is that of this grain."
+        )
+    };
+    (share > FAR_OFF).then(told)
 }
 
 impl MeshingArgs {

@@ -291,7 +291,11 @@ fn facts(report: &FitReport, fitted: &Fitted) -> Vec<(&'static str, String)> {
         ),
     ]);
     facts.extend(report.heldout_rms.map(|rms| ("held-out RMS", length(rms))));
-    facts.extend(report.noise.map(|noise| ("noise", length(noise))));
+    let bound = report.noise_bound();
+    let noise = report
+        .noise
+        .map(|noise| format!("{bound}{}", length(noise)));
+    facts.extend(noise.map(|noise| ("noise", noise)));
     facts.push((radius, format!("{}{unit}", short(fitted.mean_radius))));
     facts.extend(no_errors(report.no_standard_errors.clone()));
     facts

@@ -5,6 +5,7 @@ use super::position::map::MapError;
 use crate::digits::plural;
 use crate::measure::SelfCrossing;
 use crate::model::InvalidGrain;
+use crate::sphere::Symmetry;
 use nalgebra::{Point3, Vector3};
 
 /// Why a fit cannot be made.
@@ -157,6 +158,18 @@ pub enum FitError {
         /// Root mean square of the radial residuals, as a share of the mean radius.
         share: f64,
     },
+    /// A mirrored surface is far from the points.
+    #[error(
+        "the surface, mirrored in {symmetry}, is off its points by {:.0} % of the mean radius (RMS): they are not alike on both sides of \
+         its mirrors; leave the symmetry out, or name other mirrors",
+        100.0 * share
+    )]
+    NotAlike {
+        /// The mirrors that were asked for.
+        symmetry: Symmetry,
+        /// Root mean square of the radial residuals, as a share of the mean radius.
+        share: f64,
+    },
     /// The surface goes far beyond the points.
     #[error(
         "the surface holds {times:.1} times the volume of the polyhedron of its points: they may be too few, or not of one \
@@ -297,6 +310,7 @@ impl FitError {
             Self::NotPositive { .. }
             | Self::Unproved { .. }
             | Self::FarFromPoints { .. }
+            | Self::NotAlike { .. }
             | Self::FarBeyondPoints { .. }
             | Self::GoesThroughItself { .. } => true,
             _ => false,

@@ -1,6 +1,6 @@
 //! The radius estimated, and the estimate approximated: by blended cells, or by one expansion where that is enough.
 
-use super::blended::{self, Outcome, Round, Settings, Target};
+use super::blended::{self, Outcome, Settings, Target};
 use super::candidate::{Candidate, Search, Work};
 use super::context::{Context, Stage};
 use super::error::FitError;
@@ -118,7 +118,7 @@ pub(super) fn estimated(
             Some(cut(&estimate, options, aim.limit)?)
         }
     };
-    let search = search(&estimate, &aim, cut.as_ref());
+    let mut search = search(&estimate, &aim, cut.as_ref());
     let not_met = cut
         .as_ref()
         .filter(|cut| options.segments.is_none() && !cut.met);
@@ -139,6 +139,11 @@ pub(super) fn estimated(
 
     let residuals = residuals(&grain, samples.rows());
     let (outliers, one_sided) = (estimate.outliers, estimate.one_sided);
+    // Hidden points are no nearer than those that were seen: these may crowd where the surface is farthest from them.
+    if outliers + one_sided == 0 {
+        let held_out = &mut search.candidates[search.chosen].heldout_rms;
+        *held_out = held_out.map(|rms| rms.max(residuals.rms));
+    }
     let mut fitted = prepared.fitted(
         grain,
         search,
@@ -199,7 +204,7 @@ fn search(estimate: &Estimate, aim: &Aim, cut: Option<&Outcome>) -> Search {
         .map(|round| near(round.degree, round.cells, round.coefficients, round.rms));
     Search {
         seams: Seams::Blended,
-        chosen: cut.map_or(0, |cut| 1 + last_of_size(cut)),
+        chosen: cut.map_or(0, |cut| 1 + cut.chosen),
         candidates: once(whole).chain(cells).collect(),
         limit: aim.limit,
         tolerance: aim.tolerance,
@@ -210,13 +215,6 @@ fn search(estimate: &Estimate, aim: &Aim, cut: Option<&Outcome>) -> Search {
             ..Work::default()
         },
     }
-}
-
-/// The round that gave the surface.
-fn last_of_size(cut: &Outcome) -> usize {
-    let size: usize = cut.surface.coefficients().iter().map(Vec::len).sum();
-    let is_it = |round: &Round| round.coefficients == size;
-    cut.rounds.iter().rposition(is_it).unwrap_or(0)
 }
 
 /// The estimate in its stretched space, its errors weighed as those of the plain radius over all plain directions.
@@ -232,6 +230,10 @@ impl Target for Plain<'_> {
 
     fn weight(&self, n: &Vector3<f64>) -> f64 {
         self.estimate.weight(n)
+    }
+
+    fn length(&self, n: &Vector3<f64>) -> f64 {
+        self.estimate.length(n)
     }
 }
 

@@ -61,11 +61,14 @@ pub fn fit_scan(
     context: &Context<'_>,
 ) -> Result<Fitted, FitError> {
     options.check()?;
-    let star = || PreparedScan::new(scan, options.symmetry)?.fit(options, context);
+    let star = || {
+        let fitted = PreparedScan::new(scan, options.symmetry)?.fit(options, context);
+        fitted.map_err(|error| not_alike(error, options.symmetry))
+    };
     match options.kind {
         Kind::Star => star(),
         Kind::Position => positioned(scan, options, context, KindChoice::Asked, &|_| true),
-        Kind::Auto if scan.scatter > 0.0 && is_free(options) => {
+        Kind::Auto if scan.scatter > 0.0 && is_of_any_kind(options) => {
             match positioned(scan, options, context, KindChoice::Voxels, &|_| true) {
                 Err(FitError::Cancelled) => Err(FitError::Cancelled),
                 Err(position) => star().map_err(|radius| match radius {
@@ -89,12 +92,25 @@ pub fn fit_scan(
                 },
             },
             Ok(fitted)
-                if is_free(options) && (is_doubtful(&fitted) || is_rougher(&fitted, options)) =>
+                if is_of_any_kind(options)
+                    && (does_not_see(&fitted)
+                        || is_unbounded(options)
+                            && (is_far(&fitted) || is_rougher(&fitted, options))) =>
             {
                 compared(scan, fitted, options, context)
             }
             found => found,
         },
+    }
+}
+
+/// Why a mirrored surface is far from the points.
+fn not_alike(error: FitError, symmetry: Symmetry) -> FitError {
+    match error {
+        FitError::FarFromPoints { share } if symmetry != Symmetry::NONE => {
+            FitError::NotAlike { symmetry, share }
+        }
+        error => error,
     }
 }
 
@@ -109,13 +125,16 @@ fn neither(radius: FitError, position: FitError) -> FitError {
     }
 }
 
-/// Whether nothing was asked for that only a radius has, or that bounds its search.
-fn is_free(options: &FitOptions) -> bool {
+/// Whether nothing was asked for that only a radius has.
+fn is_of_any_kind(options: &FitOptions) -> bool {
+    options.seams == Seams::Blended && options.symmetry == Symmetry::NONE
+}
+
+/// Whether nothing was asked for that bounds the search of a radius, which may then be far from points that it sees.
+fn is_unbounded(options: &FitOptions) -> bool {
     let usual = FitOptions::default();
-    options.seams == Seams::Blended
-        && options.max_degree == usual.max_degree
+    options.max_degree == usual.max_degree
         && options.max_segments == usual.max_segments
-        && options.symmetry == Symmetry::NONE
         && options.degree.is_none()
         && options.segments.is_none()
 }
@@ -131,7 +150,7 @@ fn unseen(error: &FitError, options: &FitOptions) -> Option<KindChoice> {
         | FitError::SecondSurface { .. }
         | FitError::FarFromPoints { .. }
         | FitError::FarBeyondPoints { .. }
-        | FitError::NotPositive { .. } => is_free(options).then_some(KindChoice::NoRadius),
+        | FitError::NotPositive { .. } => is_of_any_kind(options).then_some(KindChoice::NoRadius),
         _ => None,
     }
 }
@@ -145,12 +164,16 @@ fn hidden_share(fitted: &Fitted) -> f64 {
     hidden.unwrap_or(0.0)
 }
 
-/// Whether a radius hides area, is steep, or ends above its limit with no more coefficients than positions may have.
-fn is_doubtful(fitted: &Fitted) -> bool {
-    let is_far = |warning: &FitWarning| matches!(warning, FitWarning::LimitNotMet { .. });
-    let hidden = hidden_share(fitted);
-    let warns = hidden > 0.0 || fitted.warnings.iter().any(is_far);
-    if hidden > HIDDEN_SHARE || warns && !is_outnumbered(fitted) {
+/// Whether a radius hides some area, or ends above its limit, with no more coefficients than positions may have.
+fn is_far(fitted: &Fitted) -> bool {
+    let is_beyond = |warning: &FitWarning| matches!(warning, FitWarning::LimitNotMet { .. });
+    let warns = hidden_share(fitted) > 0.0 || fitted.warnings.iter().any(is_beyond);
+    warns && !is_outnumbered(fitted)
+}
+
+/// Whether a radius hides much of the area, or is steep.
+fn does_not_see(fitted: &Fitted) -> bool {
+    if hidden_share(fitted) > HIDDEN_SHARE {
         return true;
     }
     let Some(star) = fitted.grain.star() else {

@@ -21,15 +21,15 @@ pub struct CurvatureStatistics {
     nodes: Vec<([f64; 2], f64)>,
     /// Least and largest values, kind by kind.
     extremes: [[f64; 2]; Kind::ALL.len()],
-    /// Direction of the place with the largest curvature.
-    sharpest: Vector3<f64>,
+    /// Directions of the places where they are, in the frame of the surface's places.
+    ends: [[Vector3<f64>; 2]; Kind::ALL.len()],
     /// The length that is one here, in the surface's unit.
     unit: f64,
 }
 
 /// What is made of two principal curvatures.
 #[derive(Debug, Clone, Copy)]
-enum Kind {
+pub(super) enum Kind {
     Mean,
     Gaussian,
     Larger,
@@ -37,14 +37,51 @@ enum Kind {
 }
 
 impl Kind {
-    const ALL: [Self; 4] = [Self::Mean, Self::Gaussian, Self::Larger, Self::Smaller];
+    pub(super) const ALL: [Self; 4] = [Self::Mean, Self::Gaussian, Self::Larger, Self::Smaller];
 
-    fn of(self, [larger, smaller]: [f64; 2]) -> f64 {
+    pub(super) fn of(self, [larger, smaller]: [f64; 2]) -> f64 {
         match self {
             Self::Mean => 0.5 * (larger + smaller),
             Self::Gaussian => larger * smaller,
             Self::Larger => larger,
             Self::Smaller => smaller,
+        }
+    }
+
+    /// How far it is off where the principal curvatures are, with these errors.
+    pub(super) fn off(self, [larger, smaller]: [f64; 2], [one, other]: [f64; 2]) -> f64 {
+        match self {
+            Self::Mean => 0.5 * one.hypot(other),
+            Self::Gaussian => (smaller * one).hypot(larger * other),
+            Self::Larger => one,
+            Self::Smaller => other,
+        }
+    }
+
+    /// Of a surface that is so many times as large, how many times as large it is.
+    pub(super) fn per(self, length: f64) -> f64 {
+        match self {
+            Self::Gaussian => 1.0 / length / length,
+            Self::Mean | Self::Larger | Self::Smaller => 1.0 / length,
+        }
+    }
+}
+
+/// An end of a distribution.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum End {
+    Least,
+    Largest,
+}
+
+impl End {
+    const BOTH: [Self; 2] = [Self::Least, Self::Largest];
+
+    /// Times which values are larger towards this end.
+    pub(super) fn sign(self) -> f64 {
+        match self {
+            Self::Least => -1.0,
+            Self::Largest => 1.0,
         }
     }
 }
@@ -64,12 +101,12 @@ pub struct Distribution {
 }
 
 impl Distribution {
-    fn over(self, length: f64) -> Self {
+    fn times(self, factor: f64) -> Self {
         Self {
-            mean: self.mean / length,
-            standard_deviation: self.standard_deviation / length,
-            least: self.least / length,
-            largest: self.largest / length,
+            mean: self.mean * factor,
+            standard_deviation: self.standard_deviation * factor,
+            least: self.least * factor,
+            largest: self.largest * factor,
         }
     }
 }
@@ -78,11 +115,13 @@ impl CurvatureStatistics {
     /// That of a surface, at nodes all over its [tiling](Surface::tiling).
     pub fn new(surface: &(impl Surface + ?Sized)) -> Self {
         let found = curved_nodes(surface);
-        let ends = Kind::ALL.map(|kind| [(kind, -1.0), (kind, 1.0)]);
-        let peak = |(kind, sign): &(Kind, f64)| highest(surface, &found, |k| sign * kind.of(k));
+        let ends = Kind::ALL.map(|kind| End::BOTH.map(|end| (kind, end)));
+        let peak =
+            |&(kind, end): &(Kind, End)| highest(surface, &found, |k| end.sign() * kind.of(k));
         let peaks: Vec<Peak> = ends.as_flattened().par_iter().map(peak).collect();
-        let value = |kind: Kind, end: usize| peaks[2 * kind as usize + end].value;
-        let mut extremes = Kind::ALL.map(|kind| [-value(kind, 0), value(kind, 1)]);
+        let ends =
+            ends.map(|ends| ends.map(|(kind, end)| (peaks[2 * kind as usize + end as usize], end)));
+        let mut extremes = ends.map(|ends| ends.map(|(peak, end)| end.sign() * peak.value));
         // Where one has no bound others have none; a climb may have missed it.
         let [mean, gaussian, larger, smaller] = &mut extremes;
         if smaller[1] == f64::INFINITY {
@@ -96,7 +135,7 @@ impl CurvatureStatistics {
         }
         Self {
             extremes,
-            sharpest: peaks[2 * Kind::Larger as usize + 1].n,
+            ends: ends.map(|ends| ends.map(|(peak, _)| peak.n)),
             nodes: found
                 .iter()
                 .map(|node| (node.principal, node.area))
@@ -113,29 +152,22 @@ impl CurvatureStatistics {
 
     /// Mean curvature H = (k1 + k2)/2, one over length; 1/R of a sphere.
     pub fn mean(&self) -> Distribution {
-        self.distribution(Kind::Mean).over(self.unit)
+        self.distribution(Kind::Mean)
     }
 
     /// Gaussian curvature K = k1 k2, one over length squared; 1/R² of a sphere.
     pub fn gaussian(&self) -> Distribution {
         self.distribution(Kind::Gaussian)
-            .over(self.unit)
-            .over(self.unit)
     }
 
     /// The larger principal curvature, one over length, positive where convex.
     pub fn larger(&self) -> Distribution {
-        self.distribution(Kind::Larger).over(self.unit)
-    }
-
-    /// The direction, in the frame of the surface's places, of the place with the largest principal curvature.
-    pub fn sharpest(&self) -> Vector3<f64> {
-        self.sharpest
+        self.distribution(Kind::Larger)
     }
 
     /// The smaller principal curvature, negative in hollows.
     pub fn smaller(&self) -> Distribution {
-        self.distribution(Kind::Smaller).over(self.unit)
+        self.distribution(Kind::Smaller)
     }
 
     /// ∫ K dS, which the theorem of Gauss and Bonnet says is 4 pi on a closed surface without edges:
@@ -152,9 +184,8 @@ impl CurvatureStatistics {
 
     /// Share of the area where the surface is convex: no principal curvature below zero, by more than rounding.
     pub fn convex_share(&self) -> f64 {
-        let area = self.integral(|_| 1.0);
-        let least = -ROUNDING / area.sqrt();
-        let convex = |[_, second]: [f64; 2]| f64::from(second > least);
+        let area = self.area();
+        let convex = |[_, smaller]: [f64; 2]| f64::from(is_convex(smaller, area));
         self.integral(convex) / area
     }
 
@@ -178,12 +209,9 @@ impl CurvatureStatistics {
         radii / corners
     }
 
-    fn integral(&self, value: impl Fn([f64; 2]) -> f64) -> f64 {
-        self.nodes.iter().map(|&(k, area)| value(k) * area).sum()
-    }
-
-    fn distribution(&self, kind: Kind) -> Distribution {
-        let area = self.integral(|_| 1.0);
+    /// How a curvature is distributed over the surface at unit size.
+    pub(super) fn at_unit_size(&self, kind: Kind) -> Distribution {
+        let area = self.area();
         let mean = self.integral(|k| kind.of(k)) / area;
         let variance = self.integral(|k| (kind.of(k) - mean).powi(2)) / area;
         let [least, largest] = self.extremes[kind as usize];
@@ -200,10 +228,33 @@ impl CurvatureStatistics {
         }
     }
 
+    /// Direction of the place where a curvature is least or largest, in the frame of the surface's places, and its value there at unit size.
+    pub(super) fn end(&self, kind: Kind, end: End) -> (Vector3<f64>, f64) {
+        let [kind, end] = [kind as usize, end as usize];
+        (self.ends[kind][end], self.extremes[kind][end])
+    }
+
+    fn area(&self) -> f64 {
+        self.integral(|_| 1.0)
+    }
+
+    fn integral(&self, value: impl Fn([f64; 2]) -> f64) -> f64 {
+        self.nodes.iter().map(|&(k, area)| value(k) * area).sum()
+    }
+
+    fn distribution(&self, kind: Kind) -> Distribution {
+        self.at_unit_size(kind).times(kind.per(self.unit))
+    }
+
     /// ∫ K dS over 4 pi, less one: see [`Self::total`].
     pub fn gauss_bonnet_error(&self) -> f64 {
         self.total() / (4.0 * PI) - 1.0
     }
+}
+
+/// Whether a surface of this area is convex where its smaller principal curvature is this one, up to rounding.
+pub(super) fn is_convex(smaller: f64, area: f64) -> bool {
+    smaller > -ROUNDING / area.sqrt()
 }
 
 #[cfg(test)]
@@ -301,7 +352,7 @@ mod tests {
         let found = CurvatureStatistics {
             nodes: vec![([0.5, 0.5], 7.0), ([2.0, 1.0], 3.0), ([4.0, -1.0], 1.0)],
             extremes: Default::default(),
-            sharpest: Vector3::x(),
+            ends: Default::default(),
             unit: 1.0,
         };
         // Corners of radii 1/2 and 1/4 of an inscribed radius of 1, by area.

@@ -8,17 +8,17 @@ use nalgebra::Vector3;
 /// of it, of a quarter of a circle between flat sides by .71.
 const FOLLOWED: f64 = 0.65;
 
-/// By how much the larger principal curvature in a direction is more than the surface turns there, over a radius of curvature
-/// to both sides along it. Nothing of tips and edges that are rounded; most of it of a ripple, which bends sharply and turns
-/// by little.
-pub(super) fn unfollowed(surface: &dyn Surface, n: &Vector3<f64>) -> f64 {
+/// By how much a principal curvature in a direction, the larger (0) or the smaller (1), is more than the surface turns there, over
+/// a radius of curvature to both sides along it, whichever way it bends. Nothing of tips and edges that are rounded; most of it of a
+/// ripple, which bends sharply and turns by little.
+pub(super) fn unfollowed(surface: &dyn Surface, n: &Vector3<f64>, which: usize) -> f64 {
     let here = surface.jet(n);
     let curvature = Curvature::new(n, &here);
-    let sharpest = curvature.principal[0];
-    if sharpest <= 0.0 {
+    let sharpest = curvature.principal[which].abs();
+    if sharpest == 0.0 {
         return 0.0;
     }
-    let step = curvature.turn(&(curvature.directions[0] / sharpest));
+    let step = curvature.turn(&(curvature.directions[which] / sharpest));
     let ways = [step, -step].map(|step| {
         let aside = (n + step).normalize();
         let there = surface.jet(&aside);
@@ -36,6 +36,7 @@ mod tests {
     use crate::model::{Derivatives, Radial, StarSurface};
     use crate::shapes::Ellipsoid;
     use nalgebra::Matrix3;
+    use std::f64::consts::PI;
 
     #[test]
     fn tips_and_rims_are_followed() {
@@ -48,7 +49,7 @@ mod tests {
             let semi_axes = Vector3::from(axes);
             let body = Ellipsoid { semi_axes };
             let n = Vector3::ith(semi_axes.imax(), 1.0);
-            let left = unfollowed(&Radial(&body), &n);
+            let left = unfollowed(&Radial(&body), &n, 0);
             assert!(left == 0.0, "{axes:?}: {left}");
         }
     }
@@ -86,7 +87,11 @@ mod tests {
 
     #[test]
     fn a_ripple_is_not() {
-        let left = unfollowed(&Radial(&Rippled), &Vector3::x());
+        let left = unfollowed(&Radial(&Rippled), &Vector3::x(), 0);
+        assert!(left > 20.0, "{left}");
+        // Half a wave aside it bends inwards by as much.
+        let dent = Vector3::new(1.0, 0.0, PI / WAVE).normalize();
+        let left = unfollowed(&Radial(&Rippled), &dent, 1);
         assert!(left > 20.0, "{left}");
     }
 }

@@ -98,6 +98,6 @@ pub use superquadric::{
 pub(crate) use support::support_near;
 pub use support::{Support, support};
 pub(crate) use survey::Measured;
-pub use survey::{BoxErrors, OutlineErrors, Scheme, Survey, SurveyError};
+pub use survey::{BoxErrors, CurvatureErrors, OutlineErrors, Scheme, Survey, SurveyError};
 pub(crate) use triangle_tree::TriangleTree;
 pub(crate) use unit::Unit;

@@ -23,11 +23,9 @@ const SAMPLES: usize = 960;
 /// than that resolves are rounded by it: of a square whose corners have 0.3 of the inscribed radius it
 /// makes 0.35, of 0.5 0.52, of 0.8 0.80, of a sharp one about 0.2.
 pub(super) fn roundness(points: &[Vector2<f64>], inscribed_radius: f64) -> f64 {
-    let slopes = slope_series(points);
-    let samples = (0..SAMPLES).map(|sample| {
-        let [speed, turn] = speed_and_turn(&slopes, TAU * sample as f64 / SAMPLES as f64);
-        (Vector2::new(speed, turn), turn * inscribed_radius - speed)
-    });
+    let samples = smoothed(points)
+        .into_iter()
+        .map(|[speed, turn]| (Vector2::new(speed, turn), turn * inscribed_radius - speed));
     let samples: Vec<(Vector2<f64>, f64)> = samples.collect();
     let next = samples.iter().cycle().skip(1);
     let within = samples
@@ -43,7 +41,13 @@ pub(super) fn roundness(points: &[Vector2<f64>], inscribed_radius: f64) -> f64 {
     }
 }
 
-/// Length and angle that the curve goes through per step of its parameter.
+/// Length and angle that the smoothed curve goes through per step of its parameter, all along it.
+pub(super) fn smoothed(points: &[Vector2<f64>]) -> Vec<[f64; 2]> {
+    let slopes = slope_series(points);
+    let places = (0..SAMPLES).map(|sample| TAU * sample as f64 / SAMPLES as f64);
+    places.map(|place| speed_and_turn(&slopes, place)).collect()
+}
+
 fn speed_and_turn(slopes: &[[Vector2<f64>; 2]; ROUNDNESS_ORDER], place: f64) -> [f64; 2] {
     // The first derivative and the second.
     let (mut first, mut second) = (Vector2::zeros(), Vector2::zeros());

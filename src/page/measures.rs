@@ -20,9 +20,8 @@ pub(crate) struct MeasureRow {
     pub definition: String,
 }
 
-/// The error of the largest curvature, where the errors of a record's figures stand, and how the name of one beside a figure goes on:
-/// they are told with their figures and are no rows of their own.
-const LARGEST_ERROR: &str = "curvature.largest_error";
+/// Where the errors of a record's figures stand, and how the name of one beside a figure goes on: they are told with their figures and
+/// are no rows of their own.
 const ERRORS: &str = "standard_errors";
 const ERROR: &str = "_standard_error";
 
@@ -43,9 +42,8 @@ impl MeasureRow {
         collect("", (&measures, None), unit, &mut rows);
         for row in &mut rows {
             let own = row.error.take();
-            row.error = own.or_else(|| error(&row.name, &measures, &errors));
+            row.error = own.or_else(|| error(&row.name, &errors));
         }
-        rows.retain(|row| row.name != LARGEST_ERROR);
         rows
     }
 }
@@ -67,7 +65,10 @@ fn collect(
                 .iter()
                 .filter(|(part, _)| *part != ERRORS && !part.contains(ERROR));
             for (part, value) in figures {
-                let of_record = parts.get(ERRORS).and_then(|errors| errors.get(part));
+                let of_record = parts
+                    .get(ERRORS)
+                    .or(error)
+                    .and_then(|errors| errors.get(part));
                 let beside = ["", "s"].map(|end| parts.get(&format!("{part}{ERROR}{end}")));
                 let error = beside.into_iter().flatten().next().or(of_record);
                 collect(&below(part), (value, error), unit, rows);
@@ -129,10 +130,9 @@ fn text(value: &Value) -> Option<String> {
 }
 
 /// The standard error of a measure that stands apart from it, where it is known.
-fn error(name: &str, measures: &Value, errors: &Value) -> Option<String> {
+fn error(name: &str, errors: &Value) -> Option<String> {
     let at = |name: &str| format!("/{}", name.replace('.', "/"));
     let found = match name {
-        "curvature.larger.largest" => measures.pointer(&at(LARGEST_ERROR)),
         "principal.moments" => errors.pointer("/moments"),
         "area" | "volume" => errors.pointer(&at(name)),
         name if name.starts_with("dimensions.") => errors.pointer(&at(name)),
@@ -196,11 +196,12 @@ mod tests {
     fn errors_stand_beside_what_they_are_of() {
         let record = json!({
             "area": 2.5,
-            "curvature": {"larger": {"largest": 7.0, "mean": 1.0}, "largest_error": 0.5},
+            "curvature": {"larger": {"largest": 7.0}, "standard_errors": {"larger": {"largest": 0.5}}},
             "dimensions": {"length": 3.0},
             "form": {"elongation": 0.5, "standard_errors": {"elongation": 0.25}},
             "principal": {"moments": [1.0, 2.0, 3.0]},
             "roundness": 0.5,
+            "roundness_standard_error": 0.0625,
             "spheres": {"inscribed": {"radius": 2.0, "radius_standard_error": 0.125}},
         });
         let errors = StandardErrors {
@@ -219,11 +220,10 @@ mod tests {
             [
                 ("area", Some("0.250000")),
                 ("curvature.larger.largest", Some("0.500000")),
-                ("curvature.larger.mean", None),
                 ("dimensions.length", Some("0.750000")),
                 ("form.elongation", Some("0.250000")),
                 ("principal.moments", Some("0, 0, 0")),
-                ("roundness", None),
+                ("roundness", Some("0.0625000")),
                 ("spheres.inscribed.radius", Some("0.125000")),
             ]
         );

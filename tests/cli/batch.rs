@@ -115,7 +115,7 @@ fn rows_are_the_same_bytes_with_any_number_of_threads_and_bad_files_are_told() {
 #[test]
 fn a_row_is_taken_over_only_with_all_its_figures() {
     let folder = folder();
-    let synth = "synth ellipsoid --points 386 --noise 0.002 -o s.ply";
+    let synth = "synth ellipsoid --points 800 --noise 0.002 -o s.ply";
     succeed(&folder, &synth.split(' ').collect::<Vec<_>>());
     let words = ["batch", "s.ply", "-o", "lot", "--only", "area,curvature"];
     succeed(&folder, &words);

@@ -320,7 +320,7 @@ fn a_model_is_no_scan_to_be_fitted() {
     assert!(errors(&output).contains("is no scan: it starts as a model does"));
 }
 
-/// A fit writes what its scan did not see, and how well the largest curvature is known.
+/// A fit writes what its scan did not see, and how well curvature is known.
 #[test]
 fn a_fit_tells_measure_of_holes_and_of_curvature() {
     let folder = folder();
@@ -338,9 +338,62 @@ fn a_fit_tells_measure_of_holes_and_of_curvature() {
         );
         assert_eq!(report["volume"].is_number(), is_told);
         if is_told {
-            let error = number(&report["curvature"], "largest_error");
+            let errors = &report["curvature"]["standard_errors"];
+            let error = number(&errors["larger"], "largest");
             let largest = number(&report["curvature"]["larger"], "largest");
             assert!(error > 0.0 && error < 0.2 * largest, "{error} of {largest}");
         }
     }
+}
+
+/// Whatever is measured of a fit has an error, or the reason why there is none.
+#[test]
+fn every_figure_of_a_fit_has_an_error() {
+    let folder = folder();
+    succeed(&folder, &["fit", &grain("bean.ply"), "-o", "m.json"]);
+    let report = json(&folder, &["measure", "m.json"]);
+    for name in ["roundness", "regularity", "angularity"] {
+        let error = number(&report, &format!("{name}_standard_error"));
+        assert!(
+            error > 0.0 && error < 0.02 * number(&report, name),
+            "{name}: {error}"
+        );
+    }
+    let curvature = &report["curvature"];
+    let errors = &curvature["standard_errors"];
+    for kind in ["mean", "gaussian", "larger", "smaller"] {
+        for part in ["mean", "standard_deviation", "least", "largest"] {
+            let [value, error] = [&curvature[kind], &errors[kind]].map(|of| number(of, part));
+            assert!(
+                error > 0.0 && error < 1.5 * value.abs(),
+                "{kind} {part}: {value} {error}"
+            );
+        }
+    }
+    assert!(number(errors, "convex_share") > 0.0);
+    let off = &report["spectrum"]["standard_errors"];
+    for part in ["power", "relative_amplitude"] {
+        let [told, off] = [&report["spectrum"], off].map(|of| of[part].as_array().unwrap());
+        assert_eq!(told.len(), off.len());
+        assert!(
+            off[2].as_f64().unwrap() < 1e-3 * told[2].as_f64().unwrap(),
+            "{off:?}"
+        );
+    }
+    for outline in report["projections"].as_array().unwrap() {
+        assert!(number(&outline["standard_errors"], "roundness") > 0.0);
+    }
+    let text = succeed(&folder, &["measure", "m.json"]);
+    let is_told = |line: &str| line.contains(" ± ") || !line.contains("0.");
+    let own = [
+        "roundness",
+        "regularity",
+        "angularity",
+        "spectrum",
+        "curvature",
+    ];
+    let mut lines = text
+        .lines()
+        .filter(|line| own.iter().any(|name| line.starts_with(name)));
+    assert!(lines.all(is_told), "{text}");
 }

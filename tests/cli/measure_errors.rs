@@ -30,7 +30,7 @@ fn sizes_and_ratios_have_standard_errors() {
     let told = text.lines().filter(|line| line.contains(" ± "));
     let counts: Vec<_> = told.map(|line| line.matches(" ± ").count()).collect();
     // Dimensions, box, ellipsoid, ratios, form, sphericity, convexity, two lines of each outline, and what ± is.
-    assert_eq!(counts, [3, 4, 3, 3, 3, 6, 2, 4, 3, 4, 3, 4, 3, 1], "{text}");
+    assert_eq!(counts, [3, 4, 3, 3, 3, 6, 2, 4, 4, 4, 4, 4, 4, 1], "{text}");
 
     succeed(&folder, &["batch", "s.ply", "-o", "lot", "--only", only]);
     let row = &super::batch::rows(&folder.path().join("lot/results.csv"))[0];

@@ -109,3 +109,28 @@ fn a_scan_that_lies_elsewhere_is_told() {
         "{told}"
     );
 }
+
+#[test]
+fn the_scan_of_another_grain_is_told() {
+    let folder = folder();
+    succeed(&folder, &["fit", &grain("maize.ply"), "-o", "m.json"]);
+    let told = |scan: &str| {
+        let words = [
+            "mesh",
+            "m.json",
+            "--scan",
+            scan,
+            "-o",
+            "m.ply",
+            "--resolution",
+            "12",
+        ];
+        errors(&grainform(&folder, &words))
+    };
+    assert_eq!(told(&grain("maize.ply")), "");
+    let other = told(&grain("bean.ply"));
+    assert!(
+        other.contains("look whether it is that of this grain"),
+        "{other}"
+    );
+}

@@ -205,3 +205,27 @@ fn a_crust_of_few_points_that_is_not_their_body_is_refused() {
         "{refused}"
     );
 }
+
+/// Bounds of the search are those of a radius and of positions alike: what no centre sees is no radius because degrees are asked for.
+#[test]
+fn bounds_of_the_search_do_not_make_a_radius_of_what_no_centre_sees() {
+    let folder = folder();
+    banana(folder.path());
+    for bounds in [
+        "--degree 2 --segments 24",
+        "--max-segments 24",
+        "--max-degree 3",
+    ] {
+        let words: Vec<&str> = "fit banana.ply"
+            .split(' ')
+            .chain(bounds.split(' '))
+            .collect();
+        assert_eq!(json(&folder, &words)["surface"], "position", "{bounds}");
+    }
+    let grain = super::grain("bean.ply");
+    let star = json(
+        &folder,
+        &["fit", &grain, "--degree", "2", "--segments", "24"],
+    );
+    assert_eq!(star["surface"], "star");
+}

@@ -119,3 +119,52 @@ fn csv_has_the_columns_and_rows_of_the_json() {
         }
     }
 }
+
+/// Planes do not follow the bean: of the covers that were tried the nearest is marked, with the error that the summary tells.
+#[test]
+fn the_nearest_of_covers_that_are_too_far_is_marked() {
+    let folder = folder();
+    let bean = grain("bean.ply");
+    for most in ["60", "600"] {
+        let bounds = ["--max-degree", "1", "--max-segments", most];
+        let found = json(&folder, &[&["search", &bean], &bounds[..]].concat());
+        let candidates = found["candidates"].as_array().unwrap();
+        let rms = |row: &serde_json::Value| row["estimate_rms"].as_f64().unwrap();
+        let covers = candidates[1..].iter();
+        let nearest = covers.clone().map(rms).fold(f64::INFINITY, f64::min);
+        let chosen = &candidates[found["chosen"].as_u64().unwrap() as usize];
+        assert_eq!(rms(chosen), nearest);
+        let most: u64 = most.parse().unwrap();
+        assert!(
+            covers
+                .clone()
+                .all(|row| row["segments"].as_u64() <= Some(most))
+        );
+        let fitted = json(&folder, &[&["fit", &bean], &bounds[..]].concat());
+        let warning = fitted["warnings"].to_string();
+        assert!(
+            warning.contains(&grainform::report::short(nearest)),
+            "{warning}"
+        );
+        let largest = fitted["estimate"]["largest_difference"].as_f64().unwrap();
+        assert!(largest > nearest && largest < 0.01 * fitted["mean_radius"].as_f64().unwrap());
+    }
+}
+
+/// What a search tells of independent segments is what their fit tells, of steep ones too.
+#[test]
+fn areas_of_candidates_are_those_of_their_fits() {
+    let folder = folder();
+    succeed(
+        &folder,
+        &["synth", "ellipsoid", "--axes", "6,2,1", "-o", "long.ply"],
+    );
+    let words = ["long.ply", "--seams", "none", "--max-segments", "25"];
+    let found = json(&folder, &[&["search"], &words[..]].concat());
+    let chosen = &found["candidates"][found["chosen"].as_u64().unwrap() as usize];
+    let fitted = json(&folder, &[&["fit"], &words[..]].concat());
+    for name in ["area_error", "volume_error"] {
+        let [one, other] = [&chosen[name], &fitted[name]].map(|error| error.as_f64().unwrap());
+        assert!((one - other).abs() < 2e-5, "{name}: {one} {other}");
+    }
+}

@@ -225,3 +225,22 @@ fn what_cannot_be_mirrored_is_refused() {
     assert!(names(folder.path()).is_empty());
     assert_eq!("zyx".parse(), Ok(Symmetry::OCTANT));
 }
+
+#[test]
+fn mirrors_of_what_is_not_alike_on_both_sides_are_the_reason() {
+    let folder = folder();
+    succeed(&folder, &["synth", "banana", "-o", "banana.ply"]);
+    for mirror in ["x", "y"] {
+        let output = grainform(&folder, &["fit", "banana.ply", "--symmetry", mirror]);
+        if output.status.code() == Some(2) {
+            let text = errors(&output);
+            let says = format!("the surface, mirrored in {mirror}, is off its points by");
+            assert!(
+                text.contains(&says) && !text.contains("grainform split"),
+                "{text}"
+            );
+            return;
+        }
+    }
+    panic!("no mirror was refused");
+}

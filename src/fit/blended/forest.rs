@@ -13,10 +13,10 @@ use crate::sphere::{CubeCell, MAX_FACE_PARTS, coefficient_count};
 use std::ops::RangeInclusive;
 
 /// Steps in which the price is halved.
-const STEPS_PER_OCTAVE: u32 = 16;
+const STEPS_PER_OCTAVE: i32 = 16;
 
-/// Prices below 2^-80 of the first are rounding.
-const MOST_STEPS: u32 = 80 * STEPS_PER_OCTAVE;
+/// Prices below 2^-80 of the first are rounding, and above 2^80 of it nothing is cut.
+const MOST_STEPS: i32 = 80 * STEPS_PER_OCTAVE;
 
 /// Cells are looked into up to so many parts of a face whatever their error: a bump of a few degrees
 /// lies between the nodes of larger ones.
@@ -118,8 +118,8 @@ impl Forest {
         let roots = self.nodes[..self.roots].iter();
         let coarsest: f64 = roots.map(|node| node.errors[first]).sum();
         let unit = coarsest / (self.roots * coefficient_count(first)) as f64;
-        let mut at = |step: u32| {
-            let price = unit * (-f64::from(step) / STEPS_PER_OCTAVE as f64).exp2();
+        let mut at = |step: i32| {
+            let price = unit * (-f64::from(step) / f64::from(STEPS_PER_OCTAVE)).exp2();
             let mut plan = self.cheapest(target, fits, price);
             plan.is_enough = plan.error <= goal;
             let is_within =
@@ -128,6 +128,10 @@ impl Forest {
         };
         let (mut low, mut high) = (0, 0);
         let (mut coarse, mut fine) = (None, at(0));
+        while !fine.1 && high > -MOST_STEPS {
+            high -= STEPS_PER_OCTAVE;
+            fine = at(high);
+        }
         while !fine.0.is_enough && fine.1 && high < MOST_STEPS {
             low = high;
             high += STEPS_PER_OCTAVE;

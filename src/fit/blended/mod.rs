@@ -31,6 +31,11 @@ pub(crate) trait Target: Sync {
 
     /// Weight of a squared error per solid angle, above zero: 1 where space is not stretched.
     fn weight(&self, direction: &Vector3<f64>) -> f64;
+
+    /// How long one of the radius is in plain space: 1 where space is not stretched.
+    fn length(&self, _direction: &Vector3<f64>) -> f64 {
+        1.0
+    }
 }
 
 /// What is asked of a surface.
@@ -70,10 +75,12 @@ impl Settings {
 pub(crate) struct Outcome {
     pub(crate) surface: Blended,
     pub(crate) rounds: Vec<Round>,
+    /// Which of these gave the surface.
+    pub(crate) chosen: usize,
     /// Root of the mean over the sphere of weight times squared difference from the target, at
     /// directions that the fit has not used.
     pub(crate) rms: f64,
-    /// Largest difference at those, times the root of the weight.
+    /// Largest difference of the plain radius, found on a lattice in the cells that err most.
     pub(crate) max: f64,
     /// Whether `rms` is within the limit.
     pub(crate) met: bool,

@@ -21,7 +21,6 @@ pub(super) struct Samples {
     pub(super) directions: Vec<Vector3<f64>>,
     /// Solid angle times the target's weight.
     pub(super) weights: Vec<f64>,
-    pub(super) solid_angles: Vec<f64>,
     pub(super) radii: Vec<f64>,
 }
 
@@ -63,7 +62,6 @@ impl Sampler {
                 side,
                 directions,
                 weights,
-                solid_angles,
                 radii: Vec::new(),
             };
             new.push(((cell, side), samples));

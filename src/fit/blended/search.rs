@@ -79,10 +79,9 @@ struct Tree {
 struct Found {
     surface: Blended,
     coefficients: usize,
-    rms: f64,
-    max: f64,
-    /// Integrals of the squared error over the cells.
-    squares: Vec<f64>,
+    /// Which of the rounds.
+    round: usize,
+    unseen: Unseen,
 }
 
 impl<'a> Search<'a> {
@@ -120,14 +119,18 @@ impl<'a> Search<'a> {
             self.try_uniform()?;
         }
         let Found {
-            surface, rms, max, ..
+            surface,
+            round,
+            unseen,
+            ..
         } = self.best?;
         Some(Outcome {
+            max: unseen.largest(&surface, self.target),
             surface,
             rounds: self.rounds,
-            rms,
-            max,
-            met: rms <= self.settings.limit,
+            chosen: round,
+            rms: unseen.rms,
+            met: unseen.rms <= self.settings.limit,
         })
     }
 
@@ -189,7 +192,10 @@ impl<'a> Search<'a> {
     /// The tree with the cheapest cover that is worth a fit. Covers that the bounds keep from being good
     /// enough come last, the nearest first, and none that cannot win.
     fn cheapest(&self) -> Option<usize> {
-        let met = self.best.as_ref().filter(|found| self.is_met(found.rms));
+        let met = self
+            .best
+            .as_ref()
+            .filter(|found| self.is_met(found.unseen.rms));
         let most = met.map(|found| (1.0 - LEAST_SAVING) * found.coefficients as f64);
         let open = self.trees.iter().enumerate().filter(|(_, tree)| {
             let is_new = !tree.fitted.contains(&tree.plan);
@@ -211,7 +217,7 @@ impl<'a> Search<'a> {
     fn may_win(&self, plan: &Plan) -> bool {
         self.best.as_ref().is_none_or(|best| {
             let least = LEAST_OF_RATIO * self.least_ratio * plan.error;
-            !self.is_met(best.rms) && least < 4.0 * PI * best.rms * best.rms
+            !self.is_met(best.unseen.rms) && least < 4.0 * PI * best.unseen.rms * best.unseen.rms
         })
     }
 
@@ -250,9 +256,9 @@ impl<'a> Search<'a> {
     /// body that lies between cells, the blend errs as neither cell's own fit shows.
     fn refine(&mut self) -> Option<()> {
         while let Some((cells, degrees)) = self.finer() {
-            let before = self.best.as_ref().map(|best| best.rms);
+            let before = self.best.as_ref().map(|best| best.unseen.rms);
             self.solve(&cells, &degrees)?;
-            if self.best.as_ref().map(|best| best.rms) == before {
+            if self.best.as_ref().map(|best| best.unseen.rms) == before {
                 break;
             }
         }
@@ -262,14 +268,17 @@ impl<'a> Search<'a> {
     /// The best cover with the cells that err most cut in four. `None` if it is good enough, or that would exceed the
     /// bounds.
     fn finer(&self) -> Option<(Vec<CubeCell>, Vec<usize>)> {
-        let best = self.best.as_ref().filter(|best| !self.is_met(best.rms))?;
-        let largest = best.squares.iter().copied().fold(0.0, f64::max);
-        let fair = self.goal() / best.squares.len() as f64;
+        let best = self
+            .best
+            .as_ref()
+            .filter(|best| !self.is_met(best.unseen.rms))?;
+        let largest = best.unseen.squares.iter().copied().fold(0.0, f64::max);
+        let fair = self.goal() / best.unseen.squares.len() as f64;
         let most = fair.max(LEAST_CUT * largest);
         let coefficients = best.surface.coefficients().iter().map(Vec::len);
         let cover = best.surface.cover().cells().iter();
         let (mut cells, mut degrees) = (Vec::new(), Vec::new());
-        for ((cell, size), square) in cover.zip(coefficients).zip(&best.squares) {
+        for ((cell, size), square) in cover.zip(coefficients).zip(&best.unseen.squares) {
             let before = cells.len();
             match *square > most && 2 * cell.parts <= MAX_FACE_PARTS {
                 true => cells.extend(cell.quarters()),
@@ -280,7 +289,7 @@ impl<'a> Search<'a> {
         let bounds = self.bounds();
         let sizes = degrees.iter().map(|&degree| coefficient_count(degree));
         let is_within = cells.len() <= bounds.cells && sizes.sum::<usize>() <= bounds.coefficients;
-        (is_within && cells.len() > best.squares.len()).then_some((cells, degrees))
+        (is_within && cells.len() > best.unseen.squares.len()).then_some((cells, degrees))
     }
 
     /// Fits cells of one size and degree, and fewer of them as long as they do.
@@ -290,9 +299,9 @@ impl<'a> Search<'a> {
             Some(_) => self.settings.limit,
             None => WIDE_OF_THE_LIMIT * self.settings.limit,
         };
-        while let Some(best) = self.best.as_ref().filter(|found| found.rms <= worth) {
+        while let Some(best) = self.best.as_ref().filter(|found| found.unseen.rms <= worth) {
             let saving = (1.0 - LEAST_SAVING) * best.coefficients as f64;
-            let most = saving as usize / coefficient_count(degree);
+            let most = (saving as usize / coefficient_count(degree)).min(self.bounds().cells);
             let parts = (most / 6).isqrt().min(MAX_FACE_PARTS.into());
             if parts == 0 {
                 break;
@@ -329,40 +338,41 @@ impl<'a> Search<'a> {
         let seen = (squared / (4.0 * PI)).sqrt();
         let surface = Blended::new(cover, coefficients).ok()?;
         let mut rms = seen * self.unseen.sqrt();
+        let is_first = self.best.is_none();
         let mut unseen = None;
-        if self.is_met(seen) || self.best.is_none() {
+        if is_first || self.is_met(seen) || self.is_better(count, rms) {
             let found = Unseen::of(&surface, self.target, &mut self.sampler, &sides);
             rms = found.rms;
-            unseen = Some(found);
-            if seen > 0.0 {
+            if seen > 0.0 && (is_first || self.is_met(seen)) {
                 self.unseen = (rms / seen).powi(2).clamp(1.0, 4.0);
             }
+            unseen = Some(found);
         }
+        let round = self.rounds.len();
         self.rounds.push(Round {
             cells: cells.len(),
             degree: degrees.iter().copied().max().unwrap_or(0),
             coefficients: count,
             rms,
         });
-        let is_better =
-            self.best
-                .as_ref()
-                .is_none_or(|best| match (self.is_met(best.rms), self.is_met(rms)) {
-                    (true, true) => count < best.coefficients,
-                    (met, is_met) => is_met || (!met && rms < best.rms),
-                });
-        if is_better {
-            let unseen = unseen
-                .unwrap_or_else(|| Unseen::of(&surface, self.target, &mut self.sampler, &sides));
-            rms = unseen.rms;
+        if let Some(unseen) = unseen.filter(|unseen| self.is_better(count, unseen.rms)) {
             self.best = Some(Found {
                 surface,
                 coefficients: count,
-                rms,
-                max: unseen.max,
-                squares: unseen.squares,
+                round,
+                unseen,
             });
         }
         Some(rms)
+    }
+
+    /// Whether a surface of so many coefficients and such an error is better than the best so far.
+    fn is_better(&self, coefficients: usize, rms: f64) -> bool {
+        self.best.as_ref().is_none_or(|best| {
+            match (self.is_met(best.unseen.rms), self.is_met(rms)) {
+                (true, true) => coefficients < best.coefficients,
+                (met, is_met) => is_met || (!met && rms < best.unseen.rms),
+            }
+        })
     }
 }

@@ -170,8 +170,12 @@ impl Estimate {
     /// that of the squared error of the plain radius over plain directions: a difference d' of the stretched radius is one of
     /// d' |T^-1 n'| of the plain one, and the solid angle is det(T^-1) / |T^-1 n'|^3 times as large.
     pub(crate) fn weight(&self, n: &Vector3<f64>) -> f64 {
-        let stretch = &self.cloud.stretch;
-        1.0 / (n.component_div(stretch).norm() * stretch.product())
+        1.0 / (self.length(n) * self.cloud.stretch.product())
+    }
+
+    /// How long one of the stretched radius in a direction of the stretched space is in plain space, |T^-1 n'|.
+    pub(crate) fn length(&self, n: &Vector3<f64>) -> f64 {
+        n.component_div(&self.cloud.stretch).norm()
     }
 
     /// Root mean square plain length, over all plain directions, of the mean radius of the stretched space.

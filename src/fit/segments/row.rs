@@ -23,6 +23,9 @@ pub(crate) struct Row {
     nodes: [Vec<f64>; 4],
 }
 
+/// Nodes along a side beside those that the volume asks for: area is a root, and of steep expansions it takes more.
+const MARGIN: usize = 12;
+
 /// The rows of a partition, from north to south, for expansions in `basis`.
 pub(crate) fn rows(partition: AngularPartition, basis: &CapBasis) -> Vec<Row> {
     let k = partition.per_angle();
@@ -31,7 +34,7 @@ pub(crate) fn rows(partition: AngularPartition, basis: &CapBasis) -> Vec<Row> {
     let [polar, azimuthal] = [PI, TAU].map(|whole| {
         let width = whole / k as f64;
         let degree = (3 * basis.degree() + 1) as f64;
-        GaussLegendre::new(4 + (degree * width / 4.0).ceil() as usize)
+        GaussLegendre::new(MARGIN + (degree * width / 4.0).ceil() as usize)
     });
     (0..k)
         .map(|row| {

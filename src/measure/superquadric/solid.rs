@@ -1,9 +1,9 @@
 //! Mass properties of a grain that is a union of superquadrics.
 
-use super::single::{SolidProperties, superquadric_properties};
+use super::single::SolidProperties;
 use super::union::union_properties;
 use crate::measure::MassProperties;
-use crate::model::{Frame, Part, SuperquadricGrain, Surface};
+use crate::model::{Frame, SuperquadricGrain, Surface};
 
 /// Relative error of area, volume and moments that is asked for.
 const TOLERANCE: f64 = 1e-5;
@@ -11,17 +11,12 @@ const TOLERANCE: f64 = 1e-5;
 /// Mass properties of a union of superquadrics, in the scan's frame, and how well they are known: closed forms of a single
 /// one, and of several by quadrature over what is bare of each, whether a centre sees it or not.
 pub fn solid_properties(grain: &SuperquadricGrain) -> SolidProperties {
-    let body = grain.body();
-    let solid = match body.parts() {
-        [Part { shape, frame }] => superquadric_properties(shape).placed(frame),
-        _ => union_properties(body, TOLERANCE),
-    };
-    solid.placed(&grain.frame())
+    union_properties(grain.body(), TOLERANCE).placed(&grain.frame())
 }
 
 impl SolidProperties {
     /// The same of the body placed in a frame.
-    fn placed(self, frame: &Frame) -> Self {
+    pub(super) fn placed(self, frame: &Frame) -> Self {
         let own = self.properties;
         Self {
             properties: MassProperties {

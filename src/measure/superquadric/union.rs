@@ -5,9 +5,9 @@
 
 use super::bare::bare;
 use super::patch::Patch;
-use super::single::SolidProperties;
+use super::single::{SolidProperties, superquadric_properties};
 use crate::measure::Moments;
-use crate::model::MultiSuperquadric;
+use crate::model::{MultiSuperquadric, Part};
 use crate::sphere::GaussLegendre;
 use nalgebra::Point3;
 use std::cmp::Ordering;
@@ -62,8 +62,11 @@ impl Ord for Piece {
 }
 
 /// Mass properties of a union to a relative tolerance, and to 1e-5 at best; the errors found are told, and are above it where
-/// that would take too long.
+/// that would take too long. Those of one part are closed forms.
 pub fn union_properties(union: &MultiSuperquadric, tolerance: f64) -> SolidProperties {
+    if let [Part { shape, frame }] = union.parts() {
+        return superquadric_properties(shape).placed(frame);
+    }
     let rules = ORDERS.map(GaussLegendre::new);
     let per_piece = (ORDERS[0].pow(2) + ORDERS[1].pow(2)) * union.parts().len();
     let size = union

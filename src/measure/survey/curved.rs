@@ -3,7 +3,6 @@
 use super::{Survey, SurveyError};
 use crate::measure::CurvatureStatistics;
 use crate::measure::bounds::ratio;
-use crate::measure::followed::unfollowed;
 
 impl Survey<'_> {
     /// Curvature over the whole surface of a grain.
@@ -22,29 +21,11 @@ impl Survey<'_> {
     }
 
     /// The same, whatever its edges.
-    fn any_curvature(&self) -> Result<&CurvatureStatistics, SurveyError> {
+    pub(super) fn any_curvature(&self) -> Result<&CurvatureStatistics, SurveyError> {
         let surface = self.body.surface()?;
         Ok(self
             .curvature
             .get_or_init(|| CurvatureStatistics::new(surface).in_unit(self.unit.length)))
-    }
-
-    /// Standard error of the largest principal curvature, where the grain tells any errors, which beside edges it does not: also
-    /// by how much it is more than the surface turns there, for of all places the sharpest ripple is told.
-    ///
-    /// # Errors
-    ///
-    /// As [`Self::curvature`].
-    pub fn largest_curvature_error(&self) -> Result<Option<f64>, SurveyError> {
-        let sharpest = self.curvature()?.sharpest();
-        let told = self.standard_errors().ok();
-        let Some(error) = told.and_then(|_| self.body.local_error(&sharpest)) else {
-            return Ok(None);
-        };
-        let error = error
-            .curvature
-            .hypot(unfollowed(self.body.surface()?, &sharpest));
-        Ok(Some(error / self.unit.length))
     }
 
     /// Roundness of the corners, see [`CurvatureStatistics::roundness`].

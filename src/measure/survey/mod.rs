@@ -21,7 +21,8 @@ use crate::model::{Grain, NoInterval, Radial, StandardErrors, StarSurface};
 pub(crate) use body::Measured;
 use body::{Body, Inside};
 pub use error::SurveyError;
-pub use errors::{BoxErrors, OutlineErrors};
+use errors::KnownPlace;
+pub use errors::{BoxErrors, CurvatureErrors, OutlineErrors};
 use nalgebra::{Matrix3, Vector3};
 use std::cell::OnceCell;
 use std::f64::consts::PI;
@@ -71,6 +72,7 @@ pub struct Survey<'a> {
     inscribed: OnceCell<Result<Ball, SurveyError>>,
     enclosing: OnceCell<Result<Ball, SurveyError>>,
     curvature: OnceCell<CurvatureStatistics>,
+    known_places: OnceCell<Option<Vec<KnownPlace>>>,
 }
 
 /// How area, volume and moments of a grain are integrated.
@@ -144,6 +146,7 @@ impl<'a> Survey<'a> {
             inscribed: OnceCell::new(),
             enclosing: OnceCell::new(),
             curvature: OnceCell::new(),
+            known_places: OnceCell::new(),
         }
     }
 

@@ -69,6 +69,14 @@ impl FitReport {
         }
     }
 
+    /// What is said before the noise: it may be none.
+    pub(crate) fn noise_bound(&self) -> &'static str {
+        match self.noise {
+            Some(noise) if noise <= LEAST_NOISE * self.mean_radius => "at most ",
+            _ => "",
+        }
+    }
+
     /// What shares are of.
     fn radius(&self) -> &'static str {
         match self.surface {
@@ -194,10 +202,7 @@ impl FitReport {
             writeln!(f, "asymmetry     RMS {}", self.of_radius(asymmetry))?;
         }
         if let Some(noise) = self.noise {
-            let bound = match noise <= LEAST_NOISE * self.mean_radius {
-                true => "at most ",
-                false => "",
-            };
+            let bound = self.noise_bound();
             writeln!(f, "noise         {bound}{}", self.of_radius(noise))?;
         }
         let radius = short(self.mean_radius);

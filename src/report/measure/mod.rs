@@ -128,12 +128,21 @@ pub struct Measures {
     /// Roundness of the corners.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub roundness: Option<f64>,
+    /// Its standard error; absent where it is not known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub roundness_standard_error: Option<f64>,
     /// Regularity.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub regularity: Option<f64>,
+    /// Its standard error; absent where it is not known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub regularity_standard_error: Option<f64>,
     /// Angularity index.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub angularity: Option<f64>,
+    /// Its standard error; absent where it is not known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub angularity_standard_error: Option<f64>,
     /// The body against its convex hull.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub convexity: Option<WithErrors<Convexity>>,
@@ -148,7 +157,7 @@ pub struct Measures {
     pub curvature: Option<CurvatureRecord>,
     /// Power per degree of spherical harmonics.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub spectrum: Option<Spectrum>,
+    pub spectrum: Option<WithErrors<Spectrum>>,
 }
 
 /// A measure that cannot be had.
@@ -312,7 +321,10 @@ impl Measures {
         let ratios = self.form.is_some() || self.sphericity.is_some() || self.convexity.is_some();
         let shapes =
             self.spheres.is_some() || self.ellipsoid.is_some() || self.projections.is_some();
-        sums || moments || boxes || ratios || shapes || self.dimensions.is_some()
+        let corners = self.roundness.is_some() || self.regularity.is_some();
+        let from_centroid = self.angularity.is_some() || self.spectrum.is_some();
+        let surface = corners || from_centroid || self.curvature.is_some();
+        sums || moments || boxes || ratios || shapes || surface || self.dimensions.is_some()
     }
 
     fn take(&mut self, measure: Measure, survey: &Survey<'_>) -> Result<(), SurveyError> {
@@ -350,9 +362,18 @@ impl Measures {
                 let errors = survey.sphericity_errors()?;
                 self.sphericity = Some(WithErrors::new(survey.sphericity()?, errors));
             }
-            Measure::Roundness => self.roundness = Some(survey.roundness()?),
-            Measure::Regularity => self.regularity = Some(survey.regularity()?),
-            Measure::Angularity => self.angularity = Some(survey.angularity()?),
+            Measure::Roundness => {
+                self.roundness = Some(survey.roundness()?);
+                self.roundness_standard_error = survey.roundness_error()?;
+            }
+            Measure::Regularity => {
+                self.regularity = Some(survey.regularity()?);
+                self.regularity_standard_error = survey.regularity_error()?;
+            }
+            Measure::Angularity => {
+                self.angularity = Some(survey.angularity()?);
+                self.angularity_standard_error = survey.angularity_error()?;
+            }
             Measure::Convexity => {
                 let errors = survey.convexity_errors()?;
                 self.convexity = Some(WithErrors::new(survey.convexity()?, errors));
@@ -372,10 +393,13 @@ impl Measures {
                     Some([seen("length", 0), seen("width", 1), seen("thickness", 2)]);
             }
             Measure::Curvature => {
-                let error = survey.largest_curvature_error()?;
-                self.curvature = Some(CurvatureRecord::new(survey.curvature()?, error));
+                let errors = survey.curvature_errors()?;
+                self.curvature = Some(CurvatureRecord::new(survey.curvature()?, errors));
             }
-            Measure::Spectrum => self.spectrum = Some(survey.spectrum()?),
+            Measure::Spectrum => {
+                let errors = survey.spectrum_errors()?;
+                self.spectrum = Some(WithErrors::new(survey.spectrum()?, errors));
+            }
         }
         Ok(())
     }

@@ -13,8 +13,6 @@ pub struct ProjectionRecord {
     /// What is measured of it.
     #[serde(flatten)]
     pub outline: WithErrors<OutlineFigures>,
-    /// Mean radius of the corners over the inscribed radius.
-    pub roundness: f64,
 }
 
 /// Sizes and ratios of an outline.
@@ -53,6 +51,8 @@ pub struct OutlineFigures {
     pub solidity: f64,
     /// Perimeter of the convex hull over the perimeter.
     pub convexity: f64,
+    /// Mean radius of the corners over the inscribed radius.
+    pub roundness: f64,
 }
 
 impl ProjectionRecord {
@@ -65,7 +65,6 @@ impl ProjectionRecord {
         Self {
             along,
             outline: WithErrors::new(figures, errors.map(|errors| figures.off(errors))),
-            roundness: outline.roundness.min(1.0),
         }
     }
 }
@@ -89,6 +88,7 @@ impl OutlineFigures {
             width_to_length: outline.width_to_length().min(1.0),
             solidity: outline.solidity().min(1.0),
             convexity: outline.convexity().min(1.0),
+            roundness: outline.roundness.min(1.0),
         }
     }
 
@@ -100,6 +100,7 @@ impl OutlineFigures {
             perimeter,
             diameter,
             inscribed,
+            roundness,
             ..
         } = *errors;
         Self {
@@ -119,6 +120,7 @@ impl OutlineFigures {
             width_to_length: self.width_to_length * 2.0 * diameter,
             solidity: self.solidity * area,
             convexity: self.convexity * perimeter,
+            roundness,
         }
     }
 }

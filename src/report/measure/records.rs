@@ -1,8 +1,8 @@
 //! The parts of a report of measures.
 
 use crate::measure::{
-    Ball, BoxErrors, CurvatureStatistics, Distribution, EquivalentEllipsoid, OrientedBox,
-    PrincipalInertia,
+    Ball, BoxErrors, CurvatureErrors, CurvatureStatistics, Distribution, EquivalentEllipsoid,
+    OrientedBox, PrincipalInertia,
 };
 use nalgebra::{Matrix3, Vector3};
 use serde::Serialize;
@@ -181,20 +181,20 @@ pub struct CurvatureRecord {
     pub gaussian: Distribution,
     /// The larger principal curvature.
     pub larger: Distribution,
-    /// Standard error of its largest value; `None` where the model does not tell it.
-    pub largest_error: Option<f64>,
     /// The smaller principal curvature.
     pub smaller: Distribution,
     /// Share of the area where both are positive.
     pub convex_share: f64,
     /// The integral of K over 4 pi, less one.
     pub gauss_bonnet_error: f64,
+    /// Standard errors of the others; `null` where the model tells none.
+    pub standard_errors: Option<CurvatureErrors>,
 }
 
 impl CurvatureRecord {
-    pub(super) fn new(statistics: &CurvatureStatistics, largest_error: Option<f64>) -> Self {
+    pub(super) fn new(statistics: &CurvatureStatistics, errors: Option<CurvatureErrors>) -> Self {
         Self {
-            largest_error,
+            standard_errors: errors,
             mean: statistics.mean(),
             gaussian: statistics.gaussian(),
             larger: statistics.larger(),

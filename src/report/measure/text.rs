@@ -6,7 +6,7 @@ use super::{
 };
 use crate::measure::{Convexity, Distribution, Form, SideRatios, Sphericity};
 use crate::report::escape::escaped;
-use crate::report::number::{short, triple, with_error};
+use crate::report::number::{triple, with_error};
 use crate::report::unit::Labels;
 use std::fmt::{self, Write as _};
 
@@ -193,13 +193,25 @@ impl MeasureReport {
                 told(|sphericity| sphericity.maximum_projection)
             )?;
         }
-        for (name, value) in [
-            ("roundness", measures.roundness),
-            ("regularity", measures.regularity),
-            ("angularity", measures.angularity),
+        for (name, value, error) in [
+            (
+                "roundness",
+                measures.roundness,
+                measures.roundness_standard_error,
+            ),
+            (
+                "regularity",
+                measures.regularity,
+                measures.regularity_standard_error,
+            ),
+            (
+                "angularity",
+                measures.angularity,
+                measures.angularity_standard_error,
+            ),
         ] {
             if let Some(value) = value {
-                writeln!(f, "{name:<13} {value:.4}")?;
+                writeln!(f, "{name:<13} {}", number(value, error))?;
             }
         }
         if let Some(convexity) = measures.convexity {
@@ -221,68 +233,97 @@ impl MeasureReport {
             outline(f, projection, labels)?;
         }
         if let Some(curvature) = measures.curvature {
-            let one = labels.curvature();
-            let told = |distribution: Distribution, error: Option<f64>, unit: &str| {
-                let deviation = match distribution.standard_deviation {
-                    settled if settled.is_finite() => format!("{} SD, ", short(settled)),
-                    _ => String::new(),
-                };
-                format!(
-                    "{} mean, {deviation}{} to {}{unit}",
-                    short(distribution.mean),
-                    short(distribution.least),
-                    with_error(distribution.largest, error)
-                )
-            };
+            let errors = curvature.standard_errors;
+            let [one, squared] = [labels.curvature(), labels.gaussian()];
+            for (title, name, own, off, unit) in [
+                (
+                    "curvature",
+                    "mean",
+                    curvature.mean,
+                    errors.map(|off| off.mean),
+                    &one,
+                ),
+                (
+                    "",
+                    "Gaussian",
+                    curvature.gaussian,
+                    errors.map(|off| off.gaussian),
+                    &squared,
+                ),
+                (
+                    "",
+                    "larger",
+                    curvature.larger,
+                    errors.map(|off| off.larger),
+                    &one,
+                ),
+                (
+                    "",
+                    "smaller",
+                    curvature.smaller,
+                    errors.map(|off| off.smaller),
+                    &one,
+                ),
+            ] {
+                writeln!(
+                    f,
+                    "{title:<13} {name}: {}{unit}",
+                    distribution(&own, off.as_ref())
+                )?;
+            }
+            let share = errors.map(|off| 100.0 * off.convex_share);
             writeln!(
                 f,
-                "curvature     mean: {}",
-                told(curvature.mean, None, &one)
-            )?;
-            writeln!(
-                f,
-                "              Gaussian: {}",
-                told(curvature.gaussian, None, &labels.gaussian())
-            )?;
-            let error = curvature.largest_error;
-            let larger = told(curvature.larger, error, &one);
-            let of_error = match error {
-                Some(_) => "a standard error after ±",
-                None => "the largest without a known error",
-            };
-            writeln!(f, "              larger: {larger}, {of_error}")?;
-            writeln!(
-                f,
-                "              smaller: {}",
-                told(curvature.smaller, None, &one)
-            )?;
-            writeln!(
-                f,
-                "              {:.2} % of the area convex; integral over 4 pi off by {:.1e}",
-                100.0 * curvature.convex_share,
+                "              {} % of the area convex; integral over 4 pi off by {:.1e}",
+                match share {
+                    Some(off) => with_error(100.0 * curvature.convex_share, Some(off)),
+                    None => format!("{:.2}", 100.0 * curvature.convex_share),
+                },
                 curvature.gauss_bonnet_error
             )?;
         }
         if let Some(spectrum) = &measures.spectrum {
-            let shown: Vec<String> = spectrum.relative_amplitude[1..=DEGREES_SHOWN]
-                .iter()
-                .map(|amplitude| format!("{amplitude:.4}"))
-                .collect();
-            let shown = shown.join(" ");
+            let off = spectrum.standard_errors.as_ref();
+            let amplitude = |degree: usize| {
+                let off = off.map(|off| off.relative_amplitude[degree]);
+                number(spectrum.figures.relative_amplitude[degree], off)
+            };
+            let [few, many] = [1..=DEGREES_SHOWN / 2, DEGREES_SHOWN / 2 + 1..=DEGREES_SHOWN]
+                .map(|degrees| degrees.map(amplitude).collect::<Vec<_>>().join(", "));
             writeln!(
                 f,
-                "spectrum      amplitude of degrees 1 to {DEGREES_SHOWN}: {shown}"
+                "spectrum      amplitude of degrees 1 to {DEGREES_SHOWN}: {few},"
             )?;
+            writeln!(f, "              {many}")?;
         }
         Ok(())
     }
 }
 
+/// A curvature over the surface, with its standard errors where they are known.
+fn distribution(own: &Distribution, off: Option<&Distribution>) -> String {
+    let told = |of: fn(&Distribution) -> f64| with_error(of(own), off.map(of));
+    let deviation = match own.standard_deviation.is_finite() {
+        true => format!("{} SD, ", told(|own| own.standard_deviation)),
+        false => String::new(),
+    };
+    format!(
+        "{} mean, {deviation}{} to {}",
+        told(|own| own.mean),
+        told(|own| own.least),
+        told(|own| own.largest)
+    )
+}
+
 /// A pure number, with its standard error where it is known.
 fn ratio<T>(ratios: &WithErrors<T>, of: fn(&T) -> f64) -> String {
-    let value = of(&ratios.figures);
-    match &ratios.standard_errors {
-        Some(errors) => with_error(value, Some(of(errors))),
+    let errors = ratios.standard_errors.as_ref();
+    number(of(&ratios.figures), errors.map(of))
+}
+
+fn number(value: f64, error: Option<f64>) -> String {
+    match error {
+        Some(error) => with_error(value, Some(error)),
         None => format!("{value:.4}"),
     }
 }
@@ -312,10 +353,10 @@ fn outline(f: &mut String, seen: &ProjectionRecord, labels: Labels) -> fmt::Resu
     let told = |of: fn(&OutlineFigures) -> f64| ratio(&seen.outline, of);
     writeln!(
         f,
-        "              circularity {}, circle ratio {}, solidity {}, roundness {:.4}",
+        "              circularity {}, circle ratio {}, solidity {}, roundness {}",
         told(|seen| seen.circularity),
         told(|seen| seen.circle_ratio),
         told(|seen| seen.solidity),
-        seen.roundness
+        told(|seen| seen.roundness)
     )
 }

@@ -136,7 +136,7 @@ fn the_sharpness_that_noise_takes_from_a_tip_is_in_its_error() {
         let grain = fitted.grain_with_errors();
         let survey = Survey::of_grain(&grain, Scheme::Exact);
         let told = survey.curvature().unwrap().larger().largest;
-        let error = survey.largest_curvature_error().unwrap().unwrap();
+        let error = survey.curvature_errors().unwrap().unwrap().larger.largest;
         assert!(error < 0.25 * told, "{told} {error}");
         (told - exact) / error
     });

@@ -4,6 +4,10 @@
 //! off. What else is measured follows from these. Places may all be off alike, and lengths have to do with each other in ways that
 //! are not known, so errors add up: those that are told are as large as they may be, and wide as a rule.
 
+mod bending;
+mod chance;
+mod from_centroid;
+mod known;
 mod outlines;
 mod ratios;
 mod sizes;
@@ -11,6 +15,8 @@ mod sizes;
 mod testing;
 mod touching;
 
+pub use bending::CurvatureErrors;
+pub(super) use known::KnownPlace;
 pub use outlines::OutlineErrors;
 pub use sizes::BoxErrors;
 

@@ -1,15 +1,17 @@
 //! How well outlines are known.
 
+use super::chance::{Part, error_of_mean};
+use super::known::KnownPlace;
 use super::{OF_MESH, Survey, SurveyError};
-use crate::measure::{Curvature, Outline, are_apart};
-use crate::model::StandardErrors;
-use crate::sphere::cube_grid;
+use crate::measure::roundness::smoothed;
+use crate::measure::{Outline, ROUNDNESS_ORDER, are_apart};
+use crate::model::{LocalError, StandardErrors};
 use crate::spread::root_mean_square;
 use nalgebra::{Matrix3, Vector3};
-use std::f64::consts::{FRAC_PI_2, TAU};
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-/// Cells along an edge of the cube of directions of the surface that are looked at.
-const LOOKED_AT: usize = 24;
+/// By how much the roundness of a smooth outline may be off.
+const OF_ROUNDNESS: f64 = 2e-3;
 
 /// Cosine of the angle between a normal and the plane of an outline up to which a place is on its rim, beyond that of the place
 /// that is nearest to it.
@@ -33,6 +35,9 @@ pub struct OutlineErrors {
     /// Of the diameter of the inscribed circle: that too, and at least as the surface may be off on two sides of it, for a bent body
     /// is as wide there as no dimension tells.
     pub inscribed: f64,
+    /// Of the roundness, itself and no share: as the curvature on the rim may be off, of what is left of it where the outline is
+    /// smoothed, and as the inscribed circle may.
+    pub roundness: f64,
 }
 
 impl Survey<'_> {
@@ -57,38 +62,43 @@ impl Survey<'_> {
         let area = errors.area / self.area()?;
         let of = |i: usize| {
             let outline = &outlines[i];
-            let (rim, turned) = (rims[i], turned[i].hypot(OF_MESH));
+            let (known, turned) = (rims[i], turned[i].hypot(OF_MESH));
+            let rim = known.place;
             let (one, other) = (off[(i + 1) % 3], off[(i + 2) % 3]);
             let diameter = one.max(other).hypot(OF_MESH);
             let seen = one.hypot(other);
             let own_area = (rim * outline.perimeter / outline.area).max(seen);
             let own_perimeter = (rim * TAU / outline.perimeter).max(0.5 * seen);
+            let inscribed = diameter.max(2.0 * rim / outline.inscribed_diameter);
             OutlineErrors {
                 area: own_area.hypot(turned),
                 perimeter: own_perimeter.hypot(area).hypot(turned),
                 diameter,
-                inscribed: diameter.max(2.0 * rim / outline.inscribed_diameter),
+                inscribed,
+                roundness: roundness_error(outline, known, inscribed),
             }
         };
         Ok(Some([0, 1, 2].map(of)))
     }
 
     /// How far the surface may be off where lines along each axis graze it, the root mean square.
-    fn rim_errors(&self, axes: &Matrix3<f64>) -> Option<[f64; 3]> {
-        let surface = self.body.surface().ok()?;
-        let (directions, _) = cube_grid(LOOKED_AT);
-        let jets = surface.jets(&directions);
-        let mut places = Vec::with_capacity(directions.len());
-        for (n, jet) in directions.iter().zip(&jets) {
-            let normal = axes.tr_mul(&Curvature::new(n, jet).normal);
-            places.push((normal.map(f64::abs), self.body.local_error(n)?.place));
-        }
+    fn rim_errors(&self, axes: &Matrix3<f64>) -> Option<[LocalError; 3]> {
+        let places = self.known_places()?;
+        let across = |known: &KnownPlace| (axes.tr_mul(&known.normal).map(f64::abs), known.off);
+        let places: Vec<(Vector3<f64>, LocalError)> = places.iter().map(across).collect();
         let rim = |axis: usize| {
-            let least = |least: f64, (normal, _): &(Vector3<f64>, f64)| least.min(normal[axis]);
+            let least =
+                |least: f64, (normal, _): &(Vector3<f64>, LocalError)| least.min(normal[axis]);
             let limit = places.iter().fold(1.0, least) + ON_RIM;
-            let is_on = |(normal, _): &&(Vector3<f64>, f64)| normal[axis] <= limit;
-            let places = places.iter().filter(is_on).map(|(_, place)| *place);
-            root_mean_square(places) * self.unit.length
+            let on_rim = || {
+                let all = places.iter();
+                all.filter(|(normal, _)| normal[axis] <= limit)
+                    .map(|(_, off)| off)
+            };
+            LocalError {
+                place: root_mean_square(on_rim().map(|off| off.place)) * self.unit.length,
+                curvature: root_mean_square(on_rim().map(|off| off.curvature)) / self.unit.length,
+            }
         };
         Some([0, 1, 2].map(rim))
     }
@@ -134,9 +144,33 @@ impl Survey<'_> {
     }
 }
 
+/// Standard error of the roundness of an outline, where the rim is known so well and the inscribed circle to such a share.
+fn roundness_error(outline: &Outline, rim: LocalError, inscribed: f64) -> f64 {
+    let radius = 0.5 * outline.inscribed_diameter;
+    let finest = TAU * ROUNDNESS_ORDER as f64 / outline.perimeter;
+    let off = rim.curvature.min(rim.place * finest * finest);
+    let patch = (4.0 * PI * rim.place / off).sqrt().min(outline.perimeter);
+    let sums = |[speed, turn]: [f64; 2]| match turn * radius > speed {
+        true => [turn, speed / radius],
+        false => [0.0; 2],
+    };
+    let samples = smoothed(&outline.points);
+    let parts: Vec<Part<2>> = samples
+        .iter()
+        .map(|&[speed, turn]| Part {
+            measure: 1.0,
+            patch: patch / speed,
+            told: sums([speed, turn]),
+            may_be: [off, -off].map(|off| sums([speed, turn + off * speed])),
+        })
+        .collect();
+    let error = error_of_mean(&parts, 1.0).hypot(OF_ROUNDNESS);
+    error + outline.roundness * inscribed
+}
+
 #[cfg(test)]
 mod tests {
-    use super::super::testing::{egg, local_errors};
+    use super::super::testing::{bent_egg, egg, local_errors};
     use super::*;
     use crate::measure::Scheme;
     use crate::model::Grain;
@@ -179,6 +213,16 @@ mod tests {
         assert_relative_eq!(errors[1].inscribed, inscribed, max_relative = 1e-2);
         assert!(errors[0].area < 2e-4, "{errors:?}");
         assert!(errors[1].area > 0.01 && errors[2].area > 0.01, "{errors:?}");
+    }
+
+    /// Corners of the smoothed outline are off as the rim is bent, and by no more than its waves can be where the rim is well known.
+    #[test]
+    fn the_roundness_of_an_outline_is_off_as_its_rim_is_bent() {
+        let error = |place, curvature| told(&bent_egg(place, curvature)).1[1].roundness;
+        let [least, bent, wavy] = [error(0.0, 0.0), error(1e-3, 0.05), error(1e-9, 0.05)];
+        assert!(least < 1.1 * OF_ROUNDNESS, "{least}");
+        assert!(bent > 3.0 * least && bent < 0.2, "{bent}");
+        assert!(wavy < 1.1 * least, "{wavy}");
     }
 
     /// Two moments that cannot be told apart: the axes along which width and thickness are seen may be any.

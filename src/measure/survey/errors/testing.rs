@@ -30,6 +30,13 @@ pub(super) fn egg(percent: [f64; 5], surface: f64) -> Grain {
         .with_local_errors(local_errors(|_| surface))
 }
 
+/// The same of which only the surface may be off, everywhere by so much, and its curvature.
+pub(super) fn bent_egg(place: f64, curvature: f64) -> Grain {
+    let error = LocalError { place, curvature };
+    let cells = CubeCell::uniform(LocalErrors::PARTS).len();
+    egg([0.0; 5], 0.0).with_local_errors(LocalErrors::new(vec![error; cells]))
+}
+
 /// Errors of a surface, which is so well known in a direction.
 pub(super) fn local_errors(place: impl Fn(&Vector3<f64>) -> f64) -> Option<LocalErrors> {
     let cells = CubeCell::uniform(LocalErrors::PARTS);

@@ -1,12 +1,9 @@
 //! How well the radii of the spheres inside and around a grain are known.
 
+use super::known::KnownPlace;
 use super::{OF_MESH, Survey, SurveyError};
 use crate::measure::Ball;
-use crate::sphere::cube_grid;
 use crate::spread::root_mean_square;
-
-/// Cells along an edge of the cube of directions of the surface that are looked at: each cell of errors holds four.
-const LOOKED_AT: usize = 24;
 
 /// A sphere touches the surface where this is farther from it by no more than this share of the radius.
 const NEAR: f64 = 0.01;
@@ -40,19 +37,15 @@ impl Survey<'_> {
     }
 
     fn touching_error(&self, ball: Ball) -> Option<f64> {
-        self.standard_errors().ok()?;
-        let surface = self.body.surface().ok()?;
-        let (directions, _) = cube_grid(LOOKED_AT);
-        let places = surface.places(&directions).into_iter();
-        let apart = places.map(|place| ((place - ball.centre.coords).norm() - ball.radius).abs());
-        let apart: Vec<f64> = apart.collect();
-        let nearest = apart.iter().copied().fold(f64::INFINITY, f64::min);
-        let mut touched = Vec::new();
-        for (n, apart) in directions.iter().zip(apart) {
-            if apart <= nearest + NEAR * ball.radius {
-                touched.push(self.body.local_error(n)?.place);
-            }
-        }
+        let places = self.known_places()?;
+        let apart =
+            |known: &KnownPlace| ((known.place - ball.centre.coords).norm() - ball.radius).abs();
+        let nearest = places.iter().map(apart).fold(f64::INFINITY, f64::min);
+        let is_touched = |known: &&KnownPlace| apart(known) <= nearest + NEAR * ball.radius;
+        let touched = places
+            .iter()
+            .filter(is_touched)
+            .map(|known| known.off.place);
         let error = root_mean_square(touched).hypot(OF_MESH * ball.radius);
         Some(error * self.unit.length)
     }
