@@ -1,5 +1,6 @@
 //! What two lots differ by, or share, beside their grains.
 
+use super::columns::is_figure;
 use super::table::Lot;
 use crate::digits::plural;
 use std::collections::BTreeSet;
@@ -14,8 +15,12 @@ pub(crate) fn doubts(first: &Lot, second: &Lot) -> Vec<String> {
         shared(first, second),
         copied(first, "first"),
         copied(second, "other"),
-        unread(first, "first"),
-        unread(second, "other"),
+        failed(first, "first"),
+        failed(second, "other"),
+        first.gaps.sentence(" of the first lot"),
+        second.gaps.sentence(" of the other lot"),
+        unread(first, second, "first"),
+        unread(second, first, "other"),
     ];
     found.into_iter().flatten().collect()
 }
@@ -61,10 +66,26 @@ fn copied(lot: &Lot, which: &str) -> Option<String> {
     })
 }
 
-/// How many cells of a lot are passed over.
-fn unread(lot: &Lot, which: &str) -> Option<String> {
+/// How many scans of a lot have no result.
+fn failed(lot: &Lot, which: &str) -> Option<String> {
+    (lot.failed > 0).then(|| {
+        format!(
+            "{} of the {which} lot failed, and {} not among its grains.",
+            plural(lot.failed, "row"),
+            if lot.failed == 1 { "is" } else { "are" }
+        )
+    })
+}
+
+/// How many cells of a lot are passed over, in columns that hold numbers by their names, or in either lot.
+fn unread(lot: &Lot, other: &Lot, which: &str) -> Option<String> {
+    let are_numbers = |(name, _): &(&String, &usize)| {
+        let has = |lot: &Lot| lot.names.contains(name);
+        has(lot) || has(other) || is_figure(name)
+    };
     let of_column = |(name, count): (&String, &usize)| format!("{count} of {name}");
-    let cells: Vec<_> = lot.unread.iter().map(of_column).collect();
+    let cells = lot.unread.iter().filter(are_numbers).map(of_column);
+    let cells: Vec<_> = cells.collect();
     (!cells.is_empty()).then(|| {
         format!(
             "Cells of the {which} lot that hold no number are left out: {}.",
@@ -122,6 +143,38 @@ mod tests {
         assert!(doubts(&one, &one)[0].starts_with("The lots share 3 grains,"));
         let apart = lot(&[], &[("ct", Some(3))]);
         assert!(doubts(&one, &apart).is_empty());
+    }
+
+    #[test]
+    fn rows_that_failed_are_counted_of_either_lot() {
+        let [none, one, two] = [0, 1, 2].map(|failed| Lot {
+            failed,
+            ..Lot::default()
+        });
+        assert_eq!(doubts(&none, &none), [""; 0]);
+        let told = [
+            "1 row of the first lot failed, and is not among its grains.",
+            "2 rows of the other lot failed, and are not among its grains.",
+        ];
+        assert_eq!(doubts(&one, &two), told);
+    }
+
+    #[test]
+    fn cells_without_numbers_are_told_where_numbers_should_be() {
+        let lot = |names: &[&str], unread: &[&str]| Lot {
+            names: names.iter().map(|name| (*name).into()).collect(),
+            unread: unread.iter().map(|name| ((*name).into(), 3)).collect(),
+            ..Lot::default()
+        };
+        // A column of texts, one that the other lot has numbers in, and one that should have them.
+        let one = lot(&[], &["variety", "weight", "volume"]);
+        let told = doubts(&one, &lot(&["weight"], &[]));
+        assert_eq!(
+            told,
+            ["Cells of the first lot that hold no number are left out: 3 of volume, 3 of weight."]
+        );
+        assert_eq!(doubts(&lot(&["weight"], &["weight"]), &one).len(), 2);
+        assert_eq!(doubts(&lot(&[], &["variety"]), &one).len(), 1);
     }
 
     #[test]

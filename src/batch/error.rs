@@ -169,6 +169,17 @@ pub(crate) enum TableError {
         /// One of its cells.
         cell: String,
     },
+    /// The file is packed in a way that is not read.
+    #[error(
+        "{} is packed by {codec}, which is not read: save it with Snappy, uncompressed, or as CSV",
+        path.display()
+    )]
+    Packed {
+        /// The file.
+        path: PathBuf,
+        /// By what.
+        codec: String,
+    },
     /// The file is no Parquet.
     #[error("cannot read {} as Parquet: {source}", path.display())]
     Parquet {

@@ -1,7 +1,9 @@
 //! What the grains of a batch are like together.
 
 use super::columns::{Column, FIRST};
+use super::gaps::Gaps;
 use super::journal::Row;
+use crate::digits::plural;
 use crate::spread::PER_MEDIAN;
 use serde::Serialize;
 use std::collections::BTreeSet;
@@ -46,13 +48,19 @@ pub(crate) struct Population {
     pub correlations: Vec<Vec<Option<f64>>>,
     /// Grains that are worth a look.
     pub outliers: Vec<Outlier>,
-    /// What is odd about their units, and what is not told for it: whole sentences.
+    /// What is odd about their units, what is not known of all of them, and how many have warnings of their own: whole
+    /// sentences.
     pub warnings: Vec<String>,
     /// The units of length that are told of the grains, and how many tell none.
     #[serde(skip)]
     units: BTreeSet<String>,
     #[serde(skip)]
     unitless: usize,
+    /// How many have warnings of their own.
+    #[serde(skip)]
+    warned: usize,
+    #[serde(skip)]
+    gaps: Gaps,
     #[serde(skip)]
     paths: Vec<String>,
     /// Of every main measure, the values of all grains.
@@ -120,6 +128,8 @@ impl Population {
             warnings: Vec::new(),
             units: BTreeSet::new(),
             unitless: 0,
+            warned: 0,
+            gaps: Gaps::new(columns.iter().map(|column| column.name.as_str())),
             paths: Vec::new(),
             values: vec![Vec::new(); main.len()],
             positions: main
@@ -135,11 +145,13 @@ impl Population {
         self.paths.push(row.path.clone());
         self.units.extend(row.unit.clone());
         self.unitless += usize::from(row.unit.is_none());
-        for (values, position) in self.values.iter_mut().zip(&self.positions) {
-            values.push(match position {
-                Some(at) => row.figures.get(*at).copied().flatten(),
-                None => row.heldout_rms,
-            });
+        self.warned += usize::from(!row.warnings.is_empty());
+        let figure = |at: usize| row.figures.get(at).copied().flatten();
+        let is_known = |at: usize| at.checked_sub(FIRST.len()).and_then(figure).is_some();
+        let not_measured = row.not_measured.iter().map(String::as_str);
+        self.gaps.hear(is_known, not_measured);
+        for (values, at) in self.values.iter_mut().zip(&self.positions) {
+            values.push(at.map_or(row.heldout_rms, figure));
         }
     }
 
@@ -149,7 +161,8 @@ impl Population {
             let known: Vec<f64> = values.iter().flatten().copied().collect();
             statistics.take(known);
         }
-        self.warnings.extend(self.doubt());
+        let doubts = [self.doubt(), self.gaps.sentence(""), self.own_warnings()];
+        self.warnings.extend(doubts.into_iter().flatten());
         self.keep_told();
         let pair = |one: &Vec<Option<f64>>| -> Vec<Option<f64>> {
             self.values
@@ -188,6 +201,21 @@ impl Population {
             )),
             _ => None,
         }
+    }
+
+    /// How many grains have warnings of their own.
+    fn own_warnings(&self) -> Option<String> {
+        (self.warned > 0).then(|| {
+            format!(
+                "{} of {} {}, in the column warnings of results.csv.",
+                self.warned,
+                plural(self.grains, "grain"),
+                match self.warned {
+                    1 => "has warnings of its own",
+                    _ => "have warnings of their own",
+                }
+            )
+        })
     }
 
     /// Leaves out measures that are known of no grain, or in several units.

@@ -3,9 +3,12 @@
 use super::columns::{FIRST, are_results, is_figure};
 use super::csv_table::csv_table;
 use super::error::TableError;
+use super::gaps::Gaps;
 use super::queue::without_label;
 use crate::digits::plural;
 use csv::StringRecord;
+use parquet::basic::Compression;
+use parquet::file::metadata::ParquetMetaData;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::Field;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
@@ -21,6 +24,12 @@ pub(crate) struct Lot {
     pub names: Vec<String>,
     /// What is known of the grains, a list for each column.
     pub values: Vec<Vec<f64>>,
+    /// Of each column the mean of the standard errors that are told.
+    pub errors: Vec<Option<f64>>,
+    /// What is known of fewer grains than were fitted.
+    pub gaps: Gaps,
+    /// How many rows are of scans without a result.
+    pub failed: usize,
     /// The units of length that are told of them; none where none is.
     pub units: BTreeSet<String>,
     /// How many of the grains tell none.
@@ -31,7 +40,7 @@ pub(crate) struct Lot {
     pub scans: BTreeSet<(String, Option<i64>)>,
     /// How many more grains it has than scans.
     pub copies: usize,
-    /// Of a column of figures, how many cells hold something that is no finite number.
+    /// Of a column, how many cells hold something that is no finite number.
     pub unread: BTreeMap<String, usize>,
 }
 
@@ -118,9 +127,28 @@ impl Lot {
         let names: Vec<String> = names.map(str::to_owned).collect();
         let values = vec![Vec::new(); names.len()];
         Self {
+            gaps: Gaps::new(names.iter().map(String::as_str)),
             names,
             values,
             ..Self::default()
+        }
+    }
+
+    /// Takes a row: its texts by the names of their columns, and its cells as numbers. One that is infinite is no number.
+    fn add(&mut self, texts: &HashMap<&str, &str>, cells: &[Option<f64>]) {
+        if !self.hear(texts) {
+            self.failed += 1;
+            return;
+        }
+        let not_measured = texts.get("not_measured").copied().unwrap_or_default();
+        let is_known = |at: usize| cells[at].is_some();
+        self.gaps.hear(is_known, not_measured.split(" | "));
+        for (column, value) in cells.iter().enumerate() {
+            match value {
+                Some(value) if value.is_finite() => self.values[column].push(*value),
+                Some(_) => *self.unread.entry(self.names[column].clone()).or_default() += 1,
+                None => {}
+            }
         }
     }
 
@@ -157,30 +185,29 @@ impl Lot {
         ))
     }
 
-    /// Takes the value of a cell: NaN is one that is not known.
-    fn take(&mut self, column: usize, value: f64) {
-        if value.is_finite() {
-            self.values[column].push(value);
-        } else if !value.is_nan() {
-            *self.unread.entry(self.names[column].clone()).or_default() += 1;
-        }
-    }
-
     /// Leaves out what is no figure of a grain.
     fn figures(mut self) -> Self {
         let is_figure = |name: &str| {
             let described = FIRST.iter().any(|(first, _)| *first == name);
             !described && !name.ends_with("_se")
         };
-        let columns = self.names.drain(..).zip(self.values.drain(..));
-        let (names, values) = columns
-            .filter(|(name, values)| is_figure(name) && !values.is_empty())
-            .unzip();
-        let names: Vec<String> = names;
-        self.unread.retain(|name, _| names.contains(name));
+        let error = |name: &str| {
+            let at = self
+                .names
+                .iter()
+                .position(|own| *own == format!("{name}_se"))?;
+            let told = &self.values[at];
+            (!told.is_empty()).then(|| told.iter().sum::<f64>() / told.len() as f64)
+        };
+        let errors: Vec<Option<f64>> = self.names.iter().map(|name| error(name)).collect();
+        let columns = self.names.drain(..).zip(self.values.drain(..)).zip(errors);
+        let told = columns.filter(|((name, values), _)| is_figure(name) && !values.is_empty());
+        let (columns, errors): (Vec<_>, _) = told.unzip();
+        let (names, values) = columns.into_iter().unzip();
         Self {
             names,
             values,
+            errors,
             ..self
         }
     }
@@ -191,17 +218,36 @@ fn of_csv(path: &Path) -> Result<Lot, TableError> {
     check_decimals(path, &names, &rows)?;
     let mut lot = Lot::of_columns(names.iter());
     for row in &rows {
-        if !lot.hear(&names.iter().zip(row).collect()) {
-            continue;
-        }
-        for (at, cell) in row.iter().enumerate() {
-            match cell.trim() {
-                "" => {}
-                cell => lot.take(at, cell.parse().unwrap_or(f64::INFINITY)),
-            }
-        }
+        let cells: Vec<_> = row.iter().map(number).collect();
+        lot.add(&names.iter().zip(row).collect(), &cells);
     }
     Ok(lot)
+}
+
+/// The number in a cell: none where nothing is told, an infinite one where it is no number.
+fn number(cell: &str) -> Option<f64> {
+    let cell = Some(cell.trim()).filter(|cell| !cell.is_empty())?;
+    let number: f64 = cell.parse().unwrap_or(f64::INFINITY);
+    (!number.is_nan()).then_some(number)
+}
+
+/// The number in a cell of Parquet, likewise.
+fn number_of_field(field: &Field) -> Option<f64> {
+    match field {
+        Field::Null => None,
+        Field::Double(number) => Some(*number).filter(|number| !number.is_nan()),
+        Field::Float(number) => Some(f64::from(*number)).filter(|number| !number.is_nan()),
+        Field::Byte(number) => Some(f64::from(*number)),
+        Field::Short(number) => Some(f64::from(*number)),
+        Field::Int(number) => Some(f64::from(*number)),
+        Field::Long(number) => Some(*number as f64),
+        Field::UByte(number) => Some(f64::from(*number)),
+        Field::UShort(number) => Some(f64::from(*number)),
+        Field::UInt(number) => Some(f64::from(*number)),
+        Field::ULong(number) => Some(*number as f64),
+        Field::Str(text) => self::number(text),
+        _ => Some(f64::INFINITY),
+    }
 }
 
 /// Whether it is a number but for the comma before its decimals.
@@ -221,6 +267,7 @@ fn of_parquet(path: &Path) -> Result<Lot, TableError> {
         source,
     })?;
     let reader = SerializedFileReader::new(file).map_err(failed)?;
+    check_unpacked(path, reader.metadata())?;
     let fields = reader.metadata().file_metadata().schema().get_fields();
     let mut lot = Lot::of_columns(fields.iter().map(|field| field.name()));
     for row in reader.get_row_iter(None).map_err(failed)? {
@@ -229,21 +276,42 @@ fn of_parquet(path: &Path) -> Result<Lot, TableError> {
             Field::Str(text) => Some((name.as_str(), text.as_str())),
             _ => None,
         });
-        if !lot.hear(&texts.collect()) {
-            continue;
-        }
-        for (at, (_, cell)) in row.get_column_iter().enumerate() {
-            if let Field::Double(value) = cell {
-                lot.take(at, *value);
-            }
-        }
+        let cells = row.get_column_iter().map(|(_, cell)| number_of_field(cell));
+        lot.add(&texts.collect(), &cells.collect::<Vec<_>>());
     }
     Ok(lot)
 }
 
+/// Refuses columns that are packed in a way that is not read.
+fn check_unpacked(path: &Path, found: &ParquetMetaData) -> Result<(), TableError> {
+    let columns = found.row_groups().iter().flat_map(|group| group.columns());
+    match columns.map(|column| column.compression()).find_map(unread) {
+        Some(codec) => Err(TableError::Packed {
+            path: path.into(),
+            codec,
+        }),
+        None => Ok(()),
+    }
+}
+
+/// What a way of packing that is not read is called, without its level.
+fn unread(codec: Compression) -> Option<String> {
+    match codec {
+        Compression::UNCOMPRESSED | Compression::SNAPPY => None,
+        _ => codec.to_string().split('(').next().map(str::to_owned),
+    }
+}
+
 #[cfg(test)]
 mod tests {
-    use super::is_decimal_comma;
+    use super::*;
+    use parquet::basic::GzipLevel;
+    use parquet::data_type::{ByteArray, ByteArrayType, DataType, FloatType, Int32Type, Int64Type};
+    use parquet::file::properties::WriterProperties;
+    use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
+    use parquet::schema::parser::parse_message_type;
+    use std::sync::Arc;
+    use tempfile::NamedTempFile;
 
     #[test]
     fn a_comma_before_decimals_is_told_from_other_texts() {
@@ -253,5 +321,71 @@ mod tests {
         for cell in ["21.5", "1,2,3", "bean, large", "inf", ""] {
             assert!(!is_decimal_comma(cell), "{cell}");
         }
+    }
+
+    #[test]
+    fn cells_are_numbers_or_none_or_nothing() {
+        let cells = [" 1.5 ", "", " ", "nan", "-inf", "42,740.8", "bean"];
+        let infinite = Some(f64::INFINITY);
+        let found = cells.map(|cell| number(cell).map(f64::abs));
+        let expected = [Some(1.5), None, None, None, infinite, infinite, infinite];
+        assert_eq!(found, expected);
+    }
+
+    fn put<T: DataType>(group: &mut SerializedRowGroupWriter<'_, File>, values: &[T::T]) {
+        let mut column = group.next_column().unwrap().unwrap();
+        let typed = column.typed::<T>();
+        typed.write_batch(values, None, None).unwrap();
+        column.close().unwrap();
+    }
+
+    /// A table of two grains, packed so, with numbers as other programs save them.
+    fn parquet(codec: Compression) -> NamedTempFile {
+        let schema = "message table {
+            required binary path (UTF8); required binary status (UTF8); required float area; required float area_se;
+            required int32 roundness; required int64 volume; required binary angularity (UTF8);
+        }";
+        let schema = Arc::new(parse_message_type(schema).unwrap());
+        let properties = WriterProperties::builder().set_compression(codec).build();
+        let file = tempfile::Builder::new()
+            .suffix(".parquet")
+            .tempfile()
+            .unwrap();
+        let copy = file.reopen().unwrap();
+        let mut writer = SerializedFileWriter::new(copy, schema, Arc::new(properties)).unwrap();
+        let mut group = writer.next_row_group().unwrap();
+        let texts = |texts: [&str; 2]| texts.map(ByteArray::from);
+        put::<ByteArrayType>(&mut group, &texts(["a", "b"]));
+        put::<ByteArrayType>(&mut group, &texts(["ok", "ok"]));
+        put::<FloatType>(&mut group, &[0.5, f32::NAN]);
+        put::<FloatType>(&mut group, &[0.25, 0.75]);
+        put::<Int32Type>(&mut group, &[3, -4]);
+        put::<Int64Type>(&mut group, &[1 << 40, 5]);
+        put::<ByteArrayType>(&mut group, &texts(["0.5", "1,000.5"]));
+        group.close().unwrap();
+        writer.close().unwrap();
+        file
+    }
+
+    #[test]
+    fn numbers_of_any_width_are_read_from_parquet_packed_or_not() {
+        for codec in [Compression::UNCOMPRESSED, Compression::SNAPPY] {
+            let lot = read_results(parquet(codec).path()).unwrap();
+            assert_eq!(lot.names, ["area", "roundness", "volume", "angularity"]);
+            let volumes = vec![(1_u64 << 40) as f64, 5.0];
+            let values = [vec![0.5], vec![3.0, -4.0], volumes, vec![0.5]];
+            assert_eq!(lot.values, values);
+            assert_eq!(lot.errors, [Some(0.5), None, None, None]);
+            assert_eq!(lot.unread.get("angularity"), Some(&1));
+            let told = lot.gaps.sentence("").unwrap();
+            assert!(told.contains("1 lacks area"), "{told}");
+        }
+    }
+
+    #[test]
+    fn ways_of_packing_that_are_not_read_are_named() {
+        assert_eq!(unread(Compression::SNAPPY), None);
+        let gzip = Compression::GZIP(GzipLevel::default());
+        assert_eq!(unread(gzip).as_deref(), Some("GZIP"));
     }
 }

@@ -3,7 +3,7 @@
 use super::error::LotError;
 use super::surfaces::Surfaces;
 use super::truth::Truth;
-use crate::batch::{RowKey, SavedModels, results_table, texts};
+use crate::batch::{Gaps, RowKey, SavedModels, results_table, texts};
 use csv::StringRecord;
 use serde::Serialize;
 use std::collections::BTreeSet;
@@ -60,7 +60,11 @@ impl LotPart {
         let surfaces = Surfaces::read(folder, &keys, &saved);
         let of_truth = truth.zip(known.as_ref());
         let of_truth = of_truth.and_then(|(path, known)| known.doubt(path, folder));
-        let doubts = [several_units(folder, &columns, &rows), of_truth];
+        let doubts = [
+            several_units(folder, &columns, &rows),
+            gaps(folder, &columns, &rows),
+            of_truth,
+        ];
         let doubts = doubts.into_iter().flatten();
         Ok(Self {
             name: folder.display().to_string(),
@@ -87,6 +91,17 @@ fn key<'a>(columns: &[String], row: &'a StringRecord) -> RowKey<'a> {
         settings: cell("settings"),
         version: cell("version"),
     }
+}
+
+/// What is known of fewer grains than were fitted, if so.
+fn gaps(folder: &Path, columns: &[String], rows: &[StringRecord]) -> Option<String> {
+    let mut gaps = Gaps::new(columns.iter().map(String::as_str));
+    let cell = |row, name| cell(columns, row, name);
+    for row in rows.iter().filter(|row| cell(row, "status") != "failed") {
+        let is_known = |at: usize| row.get(at).is_some_and(|cell| !cell.is_empty());
+        gaps.hear(is_known, cell(row, "not_measured").split(" | "));
+    }
+    gaps.sentence(&format!(" of {}", folder.display()))
 }
 
 /// That the lengths of the scans are in several units, if so.

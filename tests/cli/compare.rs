@@ -48,7 +48,10 @@ fn grains_without_a_unit_among_others_are_told() {
     std::fs::write(folder.path().join("t.csv"), table).unwrap();
     let report = json(&folder, &["compare", "t.csv", "t.csv"]);
     let told = "t.csv tells no unit of 1 grain: lengths are taken to be in mm there too.";
-    assert_eq!(report["warnings"], serde_json::json!([told, told]));
+    let [first, other] = ["first", "other"]
+        .map(|which| format!("1 row of the {which} lot failed, and is not among its grains."));
+    let expected = serde_json::json!([told, told, first, other]);
+    assert_eq!(report["warnings"], expected);
 }
 
 #[test]
@@ -62,9 +65,30 @@ fn cells_that_hold_no_number_are_told_and_left_out() {
     lot("a.csv", ["1.5", "1;7", "1.9", "2.0"]);
     lot("b.csv", ["1.5", " 1.7", "", "NaN"]);
     let report = json(&folder, &["compare", "a.csv", "b.csv"]);
+    let lacking = "Of 4 grains of the other lot 2 lack volume: means are of the rest, which may be unlike these.";
     let told = "Cells of the first lot that hold no number are left out: 1 of volume.";
-    assert_eq!(report["warnings"], serde_json::json!([told]));
+    assert_eq!(report["warnings"], serde_json::json!([lacking, told]));
     assert_eq!(report["measures"][0]["counts"], serde_json::json!([3, 2]));
+}
+
+#[test]
+fn a_column_without_any_number_is_told_where_it_should_have_some() {
+    let folder = folder();
+    let lot = |name: &str, volumes: [&str; 2]| {
+        let rows = volumes.map(|volume| format!("\"{volume}.ply\",ok,2.5,\"{volume}\"\n"));
+        let table = format!("path,status,area,volume\n{}", rows.concat());
+        std::fs::write(folder.path().join(name), table).unwrap();
+    };
+    lot("a.csv", ["inf", "42,740.8"]);
+    lot("b.csv", ["42", "43"]);
+    let told = |first, other| errors(&grainform(&folder, &["compare", first, other]));
+    let warning = "lot that hold no number are left out: 2 of volume.";
+    for (found, which) in [
+        (told("a.csv", "b.csv"), "first"),
+        (told("b.csv", "a.csv"), "other"),
+    ] {
+        assert_eq!(found, format!("warning: Cells of the {which} {warning}\n"));
+    }
 }
 
 #[test]
@@ -98,11 +122,13 @@ fn lots_that_were_fitted_otherwise_or_share_grains_are_told_to_be() {
         "{told}"
     );
     let report = json(&folder, &["compare", "a.csv", "b.csv"]);
-    assert_eq!(report["warnings"].as_array().unwrap().len(), 2);
+    // The others tell of the rows that failed.
+    assert_eq!(report["warnings"].as_array().unwrap().len(), 4);
     assert_eq!(report["measures"][0]["measure"], "volume");
-    assert_eq!(
-        errors(&grainform(&folder, &["compare", "a.csv", "c.csv"])),
-        ""
+    let told = errors(&grainform(&folder, &["compare", "a.csv", "c.csv"]));
+    assert!(
+        told.lines().all(|line| line.contains("lot failed")),
+        "{told}"
     );
 }
 

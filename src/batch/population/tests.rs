@@ -9,7 +9,7 @@ fn two(units: [Option<&str>; 2]) -> Population {
     for unit in units {
         population.add(&Row {
             unit: unit.map(str::to_owned),
-            figures: vec![Some(2.0), None, Some(0.9)],
+            figures: [vec![Some(2.0), None], vec![Some(0.9); 12]].concat(),
             heldout_rms: Some(0.1),
             ..Row::default()
         });
@@ -126,4 +126,37 @@ fn a_population_has_the_statistics_worked_out_by_hand() {
     assert!((outlier.z - 95.0 / 1.4826).abs() < 1e-9);
     // Held-out errors are known of no grain.
     assert_eq!(population.measures.len(), 2);
+}
+
+#[test]
+fn what_is_withheld_of_some_grains_and_who_has_warnings_is_told() {
+    let mut population = Population::new(&columns(&[Measure::Area, Measure::Form]));
+    for number in 0..5 {
+        let is_whole = number < 3;
+        let figure = is_whole.then_some(f64::from(number));
+        let odd = if number == 1 {
+            vec!["A tip is rounded.".into()]
+        } else {
+            vec![]
+        };
+        population.add(&Row {
+            path: number.to_string(),
+            figures: [vec![figure, None], vec![Some(1.0); 6]].concat(),
+            not_measured: if is_whole {
+                vec![]
+            } else {
+                vec!["area: a hole; scan it".into()]
+            },
+            warnings: odd,
+            ..Row::default()
+        });
+    }
+    population.finish();
+    assert_eq!(
+        population.warnings,
+        [
+            "Of 5 grains 2 lack area (a hole): means are of the rest, which may be unlike these.",
+            "1 of 5 grains has warnings of its own, in the column warnings of results.csv.",
+        ]
+    );
 }
