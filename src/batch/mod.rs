@@ -20,6 +20,7 @@ mod interval;
 mod journal;
 mod left_over;
 mod names;
+mod own_error;
 mod population;
 mod queue;
 mod results;

@@ -3,6 +3,7 @@
 use super::columns::{Column, FIRST};
 use super::gaps::Gaps;
 use super::journal::Row;
+use super::own_error::own_error;
 use crate::digits::plural;
 use crate::spread::PER_MEDIAN;
 use serde::Serialize;
@@ -26,7 +27,7 @@ const MAIN: [(&str, bool); 11] = [
 /// Quantiles that are told.
 const QUANTILES: [f64; 7] = [0.0, 0.05, 0.25, 0.5, 0.75, 0.95, 1.0];
 
-/// Robust z-score beyond which a grain is worth a look (Iglewicz and Hoaglin 1993).
+/// Robust z-score beyond which a grain is worth a look (Iglewicz and Hoaglin 1993), and so many of its own errors.
 const OUTLYING: f64 = 3.5;
 
 /// Standard deviation over mean absolute deviation of a normal distribution.
@@ -63,12 +64,16 @@ pub(crate) struct Population {
     gaps: Gaps,
     #[serde(skip)]
     paths: Vec<String>,
-    /// Of every main measure, the values of all grains.
+    /// Of every main measure, the values of all grains, ...
     #[serde(skip)]
     values: Vec<Vec<Option<f64>>>,
-    /// Positions of the main measures among the figures of a row; none of what stands before them.
+    /// ... and their standard errors.
     #[serde(skip)]
-    positions: Vec<Option<usize>>,
+    errors: Vec<Vec<Option<f64>>>,
+    /// Positions of the main measures and of their standard errors among the figures of a row; none of what stands before
+    /// them, or is not there.
+    #[serde(skip)]
+    positions: Vec<[Option<usize>; 2]>,
 }
 
 /// One measure over all grains.
@@ -106,16 +111,15 @@ pub(crate) struct Outlier {
 impl Population {
     /// No grains yet, with these columns.
     pub(super) fn new(columns: &[Column]) -> Self {
-        let at = |name: &&str| columns.iter().position(|column| column.name == *name);
-        let main: Vec<(&str, usize)> = MAIN
-            .iter()
-            .filter_map(|(name, _)| Some((*name, at(name)?)))
-            .collect();
+        let at = |name: &str| columns.iter().position(|column| column.name == name);
+        let main = MAIN.map(|(name, _)| (name, at(name), at(&format!("{name}_se"))));
+        let main: Vec<_> = main.into_iter().filter(|(_, at, _)| at.is_some()).collect();
+        let among_figures = |at: Option<usize>| at?.checked_sub(FIRST.len());
         Self {
             grains: 0,
             measures: main
                 .iter()
-                .map(|(name, _)| Statistics {
+                .map(|(name, ..)| Statistics {
                     measure: (*name).into(),
                     count: 0,
                     mean: 0.0,
@@ -132,9 +136,10 @@ impl Population {
             gaps: Gaps::new(columns.iter().map(|column| column.name.as_str())),
             paths: Vec::new(),
             values: vec![Vec::new(); main.len()],
+            errors: vec![Vec::new(); main.len()],
             positions: main
                 .iter()
-                .map(|(_, at)| at.checked_sub(FIRST.len()))
+                .map(|(_, at, error)| [*at, *error].map(among_figures))
                 .collect(),
         }
     }
@@ -150,8 +155,10 @@ impl Population {
         let is_known = |at: usize| at.checked_sub(FIRST.len()).and_then(figure).is_some();
         let not_measured = row.not_measured.iter().map(String::as_str);
         self.gaps.hear(is_known, not_measured);
-        for (values, at) in self.values.iter_mut().zip(&self.positions) {
+        let columns = self.values.iter_mut().zip(&mut self.errors);
+        for ((values, errors), [at, error]) in columns.zip(&self.positions) {
             values.push(at.map_or(row.heldout_rms, figure));
+            errors.push(error.and_then(figure));
         }
     }
 
@@ -224,12 +231,14 @@ impl Population {
         let is_told: Vec<bool> = self.measures.iter().map(is_told).collect();
         let mut told = is_told.iter();
         self.measures.retain(|_| *told.next().unwrap_or(&false));
-        let mut told = is_told.iter();
-        self.values.retain(|_| *told.next().unwrap_or(&false));
+        for columns in [&mut self.values, &mut self.errors] {
+            let mut told = is_told.iter();
+            columns.retain(|_| *told.next().unwrap_or(&false));
+        }
     }
 
     fn outlying(&self, at: usize) -> Vec<Outlier> {
-        let values = &self.values[at];
+        let (values, errors) = (&self.values[at], &self.errors[at]);
         let known: Vec<f64> = values.iter().flatten().copied().collect();
         let middle = median(known.iter().copied());
         let deviation = deviation(known.iter().map(|value| (value - middle).abs()));
@@ -237,11 +246,13 @@ impl Population {
             return Vec::new();
         }
         let measure = &self.measures[at].measure;
-        let outlier = |(path, value): (&String, &Option<f64>)| {
-            let value = (*value)?;
-            let z = (value - middle) / deviation;
-            (z.abs() > OUTLYING).then(|| Outlier {
-                path: path.clone(),
+        let outlier = |at: usize| {
+            let value = values[at]?;
+            let off = value - middle;
+            let z = off / deviation;
+            let is_beyond_error = off.abs() > OUTLYING * own_error(measure, value, errors[at]);
+            (z.abs() > OUTLYING && is_beyond_error).then(|| Outlier {
+                path: self.paths[at].clone(),
                 measure: measure.clone(),
                 value,
                 z,
@@ -252,7 +263,7 @@ impl Population {
                 ),
             })
         };
-        self.paths.iter().zip(values).filter_map(outlier).collect()
+        (0..values.len()).filter_map(outlier).collect()
     }
 }
 

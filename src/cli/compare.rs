@@ -81,6 +81,10 @@ pub(super) fn run(args: CompareArgs, console: Console) -> Result<()> {
     for comparison in &compared.measures {
         let [count, other_count] = comparison.counts;
         let [mean, other_mean] = comparison.means.map(short);
+        let effect = match comparison.is_below_own_error() {
+            true => "below error".into(),
+            false => comparison.effect.map_or("-".into(), hundredths),
+        };
         table.add_row([
             comparison.measure.clone(),
             format!("{count}, {other_count}"),
@@ -88,7 +92,7 @@ pub(super) fn run(args: CompareArgs, console: Console) -> Result<()> {
             other_mean,
             short(comparison.difference),
             interval(comparison.difference_interval, short),
-            comparison.effect.map_or("-".into(), hundredths),
+            effect,
             interval(comparison.effect_interval, hundredths),
         ]);
     }
@@ -97,7 +101,9 @@ pub(super) fn run(args: CompareArgs, console: Console) -> Result<()> {
     }
     console.print(format_args!(
         "{}\n\nDifferences are of the other lot less the first; effect sizes are differences over the root of the mean of \
-         both variances. Intervals take the lots as normal, and are told where both vary.",
+         both variances. Intervals take the lots as normal, and are told where both vary. Below error: the grains' own \
+         errors, where they are alike for all of a lot, are larger than the difference. Of 100 such intervals about 5 miss \
+         by chance alone.",
         table.trim_fmt()
     ))?;
     console.warn(&compared.warnings);

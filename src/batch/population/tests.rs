@@ -128,6 +128,32 @@ fn a_population_has_the_statistics_worked_out_by_hand() {
     assert_eq!(population.measures.len(), 2);
 }
 
+/// How many of eight grains are worth a look: one has an area so many millionths above 1, the others less than 7, all with
+/// this standard error.
+fn outliers_among_nearly_alike(far: i32, error: Option<f64>) -> usize {
+    let mut population = Population::new(&columns(&[Measure::Area]));
+    for (number, millionths) in [0, 1, 2, 3, 4, 5, 6, far].into_iter().enumerate() {
+        population.add(&Row {
+            path: number.to_string(),
+            figures: vec![Some(1.0 + 1e-6 * f64::from(millionths)), error],
+            ..Row::default()
+        });
+    }
+    population.finish();
+    population.outliers.len()
+}
+
+#[test]
+fn what_differs_by_less_than_the_figures_are_known_is_not_worth_a_look() {
+    // 3.5 errors of 5e-4 are 1.75e-3.
+    assert_eq!(outliers_among_nearly_alike(2000, Some(5e-4)), 1);
+    assert_eq!(outliers_among_nearly_alike(2000, Some(6e-4)), 0);
+    assert_eq!(outliers_among_nearly_alike(-2000, Some(5e-4)), 1);
+    assert_eq!(outliers_among_nearly_alike(2000, None), 1);
+    // 3.5 times 1e-4.
+    assert_eq!(outliers_among_nearly_alike(300, None), 0);
+}
+
 #[test]
 fn what_is_withheld_of_some_grains_and_who_has_warnings_is_told() {
     let mut population = Population::new(&columns(&[Measure::Area, Measure::Form]));
