@@ -130,10 +130,10 @@ fn tell_left_out(paths: &[PathBuf], console: Console) {
     let endings: BTreeSet<String> = files.iter().map(ending).collect();
     let endings: Vec<String> = endings.into_iter().collect();
     let note = format!(
-        "left {} out, whose endings ({}) are not those of scans: name them to fit them too, such as {}",
+        "left {} out, such as {}, whose endings ({}) are not those of scans: name those that hold points to fit them too",
         plural(files.len(), "file"),
-        endings.join(", "),
-        first.display()
+        first.display(),
+        endings.join(", ")
     );
     console.note("note", &note);
 }

@@ -4,7 +4,9 @@ use super::args::{InputArgs, LimitArgs};
 use super::sentence;
 use crate::model::{Grain, grain_from_json};
 use crate::report::Unit;
-use crate::scan::{ReadError, Scan, Volume, parse_file, parse_volume, read_bytes, read_stream};
+use crate::scan::{
+    ReadError, Scan, Volume, parse_file, parse_volume, read_bytes, read_stream, starts_as_model,
+};
 use anyhow::{Context, Result, anyhow, bail};
 use std::io;
 use std::path::Path;
@@ -88,12 +90,6 @@ pub(super) fn parse_scan(
             name(path)
         );
     }
-    if starts_as_model(bytes) {
-        bail!(
-            "{} is no scan: it starts as a model does, which measure, mesh, report and contact read",
-            name(path)
-        );
-    }
     let format = input.format.map(|format| format.0);
     Ok(parse_file(called(path), bytes, format)?)
 }
@@ -111,10 +107,6 @@ pub(super) fn is_model(path: &Path, bytes: &[u8], input: &InputArgs) -> Result<b
         bail!("{name} is a model, and --format is of scans: leave it out");
     }
     Ok(true)
-}
-
-fn starts_as_model(bytes: &[u8]) -> bool {
-    bytes.trim_ascii_start().starts_with(b"{")
 }
 
 /// What was done with a scan. Where it failed, the error also tells what was odd about the scan, which may explain it.

@@ -43,6 +43,15 @@ pub enum ReadError {
         /// What is wrong with the image.
         source: VolumeError,
     },
+    /// The file is a fitted model.
+    #[error(
+        "{} is no scan: it starts as a model does, which measure, mesh, report and contact read",
+        path.display()
+    )]
+    Model {
+        /// The file asked for.
+        path: PathBuf,
+    },
     /// The file was read, but its bytes are not a usable scan.
     #[error("cannot read a scan from {}", path.display())]
     Parse {

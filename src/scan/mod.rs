@@ -234,8 +234,7 @@ impl Scan {
 ///
 /// # Errors
 ///
-/// Those of [`read_bytes`] where the file cannot be read, [`ReadError::Parse`] where its content is no
-/// usable scan; see [`parse_scan`].
+/// Those of [`read_bytes`] where the file cannot be read, and of [`parse_file`] where its content is no usable scan.
 pub fn read_scan(path: &Path) -> Result<Scan, ReadError> {
     let bytes = read_bytes(path, MAX_BYTES)?;
     parse_file(path, &bytes, None)
@@ -247,7 +246,7 @@ pub fn read_scan(path: &Path) -> Result<Scan, ReadError> {
 ///
 /// # Errors
 ///
-/// [`ReadError::Parse`] and [`ReadError::Volume`].
+/// [`ReadError::Parse`], [`ReadError::Volume`] and [`ReadError::Model`].
 pub fn parse_file(path: &Path, bytes: &[u8], format: Option<&str>) -> Result<Scan, ReadError> {
     if let Some(volume) = parse_volume(path, bytes, MAX_BYTES)? {
         return volume.scan(None).map_err(|source| ReadError::Volume {
@@ -255,11 +254,19 @@ pub fn parse_file(path: &Path, bytes: &[u8], format: Option<&str>) -> Result<Sca
             source,
         });
     }
+    if starts_as_model(bytes) {
+        return Err(ReadError::Model { path: path.into() });
+    }
     let format = format.or_else(|| source::extension(path));
     parse_scan(bytes, format).map_err(|source| ReadError::Parse {
         path: path.into(),
         source,
     })
+}
+
+/// Whether bytes are those of a model, and of no scan.
+pub(crate) fn starts_as_model(bytes: &[u8]) -> bool {
+    bytes.trim_ascii_start().starts_with(b"{")
 }
 
 /// Reads a scan from the bytes of a file.

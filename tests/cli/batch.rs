@@ -219,10 +219,72 @@ fn files_that_are_left_out_are_told() {
         let words = [&["batch", named, "-o", "r"], &only[..]].concat();
         errors(&grainform(&folder, &words))
     };
-    let note = "note: left 3 files out, whose endings (.csv, none) are not those of scans: name them to fit them too, \
-                such as lot/";
+    let note = "note: left 3 files out, such as lot/README, whose endings (.csv, none) are not those of scans: name those \
+                that hold points to fit them too";
     assert!(told("lot").starts_with(note), "{}", told("lot"));
     assert!(!told("lot/00.xyz").contains("left"));
+}
+
+/// What is told on standard error of a folder with an ellipsoid, and with one that has no points in a band around it.
+fn with_a_band(folder: &TempDir) -> String {
+    let path = |name: &str| folder.path().join(name);
+    std::fs::create_dir(path("lot")).unwrap();
+    let synth = ["synth", "ellipsoid", "--axes", "6,4,3", "--points", "2000"];
+    succeed(folder, &[&synth[..], &["-o", "lot/whole.xyz"]].concat());
+    let text = std::fs::read_to_string(path("lot/whole.xyz")).unwrap();
+    let is_seen = |line: &&str| {
+        let x: f64 = line.split(' ').next().unwrap().parse().unwrap();
+        (x / 6.0).abs() > 0.35
+    };
+    let rest: Vec<&str> = text.lines().filter(is_seen).collect();
+    std::fs::write(path("lot/band.xyz"), rest.join("\n")).unwrap();
+    errors(&grainform(
+        folder,
+        &["batch", "lot", "-o", "r", "--only", "area,volume"],
+    ))
+}
+
+#[test]
+fn what_is_withheld_of_some_grains_is_told_of_their_means() {
+    let folder = folder();
+    let told = with_a_band(&folder);
+    let summary = std::fs::read_to_string(folder.path().join("r/summary.json")).unwrap();
+    let summary: Value = serde_json::from_str(&summary).unwrap();
+    let [lacking, own] = [0, 1].map(|at| summary["warnings"][at].as_str().unwrap());
+    let expected =
+        "Of 2 grains 1 lacks area and volume (no point lies in holes as large as a cap of ";
+    assert!(lacking.starts_with(expected), "{lacking}");
+    assert!(own.starts_with("1 of 2 grains has warnings"), "{own}");
+    assert!(told.contains(lacking) && told.contains(own), "{told}");
+    let told = errors(&grainform(&folder, &["report", "r", "-o", "r.html"]));
+    assert!(
+        told.starts_with("warning: Of 2 grains of r 1 lacks area and volume ("),
+        "{told}"
+    );
+    // The advice can be followed.
+    let reason = &rows(&folder.path().join("r/results.csv"))[0]["not_measured"];
+    assert!(
+        reason.ends_with("take the guess (grainform fit --extrapolate)"),
+        "{reason}"
+    );
+    let guess = ["fit", "lot/band.xyz", "--extrapolate"];
+    assert!(json(&folder, &guess)["volume"].is_number());
+}
+
+#[test]
+fn a_model_that_is_named_is_told_to_be_one() {
+    let folder = lot(1);
+    std::fs::write(
+        folder.path().join("m.json"),
+        "{\"format\": \"grainform model\"}",
+    )
+    .unwrap();
+    grainform(&folder, &batch(&["m.json", "-o", "r"]));
+    let reason = &rows(&folder.path().join("r/results.csv"))[0]["reason"];
+    let expected = "m.json is no scan: it starts as a model does, which measure, mesh, report and contact read";
+    assert_eq!(reason, expected);
+    let fitted = errors(&grainform(&folder, &["fit", "m.json"]));
+    assert_eq!(fitted, format!("error: {expected}\n"));
 }
 
 #[cfg(unix)]
