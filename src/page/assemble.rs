@@ -56,3 +56,26 @@ pub(crate) fn write_page(page: &Page, writer: &mut dyn Write) -> io::Result<()> 
     }
     writer.write_all(b"</body>\n</html>\n")
 }
+
+#[cfg(test)]
+mod tests {
+    use super::SCRIPTS;
+
+    /// A call takes some 100 000 arguments at most.
+    #[test]
+    fn no_call_has_as_many_arguments_as_a_lot_has_grains() {
+        let spread = [
+            "Math.min(...",
+            "Math.max(...",
+            "append(...",
+            "push(...",
+            "Children(...[",
+        ];
+        for script in SCRIPTS {
+            // Six numbers, ends of two lines.
+            let script = script.replace("ends.push(...line.slice(i, i + 6))", "");
+            let found = spread.iter().find(|call| script.contains(**call));
+            assert_eq!(found, None);
+        }
+    }
+}

@@ -191,7 +191,22 @@ fn selfcheck(browser: &str, path: &Path) -> Value {
 fn a_browser_shows_it_all_without_an_error() {
     let browser = browser().expect("chromium, chromium-browser or google-chrome");
     let (folder, _) = page();
+    // A unit that reads as a number, and more points than four digits tell.
+    let table = folder.path().join("lot/results.csv");
+    let text = fs::read_to_string(&table).unwrap();
+    fs::write(&table, text.replace(",,386,", ",1.50,30742,")).unwrap();
+    succeed(&folder, &REPORT);
     let found = selfcheck(browser, &folder.path().join("a.html"));
+    let details = found["details"].as_array().unwrap();
+    let shown = |name: &str| {
+        let row = details.iter().find(|row| row[0] == name);
+        row.unwrap_or_else(|| panic!("{name} in {found}"))[1].clone()
+    };
+    assert_eq!(
+        (shown("points"), shown("unit")),
+        ("30742".into(), "1.50".into())
+    );
+    assert!(shown("volume").as_str().unwrap().len() <= 5, "{found}");
     assert_eq!(found["problems"], serde_json::json!([]), "{found}");
     assert_eq!(found["sections"], 3, "{found}");
     // Radius and curvature of both grains, and the deviation of the scan.

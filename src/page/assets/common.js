@@ -14,9 +14,18 @@ function el(tag, attributes = {}, ...children) {
     if (typeof value === 'function') made.addEventListener(name, value);
     else made.setAttribute(name, value);
   }
-  made.append(...children.flat(Infinity));
+  appendAll(made, children.flat(Infinity));
   return made;
 }
+
+// One after the other: as arguments of one call, so many as a large lot has are too many.
+function appendAll(parent, children) {
+  for (const child of children) parent.append(child);
+}
+
+// The least and the largest of numbers, likewise; of none Infinity and -Infinity.
+const leastOf = (values) => values.reduce((least, value) => Math.min(least, value), Infinity);
+const mostOf = (values) => values.reduce((most, value) => Math.max(most, value), -Infinity);
 
 function bytesOf(text) {
   return Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
@@ -67,9 +76,15 @@ function told(value, digits = 4) {
     : value.toExponential(digits - 2).replace(/\.?0+e/, 'e');
 }
 
+// A cell of a table: other numbers than whole ones in four digits, all else as it is.
+function toldCell(cell) {
+  const value = Number(cell);
+  return Number.isFinite(value) && !Number.isSafeInteger(value) ? told(value) : cell;
+}
+
 // Marks of an axis, each in so many digits that it is told where it is.
 function toldApart(marks) {
-  const step = Math.min(...marks.slice(1).map((mark, at) => mark - marks[at]));
+  const step = leastOf(marks.slice(1).map((mark, at) => mark - marks[at]));
   return marks.map((mark) => {
     for (let digits = 4; digits < 15; digits += 1) {
       const text = told(mark, digits);

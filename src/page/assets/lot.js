@@ -94,8 +94,8 @@ function lotPart(lot, grid) {
     const cells = lot.columns.map((name, at) => [name, lot.rows[row][at]]).filter(([, cell]) => cell);
     detail.replaceChildren(el('h3', {}, nameOf(row)), el('div', { class: 'row' },
       el('figure', { class: 'view small' }, lot.surfaces[row] ? canvas : el('p', { class: 'note' }, lot.no_surface[row])),
-      el('div', { class: 'wide' }, el('table', {}, el('tbody', {}, cells.map(([name, cell]) =>
-        el('tr', {}, el('td', {}, name), el('td', {}, Number.isFinite(Number(cell)) ? told(Number(cell)) : cell))))))));
+      el('div', { class: 'wide' }, el('table', { class: 'details' }, el('tbody', {}, cells.map(([name, cell]) =>
+        el('tr', {}, el('td', {}, name), el('td', {}, texts.includes(name) ? cell : toldCell(cell)))))))));
     if (lot.surfaces[row]) showSurface(viewer, floatsOf(lot.surfaces[row]), corners);
     detail.scrollIntoView({ behavior: 'smooth', block: 'nearest' });
   };
@@ -115,10 +115,11 @@ function lotPart(lot, grid) {
       if (Number.isNaN(x) || Number.isNaN(y)) return Number.isNaN(x) - Number.isNaN(y);
       return (x < y ? -1 : x > y) * (order.isUp ? 1 : -1) || a - b;
     };
-    body.replaceChildren(...[...all].sort(compare).map((row) => shownRows.get(row)));
+    body.replaceChildren();
+    appendAll(body, [...all].sort(compare).map((row) => shownRows.get(row)));
   };
   const head = (name, kind) => el('th', { class: `sorts ${kind}`, click: () => sort(name) }, name);
-  body.append(...shownRows.values());
+  appendAll(body, shownRows.values());
   const table = el('table', {}, el('thead', {}, el('tr', {}, draw ? el('th') : [], head('path', ''), el('th', {}, 'status'),
     main.map((name) => head(name, 'number')))), body);
 

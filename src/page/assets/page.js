@@ -43,5 +43,6 @@ if (location.hash === '#selfcheck') {
   document.documentElement.dataset.selfcheck = JSON.stringify({
     problems, views: found, maps: count('svg.map'), plots: count('svg.plot'), rows: count('tbody tr'), dots: count('circle.dot'),
     sections: count('section'),
+    details: [...document.querySelectorAll('table.details tr')].map((row) => [...row.children].map((cell) => cell.textContent)),
   });
 }

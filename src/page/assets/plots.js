@@ -47,7 +47,7 @@ function angleMap(title, rows, columns, values, range, steps) {
 // An axis: from a number to its place, and the marks.
 function axisOf(values, isLog, from, to) {
   const known = values.filter((value) => Number.isFinite(value) && (!isLog || value > 0));
-  let [low, high] = [Math.min(...known), Math.max(...known)];
+  let [low, high] = [leastOf(known), mostOf(known)];
   if (!known.length) [low, high] = isLog ? [1, 10] : [0, 1];
   if (isLog) {
     [low, high] = [Math.log10(low), Math.log10(high)];
@@ -107,10 +107,10 @@ function histogram(title, values, xTitle) {
   const [left, top, width, height] = [64, 26, 380, 200];
   const x = axisOf(known, false, left, left + width);
   const bins = Math.max(5, Math.min(40, Math.ceil(Math.sqrt(known.length) * 1.5)));
-  const [low, high] = [Math.min(...known), Math.max(...known)];
+  const [low, high] = [leastOf(known), mostOf(known)];
   const counts = new Array(bins).fill(0);
   known.forEach((value) => { counts[Math.min(bins - 1, Math.floor((bins * (value - low)) / (high - low || 1)))] += 1; });
-  const most = Math.max(1, ...counts);
+  const most = Math.max(1, mostOf(counts));
   const y = { place: (count) => top + height * (1 - (0.95 * count) / most), marks: ticks(0, most, 5).filter(Number.isInteger) };
   const bars = known.length ? counts.map((count, at) => {
     const [from, to] = [at, at + 1].map((end) => x.place(low + ((high - low) * end) / bins));
