@@ -2,7 +2,7 @@
 
 use super::interval::{Sample, intervals};
 use super::own_error::own_error;
-use super::population::moments;
+use super::statistics::moments;
 use super::table::Lot;
 use serde::Serialize;
 use std::f64::consts::SQRT_2;

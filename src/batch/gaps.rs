@@ -22,11 +22,13 @@ pub(crate) struct Gaps {
     groups: Vec<Group>,
 }
 
+/// The position of a column in the table, and its name.
+type Column = (usize, String);
+
 /// Columns that are unknown of the same grains for the same reasons.
 #[derive(Debug, Clone, Default, PartialEq)]
 struct Group {
-    /// Their positions in the table, and their names.
-    columns: Vec<(usize, String)>,
+    columns: Vec<Column>,
     /// How many grains they are unknown of.
     unknown: usize,
     /// Why: how often, and an example. Those that differ by their numbers alone are one.
@@ -119,7 +121,7 @@ impl Gaps {
 
     /// What the columns of a group are called: those of a measure by its name, where they are all there.
     fn names(&self, group: &Group) -> Vec<String> {
-        let count = |columns: &[(usize, String)], measure: &str| {
+        let count = |columns: &[Column], measure: &str| {
             let own = columns.iter().filter(|(_, name)| key(name) == measure);
             own.count()
         };
@@ -146,7 +148,7 @@ impl Group {
         is_known: impl Fn(usize) -> bool,
         withheld: &[(&str, &str)],
     ) -> impl Iterator<Item = Self> {
-        let mut parts: BTreeMap<(bool, Option<&str>), Vec<(usize, String)>> = BTreeMap::new();
+        let mut parts: BTreeMap<(bool, Option<&str>), Vec<Column>> = BTreeMap::new();
         for (at, name) in self.columns {
             let is_known = is_known(at);
             let why = withheld

@@ -227,7 +227,7 @@ mod tests {
                     mean + deviation * normal
                 })
                 .collect();
-            let (mean, deviation) = crate::batch::population::moments(&values);
+            let (mean, deviation) = crate::batch::statistics::moments(&values);
             sample(count, mean, deviation.unwrap())
         };
         let mut held = [0_usize; 2];

@@ -20,6 +20,7 @@ mod interval;
 mod journal;
 mod left_over;
 mod names;
+mod outliers;
 mod own_error;
 mod population;
 mod queue;
@@ -27,6 +28,7 @@ mod results;
 mod run;
 mod saved;
 mod shown;
+mod statistics;
 mod table;
 
 pub(crate) use alike::doubts;

@@ -3,9 +3,9 @@
 use super::columns::{Column, FIRST};
 use super::gaps::Gaps;
 use super::journal::Row;
-use super::own_error::own_error;
+use super::outliers::{Outlier, outliers};
+use super::statistics::{correlation, moments, quantile};
 use crate::digits::plural;
-use crate::spread::PER_MEDIAN;
 use serde::Serialize;
 use std::collections::BTreeSet;
 
@@ -26,15 +26,6 @@ const MAIN: [(&str, bool); 11] = [
 
 /// Quantiles that are told.
 const QUANTILES: [f64; 7] = [0.0, 0.05, 0.25, 0.5, 0.75, 0.95, 1.0];
-
-/// Robust z-score beyond which a grain is worth a look (Iglewicz and Hoaglin 1993), and so many of its own errors.
-const OUTLYING: f64 = 3.5;
-
-/// Standard deviation over mean absolute deviation of a normal distribution.
-const PER_MEAN: f64 = 1.253_314_137_315_500_3;
-
-/// Grains of the smallest population that has outliers.
-const LEAST_GRAINS: usize = 8;
 
 /// What the grains of a batch are like together.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -90,22 +81,6 @@ pub(crate) struct Statistics {
     pub deviation: Option<f64>,
     /// Smallest, 5 %, 25 %, 50 %, 75 %, 95 %, largest, between neighbours by linear interpolation.
     pub quantiles: [f64; QUANTILES.len()],
-}
-
-/// A grain that is unlike most others.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[non_exhaustive]
-pub(crate) struct Outlier {
-    /// The scan.
-    pub path: String,
-    /// The measure by which it is.
-    pub measure: String,
-    /// Its value.
-    pub value: f64,
-    /// Difference from the median over 1.4826 times the median absolute deviation.
-    pub z: f64,
-    /// The same as a sentence.
-    pub reason: String,
 }
 
 impl Population {
@@ -179,7 +154,10 @@ impl Population {
         };
         self.correlations = self.values.iter().map(pair).collect();
         self.outliers = (0..self.measures.len())
-            .flat_map(|at| self.outlying(at))
+            .flat_map(|at| {
+                let measure = &self.measures[at].measure;
+                outliers(measure, &self.paths, &self.values[at], &self.errors[at])
+            })
             .collect();
     }
 
@@ -236,45 +214,6 @@ impl Population {
             columns.retain(|_| *told.next().unwrap_or(&false));
         }
     }
-
-    fn outlying(&self, at: usize) -> Vec<Outlier> {
-        let (values, errors) = (&self.values[at], &self.errors[at]);
-        let known: Vec<f64> = values.iter().flatten().copied().collect();
-        let middle = median(known.iter().copied());
-        let deviation = deviation(known.iter().map(|value| (value - middle).abs()));
-        if known.len() < LEAST_GRAINS || deviation <= 0.0 {
-            return Vec::new();
-        }
-        let measure = &self.measures[at].measure;
-        let outlier = |at: usize| {
-            let value = values[at]?;
-            let off = value - middle;
-            let z = off / deviation;
-            let is_beyond_error = off.abs() > OUTLYING * own_error(measure, value, errors[at]);
-            (z.abs() > OUTLYING && is_beyond_error).then(|| Outlier {
-                path: self.paths[at].clone(),
-                measure: measure.clone(),
-                value,
-                z,
-                reason: format!(
-                    "its {measure} is {} deviations {} the median",
-                    (z.abs() * 10.0).round() / 10.0,
-                    if z > 0.0 { "above" } else { "below" }
-                ),
-            })
-        };
-        (0..values.len()).filter_map(outlier).collect()
-    }
-}
-
-/// Standard deviation of values whose distances from their median are given, told by the median of these; where more than half
-/// are alike, by the mean (Iglewicz and Hoaglin 1993).
-fn deviation(off: impl ExactSizeIterator<Item = f64> + Clone) -> f64 {
-    let middle = median(off.clone());
-    match middle > 0.0 {
-        true => PER_MEDIAN * middle,
-        false => PER_MEAN * off.clone().sum::<f64>() / off.len() as f64,
-    }
 }
 
 impl Statistics {
@@ -286,66 +225,6 @@ impl Statistics {
         self.deviation = deviation;
         self.quantiles = QUANTILES.map(|share| quantile(&known, share));
     }
-}
-
-/// Mean and standard deviation (with n - 1).
-pub(super) fn moments(values: &[f64]) -> (f64, Option<f64>) {
-    let count = values.len() as f64;
-    // The mean of equal values is rounded, and they would be told to vary.
-    let is_constant = values.windows(2).all(|pair| pair[0] == pair[1]);
-    let mean = match values.first() {
-        Some(&value) if is_constant => value,
-        _ => values.iter().sum::<f64>() / count.max(1.0),
-    };
-    // Squares of moments of inertia in metres, and of some other figures, are beyond the range of numbers.
-    let largest = values
-        .iter()
-        .fold(0.0_f64, |most, value| most.max((value - mean).abs()));
-    let unit = if largest > 0.0 { largest } else { 1.0 };
-    let squares: f64 = values
-        .iter()
-        .map(|value| ((value - mean) / unit).powi(2))
-        .sum();
-    (
-        mean,
-        (count > 1.0).then(|| unit * (squares / (count - 1.0)).sqrt()),
-    )
-}
-
-/// Of an even number of values the mean of the two in the middle.
-fn median(values: impl Iterator<Item = f64>) -> f64 {
-    let mut values: Vec<f64> = values.collect();
-    values.sort_unstable_by(f64::total_cmp);
-    quantile(&values, 0.5)
-}
-
-fn quantile(sorted: &[f64], share: f64) -> f64 {
-    let at = share * sorted.len().saturating_sub(1) as f64;
-    let (low, high) = (at.floor() as usize, at.ceil() as usize);
-    match (sorted.get(low), sorted.get(high)) {
-        (Some(one), Some(other)) => one + (other - one) * at.fract(),
-        _ => 0.0,
-    }
-}
-
-fn correlation(one: &[Option<f64>], other: &[Option<f64>]) -> Option<f64> {
-    let pairs = one
-        .iter()
-        .zip(other)
-        .filter_map(|(one, other)| Some(((*one)?, (*other)?)));
-    let (one, other): (Vec<f64>, Vec<f64>) = pairs.unzip();
-    if one.len() < 3 {
-        return None;
-    }
-    let [(mean, deviation), (other_mean, other_deviation)] = [moments(&one), moments(&other)];
-    let (deviation, other_deviation) = (deviation?, other_deviation?);
-    let products: f64 = one
-        .iter()
-        .zip(&other)
-        .map(|(one, other)| (one - mean) / deviation * ((other - other_mean) / other_deviation))
-        .sum();
-    let found = products / (one.len() - 1) as f64;
-    found.is_finite().then_some(found.clamp(-1.0, 1.0))
 }
 
 #[cfg(test)]
