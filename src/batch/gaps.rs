@@ -4,6 +4,7 @@
 //! rest is not that of the lot.
 
 use super::columns::figures;
+use crate::digits::plural;
 use crate::report::Measure;
 use std::collections::{BTreeMap, HashSet};
 use std::mem::take;
@@ -88,8 +89,8 @@ impl Gaps {
         told.extend((others > 0).then(|| format!("fewer lack others ({others} columns)")));
         (!told.is_empty()).then(|| {
             format!(
-                "Of {} grains{whose} {}{}.",
-                self.grains,
+                "Of {}{whose} {}{}.",
+                plural(self.grains, "grain"),
                 told.join("; "),
                 match groups.iter().all(|group| group.unknown == self.grains) {
                     true => "",
@@ -276,6 +277,8 @@ mod tests {
         let found = told(&[all, all]).unwrap();
         let expected = "Of 2 grains of a all lack area, volume and form (why).";
         assert_eq!(found, expected);
+        let found = told(&[all]).unwrap();
+        assert!(found.starts_with("Of 1 grain of a 1 lacks "), "{found}");
         let found = told(&[all, (&[], &[])]).unwrap();
         assert!(found.contains("a 1 lacks area, volume and form"), "{found}");
     }
