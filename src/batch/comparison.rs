@@ -1,7 +1,7 @@
 //! Two lots of grains beside each other.
 
 use super::interval::{Sample, intervals};
-use super::own_error::own_error;
+use super::own_error::computed_to;
 use super::statistics::moments;
 use super::table::Lot;
 use serde::Serialize;
@@ -21,7 +21,7 @@ pub(crate) struct Comparison {
     pub deviations: [f64; 2],
     /// Mean of the second lot less that of the first.
     pub difference: f64,
-    /// Its standard error by those of the grains' own figures, as far as they are alike for all grains of a lot.
+    /// How well it is computed, where that is not in the scatter of the grains.
     pub own_error: f64,
     /// Its interval at 95 %, that of Behrens and Fisher: the lots may vary by different amounts. It is at least as wide as
     /// `own_error` to both sides. `null` where a lot does not vary.
@@ -36,7 +36,7 @@ pub(crate) struct Comparison {
 }
 
 impl Comparison {
-    /// Whether the difference is below what the figures' own errors allow.
+    /// Whether the difference is below how well it is computed.
     pub(crate) fn is_below_own_error(&self) -> bool {
         self.difference.abs() < self.own_error
     }
@@ -44,27 +44,22 @@ impl Comparison {
 
 /// Compares two lots by every measure that at least two grains of each have.
 pub(crate) fn compare(first: &Lot, second: &Lot) -> Vec<Comparison> {
-    let columns = first.names.iter().zip(&first.values).enumerate();
+    let columns = first.names.iter().zip(&first.values);
     columns
-        .filter_map(|(at, (name, values))| {
+        .filter_map(|(name, values)| {
             let other = second.names.iter().position(|other| other == name)?;
-            let error = |lot: &Lot, at: usize| lot.errors.get(at).copied().flatten();
-            of_measure(
-                name,
-                [values, &second.values[other]],
-                [error(first, at), error(second, other)],
-            )
+            of_measure(name, [values, &second.values[other]])
         })
         .collect()
 }
 
-fn of_measure(name: &str, values: [&[f64]; 2], errors: [Option<f64>; 2]) -> Option<Comparison> {
+fn of_measure(name: &str, values: [&[f64]; 2]) -> Option<Comparison> {
     let lots = [sample(values[0])?, sample(values[1])?];
     let deviations = lots.map(|lot| lot.deviation);
     let difference = lots[1].mean - lots[0].mean;
     let scale = deviations[0].hypot(deviations[1]) / SQRT_2;
-    let shared = [0, 1].map(|i| shared_error(name, &lots[i], errors[i]));
-    let own_error = shared[0].hypot(shared[1]);
+    let [one, other] = [0, 1].map(|i| shared_error(name, &lots[i]));
+    let own_error = one.hypot(other);
     let is_effect = difference.abs() >= own_error && scale > 0.0;
     let found = intervals(lots);
     Some(Comparison {
@@ -86,10 +81,10 @@ fn of_measure(name: &str, values: [&[f64]; 2], errors: [Option<f64>; 2]) -> Opti
     })
 }
 
-/// The part of the grains' own errors that is alike for all of a lot, and so is not smaller in their mean: errors that differ
-/// from grain to grain make figures scatter, and what is larger than their scatter does not differ.
-fn shared_error(measure: &str, lot: &Sample, told: Option<f64>) -> f64 {
-    let error = own_error(measure, lot.mean, told);
+/// How well the figures of a lot are computed, as far as that is alike for all its grains and so no better in their mean: what differs from
+/// grain to grain makes figures scatter. Other errors that are alike, of the scanner or the fit, are so in both lots, and cancel.
+fn shared_error(measure: &str, lot: &Sample) -> f64 {
+    let error = computed_to(measure, lot.mean);
     // Squares may be beyond the range of numbers.
     match error > lot.deviation {
         true => (error - lot.deviation).sqrt() * (error + lot.deviation).sqrt(),
@@ -165,59 +160,43 @@ mod tests {
         assert_eq!(intervals, (None, None));
     }
 
-    /// Two lots of five grains, an amount apart, of standard deviation 1.58e-7 and with this standard error.
-    fn nearly_alike(apart: f64, error: Option<f64>) -> Comparison {
+    /// Two lots of five grains near one, an amount apart, of standard deviation 1.58 times the step.
+    fn nearly_alike(apart: f64, step: f64) -> Comparison {
         let lots = [0.0, apart].map(|more| {
-            let values = [1.0, 2.0, 3.0, 4.0, 5.0].map(|x| 1.0 + more + 1e-7 * x);
-            let errors = vec![error];
-            Lot {
-                errors,
-                ..lot(&values)
-            }
+            let values = [-2.0, -1.0, 0.0, 1.0, 2.0].map(|x| 1.0 + more + step * x);
+            lot(&values)
         });
         compare(&lots[0], &lots[1]).remove(0)
     }
 
     #[test]
-    fn what_is_below_the_figures_own_errors_is_no_effect() {
-        // The root of two squares of 8e-4 is 1.131e-3.
+    fn what_is_below_how_well_it_is_computed_is_no_effect() {
+        // The root of two squares of 1e-4 is 1.414e-4.
         for sign in [1.0, -1.0] {
-            let found = nearly_alike(sign * 1e-3, Some(8e-4));
+            let found = nearly_alike(sign * 1.4e-4, 1e-7);
             assert!(found.is_below_own_error());
             assert_eq!((found.effect, found.effect_interval), (None, None));
             let [low, high] = found.difference_interval.unwrap();
-            assert_relative_eq!(low, sign * 1e-3 - 1.131_4e-3, max_relative = 1e-3);
-            assert_relative_eq!(high, sign * 1e-3 + 1.131_4e-3, max_relative = 1e-3);
-            let found = nearly_alike(sign * 1.2e-3, Some(8e-4));
+            assert_relative_eq!(low, sign * 1.4e-4 - 1.414e-4, epsilon = 1e-7);
+            assert_relative_eq!(high, sign * 1.4e-4 + 1.414e-4, epsilon = 1e-7);
+            let found = nearly_alike(sign * 1.43e-4, 1e-7);
             assert!(!found.is_below_own_error() && found.effect_interval.is_some());
-            assert!(found.effect.unwrap() * sign > 1e3);
-            assert!(
-                found
-                    .difference_interval
-                    .unwrap()
-                    .iter()
-                    .all(|end| end * sign > 0.0)
-            );
+            assert!(found.effect.unwrap() * sign > 100.0);
+            let ends = found.difference_interval.unwrap();
+            assert!(ends.iter().all(|end| end * sign > 0.0), "{ends:?}");
         }
-        // Of figures without errors 1e-4 counts: together 1.41e-4.
-        assert_eq!(nearly_alike(1.4e-4, None).effect, None);
-        assert!(nearly_alike(1.43e-4, None).effect.is_some());
     }
 
     #[test]
     fn errors_that_scatter_are_in_the_interval_as_it_is() {
-        let of = |error: f64| {
-            let lots = [[1.0, 2.0, 4.0], [3.0, 5.0, 9.0]].map(|values| Lot {
-                errors: vec![Some(error)],
-                ..lot(&values)
-            });
-            compare(&lots[0], &lots[1]).remove(0)
-        };
-        assert_eq!(of(1.5).own_error, 0.0);
-        assert_eq!(of(1.5).difference_interval, of(0.0).difference_interval);
-        // The variance of the first is 7 / 3, that of the second is larger than 4.
-        let expected = (4.0 - 7.0 / 3.0_f64).sqrt();
-        assert_relative_eq!(of(2.0).own_error, expected, max_relative = 1e-12);
+        assert_eq!(nearly_alike(1e-5, 1e-4).own_error, 0.0);
+        // The standard deviation is .79e-4.
+        let expected = (2.0 * (1.0 - 0.625_f64 * 1.0)).sqrt() * 1e-4;
+        assert_relative_eq!(
+            nearly_alike(0.0, 5e-5).own_error,
+            expected,
+            max_relative = 1e-6
+        );
     }
 
     #[test]

@@ -6,12 +6,16 @@ const LEAST: f64 = 1e-4;
 /// How the names of measures begin that are shares of something else, and are zero of many bodies.
 const SHARES: [&str; 2] = ["spectrum.", "curvature.gauss_bonnet_error"];
 
-/// How far a figure of a measure, or a mean of some, may be off: by the standard error that is told of it, at least by that
-/// share of it, or of 1 where it is a share itself.
-pub(super) fn own_error(measure: &str, value: f64, told: Option<f64>) -> f64 {
+/// How well a figure of a measure, or a mean of some, is computed: to that share of it, or of 1 where it is a share itself.
+pub(super) fn computed_to(measure: &str, value: f64) -> f64 {
     let is_share = SHARES.iter().any(|share| measure.starts_with(share));
     let whole = if is_share { 1.0 } else { value.abs() };
-    told.unwrap_or(0.0).max(LEAST * whole)
+    LEAST * whole
+}
+
+/// How far a figure may be off: by the standard error that is told of it, and no less than it is computed to.
+pub(super) fn own_error(measure: &str, value: f64, told: Option<f64>) -> f64 {
+    told.unwrap_or(0.0).max(computed_to(measure, value))
 }
 
 #[cfg(test)]

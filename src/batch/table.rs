@@ -24,8 +24,6 @@ pub(crate) struct Lot {
     pub names: Vec<String>,
     /// What is known of the grains, a list for each column.
     pub values: Vec<Vec<f64>>,
-    /// Of each column the mean of the standard errors that are told.
-    pub errors: Vec<Option<f64>>,
     /// What is known of fewer grains than were fitted.
     pub gaps: Gaps,
     /// How many rows are of scans without a result.
@@ -191,23 +189,12 @@ impl Lot {
             let described = FIRST.iter().any(|(first, _)| *first == name);
             !described && !name.ends_with("_se")
         };
-        let error = |name: &str| {
-            let at = self
-                .names
-                .iter()
-                .position(|own| *own == format!("{name}_se"))?;
-            let told = &self.values[at];
-            (!told.is_empty()).then(|| told.iter().sum::<f64>() / told.len() as f64)
-        };
-        let errors: Vec<Option<f64>> = self.names.iter().map(|name| error(name)).collect();
-        let columns = self.names.drain(..).zip(self.values.drain(..)).zip(errors);
-        let told = columns.filter(|((name, values), _)| is_figure(name) && !values.is_empty());
-        let (columns, errors): (Vec<_>, _) = told.unzip();
-        let (names, values) = columns.into_iter().unzip();
+        let columns = self.names.drain(..).zip(self.values.drain(..));
+        let told = columns.filter(|(name, values)| is_figure(name) && !values.is_empty());
+        let (names, values) = told.unzip();
         Self {
             names,
             values,
-            errors,
             ..self
         }
     }
@@ -375,7 +362,6 @@ mod tests {
             let volumes = vec![(1_u64 << 40) as f64, 5.0];
             let values = [vec![0.5], vec![3.0, -4.0], volumes, vec![0.5]];
             assert_eq!(lot.values, values);
-            assert_eq!(lot.errors, [Some(0.5), None, None, None]);
             assert_eq!(lot.unread.get("angularity"), Some(&1));
             let told = lot.gaps.sentence("").unwrap();
             assert!(told.contains("1 lacks area"), "{told}");

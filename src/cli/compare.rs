@@ -101,9 +101,8 @@ pub(super) fn run(args: CompareArgs, console: Console) -> Result<()> {
     }
     console.print(format_args!(
         "{}\n\nDifferences are of the other lot less the first; effect sizes are differences over the root of the mean of \
-         both variances. Intervals take the lots as normal, and are told where both vary. Below error: the grains' own \
-         errors, where they are alike for all of a lot, are larger than the difference. Of 100 such intervals about 5 miss \
-         by chance alone.",
+         both variances. Intervals take the lots as normal, and are told where both vary. Below error: the \
+         difference is smaller than what it is computed to. Of 100 such intervals about 5 miss by chance alone.",
         table.trim_fmt()
     ))?;
     console.warn(&compared.warnings);

@@ -139,10 +139,12 @@ pub(super) fn estimated(
 
     let residuals = residuals(&grain, samples.rows());
     let (outliers, one_sided) = (estimate.outliers, estimate.one_sided);
-    // Hidden points are no nearer than those that were seen: these may crowd where the surface is farthest from them.
+    // Points may crowd where the surface is farthest from the estimate.
     if outliers + one_sided == 0 {
+        let apart = residuals.rms.powi(2) - estimate.residual().powi(2);
+        let among_points = apart.max(0.0).sqrt().hypot(estimate.held_out());
         let held_out = &mut search.candidates[search.chosen].heldout_rms;
-        *held_out = held_out.map(|rms| rms.max(residuals.rms));
+        *held_out = held_out.map(|rms| rms.max(among_points));
     }
     let mut fitted = prepared.fitted(
         grain,

@@ -1,4 +1,4 @@
-//! Curvature over a whole surface, and the roundness that follows from it.
+//! Curvature over a whole surface.
 
 use super::nodes::curved_nodes;
 use super::peaks::{Peak, highest};
@@ -189,26 +189,6 @@ impl CurvatureStatistics {
         self.integral(convex) / area
     }
 
-    /// Roundness: the mean, by area, of the radius of curvature 1/k1 at the corners over the radius R
-    /// of the largest inscribed sphere, a corner being where k1 > 1/R. Above 0 to 1; 1 without corners.
-    ///
-    /// Wadell 1932 has the mean radius of the corners of a plane outline over that of its inscribed
-    /// circle; with curvature, in space, it is by area (after Bullard and Garboczi 2013 and Zhao and
-    /// Wang 2016).
-    pub fn roundness(&self, inscribed_radius: f64) -> f64 {
-        let radius = inscribed_radius / self.unit;
-        let sharpness = |[first, _]: [f64; 2]| first * radius;
-        let corners = self.integral(|k| f64::from(sharpness(k) > 1.0));
-        if corners == 0.0 {
-            return 1.0;
-        }
-        let radii = self.integral(|k| match sharpness(k) > 1.0 {
-            true => 1.0 / sharpness(k),
-            false => 0.0,
-        });
-        radii / corners
-    }
-
     /// How a curvature is distributed over the surface at unit size.
     pub(super) fn at_unit_size(&self, kind: Kind) -> Distribution {
         let area = self.area();
@@ -282,7 +262,7 @@ mod tests {
     }
 
     #[test]
-    fn a_sphere_is_curved_alike_everywhere_and_has_no_corner() {
+    fn a_sphere_is_curved_alike_everywhere() {
         let found = statistics(&Sphere { radius: 2.0 });
         for (distribution, value) in [
             (found.mean(), 0.5),
@@ -296,7 +276,6 @@ mod tests {
             assert!(distribution.standard_deviation < 1e-13);
         }
         assert_relative_eq!(found.convex_share(), 1.0, max_relative = 1e-13);
-        assert_eq!(found.roundness(1.99), 1.0);
     }
 
     #[test]
@@ -345,19 +324,6 @@ mod tests {
         assert!(CurvatureStatistics::new(&pair).is_on_edges());
         let rounded = found(6.0, 6.0);
         assert!(!rounded.is_on_edges() && rounded.larger().standard_deviation > 0.0);
-    }
-
-    #[test]
-    fn roundness_is_the_mean_radius_of_the_corners() {
-        let found = CurvatureStatistics {
-            nodes: vec![([0.5, 0.5], 7.0), ([2.0, 1.0], 3.0), ([4.0, -1.0], 1.0)],
-            extremes: Default::default(),
-            ends: Default::default(),
-            unit: 1.0,
-        };
-        // Corners of radii 1/2 and 1/4 of an inscribed radius of 1, by area.
-        assert_relative_eq!(found.roundness(1.0), (3.0 * 0.5 + 0.25) / 4.0);
-        assert_relative_eq!(found.convex_share(), 10.0 / 11.0);
     }
 
     #[test]

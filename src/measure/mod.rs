@@ -6,6 +6,7 @@ mod bounds;
 mod clearance;
 mod convex_polygon;
 mod convexity;
+mod corners;
 mod crossings;
 mod curvature;
 mod curvature_statistics;

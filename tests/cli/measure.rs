@@ -1,4 +1,4 @@
-use super::{deviation, errors, folder, grainform, json, number, succeed};
+use super::{deviation, errors, folder, grain, grainform, json, number, succeed};
 use std::f64::consts::PI;
 
 #[test]

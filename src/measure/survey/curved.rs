@@ -3,6 +3,7 @@
 use super::{Survey, SurveyError};
 use crate::measure::CurvatureStatistics;
 use crate::measure::bounds::ratio;
+use crate::measure::corners::Corners;
 
 impl Survey<'_> {
     /// Curvature over the whole surface of a grain.
@@ -28,14 +29,26 @@ impl Survey<'_> {
             .get_or_init(|| CurvatureStatistics::new(surface).in_unit(self.unit.length)))
     }
 
-    /// Roundness of the corners, see [`CurvatureStatistics::roundness`].
+    /// Roundness: the mean, by area, of the radius of curvature 1/k at the corners over the radius R of the largest inscribed sphere, a
+    /// corner being where the larger principal curvature k is above 1/R. Above 0 to 1; 1 without corners.
+    ///
+    /// Wadell 1932 has the mean radius of the corners of a plane outline over that of its inscribed circle; with curvature, in space, it
+    /// is by area (after Bullard and Garboczi 2013 and Zhao and Wang 2016).
     ///
     /// # Errors
     ///
     /// [`SurveyError::Flat`] of a mesh.
     pub fn roundness(&self) -> Result<f64, SurveyError> {
-        let found = self.any_curvature()?.roundness(self.inscribed()?.radius);
-        Ok(ratio("roundness", found)?)
+        let corners = self.corners()?;
+        Ok(ratio(
+            "roundness",
+            corners.roundness(self.unit_inscribed()?.radius),
+        )?)
+    }
+
+    pub(super) fn corners(&self) -> Result<&Corners, SurveyError> {
+        let surface = self.body.surface()?;
+        Ok(self.corners.get_or_init(|| Corners::new(surface)))
     }
 
     /// Regularity: the mean of roundness and of the sphericity inscribed over enclosing sphere, above 0

@@ -7,6 +7,7 @@ mod errors;
 mod from_centroid;
 mod unit_size;
 
+use super::corners::Corners;
 use super::elements::Element;
 use super::extents::Extents;
 use super::minimum_box::LeastBoxes;
@@ -72,6 +73,7 @@ pub struct Survey<'a> {
     inscribed: OnceCell<Result<Ball, SurveyError>>,
     enclosing: OnceCell<Result<Ball, SurveyError>>,
     curvature: OnceCell<CurvatureStatistics>,
+    corners: OnceCell<Corners>,
     known_places: OnceCell<Option<Vec<KnownPlace>>>,
 }
 
@@ -146,6 +148,7 @@ impl<'a> Survey<'a> {
             inscribed: OnceCell::new(),
             enclosing: OnceCell::new(),
             curvature: OnceCell::new(),
+            corners: OnceCell::new(),
             known_places: OnceCell::new(),
         }
     }

@@ -22,6 +22,9 @@ const OF_TOTAL: f64 = 5e-4;
 /// whose truth is known ask for.
 const SELECTED: f64 = 1.5;
 
+/// Share of the error of its curvature by which all of a surface may be off alike.
+const ALIKE: f64 = 0.5;
+
 /// Standard errors from where it is told to which a place is looked at, and by how many halvings of the distance it is found how far the
 /// farthest is beyond it.
 const FARTHEST: f64 = 4.0;
@@ -92,12 +95,25 @@ impl Survey<'_> {
                 largest: per * end(End::Largest)?,
             })
         };
+        // Ripples of a fit bend flat sides both ways already: all of them may be off alike.
+        let convex = |curvature: f64| {
+            let [mut share, mut all] = [0.0; 2];
+            for place in places {
+                let off = curvature * place.off.curvature;
+                share += place.area * f64::from(is_convex(place.principal[1] + off, whole));
+                all += place.area;
+            }
+            share / all
+        };
+        let alike = [ALIKE, -ALIKE].map(|times| (convex(times) - convex(0.0)).abs());
         Ok(Some(CurvatureErrors {
             mean: of(Kind::Mean)?,
             gaussian: of(Kind::Gaussian)?,
             larger: of(Kind::Larger)?,
             smaller: of(Kind::Smaller)?,
-            convex_share: mean_by(&|k| f64::from(is_convex(k[1], whole))),
+            convex_share: mean_by(&|k| f64::from(is_convex(k[1], whole)))
+                .max(alike[0])
+                .max(alike[1]),
         }))
     }
 
@@ -125,8 +141,8 @@ impl Survey<'_> {
             .collect();
         let mut error = error_of_mean(&parts, 1.0).hypot(OF_ROUNDNESS * roundness);
         let share = of_radius / self.inscribed()?.radius;
-        let found = self.any_curvature()?;
-        let of = |share: f64| found.roundness(self.unit.length * radius * (1.0 + share));
+        let found = self.corners()?;
+        let of = |share: f64| found.roundness(radius * (1.0 + share));
         error += [of(share), of(-share)]
             .map(|other| (other - roundness).abs())
             .into_iter()

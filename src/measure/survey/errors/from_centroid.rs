@@ -44,7 +44,7 @@ impl Seen {
 
 impl Survey<'_> {
     /// Standard error of the [angularity](Self::angularity): by chance, of patches of the surface that have nothing to do with each other,
-    /// what all of them add, and all of what the ellipsoid is off by. `None` where the grain tells no errors.
+    /// what all of them add, and all of what the ellipsoid is off by, which is no more than the radius is in the mean. `None` where the grain tells no errors.
     ///
     /// # Errors
     ///
@@ -56,6 +56,9 @@ impl Survey<'_> {
         };
         let ellipsoid: EquivalentEllipsoid = self.unit_ellipsoid()?;
         let of_ellipsoid = off.component_div(&self.ellipsoid()?.semi_axes).max();
+        let solid_angle: f64 = seen.iter().map(|seen| seen.solid_angle).sum();
+        let of_radius = |seen: &Seen| seen.solid_angle * seen.off / seen.distance;
+        let of_radius = seen.iter().map(of_radius).sum::<f64>() / solid_angle;
         let parts: Vec<Part<2>> = seen
             .iter()
             .map(|seen| {
@@ -70,7 +73,7 @@ impl Survey<'_> {
             })
             .collect();
         let error = error_of_mean(&parts, 0.0).hypot(OF_ANGULARITY * angularity);
-        Ok(Some(error + of_ellipsoid))
+        Ok(Some(error + of_ellipsoid.min(of_radius)))
     }
 
     /// Standard errors of the [spectrum](Self::spectrum): of each coefficient that of an error of the radius that is off alike over patches
