@@ -164,18 +164,13 @@ fn row(fitted: &Fitted, of_scan: &OfScan, settings: &Settings) -> Row {
         volume_error: fit.volume_error,
         not_measured: by_reason(&measured.not_measured)
             .into_iter()
-            .map(|(names, reason)| format!("{names}: {}", of_fit(reason)))
+            .map(|(names, reason)| format!("{names}: {reason}"))
             .collect(),
         no_standard_errors: fit.no_standard_errors,
         warnings: sentences(warnings, &fitted.warnings, known),
         figures,
         ..Row::default()
     }
-}
-
-/// A reason whose advice is told with the command that has its options, for a batch has them not.
-fn of_fit(reason: &str) -> String {
-    reason.replace("(--", "(grainform fit --")
 }
 
 /// The figure, and its standard error where it can have one.

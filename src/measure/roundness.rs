@@ -48,6 +48,7 @@ pub(super) fn smoothed(points: &[Vector2<f64>]) -> Vec<[f64; 2]> {
     places.map(|place| speed_and_turn(&slopes, place)).collect()
 }
 
+/// The same at one place.
 fn speed_and_turn(slopes: &[[Vector2<f64>; 2]; ROUNDNESS_ORDER], place: f64) -> [f64; 2] {
     // The first derivative and the second.
     let (mut first, mut second) = (Vector2::zeros(), Vector2::zeros());

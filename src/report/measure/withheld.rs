@@ -73,7 +73,7 @@ impl Withheld {
     pub(in crate::report) fn reason(&self, measure: Measure) -> Option<String> {
         if let Some(unseen) = self.unseen {
             return Some(format!(
-                "{unseen}; scan what is missing, or take the guess (--extrapolate)"
+                "{unseen}; scan what is missing, or take the guess (fit and measure --extrapolate)"
             ));
         }
         if let Some(crossing) = self.crossing.filter(|_| is_made_of_area(measure)) {
@@ -100,7 +100,7 @@ impl Withheld {
         let found = Contradicted { area, volume };
         let is_found = area.is_some() || volume.is_some();
         is_found.then(|| {
-            format!("{found}; fit it otherwise (--surface position, or another --segments)")
+            format!("{found}; fit it otherwise (fit --surface position, or another --segments)")
         })
     }
 

@@ -1,4 +1,4 @@
-//! How well curvature, and roundness that follows from it, is known.
+//! How well curvature is known.
 //!
 //! Where a surface is off by h along its normal, its curvature tensor is off by the second derivatives of h. Where these know no
 //! direction, with a norm k: the mean curvature by k / 2, half the difference of the principal curvatures and what turns them by
@@ -7,28 +7,15 @@
 use super::chance::{Part, error_of_mean};
 use super::known::KnownPlace;
 use super::{Survey, SurveyError};
+use crate::measure::Distribution;
 use crate::measure::curvature_statistics::{End, Kind, is_convex};
-use crate::measure::followed::unfollowed;
-use crate::measure::{Curvature, Distribution};
-use std::f64::consts::{LN_2, SQRT_2};
-
-/// Share of itself by which the roundness of a smooth grain may be off by quadrature.
-const OF_ROUNDNESS: f64 = 5e-3;
+use std::f64::consts::SQRT_2;
 
 /// Share of itself by which the total curvature of a grain may be off by quadrature.
 const OF_TOTAL: f64 = 5e-4;
 
-/// Of all places the one is told where what it bends and what it is off by add up: its error over that of any place, as fits of particles
-/// whose truth is known ask for.
-const SELECTED: f64 = 1.5;
-
 /// Share of the error of its curvature by which all of a surface may be off alike.
-const ALIKE: f64 = 0.5;
-
-/// Standard errors from where it is told to which a place is looked at, and by how many halvings of the distance it is found how far the
-/// farthest is beyond it.
-const FARTHEST: f64 = 4.0;
-const HALVINGS: usize = 12;
+const ALIKE: f64 = 0.25;
 
 /// Standard errors of curvature over a surface.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
@@ -96,131 +83,27 @@ impl Survey<'_> {
             })
         };
         // Ripples of a fit bend flat sides both ways already: all of them may be off alike.
-        let convex = |curvature: f64| {
-            let [mut share, mut all] = [0.0; 2];
-            for place in places {
-                let off = curvature * place.off.curvature;
-                share += place.area * f64::from(is_convex(place.principal[1] + off, whole));
-                all += place.area;
-            }
-            share / all
+        let convex = |alike: f64| -> f64 {
+            let bent = |place: &&KnownPlace| {
+                is_convex(place.principal[1] + alike * place.off.curvature, whole)
+            };
+            places.iter().filter(bent).map(|place| place.area).sum()
         };
-        let alike = [ALIKE, -ALIKE].map(|times| (convex(times) - convex(0.0)).abs());
+        let [more, less] = [ALIKE, -ALIKE].map(|alike| (convex(alike) - convex(0.0)).abs() / whole);
         Ok(Some(CurvatureErrors {
             mean: of(Kind::Mean)?,
             gaussian: of(Kind::Gaussian)?,
             larger: of(Kind::Larger)?,
             smaller: of(Kind::Smaller)?,
             convex_share: mean_by(&|k| f64::from(is_convex(k[1], whole)))
-                .max(alike[0])
-                .max(alike[1]),
+                .max(more)
+                .max(less),
         }))
     }
-
-    /// Standard error of the [roundness](Self::roundness): what bends, and the inscribed sphere. `None` where the grain tells no errors.
-    ///
-    /// # Errors
-    ///
-    /// As [`Self::roundness`].
-    pub fn roundness_error(&self) -> Result<Option<f64>, SurveyError> {
-        let roundness = self.roundness()?;
-        let (Some(of_radius), Some(places)) = (self.inscribed_error()?, self.known_places()) else {
-            return Ok(None);
-        };
-        let whole: f64 = places.iter().map(|place| place.area).sum();
-        let radius = self.unit_inscribed()?.radius;
-        let corners = |radius: f64| {
-            move |[larger, _]: [f64; 2]| match larger * radius > 1.0 {
-                true => [1.0, 1.0 / (larger * radius)],
-                false => [0.0; 2],
-            }
-        };
-        let parts: Vec<Part<8>> = places
-            .iter()
-            .map(|place| bent(place, whole, corners(radius)))
-            .collect();
-        let mut error = error_of_mean(&parts, 1.0).hypot(OF_ROUNDNESS * roundness);
-        let share = of_radius / self.inscribed()?.radius;
-        let found = self.corners()?;
-        let of = |share: f64| found.roundness(radius * (1.0 + share));
-        error += [of(share), of(-share)]
-            .map(|other| (other - roundness).abs())
-            .into_iter()
-            .fold(0.0, f64::max);
-        Ok(Some(error))
-    }
-
-    /// The same of the [regularity](Self::regularity): half of those of roundness and sphericity.
-    ///
-    /// # Errors
-    ///
-    /// As [`Self::regularity`].
-    pub fn regularity_error(&self) -> Result<Option<f64>, SurveyError> {
-        self.regularity()?;
-        let (roundness, spheres) = (self.roundness_error()?, self.sphericity_errors()?);
-        let both = roundness.zip(spheres);
-        Ok(both.map(|(roundness, spheres)| 0.5 * (roundness + spheres.inscribed_enclosing)))
-    }
-
-    /// Of a least or a largest value, at unit size.
-    fn end_error(&self, kind: Kind, end: End, places: &[KnownPlace]) -> Result<f64, SurveyError> {
-        let surface = self.body.surface()?;
-        let (n, told) = self.any_curvature()?.end(kind, end);
-        if !told.is_finite() {
-            return Ok(f64::NAN);
-        }
-        let own = self.body.local_error(&n).unwrap_or_default().curvature;
-        let principal = Curvature::new(&n, &surface.jet(&n)).principal;
-        let ripple = kind.off(principal, [0, 1].map(|i| unfollowed(surface, &n, i)));
-        let off = |principal: [f64; 2], curvature: f64| kind.off(principal, [curvature; 2]);
-        let whole = places.iter().map(|place| place.area).sum();
-        let rivals = places.iter().map(|place| Rival {
-            beyond: end.sign() * (kind.of(place.principal) - told),
-            off: off(place.principal, place.off.curvature),
-            patches: place.area / place.patch(whole),
-        });
-        Ok((SELECTED * off(principal, own))
-            .max(expected_beyond(rivals))
-            .hypot(ripple))
-    }
-}
-
-/// A place where a curvature may be beyond the value that is told.
-struct Rival {
-    /// How far it is beyond it; as a rule below zero.
-    beyond: f64,
-    off: f64,
-    /// How many places are off by themselves in what it stands for.
-    patches: f64,
-}
-
-/// How far beyond the value that is told the largest of all rivals is as likely as not; zero if not so.
-fn expected_beyond(rivals: impl Iterator<Item = Rival>) -> f64 {
-    let rivals: Vec<Rival> = rivals
-        .filter(|rival| rival.beyond + FARTHEST * rival.off > 0.0)
-        .collect();
-    let farther = |than: f64| -> f64 {
-        let number = |rival: &Rival| {
-            let deviations = (than - rival.beyond) / rival.off;
-            rival.patches * 0.5 * libm::erfc(deviations / SQRT_2)
-        };
-        rivals.iter().map(number).sum()
-    };
-    let reach = |rival: &Rival| rival.beyond + FARTHEST * rival.off;
-    let (mut low, mut high) = (0.0, rivals.iter().map(reach).fold(0.0, f64::max));
-    for _ in 0..HALVINGS {
-        let middle = 0.5 * (low + high);
-        if farther(middle) > LN_2 {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    low
 }
 
 /// A place of a surface as it may be bent.
-fn bent(place: &KnownPlace, whole: f64, sums: impl Fn([f64; 2]) -> [f64; 2]) -> Part<8> {
+pub(super) fn bent(place: &KnownPlace, whole: f64, sums: impl Fn([f64; 2]) -> [f64; 2]) -> Part<8> {
     let [larger, smaller] = place.principal;
     let (mean, apart) = (0.5 * (larger + smaller), 0.5 * (larger - smaller));
     let off = place.off.curvature;
@@ -269,8 +152,6 @@ mod tests {
         let grain = bent_egg(0.0, 0.0).with_local_errors(None);
         let survey = Survey::of_grain(&grain, Scheme::Exact);
         assert_eq!(survey.curvature_errors(), Ok(None));
-        assert_eq!(survey.roundness_error(), Ok(None));
-        assert_eq!(survey.regularity_error(), Ok(None));
     }
 
     /// The egg is nearly a ball of radius R: its mean curvature changes by h / R², and is off alike over 8 pi h / k.
@@ -297,56 +178,5 @@ mod tests {
         assert_relative_eq!(off.larger.mean, expected, max_relative = 0.1);
         assert_relative_eq!(off.smaller.mean, expected, max_relative = 0.1);
         assert!(off.mean.mean < 1e-3 * expected, "{off:?}");
-    }
-
-    #[test]
-    fn the_ends_are_off_as_the_surface_is_bent_where_they_are_and_where_others_may_be() {
-        let narrow = told(&bent_egg(1e-3, 1e-3));
-        assert_relative_eq!(narrow.larger.largest, SELECTED * 1e-3, max_relative = 0.2);
-        assert_relative_eq!(narrow.smaller.least, SELECTED * 1e-3, max_relative = 0.2);
-        assert_relative_eq!(
-            narrow.mean.largest,
-            SELECTED * 1e-3 / 2.0_f64.sqrt(),
-            max_relative = 0.2
-        );
-        // One of some hundred patches is bent by more than two standard errors.
-        let wide = told(&bent_egg(1e-3, 0.5));
-        assert!((1.0..2.0).contains(&wide.larger.largest), "{wide:?}");
-    }
-
-    #[test]
-    fn ends_of_rivals_are_those_of_the_farthest_of_them() {
-        let rival = |beyond, patches| Rival {
-            beyond,
-            off: 1.0,
-            patches,
-        };
-        // As likely as not one of n is beyond Q^-1(ln 2 / n), 2.46 for a hundred.
-        let found = expected_beyond([rival(0.0, 100.0)].into_iter());
-        assert_relative_eq!(found, 2.461, max_relative = 2e-3);
-        let found = expected_beyond([rival(-1.0, 100.0), rival(-9.0, 1e3)].into_iter());
-        assert_relative_eq!(found, 1.461, max_relative = 3e-3);
-        assert_eq!(expected_beyond([rival(-9.0, 1e3)].into_iter()), 0.0);
-    }
-
-    #[test]
-    fn roundness_is_off_as_the_surface_is_bent_and_the_sphere_inside_is() {
-        let error = |place, curvature| {
-            let grain = bent_egg(place, curvature);
-            let survey = Survey::of_grain(&grain, Scheme::Exact);
-            let error = survey.roundness_error().unwrap().unwrap();
-            let regularity = survey.regularity_error().unwrap().unwrap();
-            let spheres = survey
-                .sphericity_errors()
-                .unwrap()
-                .unwrap()
-                .inscribed_enclosing;
-            assert_relative_eq!(regularity, 0.5 * (error + spheres), max_relative = 1e-12);
-            error
-        };
-        let [least, bent, moved] = [error(0.0, 0.0), error(1e-4, 0.1), error(0.05, 1e-9)];
-        assert!(least < 0.006, "{least}");
-        assert!(bent > 3.0 * least && bent < 0.1, "{bent}");
-        assert!(moved > 2.0 * least, "{moved}");
     }
 }

@@ -6,6 +6,8 @@
 
 mod bending;
 mod chance;
+mod corners;
+mod ends;
 mod from_centroid;
 mod known;
 mod outlines;
