@@ -5,7 +5,7 @@ use super::statistics::median;
 use crate::spread::PER_MEDIAN;
 use serde::Serialize;
 
-/// Robust z-score beyond which a grain is worth a look (Iglewicz and Hoaglin 1993), and so many of its own errors.
+/// Robust z-score beyond which a grain is worth a look (Iglewicz and Hoaglin 1993).
 const OUTLYING: f64 = 3.5;
 
 /// Standard deviation over mean absolute deviation of a normal distribution.
@@ -48,7 +48,7 @@ pub(super) fn outliers(
         let value = values[at]?;
         let off = value - middle;
         let z = off / deviation;
-        let is_beyond_error = off.abs() > OUTLYING * own_error(measure, value, errors[at]);
+        let is_beyond_error = off.abs() > own_error(measure, value, errors[at]);
         (z.abs() > OUTLYING && is_beyond_error).then(|| Outlier {
             path: paths[at].clone(),
             measure: measure.into(),

@@ -99,10 +99,14 @@ pub(super) fn run(args: CompareArgs, console: Console) -> Result<()> {
     for column in table.column_iter_mut().skip(1) {
         column.set_cell_alignment(CellAlignment::Right);
     }
+    let below = match compared.measures.iter().any(Comparison::is_below_own_error) {
+        true => " Below error: the difference is smaller than what it is computed to.",
+        false => "",
+    };
     console.print(format_args!(
         "{}\n\nDifferences are of the other lot less the first; effect sizes are differences over the root of the mean of \
-         both variances. Intervals take the lots as normal, and are told where both vary. Below error: the \
-         difference is smaller than what it is computed to. Of 100 such intervals about 5 miss by chance alone.",
+         both variances. Intervals take the lots as normal, and are told where both vary; of 100 such intervals about 5 miss \
+         by chance alone.{below}",
         table.trim_fmt()
     ))?;
     console.warn(&compared.warnings);

@@ -145,13 +145,12 @@ fn outliers_among_nearly_alike(far: i32, error: Option<f64>) -> usize {
 
 #[test]
 fn what_differs_by_less_than_the_figures_are_known_is_not_worth_a_look() {
-    // 3.5 errors of 5e-4 are 1.75e-3.
-    assert_eq!(outliers_among_nearly_alike(2000, Some(5e-4)), 1);
-    assert_eq!(outliers_among_nearly_alike(2000, Some(6e-4)), 0);
-    assert_eq!(outliers_among_nearly_alike(-2000, Some(5e-4)), 1);
+    assert_eq!(outliers_among_nearly_alike(2000, Some(1.8e-3)), 1);
+    assert_eq!(outliers_among_nearly_alike(2000, Some(2.2e-3)), 0);
+    assert_eq!(outliers_among_nearly_alike(-2000, Some(1.8e-3)), 1);
     assert_eq!(outliers_among_nearly_alike(2000, None), 1);
-    // 3.5 times 1e-4.
-    assert_eq!(outliers_among_nearly_alike(300, None), 0);
+    // Less than 1e-4.
+    assert_eq!(outliers_among_nearly_alike(90, None), 0);
 }
 
 #[test]
