@@ -1,7 +1,7 @@
 //! Measures of shape: how often their intervals hold the truth, and how wide they are.
 
 use crate::particle::Particle;
-use grainform::measure::{Distribution, Scheme, Survey, SurveyError};
+use grainform::measure::{CurvatureErrors, Distribution, Scheme, Survey, SurveyError};
 use grainform::model::{Frame, StarGrain};
 use grainform::shapes::Sampling;
 use grainform::{FitOptions, fit};
@@ -90,36 +90,26 @@ fn measured(survey: &Survey<'_>) -> Result<Told, SurveyError> {
     );
     let curvature = survey.curvature()?;
     let errors = survey.curvature_errors()?;
-    let mut tell_all = |name: &str, own: Distribution, off: Option<Distribution>| {
-        for (part, of) in [
-            ("mean", (|own| own.mean) as fn(&Distribution) -> f64),
-            ("SD", |own| own.standard_deviation),
-            ("least", |own| own.least),
-            ("largest", |own| own.largest),
-        ] {
-            tell(&format!("{name}, {part}"), of(&own), off.as_ref().map(of));
-        }
-    };
-    tell_all(
-        "curvature: mean",
-        curvature.mean(),
-        errors.map(|off| off.mean),
-    );
-    tell_all(
-        "curvature: Gaussian",
-        curvature.gaussian(),
-        errors.map(|off| off.gaussian),
-    );
-    tell_all(
-        "curvature: larger",
-        curvature.larger(),
-        errors.map(|off| off.larger),
-    );
-    tell_all(
-        "curvature: smaller",
-        curvature.smaller(),
-        errors.map(|off| off.smaller),
-    );
+    let mut tell_all =
+        |name: &str, own: Distribution, off: fn(&CurvatureErrors) -> Distribution| {
+            let off = errors.as_ref().map(off);
+            for (part, of) in [
+                ("mean", (|own| own.mean) as fn(&Distribution) -> f64),
+                ("SD", |own| own.standard_deviation),
+                ("least", |own| own.least),
+                ("largest", |own| own.largest),
+            ] {
+                tell(
+                    &format!("curvature: {name}, {part}"),
+                    of(&own),
+                    off.as_ref().map(of),
+                );
+            }
+        };
+    tell_all("mean", curvature.mean(), |off| off.mean);
+    tell_all("Gaussian", curvature.gaussian(), |off| off.gaussian);
+    tell_all("larger", curvature.larger(), |off| off.larger);
+    tell_all("smaller", curvature.smaller(), |off| off.smaller);
     tell(
         "curvature: convex share",
         curvature.convex_share(),

@@ -26,9 +26,6 @@ const GOOD_ENOUGH: f64 = 1.0 / 3.0;
 /// The same where what is left of the points is no noise but detail: it adds 3 %.
 const GOOD_ENOUGH_OF_DETAIL: f64 = 1.0 / 4.0;
 
-/// A cell on each face of the cube.
-const FEWEST_CELLS: usize = 6;
-
 /// What the estimate is made to.
 struct Aim {
     /// The error that was asked for.
@@ -77,7 +74,7 @@ impl Aim {
         }
         let degree = estimate.least_degree(limit);
         let are_cells_asked = options.segments.is_some();
-        if !are_cells_asked && options.most_segments() < FEWEST_CELLS {
+        if options.is_without_cells() {
             let degree = options.degree.unwrap_or(degree.min(most));
             return Ok(Self {
                 tolerance,

@@ -126,6 +126,9 @@ impl Tolerance {
     }
 }
 
+/// The fewest cells: one on each face of the cube.
+pub(super) const FEWEST_CELLS: usize = 6;
+
 /// The tolerance of [`Tolerance::Auto`] as a share of the mean radius.
 const AUTO_TOLERANCE: f64 = 0.0003;
 
@@ -286,6 +289,11 @@ impl FitOptions {
     /// The largest number of segments searched.
     pub(crate) fn most_segments(&self) -> usize {
         self.max_segments.unwrap_or(self.seams.most_segments())
+    }
+
+    /// Whether fewer segments are allowed than there are cells at least, so that the whole sphere is one.
+    pub(super) fn is_without_cells(&self) -> bool {
+        self.segments.is_none() && self.most_segments() < FEWEST_CELLS
     }
 
     /// Parts per angle of the candidates of independent segments.

@@ -3,7 +3,7 @@
 use super::candidate::{Candidate, Search, Work};
 use super::context::Context;
 use super::error::FitError;
-use super::options::{FitOptions, Seams};
+use super::options::{FEWEST_CELLS, FitOptions, Seams};
 use super::outcome::{Fitted, KindChoice, Residuals, Rival};
 use super::position::{Distance, PositionFit, fit_position_if};
 use super::scatter::scatter;
@@ -11,9 +11,6 @@ use super::sound;
 use super::warning::FitWarning;
 use crate::model::{Grain, InvalidGrain, NoInterval, PositionGrain, Surface};
 use crate::scan::Scan;
-
-/// The fewest cells: a surface that is folded is fitted once more with half its cells, but no fewer than these.
-const FEWEST_CELLS: usize = 6;
 
 /// How many times farther held-out points are told to be than points from the surfaces through their neighbours. Of twenty clouds
 /// of bananas, cups, mushrooms and the like nineteen are within 1.4, and one, of which the inner radius is a seventh too large, is

@@ -74,9 +74,7 @@ pub(super) fn search(
         let is_worth = |rms: f64| is_worth(3 * functions.count(), rms);
         Problem::new(functions).run(cloud, &is_worth, context)
     };
-    // Cells are six at least.
-    let are_too_few = options.max_segments.is_some_and(|most| most < 6);
-    match options.segments.or(are_too_few.then_some(1)) {
+    match options.segments.or(options.is_without_cells().then_some(1)) {
         Some(1) => {
             let bound = options.max_degree.unwrap_or(usize::MAX);
             let degree = options.degree.unwrap_or(WHOLE_DEGREES[2].min(bound));

@@ -4,7 +4,7 @@ use super::{
     BoxSides, Dimensions, MeasureReport, Measured, OutlineFigures, Principal, ProjectionRecord,
     SphereRecord, WithErrors, by_reason,
 };
-use crate::measure::{Convexity, Distribution, Form, SideRatios, Sphericity};
+use crate::measure::{Convexity, CurvatureErrors, Distribution, Form, SideRatios, Sphericity};
 use crate::report::escape::escaped;
 use crate::report::number::{triple, with_error};
 use crate::report::unit::Labels;
@@ -235,42 +235,20 @@ impl MeasureReport {
         if let Some(curvature) = measures.curvature {
             let errors = curvature.standard_errors;
             let [one, squared] = [labels.curvature(), labels.gaussian()];
-            for (title, name, own, off, unit) in [
-                (
-                    "curvature",
-                    "mean",
-                    curvature.mean,
-                    errors.map(|off| off.mean),
-                    &one,
-                ),
-                (
-                    "",
-                    "Gaussian",
-                    curvature.gaussian,
-                    errors.map(|off| off.gaussian),
-                    &squared,
-                ),
-                (
-                    "",
-                    "larger",
-                    curvature.larger,
-                    errors.map(|off| off.larger),
-                    &one,
-                ),
-                (
-                    "",
-                    "smaller",
-                    curvature.smaller,
-                    errors.map(|off| off.smaller),
-                    &one,
-                ),
-            ] {
-                writeln!(
-                    f,
-                    "{title:<13} {name}: {}{unit}",
-                    distribution(&own, off.as_ref())
-                )?;
-            }
+            let mut line = |title, name, own, off: fn(&CurvatureErrors) -> Distribution, unit| {
+                let told = distribution(own, errors.as_ref().map(off).as_ref());
+                writeln!(f, "{title:<13} {name}: {told}{unit}")
+            };
+            line("curvature", "mean", &curvature.mean, |off| off.mean, &one)?;
+            line(
+                "",
+                "Gaussian",
+                &curvature.gaussian,
+                |off| off.gaussian,
+                &squared,
+            )?;
+            line("", "larger", &curvature.larger, |off| off.larger, &one)?;
+            line("", "smaller", &curvature.smaller, |off| off.smaller, &one)?;
             let share = errors.map(|off| 100.0 * off.convex_share);
             writeln!(
                 f,

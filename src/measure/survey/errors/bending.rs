@@ -54,7 +54,7 @@ impl Survey<'_> {
         let mean_by = |value: &dyn Fn([f64; 2]) -> f64| {
             let parts: Vec<Part<8>> = places
                 .iter()
-                .map(|place| bent(place, whole, |k| [1.0, value(k)]))
+                .map(|place| bent(place, |k| [1.0, value(k)]))
                 .collect();
             error_of_mean(&parts, 0.0)
         };
@@ -103,7 +103,7 @@ impl Survey<'_> {
 }
 
 /// A place of a surface as it may be bent.
-pub(super) fn bent(place: &KnownPlace, whole: f64, sums: impl Fn([f64; 2]) -> [f64; 2]) -> Part<8> {
+pub(super) fn bent(place: &KnownPlace, sums: impl Fn([f64; 2]) -> [f64; 2]) -> Part<8> {
     let [larger, smaller] = place.principal;
     let (mean, apart) = (0.5 * (larger + smaller), 0.5 * (larger - smaller));
     let off = place.off.curvature;
@@ -116,7 +116,7 @@ pub(super) fn bent(place: &KnownPlace, whole: f64, sums: impl Fn([f64; 2]) -> [f
     });
     Part {
         measure: place.area,
-        patch: place.patch(whole),
+        patch: place.patch,
         told: sums(place.principal),
         may_be,
     }
@@ -128,7 +128,7 @@ fn moved(places: &[KnownPlace], whole: f64, mean: f64) -> f64 {
     let variance = |place: &KnownPlace| {
         let [larger, smaller] = place.principal;
         let change = larger * smaller - (larger + smaller) * mean;
-        (change * place.off.place).powi(2) * place.patch(whole) * place.area
+        (change * place.off.place).powi(2) * place.patch * place.area
     };
     places.iter().map(variance).sum::<f64>().sqrt() / whole
 }

@@ -18,16 +18,12 @@ impl Survey<'_> {
         let (Some(of_radius), Some(places)) = (self.inscribed_error()?, self.known_places()) else {
             return Ok(None);
         };
-        let whole: f64 = places.iter().map(|place| place.area).sum();
         let radius = self.unit_inscribed()?.radius;
         let corner = |[larger, _]: [f64; 2]| match larger * radius > 1.0 {
             true => [1.0, 1.0 / (larger * radius)],
             false => [0.0; 2],
         };
-        let parts: Vec<Part<8>> = places
-            .iter()
-            .map(|place| bent(place, whole, corner))
-            .collect();
+        let parts: Vec<Part<8>> = places.iter().map(|place| bent(place, corner)).collect();
         let of_bends = error_of_mean(&parts, 1.0).hypot(OF_ROUNDNESS * roundness);
         let share = of_radius / self.inscribed()?.radius;
         let found = self.corners()?;

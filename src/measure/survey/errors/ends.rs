@@ -34,11 +34,10 @@ impl Survey<'_> {
         let principal = Curvature::new(&n, &surface.jet(&n)).principal;
         let ripple = kind.off(principal, [0, 1].map(|i| unfollowed(surface, &n, i)));
         let off = |principal: [f64; 2], curvature: f64| kind.off(principal, [curvature; 2]);
-        let whole = places.iter().map(|place| place.area).sum();
         let rivals = places.iter().map(|place| Rival {
             beyond: end.sign() * (kind.of(place.principal) - told),
             off: off(place.principal, place.off.curvature),
-            patches: place.area / place.patch(whole),
+            patches: place.area / place.patch,
         });
         Ok((SELECTED * off(principal, own))
             .max(expected_beyond(rivals))

@@ -26,7 +26,7 @@ struct Seen {
 }
 
 impl Seen {
-    fn new(known: &KnownPlace, centroid: &Vector3<f64>, whole: f64) -> Self {
+    fn new(known: &KnownPlace, centroid: &Vector3<f64>) -> Self {
         let place = known.place - centroid;
         let distance = place.norm();
         let direction = place / distance;
@@ -37,14 +37,15 @@ impl Seen {
             distance,
             solid_angle: known.area * per_area,
             off: known.off.place / cosine,
-            patch: (known.patch(whole) * per_area).min(4.0 * PI),
+            patch: (known.patch * per_area).min(4.0 * PI),
         }
     }
 }
 
 impl Survey<'_> {
     /// Standard error of the [angularity](Self::angularity): by chance, of patches of the surface that have nothing to do with each other,
-    /// what all of them add, and all of what the ellipsoid is off by, which is no more than the radius is in the mean. `None` where the grain tells no errors.
+    /// what all of them add, and all of what the ellipsoid is off by, which is no more than the radius is in the mean. `None` where the
+    /// grain tells no errors.
     ///
     /// # Errors
     ///
@@ -120,10 +121,7 @@ impl Survey<'_> {
             return Ok(None);
         };
         let centroid = self.unit_properties()?.centroid.coords;
-        let whole = places.iter().map(|place| place.area).sum();
-        let seen = places
-            .iter()
-            .map(|place| Seen::new(place, &centroid, whole));
+        let seen = places.iter().map(|place| Seen::new(place, &centroid));
         Ok(Some(seen.collect()))
     }
 }

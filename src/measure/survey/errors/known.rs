@@ -22,16 +22,9 @@ pub(in crate::measure::survey) struct KnownPlace {
     /// That it stands for.
     pub area: f64,
     pub off: LocalError,
-}
-
-impl KnownPlace {
-    /// The area round the place that is off alike: an error of degree L bends the surface by its height times the square of L, and some
+    /// The area round it that is off alike: an error of degree L bends the surface by its height times the square of L, and some
     /// L² / 2 patches of such an error cover a ball. No more than all there is.
-    pub(super) fn patch(&self, whole: f64) -> f64 {
-        let patch = 8.0 * PI * self.off.place / self.off.curvature;
-        // Written so that what is not known to bend is off alike everywhere.
-        if patch < whole { patch } else { whole }
-    }
+    pub patch: f64,
 }
 
 impl Survey<'_> {
@@ -52,14 +45,22 @@ impl Survey<'_> {
         let nodes = directions.iter().zip(solid_angles).zip(jets);
         let known = nodes.map(|((n, solid_angle), jet)| {
             let curvature = Curvature::new(n, &jet);
+            let off = self.body.local_error(n)?;
             Some(KnownPlace {
                 place: jet.place,
                 normal: curvature.normal,
                 principal: curvature.principal,
                 area: curvature.area() * solid_angle,
-                off: self.body.local_error(n)?,
+                off,
+                patch: 8.0 * PI * off.place / off.curvature,
             })
         });
-        known.collect()
+        let mut known: Vec<KnownPlace> = known.collect::<Option<_>>()?;
+        let whole = known.iter().map(|place| place.area).sum();
+        for place in &mut known {
+            // Where nothing is known to bend, 0 / 0, all is off alike.
+            place.patch = place.patch.min(whole);
+        }
+        Some(known)
     }
 }
