@@ -59,6 +59,7 @@ fn beside<const C: usize>(
 mod tests {
     use super::*;
     use approx::assert_relative_eq;
+    use nalgebra::Vector3;
 
     #[test]
     fn a_shell_on_one_half_moves_the_centroid() {
@@ -69,5 +70,22 @@ mod tests {
         for error in &errors.centroid {
             assert_relative_eq!(*error, 0.0075 * radius, max_relative = 1e-12);
         }
+    }
+
+    #[test]
+    fn figures_of_what_swells_go_with_the_powers_of_its_radius() {
+        let told = Figures::SOME;
+        let none = StandardErrors {
+            volume: 0.24,
+            centroid: Vector3::repeat(0.1),
+            ..StandardErrors::NONE
+        };
+        let found = none.with_scale(0.01, &told);
+        assert_relative_eq!(found.area, 0.2);
+        assert_relative_eq!(found.volume, 0.24 * 2.0_f64.sqrt(), max_relative = 1e-12);
+        assert_eq!(found.centroid, none.centroid);
+        assert_relative_eq!(found.inertia.m33, 0.15);
+        assert_relative_eq!(found.moments.y, 0.1);
+        assert_relative_eq!(found.dimensions.x, 0.02);
     }
 }

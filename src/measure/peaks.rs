@@ -13,6 +13,10 @@ use nalgebra::Vector3;
 const STARTS: usize = 8;
 const APART: f64 = 4.0;
 
+/// Nodes among which starts are looked for at first, and how many times as many in each round after.
+const LOOKED_AT: usize = 256;
+const MORE: usize = 8;
+
 /// A climb ends where all steps change the value by at most this share of it, or of [`LOW`] times the largest there is.
 const TOLERANCE: f64 = 1e-5;
 const LOW: f64 = 1e-4;
@@ -82,25 +86,35 @@ pub(super) fn highest(
 
 /// The highest nodes that are apart, by their positions.
 fn starts(nodes: &[CurvedNode], heights: &[f64]) -> Vec<usize> {
-    let mut is_left: Vec<bool> = heights.iter().map(|height| height.is_finite()).collect();
-    let mut starts = Vec::new();
-    while starts.len() < STARTS {
-        let left = (0..nodes.len()).filter(|&at| is_left[at]);
-        let Some(best) = left.reduce(|best, at| {
-            if heights[at] > heights[best] {
-                at
-            } else {
-                best
+    let mut left: Vec<usize> = (0..nodes.len())
+        .filter(|&at| heights[at].is_finite())
+        .collect();
+    let higher_first = |one: &usize, other: &usize| {
+        let by_height = heights[*other].total_cmp(&heights[*one]);
+        by_height.then(one.cmp(other))
+    };
+    let is_apart = |start: &usize, at: &usize| {
+        let near = APART * APART * nodes[*start].area;
+        (nodes[*at].place - nodes[*start].place).norm_squared() > near
+    };
+    let mut starts: Vec<usize> = Vec::with_capacity(STARTS);
+    let mut looked_at = LOOKED_AT;
+    while starts.len() < STARTS && !left.is_empty() {
+        let rest = match looked_at < left.len() {
+            true => {
+                left.select_nth_unstable_by(looked_at, higher_first);
+                left.split_off(looked_at)
             }
-        }) else {
-            break;
+            false => Vec::new(),
         };
-        let near = APART * APART * nodes[best].area;
-        for (is_left, node) in is_left.iter_mut().zip(nodes) {
-            *is_left &= (node.place - nodes[best].place).norm_squared() > near;
+        left.sort_unstable_by(higher_first);
+        for at in left {
+            if starts.len() < STARTS && starts.iter().all(|start| is_apart(start, &at)) {
+                starts.push(at);
+            }
         }
-        is_left[best] = false;
-        starts.push(best);
+        left = rest;
+        looked_at *= MORE;
     }
     starts
 }

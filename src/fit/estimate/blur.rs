@@ -12,8 +12,6 @@
 //! noise along the rays errors stay as they are.
 
 use super::outcome::Estimate;
-use crate::fit::figures::Figures;
-use crate::model::StandardErrors;
 use std::f64::consts::PI;
 
 /// Points whose residuals are compared, at most.
@@ -31,7 +29,7 @@ pub(super) struct Blur {
     /// Mean square of the slopes that are missing, in the stretched space.
     pub(super) slopes: f64,
     /// Share of the radius that the body has swollen by.
-    swelling: f64,
+    pub(super) swelling: f64,
 }
 
 impl Blur {
@@ -47,11 +45,6 @@ impl Blur {
             slopes: share * slopes,
             swelling: share * swelling,
         }
-    }
-
-    /// Standard errors of figures with those of a body that may have swollen.
-    pub(super) fn with_swelling(&self, errors: StandardErrors, told: &Figures) -> StandardErrors {
-        errors.with_scale(self.swelling, told)
     }
 }
 
@@ -166,26 +159,5 @@ mod tests {
         let growth = (30.0_f64 * 0.02 * 0.02).exp() - 1.0;
         let expected = 0.75 * 30.0 * 0.09 * growth / (4.0 * PI);
         assert_relative_eq!(missing(&estimate), expected, max_relative = 1e-9);
-    }
-
-    #[test]
-    fn figures_of_what_swells_go_with_the_powers_of_its_radius() {
-        let told = Figures::SOME;
-        let none = StandardErrors {
-            volume: 0.24,
-            centroid: Vector3::repeat(0.1),
-            ..StandardErrors::NONE
-        };
-        let blur = Blur {
-            slopes: 0.0,
-            swelling: 0.01,
-        };
-        let found = blur.with_swelling(none, &told);
-        assert_relative_eq!(found.area, 0.2);
-        assert_relative_eq!(found.volume, 0.24 * 2.0_f64.sqrt(), max_relative = 1e-12);
-        assert_eq!(found.centroid, none.centroid);
-        assert_relative_eq!(found.inertia.m33, 0.15);
-        assert_relative_eq!(found.moments.y, 0.1);
-        assert_relative_eq!(found.dimensions.x, 0.02);
     }
 }

@@ -23,6 +23,7 @@ mod draws;
 mod errors;
 mod functionals;
 mod information;
+mod known_errors;
 mod left_out;
 mod leverage;
 mod likelihood;

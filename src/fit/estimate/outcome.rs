@@ -2,11 +2,13 @@
 
 use super::cloud::Cloud;
 use super::dense::Factor;
+use super::known_errors::KnownErrors;
 use super::posterior::{Conditioned, Posterior};
 use super::spectrum::Spectrum;
 use super::sums::Sums;
 use crate::fit::gaps::random_gap;
 use crate::fit::hole::Holes;
+use crate::model::NoInterval;
 use crate::sphere::HarmonicBasis;
 use crate::vectorize::dot;
 use nalgebra::Vector3;
@@ -48,6 +50,10 @@ pub(super) struct Derived {
     pub(super) steady_spares: OnceLock<Vec<f64>>,
     /// The largest holes between the points.
     pub(super) holes: OnceLock<Holes>,
+    /// What is known of errors, or why nothing is.
+    pub(super) errors: OnceLock<Result<KnownErrors, NoInterval>>,
+    /// The same with what holes hide only as far as the prior tells it.
+    pub(super) errors_beside_holes: OnceLock<Result<KnownErrors, NoInterval>>,
 }
 
 /// Points of which patches were made.

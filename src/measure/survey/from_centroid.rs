@@ -30,7 +30,9 @@ impl Survey<'_> {
     ///
     /// As [`Self::angularity`].
     pub fn spectrum(&self) -> Result<Spectrum, SurveyError> {
-        Ok(self.unit.spectrum(Spectrum::new(self.star_shaped()?)))
+        let elements = self.star_shaped()?;
+        let found = self.spectrum.get_or_init(|| Spectrum::new(elements));
+        Ok(self.unit.spectrum(found.clone()))
     }
 
     /// The radius seen from the centroid in harmonics up to a degree.

@@ -14,7 +14,7 @@ use super::minimum_box::LeastBoxes;
 use super::unit::Unit;
 use super::{
     Ball, Convexity, CurvatureStatistics, EquivalentEllipsoid, Form, MassProperties, OrientedBox,
-    Outline, PrincipalInertia, ScannedBody, SideRatios, SolidProperties, Sphericity,
+    Outline, PrincipalInertia, ScannedBody, SideRatios, SolidProperties, Spectrum, Sphericity,
     mesh_properties, project,
 };
 use crate::Mesh;
@@ -70,6 +70,7 @@ pub struct Survey<'a> {
     hull: OnceCell<Result<Mesh, SurveyError>>,
     least_boxes: OnceCell<Result<LeastBoxes, SurveyError>>,
     elements: OnceCell<Vec<Element>>,
+    spectrum: OnceCell<Spectrum>,
     inscribed: OnceCell<Result<Ball, SurveyError>>,
     enclosing: OnceCell<Result<Ball, SurveyError>>,
     curvature: OnceCell<CurvatureStatistics>,
@@ -145,6 +146,7 @@ impl<'a> Survey<'a> {
             hull: OnceCell::new(),
             least_boxes: OnceCell::new(),
             elements: OnceCell::new(),
+            spectrum: OnceCell::new(),
             inscribed: OnceCell::new(),
             enclosing: OnceCell::new(),
             curvature: OnceCell::new(),

@@ -3,10 +3,12 @@ mod textured;
 
 use super::*;
 use crate::fit::estimate::trial::{estimated, fibonacci, lens, samples};
+use crate::fit::figures::{INERTIA, unlist};
 use crate::fit::turn::by_inertia;
-use crate::measure::Survey;
+use crate::measure::{Moments, Survey};
 use crate::model::{Family, Frame, StarGrain};
 use crate::shapes::{Body, Sampling, SynthOptions, synthesize};
+use nalgebra::Vector3;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
@@ -16,13 +18,13 @@ fn ellipsoid(axes: Vector3<f64>) -> impl Fn(&Vector3<f64>) -> f64 {
     move |n| 1.0 / n.component_div(&axes).norm()
 }
 
-fn best(estimate: &Estimate) -> Best {
+fn best(estimate: &Estimate) -> KnownErrors {
     let posterior = estimate.posterior();
     best_with(estimate, &posterior.residuals(&estimate.coefficients))
 }
 
-fn best_with(estimate: &Estimate, residuals: &[f64]) -> Best {
-    Best::new(
+fn best_with(estimate: &Estimate, residuals: &[f64]) -> KnownErrors {
+    known(
         estimate,
         &estimate.posterior(),
         residuals,
@@ -40,6 +42,22 @@ fn numbers(errors: &StandardErrors) -> Vec<f64> {
     all.extend(&errors.dimensions);
     all.extend(&errors.dimensions_excess);
     all
+}
+
+/// Noise in all directions may have swollen a ball all over, by its square as a share of the radius.
+#[test]
+fn what_all_lengths_may_be_off_by_is_in_the_errors() {
+    let noise = 0.1;
+    let points = samples(&fibonacci(3000), |_| 1.0, noise);
+    let estimate = estimated(&points, Vector3::repeat(1.0));
+    let known = best(&estimate);
+    let told = &known.figures;
+    let swelling = estimate.noise_of_points().powi(2);
+    assert!((swelling / (noise * noise) - 1.0).abs() < 0.1);
+    let expected = known.errors(told).with_scale(swelling, told);
+    let found = estimate.errors(told).unwrap();
+    assert!((found.volume / expected.volume - 1.0).abs() < 0.02);
+    assert!(found.volume > 2.0 * known.errors(told).volume);
 }
 
 /// A sphere of n points with noise s: the mean radius is known to s / sqrt(n), and the volume changes by 4 pi with it.
