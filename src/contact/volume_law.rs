@@ -41,6 +41,14 @@ impl VolumeLaw {
         self.radius
     }
 
+    /// How many times the force of Hertz the force at a region is, about: with V = pi R u² of a lens, and R the effective radius where the
+    /// surfaces touch, it is (R / R*)^(3/4). `None` where the region has no deepest points, whose line is normal to both surfaces.
+    pub fn times_hertz(&self, region: &ContactRegion) -> Option<f64> {
+        region.curvatures.as_ref()?;
+        let radius = region.volume / (PI * region.depth * region.depth);
+        Some((radius / self.radius).powf(0.75))
+    }
+
     /// The energy stored in a region, in joules.
     pub fn energy_j(&self, region: &ContactRegion) -> f64 {
         self.stiffness_pa * region.volume.powf(EXPONENT) * self.metres_per_unit.powi(3)

@@ -18,8 +18,8 @@ const SAG: f64 = 50.0;
 /// Standard errors of a figure that vouch for a larger difference from closed faces.
 const VOUCHING: f64 = 4.0;
 
-/// By how much the area may be larger than that of the polyhedron through points without faces, as a share of it, whatever vouches
-/// for it.
+/// By how much the area may be larger than that of the polyhedron through points without faces, and the surface may reach beyond
+/// these, as a share, whatever vouches for it.
 const WILD: f64 = 0.3;
 
 /// Share by which area or volume may be larger than those of closed faces, without a known error, before it is told.
@@ -106,7 +106,8 @@ impl Fitted {
         (!is_vouched).then_some(found)
     }
 
-    /// Whether the surface reaches farther from its centre than all points do, by more than this share, and not in a gap.
+    /// Whether the surface reaches farther from its centre than all points do, by more than this share, and not in a gap, or anywhere
+    /// by more than any gap explains.
     fn reaches_beyond(&self, share: f64) -> bool {
         let frame = self.grain.frame();
         let vertices = self.grain.mesh(RESOLUTION).vertices.into_iter();
@@ -116,8 +117,8 @@ impl Fitted {
             .as_ref()
             .zip(farthest)
             .is_some_and(|(estimate, farthest)| {
-                farthest.norm() > (1.0 + share) * estimate.farthest_point()
-                    && estimate.is_among_points(&farthest)
+                let times = farthest.norm() / estimate.farthest_point();
+                times > 1.0 + WILD || times > 1.0 + share && estimate.is_among_points(&farthest)
             })
     }
 }
@@ -127,11 +128,14 @@ mod tests {
     use crate::fit::prepare::ReferenceKind;
     use crate::fit::{FitOptions, FitWarning, fit};
     use crate::mesh::Mesh;
-    use crate::model::{NoInterval, StandardErrors, StarSurface, Superquadric};
+    use crate::model::{
+        Family, NoInterval, StandardErrors, StarGrain, StarSurface, Superquadric, Surface, Whole,
+    };
     use crate::scan::Scan;
     use crate::shapes::{Body, Sampling, SynthOptions, synthesize};
     use approx::assert_relative_eq;
     use nalgebra::Vector3;
+    use std::f64::consts::PI;
 
     /// The fit of a closed mesh, had its faces so many times the area and the volume.
     #[test]
@@ -223,6 +227,26 @@ mod tests {
         let found = fitted.grain.contradicted().unwrap();
         assert!(found.area.unwrap() > 0.1 && found.volume.unwrap() > 0.05);
         assert!(fitted.reaches_beyond(0.05) && !fitted.reaches_beyond(0.2));
+    }
+
+    /// No point lies within .4 radians of the axis; there a surface reaches farther than all of them, as from the end of a tube.
+    #[test]
+    fn a_gap_explains_a_surface_that_reaches_a_little_beyond_the_points_but_not_far() {
+        let directions = Sampling::Fibonacci.directions(2000, 0).unwrap();
+        let is_seen = |n: &&Vector3<f64>| n.z < 0.4_f64.cos();
+        let ball = directions.iter().filter(is_seen).map(|n| (*n).into());
+        let scan = Scan::from_points(ball.collect());
+        let mut fitted = fit(&scan, &FitOptions::default()).unwrap();
+        let frame = fitted.grain.frame();
+        let axis = frame.axes.tr_mul(&Vector3::z());
+        let mut reaches = |height: f64| {
+            let [round, leaning] = [1.0, height / 3.0_f64.sqrt()].map(|x| x * (4.0 * PI).sqrt());
+            let coefficients = vec![round, leaning * axis.y, leaning * axis.z, leaning * axis.x];
+            let leaning = Family::Whole(Whole::new(coefficients).unwrap());
+            fitted.grain = StarGrain::new(frame, leaning).unwrap().into();
+            fitted.reaches_beyond(0.05)
+        };
+        assert!(!reaches(0.2) && reaches(0.5));
     }
 
     #[test]

@@ -20,6 +20,10 @@ const FAR_FROM_ESTIMATE: f64 = 0.06;
 /// than the squares tell.
 const COARSE: f64 = 0.02;
 
+/// How far a single point may be from the surface before it is told, as a share of the mean radius. Of kernels it is .2 at most, of
+/// grains with the pin that held them .4 to .8.
+const NOT_FOLLOWED: f64 = 0.25;
+
 /// A surface holds at most so many times the volume of the polyhedron of its points, which is smaller: of 50 points by
 /// a seventh. ...
 const LARGEST_VOLUME: f64 = 1.5;
@@ -44,7 +48,7 @@ pub(super) fn check(
     fitted: &Fitted,
     options: &FitOptions,
     is_rod: bool,
-) -> Result<Option<FitWarning>, FitError> {
+) -> Result<Vec<FitWarning>, FitError> {
     let is_asked_for = options.degree.is_some();
     let rms = fitted.residuals.rms;
     let (off, far) = match (fitted.search.choice().estimate_rms, &fitted.posterior) {
@@ -73,18 +77,27 @@ pub(super) fn check(
             return Err(FitError::FarBeyondPoints { times });
         }
     }
+    let largest = fitted.residuals.max;
+    let mut warnings = Vec::new();
+    if !is_rod && !is_asked_for && largest > NOT_FOLLOWED * fitted.mean_radius {
+        let share = largest / fitted.mean_radius;
+        warnings.push(FitWarning::NotFollowed { largest, share });
+    }
     let Some(star) = fitted.grain.star() else {
-        return Ok(None);
+        return Ok(warnings);
     };
     match star.least_radius() {
-        Ok(_) => Ok(None),
+        Ok(_) => Ok(warnings),
         Err(InvalidGrain::NotPositive { radius, direction }) => Err(FitError::NotPositive {
             radius,
             direction: direction.into(),
         }),
         // Few large cells of high degree are wild beyond themselves: bounds on them do not tell.
         Err(InvalidGrain::Unproved { found }) => match fitted.estimate.is_none() || is_asked_for {
-            true => Ok(Some(FitWarning::Unproved { found })),
+            true => {
+                warnings.push(FitWarning::Unproved { found });
+                Ok(warnings)
+            }
             false => Err(FitError::Unproved { found }),
         },
         Err(_) => Err(FitError::Scale {
@@ -125,4 +138,30 @@ fn times_as_large(grain: &Grain, volume: f64) -> f64 {
     coarse
         .filter(|times| *times <= CLEARLY_FINE)
         .unwrap_or_else(|| grain_properties(grain).properties.volume / volume)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fit::fit;
+    use crate::scan::Scan;
+    use crate::shapes::Sampling;
+
+    #[test]
+    fn a_point_that_is_far_from_the_surface_is_told_unless_it_is_on_a_rod() {
+        let directions = Sampling::Fibonacci.directions(500, 0).unwrap();
+        let points = directions.iter().map(|n| (2.0 * n).into()).collect();
+        let options = FitOptions::default();
+        let mut fitted = fit(&Scan::from_points(points), &options).unwrap();
+        let mut told = |largest: f64, is_rod: bool| {
+            fitted.residuals.max = largest;
+            check(&fitted, &options, is_rod).unwrap()
+        };
+        assert_eq!(told(0.4, false), []);
+        let [FitWarning::NotFollowed { largest, share }] = told(0.6, false)[..] else {
+            panic!("not told");
+        };
+        assert!(largest == 0.6 && (share - 0.3).abs() < 1e-9);
+        assert_eq!(told(0.6, true), []);
+    }
 }

@@ -100,6 +100,13 @@ pub enum FitWarning {
         /// Extents of the points along the same axes.
         of_points: Vector3<f64>,
     },
+    /// Some point is far from the surface.
+    NotFollowed {
+        /// Largest distance along a ray, in the scan's unit.
+        largest: f64,
+        /// The same as a share of the mean radius.
+        share: f64,
+    },
     /// Part of the surface faces away from the best centre and is smoothed over.
     NotStarShaped {
         /// Its share of the area.

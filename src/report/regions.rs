@@ -161,6 +161,20 @@ const NO_POINTS: &str = "in a region no two points were found whose line is norm
 const DEPTH_OF_POINTS: &str = "Where no two points were found whose line is normal to both surfaces the depth is how far a point of one body \
      in the other is from that one's surface at most, to some percent: bodies that lie deep in each other part after more than that.";
 
+/// Share by which the force of the shared volume may differ from that of Hertz before it is told.
+const AS_HERTZ: f64 = 0.05;
+
+/// What to know where the force of the shared volume is so many times that of Hertz.
+fn beside_hertz(times: f64) -> Option<String> {
+    let is_told = !(1.0 - AS_HERTZ..=1.0 + AS_HERTZ).contains(&times);
+    is_told.then(|| {
+        format!(
+            "The force is about {times:.2} times that of Hertz, and its standard error does not hold that: the law of the shared volume has \
+             the stiffness of spheres of the bodies' volumes, wherever they touch (--law hertz follows the curvatures there)."
+        )
+    })
+}
+
 fn no_errors(regions: &[ContactRegion]) -> Option<String> {
     let lack = regions.iter().filter(|region| region.errors.is_none());
     let reason = |region: &ContactRegion| match region.curvatures {
@@ -181,6 +195,7 @@ impl NormalLaw {
                 let share = region.depth / law.effective_radius();
                 let radius = "effective radius of the bodies' volumes";
                 warnings.extend(beyond_hertz("The depth", share, radius).map(|told| told + "."));
+                warnings.extend(law.times_hertz(region).and_then(beside_hertz));
                 let force_n = law.force_n(region).norm();
                 let share = VolumeLaw::force_share(region);
                 return Some(Force {

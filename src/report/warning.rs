@@ -183,6 +183,14 @@ impl FitWarning {
                 sides(&of_points),
                 unit = labels.length()
             ),
+            Self::NotFollowed { largest, share } => write!(
+                f,
+                "The surface does not follow all points: one is {}{} from it, {:.0} % of the mean radius. Look whether something sticks out \
+                 of the grain, such as a stalk or what held it, and take it out of the scan if it is not the grain's.",
+                short(largest),
+                labels.length(),
+                100.0 * share
+            ),
             Self::NotStarShaped { share } => write!(
                 f,
                 "The surface is not quite star-shaped: {:.2} % of its area faces away from the best \
@@ -271,9 +279,9 @@ impl fmt::Display for NoInterval {
             Self::Hole { half_angle } => Unseen::Hole { half_angle }.fmt(f),
             Self::Unresolved { .. } => write!(
                 f,
-                "the points stand off from the estimate as those beside edges do, or dust, and not as noise does, or they are too \
-                 few to tell whether there are edges, and the body is alike on both sides of its centre or has flat sides: what \
-                 edges hide may be all of one sign"
+                "the points do not tell whether the body has edges: they stand off as those beside edges or dust do, or they are too \
+                 few for the detail that they show; and of a body that is nearly alike on both sides of its centre, or has flat sides, \
+                 what edges hide may be all of one sign"
             ),
             Self::FewPoints => write!(
                 f,

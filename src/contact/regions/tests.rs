@@ -113,6 +113,23 @@ fn a_dented_body_is_touched_on_both_sides_of_its_dent() {
     assert!(one.normal.z > 0.5 && two.normal.z > 0.5);
 }
 
+/// Two ellipsoids with semi-axes a, b, c at the ends of c: the effective radius there is ab / 2c, and that of spheres of their volumes
+/// (abc)^(1/3) / 2.
+#[test]
+fn the_force_of_the_volume_is_told_beside_that_of_hertz() {
+    let semi_axes = Vector3::new(4.0, 3.0, 2.0);
+    let body = Ellipsoid { semi_axes };
+    let volume = body.integrals().properties.volume;
+    let law = VolumeLaw::new([volume; 2], 1e-3, 1e7);
+    let body = Radial(&body);
+    let body = ContactBody::new(&body);
+    let pose = Isometry3::translation(0.0, 0.0, 3.98);
+    let found = contact_regions(&body, &body, &pose).unwrap();
+    let times = law.times_hertz(&found.regions[0]).unwrap();
+    let expected = (6.0 / 24.0_f64.cbrt()).powf(0.75);
+    assert_relative_eq!(times, expected, max_relative = 0.01);
+}
+
 #[test]
 fn the_force_of_the_volume_does_no_work_on_a_closed_path() {
     let (one, two) = (

@@ -46,8 +46,12 @@ const LEAST_ODD: f64 = 0.015;
 /// Share of points left out beyond which they are a part of the body, as along a rim.
 const MOST_OUTLIERS: f64 = 0.03;
 
-/// Points near one by which it is told whether it lies on a flat side, itself one of them.
-const VICINITY: usize = 7;
+/// Points near one by which it is told whether it lies on a flat side, itself one of them: the first so many that are not in a
+/// row, as the nearest on a line of a scanner are, which lie in a plane whatever the body.
+const VICINITIES: [usize; 3] = [7, 28, 112];
+
+/// Variance across a row of points, as a share of that along it, at most.
+const ROW: f64 = 0.05;
 
 /// RMS distance of these from a plane, over their mean square distance from their middle, in units of the mean radius, on
 /// flat sides: of a ball it is some 0.3.
@@ -69,11 +73,18 @@ fn is_flat_sided(points: &[Vector3<f64>]) -> bool {
     let neighbours = Neighbours::new(points);
     let looked_at = points.iter().step_by((points.len() / LOOKED_AT).max(1));
     let count = looked_at.len();
-    let is_flat = |point: &&Vector3<f64>| {
-        let near = neighbours.nearest(point, VICINITY);
+    let variances = |point: &Vector3<f64>, count: usize| {
+        let near = neighbours.nearest(point, count);
         let (_, spread) = covariance(near.iter().map(|&i| points[i]));
-        let least = spread.symmetric_eigenvalues().min();
-        least.max(0.0).sqrt() < FLAT * spread.trace()
+        let mut variances = spread.symmetric_eigenvalues();
+        variances.as_mut_slice().sort_by(f64::total_cmp);
+        variances
+    };
+    let is_flat = |point: &&Vector3<f64>| {
+        let mut vicinities = VICINITIES.iter().map(|&count| variances(point, count));
+        let is_no_row = |variances: &Vector3<f64>| variances.y > ROW * variances.z;
+        let around = vicinities.find(is_no_row);
+        around.is_some_and(|around| around.x.max(0.0).sqrt() < FLAT * around.sum())
     };
     looked_at.filter(is_flat).count() as f64 > FLAT_SHARE * count as f64
 }
@@ -207,6 +218,28 @@ mod tests {
             .collect();
         assert!(!is_flat_sided(&rough));
         assert!(!are_many(2, 98) && are_many(4, 96));
+    }
+
+    /// Twenty meridians of three hundred points: the nearest of each lie on one circle, which is in a plane.
+    #[test]
+    fn lines_of_a_scanner_are_no_flat_sides() {
+        let lines = || {
+            let of_line = |line: i32| {
+                (0..300).map(move |at| [0.05 * f64::from(line), (f64::from(at) + 0.5) / 300.0])
+            };
+            (0..20).flat_map(of_line).map(|[azimuth, polar]| {
+                let [azimuth, polar] = [2.0 * PI * azimuth, PI * polar];
+                Vector3::new(
+                    azimuth.cos() * polar.sin(),
+                    azimuth.sin() * polar.sin(),
+                    polar.cos(),
+                )
+            })
+        };
+        let ball: Vec<_> = lines().collect();
+        assert!(!is_flat_sided(&ball));
+        let cube: Vec<_> = lines().map(|n| n / n.amax()).collect();
+        assert!(is_flat_sided(&cube));
     }
 
     #[test]

@@ -7,6 +7,7 @@
 //! exp(2 pi i x / h) over the points is several times as long as by chance, whatever the origin of the grid. Of vertices that lie
 //! on the edges of cells (marching cubes), or in their middles, it is longer still.
 
+use crate::fit::neighbours::Neighbours;
 use crate::fit::warning::FitWarning;
 use crate::measure::mesh_properties;
 use crate::mesh::{Bounds, Mesh};
@@ -44,6 +45,11 @@ const LEAST_ALONE: f64 = 0.85;
 const LEAST_DISTINCT: f64 = 0.6;
 const SAME: f64 = 1e-12;
 
+/// Least distance to the nearest point that nine in ten have, over the median, beyond which points are a lattice of directions, noisy
+/// as they may be: of means it is .84 at most, since cells that the surface hardly enters lie close to others, of lattices of cubes on
+/// bodies that are nearly round .86 at least.
+const LATTICE: f64 = 0.85;
+
 /// Share of the body's size below which cells are too small to matter.
 const SMALL: f64 = 0.01;
 
@@ -68,6 +74,9 @@ pub(super) fn averaged(mesh: &Mesh, unit: f64) -> Option<FitWarning> {
         length * (some.len() as f64).sqrt() > BEYOND_CHANCE && length < LARGEST
     });
     if !is_beyond_chance || (0..3).any(|axis| distinct(points, axis) < LEAST_DISTINCT) {
+        return None;
+    }
+    if evenness(points, &some) > LATTICE {
         return None;
     }
     // Round bodies have their longest waves beside those of the grid.
@@ -119,6 +128,20 @@ fn alone(points: &[Point3<f64>], from: &Vector3<f64>, per_length: f64) -> f64 {
     alone.count() as f64 / points.len() as f64
 }
 
+/// The tenth part of the distances from some points to the nearest of all, over their median.
+fn evenness(points: &[Point3<f64>], some: &[Point3<f64>]) -> f64 {
+    let all: Vec<Vector3<f64>> = points.iter().map(|point| point.coords).collect();
+    let neighbours = Neighbours::new(&all);
+    let nearest = |point: &Point3<f64>| {
+        let found = neighbours.nearest(&point.coords, 2);
+        let other = found.into_iter().map(|at| (all[at] - point.coords).norm());
+        other.fold(0.0, f64::max)
+    };
+    let mut distances: Vec<f64> = some.iter().map(nearest).collect();
+    distances.sort_unstable_by(f64::total_cmp);
+    distances[distances.len() / 10] / distances[distances.len() / 2]
+}
+
 /// Share of the values of a coordinate that are not those of other points too.
 fn distinct(points: &[Point3<f64>], axis: usize) -> f64 {
     let mut values: Vec<f64> = points.iter().map(|point| point[axis]).collect();
@@ -156,6 +179,9 @@ mod tests {
     use crate::shapes::Sampling;
     use crate::sphere::triangulate_directions;
     use nalgebra::Rotation3;
+    use rand::SeedableRng;
+    use rand_chacha::ChaCha8Rng;
+    use rand_distr::{Distribution, StandardNormal};
     use std::collections::HashMap;
 
     /// A point of an ellipsoid.
@@ -223,6 +249,16 @@ mod tests {
                 let body = directions.iter().map(place).collect();
                 assert_eq!(told(body), None, "{sampling:?} {points}");
             }
+        }
+        // Noise parts the values that lattices have in rows.
+        let mut random = ChaCha8Rng::seed_from_u64(1);
+        for points in [400, 900, 1500] {
+            let directions = Sampling::Cube.directions(points, 3).unwrap();
+            let noisy = directions.iter().map(|n| {
+                let error: f64 = StandardNormal.sample(&mut random);
+                (n * (1.0 + 0.01 * error)).into()
+            });
+            assert_eq!(told(noisy.collect()), None, "{points}");
         }
         // The middles of the cells themselves.
         let middles = means(0.1).into_iter();

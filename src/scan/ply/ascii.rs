@@ -13,7 +13,7 @@ use crate::digits::plural;
 use crate::scan::Scan;
 use crate::scan::error::{ParseError, Place};
 use crate::scan::polygon::Faces;
-use crate::scan::text::{Lines, coordinate, integer, unexpected, words};
+use crate::scan::text::{Lines, integer, number, unexpected, words};
 
 /// What to do with the values of a property.
 enum Column {
@@ -90,7 +90,7 @@ fn read_row(
     for column in columns {
         let first = next()?;
         match column {
-            Column::Axis(axis) => point[*axis] = coordinate(line, first)?,
+            Column::Axis(axis) => point[*axis] = number(line, first)?,
             Column::Skip => {}
             Column::Corners => {
                 for _ in 0..length(line, first)? {

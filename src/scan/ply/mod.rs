@@ -7,6 +7,7 @@ mod binary;
 mod header;
 mod meaning;
 mod strips;
+mod unseen;
 
 use ply_rs::ply::Encoding;
 
@@ -18,6 +19,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Scan, ParseError> {
         Encoding::Ascii => ascii::read(bytes, &header)?,
         Encoding::BinaryLittleEndian | Encoding::BinaryBigEndian => binary::read(bytes, &header)?,
     };
+    unseen::drop_unseen(&mut scan)?;
     scan.warnings.extend(header.warnings);
     if !header.known_version {
         let warning = "The PLY version is not 1.0; the file was read as if it were.";
