@@ -71,7 +71,8 @@ pub(super) fn run(args: FitArgs, console: Console) -> Result<()> {
     });
     let before = started.elapsed().as_secs_f64();
     progress.stage("Writing");
-    let loss = write_files(&args, &fitted)?;
+    let doubts = outputs::write_grain(&args, &fitted.grain)?;
+    let loss = write_published(&args, &fitted)?;
     if let Some(path) = &args.png {
         progress.stage("Drawing");
         let choice = fitted.search.choice();
@@ -93,6 +94,7 @@ pub(super) fn run(args: FitArgs, console: Console) -> Result<()> {
     seconds.mesh = seconds.total - before;
     if let Some(report) = &mut report {
         report.harmonics_loss = loss;
+        report.warnings.extend(doubts);
         report.seconds = seconds;
     }
 
@@ -114,14 +116,12 @@ pub(super) fn run(args: FitArgs, console: Console) -> Result<()> {
     Ok(())
 }
 
-/// Writes the files asked for; gives what the conversion to published coefficients loses.
-fn write_files(args: &FitArgs, fitted: &Fitted) -> Result<Option<f64>> {
-    let grain = &fitted.grain;
-    outputs::write_grain(args, grain)?;
+/// Writes published coefficients, where they are asked for; gives what the conversion to them loses.
+fn write_published(args: &FitArgs, fitted: &Fitted) -> Result<Option<f64>> {
     let Some(path) = &args.harmonics else {
         return Ok(None);
     };
-    let Some(star) = grain.star() else {
+    let Some(star) = fitted.grain.star() else {
         bail!(
             "the published coefficients are those of a radius: leave --harmonics out, or fit one (--surface star)"
         );

@@ -64,6 +64,7 @@ pub(super) fn run(args: MeshArgs, console: Console) -> Result<()> {
             progress.stage("Writing");
             outputs::write(&args.output, |file| format.write(&mesh, file))?;
             doubts.extend(solid::lacking(&grain, &mesh));
+            doubts.extend(outputs::rounded(format, &mesh));
             (mesh.vertices.len(), mesh.triangles.len())
         }
         MeshFormat::Ply | MeshFormat::Vtp | MeshFormat::Glb => {

@@ -5,6 +5,7 @@ use super::inputs::is_stream;
 use super::solid;
 use crate::engines::InputFile;
 use crate::export::{MeshFormat, WriteError, sweep, write_atomically};
+use crate::mesh::Mesh;
 use crate::model::{Grain, Surface, grain_to_json};
 use crate::picture::Image;
 use crate::portrait::{Caption, portrait};
@@ -99,19 +100,35 @@ pub(super) fn write(
 }
 
 /// Writes the mesh of a grain and its model, where they are asked for; gives what is odd about the mesh.
-pub(super) fn write_grain(args: &FitArgs, grain: &Grain) -> Result<Option<String>> {
-    let mut doubt = None;
+pub(super) fn write_grain(args: &FitArgs, grain: &Grain) -> Result<Vec<String>> {
+    let mut doubts = Vec::new();
     if let Some(path) = &args.mesh {
         let format = MeshFormat::of(path).unwrap_or(MeshFormat::Ply);
         let mesh = grain.mesh(args.meshing.resolution.into());
         write(path, |file| format.write(&mesh, file))?;
-        doubt = solid::lacking(grain, &mesh);
+        doubts.extend(solid::lacking(grain, &mesh));
+        doubts.extend(rounded(format, &mesh));
     }
     if let Some(path) = &args.output {
         let text = grain_to_json(grain);
         write(path, |file| Ok(writeln!(file, "{text}")?))?;
     }
-    Ok(doubt)
+    Ok(doubts)
+}
+
+/// Share of an edge by which rounding moves corners before it is told.
+const ROUNDED: f64 = 0.01;
+
+/// Tells of a mesh that its format rounds.
+pub(super) fn rounded(format: MeshFormat, mesh: &Mesh) -> Option<String> {
+    let share = format.rounding(mesh);
+    (share > ROUNDED).then(|| {
+        format!(
+            "STL holds seven digits of a coordinate, and the scan lies so far from its origin that these move the corners of the mesh by up \
+             to {:.0} % of an edge: write PLY or OBJ, or move the scan to its origin.",
+            100.0 * share
+        )
+    })
 }
 
 /// Draws the portrait of a grain into a PNG file.

@@ -32,6 +32,20 @@ impl MeshFormat {
         extension.to_ascii_lowercase().parse().ok()
     }
 
+    /// By how much coordinates of a mesh are rounded at most, as a share of the mean edge of its triangles: those of STL have 24
+    /// binary digits, and far from its origin few are left for the body.
+    pub fn rounding(self, mesh: &Mesh) -> f64 {
+        if self != Self::Stl {
+            return 0.0;
+        }
+        let place = |corner: u32| mesh.vertices[corner as usize];
+        let edges = mesh.triangles.iter();
+        let edges = edges.map(|corners| (place(corners[1]) - place(corners[0])).norm());
+        let farthest = mesh.vertices.iter().map(|vertex| vertex.coords.amax());
+        let rounding = farthest.fold(0.0, f64::max) * f64::from(f32::EPSILON) / 2.0;
+        rounding * mesh.triangles.len() as f64 / edges.sum::<f64>()
+    }
+
     /// Writes a mesh in this format.
     ///
     /// # Errors
@@ -75,5 +89,29 @@ impl FromStr for MeshFormat {
             "glb" => Ok(Self::Glb),
             _ => Err("expected stl, ply, obj, vtp or glb"),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::Vector3;
+
+    #[test]
+    fn stl_rounds_what_is_far_from_its_origin() {
+        let mut mesh = Mesh::radial(8, |_| 1.0);
+        assert!(MeshFormat::Stl.rounding(&mesh) < 1e-6);
+        let offset = Vector3::x() * 1e6;
+        mesh.vertices
+            .iter_mut()
+            .for_each(|vertex| *vertex += offset);
+        // Numbers near a million in 24 binary digits are a sixteenth apart.
+        let written = |x: f64| f64::from(x as f32);
+        let moved = mesh.vertices.iter().map(|v| (written(v.x) - v.x).abs());
+        let most = moved.fold(0.0, f64::max);
+        let edge = 0.2;
+        let share = MeshFormat::Stl.rounding(&mesh) * edge / most;
+        assert!((0.7..2.5).contains(&share), "{share}");
+        assert_eq!(MeshFormat::Ply.rounding(&mesh), 0.0);
     }
 }

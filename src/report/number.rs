@@ -7,6 +7,9 @@ pub fn short(value: f64) -> String {
     significant(value, 6)
 }
 
+/// Share of a figure that its digits hold.
+const SHOWN: f64 = 1e-6;
+
 /// A figure and its standard error, both to the error's second digit: `256.313 ± 0.012`.
 pub(super) fn with_error(value: f64, error: Option<f64>) -> String {
     let Some(error) = error.filter(|error| *error > 0.0 && error.is_finite()) else {
@@ -17,6 +20,18 @@ pub(super) fn with_error(value: f64, error: Option<f64>) -> String {
         return format!("{} ± {error:.1e}", short(value));
     }
     format!("{value:.decimals$} ± {error:.decimals$}")
+}
+
+/// A figure in its unit with its standard error or else, where that counts, how well it is integrated, as a share.
+pub(super) fn integrated(value: f64, error: Option<f64>, share: Option<f64>, unit: &str) -> String {
+    let by_quadrature = value * share.unwrap_or(0.0);
+    match error {
+        Some(error) => with_error(value, Some(error.hypot(by_quadrature))) + unit,
+        None if by_quadrature > SHOWN * value => {
+            format!("{}{unit}, integrated to {by_quadrature:.1e}", short(value))
+        }
+        None => short(value) + unit,
+    }
 }
 
 /// The components of a vector; those that are nothing but rounding beside the others as zero.

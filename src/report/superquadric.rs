@@ -3,7 +3,7 @@
 use super::ReferenceRecord;
 use super::escape::escaped;
 use super::measure::{Measure, NotMeasured, Withheld, by_reason};
-use super::number::{percent, short, triple, with_error};
+use super::number::{integrated, percent, short, triple, with_error};
 use super::unit::{Labels, Unit};
 use crate::digits::plural;
 use crate::fit::{
@@ -327,7 +327,11 @@ impl fmt::Display for SuperquadricReport {
             plural(self.parts.len(), "superquadric")
         )?;
         let rms = short(self.rms);
-        writeln!(f, "residuals     RMS {rms}{length} ({})", share(self.rms))?;
+        writeln!(
+            f,
+            "residuals     RMS {rms}{length} ({}), along rays",
+            share(self.rms)
+        )?;
         let largest = short(self.largest);
         writeln!(
             f,
@@ -342,16 +346,15 @@ impl fmt::Display for SuperquadricReport {
                 each.join(", ")
             )?;
         }
-        let told = |value: Option<f64>, share: Option<f64>, error: Option<f64>| {
-            let by_quadrature = value? * share?;
-            let error = error.map_or(by_quadrature, |error| error.hypot(by_quadrature));
-            Some(with_error(value?, Some(error)))
-        };
-        if let Some(area) = told(self.area, self.area_error, self.area_standard_error) {
-            writeln!(f, "area          {area}{}", labels.area())?;
+        if let Some(area) = self.area {
+            let error = self.area_standard_error;
+            let area = integrated(area, error, self.area_error, &labels.area());
+            writeln!(f, "area          {area}")?;
         }
-        if let Some(volume) = told(self.volume, self.volume_error, self.volume_standard_error) {
-            writeln!(f, "volume        {volume}{}", labels.volume())?;
+        if let Some(volume) = self.volume {
+            let error = self.volume_standard_error;
+            let volume = integrated(volume, error, self.volume_error, &labels.volume());
+            writeln!(f, "volume        {volume}")?;
         }
         for (names, reason) in by_reason(&self.not_measured) {
             writeln!(f, "not told      {names}: {reason}")?;
@@ -362,15 +365,16 @@ impl fmt::Display for SuperquadricReport {
         for part in &self.parts {
             part.write(f, &length)?;
         }
-        let of_solid = match self.volume_standard_error {
-            Some(_) => {
-                "how well the points tell the nearest superquadric, not how well that suits the grain"
+        let of_solid = match (self.volume, self.volume_standard_error) {
+            (Some(_), Some(_)) => {
+                "; those of area and volume tell how well the points tell the nearest superquadric, not how well that suits the grain"
             }
-            None => "how well they are integrated, not how well superquadrics suit the grain",
+            (Some(_), None) => "; area and volume have none",
+            (None, _) => "",
         };
         write!(
             f,
-            "Figures after ± are standard errors; those of area and volume tell {of_solid}. Lengths are in {}.",
+            "Figures after ± are standard errors{of_solid}. Lengths are in {}.",
             labels.name()
         )
     }

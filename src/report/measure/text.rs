@@ -6,7 +6,7 @@ use super::{
 };
 use crate::measure::{Convexity, CurvatureErrors, Distribution, Form, SideRatios, Sphericity};
 use crate::report::escape::escaped;
-use crate::report::number::{triple, with_error};
+use crate::report::number::{integrated, triple, with_error};
 use crate::report::unit::Labels;
 use std::fmt::{self, Write as _};
 
@@ -49,12 +49,6 @@ impl MeasureReport {
         if !measures.may_have_errors() {
             return Ok(());
         }
-        if measures.area_error.or(measures.volume_error).is_some() {
-            writeln!(
-                f,
-                "Figures after ± tell how well area and volume are integrated, not how well superquadrics suit the grain."
-            )?;
-        }
         if let Some(reason) = &self.no_standard_errors {
             return writeln!(f, "No standard errors: {reason}.");
         }
@@ -75,16 +69,14 @@ impl MeasureReport {
         let measures = &self.measures;
         let errors = self.standard_errors.as_ref();
         if let Some(area) = measures.area {
-            let of_integration = measures.area_error.map(|share| area * share);
-            let error = errors.map(|errors| errors.area).or(of_integration);
-            let area = with_error(area, error);
-            writeln!(f, "area          {area}{}", labels.area())?;
+            let error = errors.map(|errors| errors.area);
+            let area = integrated(area, error, measures.area_error, &labels.area());
+            writeln!(f, "area          {area}")?;
         }
         if let Some(volume) = measures.volume {
-            let of_integration = measures.volume_error.map(|share| volume * share);
-            let error = errors.map(|errors| errors.volume).or(of_integration);
-            let volume = with_error(volume, error);
-            writeln!(f, "volume        {volume}{}", labels.volume())?;
+            let error = errors.map(|errors| errors.volume);
+            let volume = integrated(volume, error, measures.volume_error, &labels.volume());
+            writeln!(f, "volume        {volume}")?;
         }
         if let Some(centroid) = measures.centroid {
             writeln!(f, "centroid      {}{}", triple(centroid), labels.length())?;
