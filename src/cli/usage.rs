@@ -34,6 +34,9 @@ pub(super) fn parse() -> Result<Cli, ExitCode> {
     })
 }
 
+/// What takes a number takes neither a unit nor a decimal comma.
+const PLAIN_NUMBER: &str = "expected a number such as 2.5, without its unit";
+
 /// The message of clap on one line, with its own hint or where to find one.
 fn sentence(text: &str, command: Option<&str>) -> String {
     let mut paragraphs = text.split("\n\n").map(|paragraph| {
@@ -42,6 +45,7 @@ fn sentence(text: &str, command: Option<&str>) -> String {
     });
     let message = paragraphs.next().unwrap_or_default();
     let message = message.strip_prefix("error: ").unwrap_or(&message);
+    let message = message.replace("invalid float literal", PLAIN_NUMBER);
     let tips: Vec<String> = paragraphs
         .flat_map(|paragraph| {
             let tips = paragraph.split("tip: ").skip(1);
@@ -87,6 +91,11 @@ mod tests {
                 &["fit", "a.ply", "--threads", "x"],
                 "invalid value 'x' for '--threads <N>': expected a whole number of zero or more; \
                  see grainform fit --help",
+            ),
+            (
+                &["bed", "a.json", "--density", "2.5g/cm3"],
+                "invalid value '2.5g/cm3' for '--density <RHO>': expected a number such as 2.5, without its unit; \
+                 see grainform bed --help",
             ),
             (
                 &["fitt"],

@@ -108,6 +108,10 @@ pub struct SuperquadricRecord {
     pub centre_errors: [Option<f64>; 3],
 }
 
+/// What to know of area and volume where an exponent is at its bound.
+const AT_BOUND: &str = "An exponent is at its bound, as of bodies with sharp edges or flat sides: no superquadric follows these to the last, \
+     and area and volume may be off by some percent, which no error holds.";
+
 impl SuperquadricRecord {
     fn new(shape: &Superquadric, frame: &Frame, errors: &ParameterErrors) -> Self {
         Self {
@@ -125,6 +129,14 @@ impl SuperquadricRecord {
             rotation_errors_rad: errors.rotation_rad,
             centre_errors: errors.centre,
         }
+    }
+
+    fn has_exponent_at_bound(&self) -> bool {
+        let mut all = self
+            .n1_at_bound
+            .iter()
+            .chain(self.n2_at_bound.as_flattened());
+        all.any(|is_at_bound| *is_at_bound)
     }
 
     /// The line of an axis or an exponent: one figure, or one for each side where they differ.
@@ -237,6 +249,8 @@ impl SuperquadricReport {
                 100.0 * share
             )
         });
+        let at_bound = parts.iter().any(SuperquadricRecord::has_exponent_at_bound);
+        let at_bound = at_bound.then(|| AT_BOUND.into());
         Self {
             input: scan.input,
             unit: scan.unit,
@@ -259,6 +273,7 @@ impl SuperquadricReport {
                 .warnings
                 .into_iter()
                 .chain(rough)
+                .chain(at_bound)
                 .chain(off_faces)
                 .collect(),
         }

@@ -111,6 +111,22 @@ fn a_scan_that_lies_elsewhere_is_told() {
 }
 
 #[test]
+fn a_file_that_rounds_a_mesh_far_from_its_origin_is_told() {
+    let folder = folder();
+    let far = ["synth", "bean", "--offset", "1e6,0,0", "-o", "far.ply"];
+    succeed(&folder, &far);
+    let fit = |scan: &str| {
+        let words = ["fit", scan, "-o", "m.json", "--mesh", "m.stl"];
+        errors(&grainform(&folder, &words))
+    };
+    assert!(fit("far.ply").contains("STL holds seven digits"));
+    let mesh = |name: &str| errors(&grainform(&folder, &["mesh", "m.json", "-o", name]));
+    assert!(mesh("m.stl").contains("STL holds seven digits"));
+    assert_eq!(mesh("m.ply"), "");
+    assert_eq!(fit(&grain("bean.ply")), "");
+}
+
+#[test]
 fn the_scan_of_another_grain_is_told() {
     let folder = folder();
     succeed(&folder, &["fit", &grain("maize.ply"), "-o", "m.json"]);

@@ -46,6 +46,17 @@ fn an_ellipsoid_is_a_superquadric_of_exponents_two() {
 }
 
 #[test]
+fn exponents_at_their_bounds_are_warned_of() {
+    let folder = ellipsoid();
+    succeed(&folder, &["synth", "cuboid", "-o", "c.ply"]);
+    let told = |scan: &str| {
+        let words = ["fit", scan, "--surface", "superquadric"];
+        errors(&grainform(&folder, &words)).contains("An exponent is at its bound")
+    };
+    assert!(told("c.ply") && !told("s.ply"));
+}
+
+#[test]
 fn a_union_is_saved_with_all_its_parts() {
     let folder = folder();
     succeed(&folder, &["synth", "bean", "-o", "s.ply"]);
