@@ -4,13 +4,15 @@
 //! `coefficients`; or `harmonics`; with `stretch`, if the grain is stretched), a `position`, or `superquadrics`. It may
 //! hold `standard_errors` of its figures or, as `no_standard_errors`, why there are none; `local_errors` of its surface
 //! (of a radius or a position); `unseen`, if the scan did not see much of the grain; and `contradicted`, if the polyhedron through its
-//! points has another area or volume.
+//! points has another area or volume. Errors are passed over where the surface is not the one that they are of, by its `checksum`: of
+//! a file that was edited.
 //!
-//! Version 7 is written. Version 6 had no `local_errors` but `curvature_errors`, which told nothing of tips and are passed
+//! Version 8 is written. Version 7 had no `checksum`; version 6 had no `local_errors` but `curvature_errors`, which told nothing of tips and are passed
 //! over; version 5 had no standard errors but those of the curvature; version 4 no `unseen` and no
 //! `contradicted` either; version 3 no `position` and no `superquadrics` either; version 2 no `harmonics`, `stretch`,
 //! `margin` and `curvature_errors` either; version 1 had segments alone. All are read.
 
+use super::cell_record::{CellRecord, of_cover, to_cover};
 use super::errors_record::{ErrorsRecord, LocalErrorsRecord};
 use super::grain::Kind;
 use super::superquadric::PartRecord;
@@ -19,12 +21,13 @@ use super::{
     PositionGrain, Segmented, StandardErrors, StarGrain, Stretch, SuperquadricGrain, Surface,
     Unseen, Whole,
 };
-use crate::sphere::{AngularPartition, Cover, CoverError, CubeCell, MARGIN, Symmetry};
+use crate::sphere::{AngularPartition, CoverError, Symmetry};
+use flate2::Crc;
 use nalgebra::{Matrix3, Point3, Vector3};
 use serde::{Deserialize, Serialize};
 
 /// The version of the file format that this library writes.
-const VERSION: u32 = 7;
+const VERSION: u32 = 8;
 
 /// The text that tells a model file from any other JSON.
 const FORMAT: &str = "grainform model";
@@ -76,6 +79,9 @@ struct GrainFile {
     /// Standard errors of the surface in 864 cells of directions, where they are known.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     local_errors: Option<LocalErrorsRecord>,
+    /// CRC-32 of the surface that these errors are those of.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    checksum: Option<u32>,
     /// Those of the curvature alone, in files of versions up to 6.
     #[serde(default, skip_serializing)]
     curvature_errors: Option<Vec<f64>>,
@@ -103,17 +109,6 @@ struct PositionRecord {
     margin: Option<f64>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     harmonics: Option<Vec<f64>>,
-}
-
-/// A cell, numbered as in [`CubeCell`], and the coefficients of its cap basis by degree.
-#[derive(Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct CellRecord {
-    face: u8,
-    parts: u16,
-    row: u16,
-    column: u16,
-    coefficients: Vec<f64>,
 }
 
 /// Why a text is not a grain.
@@ -180,29 +175,49 @@ pub enum ModelError {
 
 /// The JSON text of a grain.
 pub fn grain_to_json(grain: &Grain) -> String {
-    let Frame { centre, axes } = grain.frame();
-    let mut file = GrainFile {
+    let surface = GrainFile::of_surface(grain);
+    let has_errors = grain.standard_errors().is_ok() || grain.local_errors().is_some();
+    let file = GrainFile {
+        checksum: has_errors.then(|| surface.checksum_of_surface()),
         format: FORMAT.into(),
         version: VERSION,
-        centre: centre.coords.into(),
-        axes: [0, 1, 2].map(|i| axes.column(i).into_owned().into()),
         unseen: grain.unseen(),
         contradicted: grain.contradicted(),
         standard_errors: grain.standard_errors().ok().map(Into::into),
         no_standard_errors: (grain.standard_errors().err())
             .filter(|why| *why != NoInterval::NotTold),
         local_errors: grain.local_errors().map(LocalErrorsRecord::of),
-        ..GrainFile::default()
+        ..surface
     };
-    match grain.kind() {
-        Kind::Star(grain) => file.put_star(grain),
-        Kind::Position(grain) => file.position = Some(PositionRecord::of(grain.position())),
-        Kind::Superquadric(grain) => file.superquadrics = Some(PartRecord::of(grain.body())),
-    }
-    serde_json::to_string_pretty(&file).expect("a record of numbers and strings is valid JSON")
+    serde_json::to_string_pretty(&file).expect(VALID)
 }
 
+const VALID: &str = "a record of numbers and strings is valid JSON";
+
 impl GrainFile {
+    /// What tells the surface, and nothing else.
+    fn of_surface(grain: &Grain) -> Self {
+        let Frame { centre, axes } = grain.frame();
+        let mut file = Self {
+            centre: centre.coords.into(),
+            axes: [0, 1, 2].map(|i| axes.column(i).into_owned().into()),
+            ..Self::default()
+        };
+        match grain.kind() {
+            Kind::Star(grain) => file.put_star(grain),
+            Kind::Position(grain) => file.position = Some(PositionRecord::of(grain.position())),
+            Kind::Superquadric(grain) => file.superquadrics = Some(PartRecord::of(grain.body())),
+        }
+        file
+    }
+
+    /// The checksum of a file with a surface and nothing else.
+    fn checksum_of_surface(&self) -> u32 {
+        let mut sum = Crc::new();
+        sum.update(&serde_json::to_vec(self).expect(VALID));
+        sum.sum()
+    }
+
     fn put_star(&mut self, grain: &StarGrain) {
         let stretch = grain.stretch();
         self.stretch = (!stretch.is_none()).then(|| (*stretch.factors()).into());
@@ -247,42 +262,6 @@ impl PositionRecord {
     }
 }
 
-/// The records of cells, and their margin where it is not the usual one.
-fn of_cover(cover: &Cover, coefficients: &[Vec<f64>]) -> (Option<Vec<CellRecord>>, Option<f64>) {
-    let cells = cover.cells().iter().zip(coefficients);
-    let record = |(cell, coefficients): (&CubeCell, &Vec<f64>)| CellRecord {
-        face: cell.face,
-        parts: cell.parts,
-        row: cell.row,
-        column: cell.column,
-        coefficients: coefficients.clone(),
-    };
-    let margin = cover.margin();
-    (
-        Some(cells.map(record).collect()),
-        (margin != MARGIN).then_some(margin),
-    )
-}
-
-/// The cover of records of cells, and the coefficients of each.
-fn to_cover(
-    cells: Vec<CellRecord>,
-    margin: Option<f64>,
-) -> Result<(Cover, Vec<Vec<f64>>), CoverError> {
-    let place = |record: CellRecord| {
-        let cell = CubeCell {
-            face: record.face,
-            parts: record.parts,
-            row: record.row,
-            column: record.column,
-        };
-        (cell, record.coefficients)
-    };
-    let (cells, coefficients) = cells.into_iter().map(place).unzip();
-    let cover = Cover::with_margin(cells, margin.unwrap_or(MARGIN))?;
-    Ok((cover, coefficients))
-}
-
 /// The grain that a JSON text describes.
 ///
 /// # Errors
@@ -309,7 +288,13 @@ pub fn grain_from_json(text: &str) -> Result<Grain, ModelError> {
     let standard_errors = file.standard_errors()?;
     let local_errors = file.local_errors.as_ref();
     let local_errors = local_errors.map(|record| record.read().ok_or(ModelError::LocalErrors));
+    let checksum = file.checksum;
     let grain = file.grain()?;
+    let is_edited = |checksum| GrainFile::of_surface(&grain).checksum_of_surface() != checksum;
+    if checksum.is_some_and(is_edited) {
+        let edited = grain.with_standard_errors(Err(NoInterval::Edited));
+        return Ok(edited.with_unseen(unseen).with_contradicted(contradicted));
+    }
     Ok(grain
         .with_unseen(unseen)
         .with_contradicted(contradicted)

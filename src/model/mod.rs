@@ -2,6 +2,7 @@
 
 mod blend;
 mod blended;
+mod cell_record;
 mod contradicted;
 mod errors_record;
 mod family;

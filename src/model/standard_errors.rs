@@ -95,6 +95,8 @@ pub enum NoInterval {
     Crossing,
     /// The model is fitted to the points themselves, not to an estimate.
     NotEstimated,
+    /// The surface is not the one that the errors in its file were those of.
+    Edited,
     /// Nothing is told of them with the model.
     #[serde(skip)]
     NotTold,

@@ -151,7 +151,8 @@ impl FitWarning {
             Self::OneSided { points } => write!(
                 f,
                 "{points} points lie farther off the surface than noise puts them, most of them on one side, \
-                 and were left out as dust or glare; figures do not hold them if they are hairs, spines or edges of the grain."
+                 and were left out as dust or glare; figures do not hold them if they are hairs, spines or edges of the grain, or \
+                 a view that was registered off."
             ),
             Self::Gap {
                 half_angle,
@@ -299,6 +300,10 @@ impl fmt::Display for NoInterval {
             ),
             Self::Crossing => write!(f, "the surface crosses itself or turns over"),
             Self::NotEstimated => write!(f, "the model is fitted to the points themselves"),
+            Self::Edited => write!(
+                f,
+                "the model was changed after its fit, and its errors are those of another surface; fit the scan again"
+            ),
             Self::NotTold => write!(f, "the model tells none"),
             Self::Polyhedron => write!(
                 f,

@@ -52,6 +52,36 @@ fn errors_of_a_model_are_those_of_its_fit() {
     );
 }
 
+/// A program that reads a model and writes it as it is changes nothing; one that makes the grain larger leaves errors of another one.
+#[test]
+fn errors_of_a_model_that_was_edited_are_not_told() {
+    let folder = folder();
+    let noisy = "synth bean --points 800 --noise 0.005 -o s.ply";
+    succeed(&folder, &noisy.split(' ').collect::<Vec<_>>());
+    for options in ["", "--segments 1", "--surface position --segments 1"] {
+        let [fit, _] = told(&folder, "s.ply", options);
+        let path = folder.path().join("m.json");
+        let text = fs::read_to_string(&path).unwrap();
+        let mut model: Value = serde_json::from_str(&text).unwrap();
+        let measured = |model: &Value| {
+            fs::write(&path, model.to_string()).unwrap();
+            json(&folder, &["measure", "m.json"])
+        };
+        let unchanged = measured(&model);
+        assert_eq!(unchanged["standard_errors"], fit["standard_errors"]);
+        assert!(unchanged["curvature"]["standard_errors"].is_object());
+        model["centre"][0] = (model["centre"][0].as_f64().unwrap() + 1.0).into();
+        let edited = measured(&model);
+        assert!(edited["standard_errors"].is_null(), "{options}");
+        assert!(edited["curvature"]["standard_errors"].is_null());
+        let reason = edited["no_standard_errors"].as_str().unwrap();
+        assert!(reason.starts_with("the model was changed after its fit"));
+        // As those of files before version 8.
+        model.as_object_mut().unwrap().remove("checksum").unwrap();
+        assert!(measured(&model)["standard_errors"].is_object());
+    }
+}
+
 #[test]
 fn errors_of_a_guess_are_told_with_it() {
     let folder = folder();
