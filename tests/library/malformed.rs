@@ -143,18 +143,19 @@ fn every_scalar_type_serves_as_a_coordinate() {
 }
 
 #[test]
-fn not_a_number_is_refused_in_every_format() {
+fn not_a_number_is_refused_in_every_format_where_a_face_has_it() {
     let mut body = points();
     body[12..16].copy_from_slice(&f32::NAN.to_le_bytes());
-    let error = binary_ply(&format!("element vertex 4\n{AXES}"), &body).unwrap_err();
+    let cloud = format!("element vertex 4\n{AXES}");
+    let mesh = format!("{cloud}element face 1\nproperty list uchar uchar vertex_indices\n");
+    let scan = binary_ply(&cloud, &body).unwrap();
+    assert!(scan.points().len() == 3 && scan.warnings()[0].starts_with("Dropped 1 point "));
+    let with_face = [&body[..], &[3, 0, 1, 2]].concat();
+    let error = binary_ply(&mesh, &with_face).unwrap_err();
     assert!(error.to_string().starts_with("point 1 "), "{error}");
-    assert!(
-        text_ply(
-            &format!("element vertex 4\n{AXES}"),
-            &BODY.replace('1', "nan")
-        )
-        .is_err()
-    );
+    let with_face = BODY.replace('1', "nan") + "3 0 1 2\n";
+    let error = text_ply(&mesh, &with_face).unwrap_err();
+    assert!(error.to_string().starts_with("point 1 "), "{error}");
     let mut stl = binary_stl(b"");
     stl[84 + 50 + 12..][..4].copy_from_slice(&f32::INFINITY.to_le_bytes());
     let error = parse_scan(&stl, None).unwrap_err();
