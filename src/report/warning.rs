@@ -281,8 +281,8 @@ impl fmt::Display for NoInterval {
             Self::Unresolved { .. } => write!(
                 f,
                 "the points do not tell whether the body has edges: they stand off as those beside edges or dust do, or they are too \
-                 few for the detail that they show; and of a body that is nearly alike on both sides of its centre, or has flat sides, \
-                 what edges hide may be all of one sign"
+                 few for the detail that they show; and of a body that is nearly alike on both sides of its centre, or may have flat \
+                 sides, as where points lie along lines, what edges hide may be all of one sign"
             ),
             Self::FewPoints => write!(
                 f,

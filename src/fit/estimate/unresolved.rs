@@ -46,12 +46,8 @@ const LEAST_ODD: f64 = 0.015;
 /// Share of points left out beyond which they are a part of the body, as along a rim.
 const MOST_OUTLIERS: f64 = 0.03;
 
-/// Points near one by which it is told whether it lies on a flat side, itself one of them: the first so many that are not in a
-/// row, as the nearest on a line of a scanner are, which lie in a plane whatever the body.
-const VICINITIES: [usize; 3] = [7, 28, 112];
-
-/// Variance across a row of points, as a share of that along it, at most.
-const ROW: f64 = 0.05;
+/// Points near one by which it is told whether it lies on a flat side, itself one of them.
+const VICINITY: usize = 7;
 
 /// RMS distance of these from a plane, over their mean square distance from their middle, in units of the mean radius, on
 /// flat sides: of a ball it is some 0.3.
@@ -68,23 +64,18 @@ fn are_many(outliers: usize, points: usize) -> bool {
     outliers as f64 > MOST_OUTLIERS * (outliers + points) as f64
 }
 
-/// Whether a good part of the points, in units of the mean radius, lies on flat sides.
-fn is_flat_sided(points: &[Vector3<f64>]) -> bool {
+/// Whether a good part of the points, in units of the mean radius, may lie on flat sides. Those on lines of a scanner tell nothing: the
+/// nearest lie on one line, and in a plane whatever the body. Were such bodies told from wedges by more of the points around, areas of
+/// wedges scanned along 36 meridians with noise would be 3.4 standard errors off.
+fn may_be_flat_sided(points: &[Vector3<f64>]) -> bool {
     let neighbours = Neighbours::new(points);
     let looked_at = points.iter().step_by((points.len() / LOOKED_AT).max(1));
     let count = looked_at.len();
-    let variances = |point: &Vector3<f64>, count: usize| {
-        let near = neighbours.nearest(point, count);
-        let (_, spread) = covariance(near.iter().map(|&i| points[i]));
-        let mut variances = spread.symmetric_eigenvalues();
-        variances.as_mut_slice().sort_by(f64::total_cmp);
-        variances
-    };
     let is_flat = |point: &&Vector3<f64>| {
-        let mut vicinities = VICINITIES.iter().map(|&count| variances(point, count));
-        let is_no_row = |variances: &Vector3<f64>| variances.y > ROW * variances.z;
-        let around = vicinities.find(is_no_row);
-        around.is_some_and(|around| around.x.max(0.0).sqrt() < FLAT * around.sum())
+        let near = neighbours.nearest(point, VICINITY);
+        let (_, spread) = covariance(near.iter().map(|&i| points[i]));
+        let least = spread.symmetric_eigenvalues().min();
+        least.max(0.0).sqrt() < FLAT * spread.trace()
     };
     looked_at.filter(is_flat).count() as f64 > FLAT_SHARE * count as f64
 }
@@ -126,7 +117,8 @@ impl Estimate {
             || are_many(self.outliers, self.cloud.len())
             || self.goes_on()
             || self.is_sparse();
-        may_have_edges && (is_symmetric(&self.coefficients) || is_flat_sided(&self.cloud.points()))
+        may_have_edges
+            && (is_symmetric(&self.coefficients) || may_be_flat_sided(&self.cloud.points()))
     }
 
     /// Whether its last degrees carry more than is small beside its own error: then those above would carry as much.
@@ -204,42 +196,20 @@ mod tests {
     #[test]
     fn half_a_ball_has_a_flat_side_and_a_ball_has_none() {
         let ball = Sampling::Fibonacci.directions(2000, 0).unwrap();
-        assert!(!is_flat_sided(&ball));
+        assert!(!may_be_flat_sided(&ball));
         // Its lower half moved up along the axis, into a disc.
         let half: Vec<_> = ball
             .iter()
             .map(|n| Vector3::new(n.x, n.y, n.z.max(0.0)))
             .collect();
-        assert!(is_flat_sided(&half));
+        assert!(may_be_flat_sided(&half));
         let rough: Vec<_> = half
             .iter()
             .enumerate()
             .map(|(i, n)| n + Vector3::z() * (2e-3 * (i % 2) as f64))
             .collect();
-        assert!(!is_flat_sided(&rough));
+        assert!(!may_be_flat_sided(&rough));
         assert!(!are_many(2, 98) && are_many(4, 96));
-    }
-
-    /// Twenty meridians of three hundred points: the nearest of each lie on one circle, which is in a plane.
-    #[test]
-    fn lines_of_a_scanner_are_no_flat_sides() {
-        let lines = || {
-            let of_line = |line: i32| {
-                (0..300).map(move |at| [0.05 * f64::from(line), (f64::from(at) + 0.5) / 300.0])
-            };
-            (0..20).flat_map(of_line).map(|[azimuth, polar]| {
-                let [azimuth, polar] = [2.0 * PI * azimuth, PI * polar];
-                Vector3::new(
-                    azimuth.cos() * polar.sin(),
-                    azimuth.sin() * polar.sin(),
-                    polar.cos(),
-                )
-            })
-        };
-        let ball: Vec<_> = lines().collect();
-        assert!(!is_flat_sided(&ball));
-        let cube: Vec<_> = lines().map(|n| n / n.amax()).collect();
-        assert!(is_flat_sided(&cube));
     }
 
     #[test]
