@@ -8,6 +8,9 @@ use std::f64::consts::PI;
 /// Exponent of the volume in the energy: with it, spheres feel the force of Hertz.
 const EXPONENT: f64 = 1.25;
 
+/// Depth of a lens over the effective radius up to which its volume is about pi R u².
+const SHALLOW: f64 = 0.1;
+
 /// The energy U = 8/15 E* R*^(-3/4) (V / pi)^(5/4) of a shared volume V.
 ///
 /// Two spheres that overlap by a small u share V = pi R* u², with 1/R* = 1/R1 + 1/R2, so U is 8/15 E* sqrt(R*) u^(5/2),
@@ -42,11 +45,13 @@ impl VolumeLaw {
     }
 
     /// How many times the force of Hertz the force at a region is, about: with V = pi R u² of a lens, and R the effective radius where the
-    /// surfaces touch, it is (R / R*)^(3/4). `None` where the region has no deepest points, whose line is normal to both surfaces.
+    /// surfaces touch, it is (R / R*)^(3/4). `None` where the region has no deepest points, whose line is normal to both surfaces, and
+    /// where it is deeper than a tenth of R or R*, and no such lens.
     pub fn times_hertz(&self, region: &ContactRegion) -> Option<f64> {
         region.curvatures.as_ref()?;
         let radius = region.volume / (PI * region.depth * region.depth);
-        Some((radius / self.radius).powf(0.75))
+        let is_lens = region.depth <= SHALLOW * radius.min(self.radius);
+        is_lens.then(|| (radius / self.radius).powf(0.75))
     }
 
     /// The energy stored in a region, in joules.

@@ -169,8 +169,8 @@ fn beside_hertz(times: f64) -> Option<String> {
     let is_told = !(1.0 - AS_HERTZ..=1.0 + AS_HERTZ).contains(&times);
     is_told.then(|| {
         format!(
-            "The force is about {times:.2} times that of Hertz, and its standard error does not hold that: the law of the shared volume has \
-             the stiffness of spheres of the bodies' volumes, wherever they touch (--law hertz follows the curvatures there)."
+            "By the lens that the bodies share the force is about {times:.2} times that of Hertz, and its standard error does not hold that: \
+             the law of the shared volume has the stiffness of spheres of the bodies' volumes, wherever they touch."
         )
     })
 }

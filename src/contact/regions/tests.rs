@@ -128,6 +128,9 @@ fn the_force_of_the_volume_is_told_beside_that_of_hertz() {
     let times = law.times_hertz(&found.regions[0]).unwrap();
     let expected = (6.0 / 24.0_f64.cbrt()).powf(0.75);
     assert_relative_eq!(times, expected, max_relative = 0.01);
+    let deep = Isometry3::translation(0.0, 0.0, 3.7);
+    let found = contact_regions(&body, &body, &deep).unwrap();
+    assert_eq!(law.times_hertz(&found.regions[0]), None);
 }
 
 #[test]
