@@ -54,10 +54,7 @@ impl Estimate {
             return Err(NoInterval::Hole { half_angle });
         }
         let known = || self.known_errors(holes);
-        let known = self.derived.errors.get_or_init(known).as_ref();
-        known
-            .map(|known| known.errors(told))
-            .map_err(|reason| *reason)
+        of_figures(self.derived.errors.get_or_init(known), told)
     }
 
     /// The same, with what holes hide only as far as the prior tells it.
@@ -66,10 +63,7 @@ impl Estimate {
         told: &Figures,
     ) -> Result<StandardErrors, NoInterval> {
         let known = || self.known_errors(&Holes::default());
-        let known = self.derived.errors_beside_holes.get_or_init(known).as_ref();
-        known
-            .map(|known| known.errors(told))
-            .map_err(|reason| *reason)
+        of_figures(self.derived.errors_beside_holes.get_or_init(known), told)
     }
 
     fn known_errors(&self, holes: &Holes) -> Result<KnownErrors, NoInterval> {
@@ -94,6 +88,15 @@ impl Estimate {
         let all_over = off.hypot(blur.swelling);
         Ok(KnownErrors { all_over, ..known })
     }
+}
+
+/// The standard errors of figures by what is known.
+fn of_figures(
+    known: &Result<KnownErrors, NoInterval>,
+    told: &Figures,
+) -> Result<StandardErrors, NoInterval> {
+    let known = known.as_ref().map_err(|reason| *reason)?;
+    Ok(known.errors(told))
 }
 
 /// Share of the area missing along a rim that the part has of which the points tell: the least on lenses, nearly.

@@ -11,7 +11,7 @@ use crate::fit::prepare::{
 use crate::fit::repeated::without_repeats;
 use crate::fit::warning::FitWarning;
 use crate::measure::{Unit, equivalent_radius, mesh_properties};
-use crate::mesh::Mesh;
+use crate::mesh::{Mesh, keep_vertices};
 use crate::model::Frame;
 use crate::scan::{Scan, are_two_grains};
 use nalgebra::{Matrix3, Point3, Vector3};
@@ -166,22 +166,7 @@ fn compact(mesh: &Mesh) -> Mesh {
     for &corner in mesh.triangles.as_flattened() {
         is_used[corner as usize] = true;
     }
-    let mut vertices = Vec::with_capacity(mesh.vertices.len());
-    let mut numbers = vec![0; mesh.vertices.len()];
-    for (at, vertex) in mesh
-        .vertices
-        .iter()
-        .enumerate()
-        .filter(|(at, _)| is_used[*at])
-    {
-        numbers[at] = vertices.len() as u32;
-        vertices.push(*vertex);
-    }
-    let triangles = mesh.triangles.iter();
-    Mesh {
-        triangles: triangles
-            .map(|t| t.map(|corner| numbers[corner as usize]))
-            .collect(),
-        vertices,
-    }
+    let mut compact = mesh.clone();
+    keep_vertices(&mut compact.vertices, &mut compact.triangles, &is_used);
+    compact
 }

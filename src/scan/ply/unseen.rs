@@ -3,6 +3,7 @@
 //! Scanners that see on a grid write all of it: where nothing was seen, a point that is no number.
 
 use crate::digits::plural;
+use crate::mesh::keep_vertices;
 use crate::scan::Scan;
 use crate::scan::error::{ParseError, Place};
 
@@ -23,21 +24,7 @@ pub(super) fn drop_unseen(scan: &mut Scan) -> Result<(), ParseError> {
         let place = Place::Point(corner as usize);
         return Err(ParseError::NotFinite { place });
     }
-    let mut seen = 0;
-    let places: Vec<u32> = is_seen
-        .iter()
-        .map(|is_seen| {
-            let place = seen;
-            seen += u32::from(*is_seen);
-            place
-        })
-        .collect();
-    for corner in scan.triangles.as_flattened_mut() {
-        *corner = places[*corner as usize];
-    }
-    let points = std::mem::take(&mut scan.points).into_iter().zip(is_seen);
-    let points = points.filter(|(_, is_seen)| *is_seen);
-    scan.points = points.map(|(point, _)| point).collect();
+    keep_vertices(&mut scan.points, &mut scan.triangles, &is_seen);
     let points = plural(unseen, "point");
     scan.warnings.push(format!(
         "Dropped {points} with a coordinate that is not finite."
