@@ -5,11 +5,17 @@ use std::cmp::Ordering;
 
 /// The distinct points or, of more than some number, about so many of them, drawn by a hash of their coordinates; sorted.
 pub(crate) fn drawn(points: &[Point3<f64>], most: usize) -> Vec<Point3<f64>> {
+    let drawn = indices_drawn(points, most).into_iter();
+    drawn.map(|at| points[at]).collect()
+}
+
+/// As [`drawn`], the indices of the points.
+pub(crate) fn indices_drawn(points: &[Point3<f64>], most: usize) -> Vec<usize> {
     let step = points.len().div_ceil(most).max(1) as u64;
-    let is_drawn = |point: &&Point3<f64>| hash(point).is_multiple_of(step);
-    let mut drawn: Vec<Point3<f64>> = points.iter().filter(is_drawn).copied().collect();
-    drawn.sort_unstable_by(by_coordinates);
-    drawn.dedup();
+    let is_drawn = |&at: &usize| hash(&points[at]).is_multiple_of(step);
+    let mut drawn: Vec<usize> = (0..points.len()).filter(is_drawn).collect();
+    drawn.sort_unstable_by(|&one, &other| by_coordinates(&points[one], &points[other]));
+    drawn.dedup_by(|one, other| points[*one] == points[*other]);
     drawn
 }
 

@@ -28,7 +28,7 @@ use crate::digits::significant;
 use crate::mesh::Mesh;
 use nalgebra::Point3;
 
-pub(crate) use drawn::{by_coordinates, drawn};
+pub(crate) use drawn::{by_coordinates, drawn, indices_drawn};
 pub use error::{ParseError, Place, ReadError};
 use format::Format;
 pub(crate) use repeated::distinct;

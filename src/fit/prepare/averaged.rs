@@ -6,12 +6,16 @@
 //! Means lie in the middle parts of their cells rather than at random, so that along each of the three axes the sum of
 //! exp(2 pi i x / h) over the points is several times as long as by chance, whatever the origin of the grid. Of vertices that lie
 //! on the edges of cells (marching cubes), or in their middles, it is longer still.
+//!
+//! On a side that lies across an axis it is the side that tells where points are along that axis, not the grid; in such a sum flat
+//! bodies would show their sides only. So a point counts by the fourth power of the sine of the angle between the axis and its
+//! normal.
 
 use crate::fit::neighbours::Neighbours;
 use crate::fit::warning::FitWarning;
 use crate::measure::mesh_properties;
 use crate::mesh::{Bounds, Mesh};
-use crate::scan::drawn;
+use crate::scan::indices_drawn;
 use nalgebra::{Point3, Vector3};
 use realfft::num_complex::Complex;
 use std::f64::consts::{PI, TAU};
@@ -30,12 +34,12 @@ const MEANS_PER_SIDE: f64 = 1.5;
 const SIDES: [f64; 2] = [0.75, 1.25];
 const STEP: f64 = 0.25;
 const FINER: f64 = 5.0;
-const BESIDE: i32 = 25;
+const BESIDE: usize = 25;
 
 /// Least length of the mean of exp(2 pi i x / h) along each axis, over that which it has by chance; and its largest length, beyond
 /// which places lie on the grid itself.
 const BEYOND_CHANCE: f64 = 2.0;
-const LARGEST: f64 = 0.45;
+const LARGEST: f64 = 0.7;
 
 /// Least share of the points that have a cell for themselves; of places at random some two in three have.
 const LEAST_ALONE: f64 = 0.85;
@@ -46,15 +50,21 @@ const LEAST_DISTINCT: f64 = 0.6;
 const SAME: f64 = 1e-12;
 
 /// Least distance to the nearest point that nine in ten have, over the median, beyond which points are a lattice of directions, noisy
-/// as they may be: of means it is .84 at most, since cells that the surface hardly enters lie close to others, of lattices of cubes on
-/// bodies that are nearly round .86 at least.
-const LATTICE: f64 = 0.85;
+/// as they may be: of 99 in 100 clouds of means it is .84 at most, since cells that the surface hardly enters lie close to others, of
+/// lattices of cubes on bodies that are nearly round .84 at least.
+const LATTICE: f64 = 0.84;
 
 /// Share of the body's size below which cells are too small to matter.
 const SMALL: f64 = 0.01;
 
 /// The integral of H is taken to be so many times the least that it can be: creases and tips have more.
 const MORE: f64 = 1.5;
+
+/// A point, and how much it tells of the grid along each axis.
+struct Place {
+    point: Point3<f64>,
+    weights: [f64; 3],
+}
 
 /// What to know of points, by the polyhedron of about unit size through them, if they are such means; `unit` is its unit of length.
 pub(super) fn averaged(mesh: &Mesh, unit: f64) -> Option<FitWarning> {
@@ -65,23 +75,30 @@ pub(super) fn averaged(mesh: &Mesh, unit: f64) -> Option<FitWarning> {
     if points.len() < LEAST_POINTS || !(SMALL * size..size).contains(&about) {
         return None;
     }
-    let some = drawn(points, MOST_POINTS);
+    let places = places(mesh);
     let [least, most] = [SIDES[1], SIDES[0]].map(|side| 1.0 / (side * about));
     let step = STEP / size;
-    let (near, means) = strongest(&some, &low, [least, most], step)?;
-    let is_beyond_chance = means.iter().all(|mean| {
-        let length = mean.norm();
-        length * (some.len() as f64).sqrt() > BEYOND_CHANCE && length < LARGEST
+    let (near, means) = strongest(&places, [least, most], step)?;
+    let is_beyond_chance = (0..3).all(|axis| {
+        let length = means[axis].norm();
+        length * in_number(&places, axis).sqrt() > BEYOND_CHANCE && length < LARGEST
     });
     if !is_beyond_chance || (0..3).any(|axis| distinct(points, axis) < LEAST_DISTINCT) {
         return None;
     }
-    if evenness(points, &some) > LATTICE {
+    if evenness(points, &places) > LATTICE {
         return None;
     }
     // Round bodies have their longest waves beside those of the grid.
-    let beside = (-BESIDE..=BESIDE).map(|i| near + f64::from(i) * step / FINER);
-    let alone = beside.map(|per_length| (alone(points, &low, per_length), per_length));
+    let fine = step / FINER;
+    let least = near - BESIDE as f64 * fine;
+    let beside = 2 * BESIDE + 1;
+    let means = [0, 1, 2].map(|axis| waves(&places, axis, [least, fine], beside));
+    let alone = (0..beside).map(|at| {
+        let per_length = least + at as f64 * fine;
+        let middles = [0, 1, 2].map(|axis| means[axis][at].arg() / TAU);
+        (alone(points, middles, per_length), per_length)
+    });
     let (most_alone, per_length) = alone.max_by(|(one, _), (other, _)| one.total_cmp(other))?;
     let integral = MORE * (4.0 * PI * body.area).sqrt();
     (most_alone > LEAST_ALONE).then(|| FitWarning::Averaged {
@@ -90,35 +107,46 @@ pub(super) fn averaged(mesh: &Mesh, unit: f64) -> Option<FitWarning> {
     })
 }
 
-/// Of evenly spaced numbers of waves per length, that of which the shortest of the three means is longest, and these means.
+/// Some vertices, and what they tell.
+fn places(mesh: &Mesh) -> Vec<Place> {
+    let normals = mesh.normals();
+    let place = |at: usize| Place {
+        point: mesh.vertices[at],
+        weights: [0, 1, 2].map(|axis| (1.0 - normals[at][axis].powi(2)).powi(2)),
+    };
+    let some = indices_drawn(&mesh.vertices, MOST_POINTS);
+    some.into_iter().map(place).collect()
+}
+
+/// How many places of weight one would have a mean along an axis that is as long by chance.
+fn in_number(places: &[Place], axis: usize) -> f64 {
+    let weights = || places.iter().map(|place| place.weights[axis]);
+    weights().sum::<f64>().powi(2) / weights().map(|weight| weight * weight).sum::<f64>()
+}
+
+/// Of evenly spaced numbers of waves per length, that of which the three means together are longest beyond chance, and these means.
 fn strongest(
-    points: &[Point3<f64>],
-    from: &Vector3<f64>,
+    places: &[Place],
     [least, most]: [f64; 2],
     step: f64,
 ) -> Option<(f64, [Complex<f64>; 3])> {
     let steps = ((most - least) / step) as usize;
-    let [x, y, z] = [0, 1, 2].map(|axis| waves(points, from, axis, [least, step], steps));
-    let shortest = |means: &[Complex<f64>; 3]| {
-        let lengths = means.iter().map(|mean| mean.norm_sqr());
-        lengths.fold(f64::INFINITY, f64::min)
+    let [x, y, z] = [0, 1, 2].map(|axis| waves(places, axis, [least, step], steps));
+    let numbers = [0, 1, 2].map(|axis| in_number(places, axis));
+    let together = |means: &[Complex<f64>; 3]| -> f64 {
+        let lengths = means.iter().zip(numbers);
+        lengths.map(|(mean, number)| mean.norm_sqr() * number).sum()
     };
     let (at, means) = (0..steps)
         .map(|at| (at, [x[at], y[at], z[at]]))
-        .max_by(|(_, one), (_, other)| shortest(one).total_cmp(&shortest(other)))?;
+        .max_by(|(_, one), (_, other)| together(one).total_cmp(&together(other)))?;
     Some((least + at as f64 * step, means))
 }
 
-/// Share of the points that have a cell of a grid for themselves: cells are as wide as waves, and their middles where most points
-/// are.
-fn alone(points: &[Point3<f64>], from: &Vector3<f64>, per_length: f64) -> f64 {
-    let middle = |axis| waves(points, from, axis, [per_length, 0.0], 1)[0].arg() / TAU;
-    let middles = [0, 1, 2].map(middle);
+/// Share of the points that have a cell of a grid for themselves, by the middles of cells in waves.
+fn alone(points: &[Point3<f64>], middles: [f64; 3], per_length: f64) -> f64 {
     let cell = |point: &Point3<f64>| {
-        [0, 1, 2].map(|axis: usize| {
-            let waves = (point[axis] - from[axis]) * per_length - middles[axis];
-            waves.round() as i64
-        })
+        [0, 1, 2].map(|axis: usize| (point[axis] * per_length - middles[axis]).round() as i64)
     };
     let mut cells: Vec<[i64; 3]> = points.iter().map(cell).collect();
     cells.sort_unstable();
@@ -129,12 +157,13 @@ fn alone(points: &[Point3<f64>], from: &Vector3<f64>, per_length: f64) -> f64 {
 }
 
 /// The tenth part of the distances from some points to the nearest of all, over their median.
-fn evenness(points: &[Point3<f64>], some: &[Point3<f64>]) -> f64 {
+fn evenness(points: &[Point3<f64>], some: &[Place]) -> f64 {
     let all: Vec<Vector3<f64>> = points.iter().map(|point| point.coords).collect();
     let neighbours = Neighbours::new(&all);
-    let nearest = |point: &Point3<f64>| {
-        let found = neighbours.nearest(&point.coords, 2);
-        let other = found.into_iter().map(|at| (all[at] - point.coords).norm());
+    let nearest = |place: &Place| {
+        let from = place.point.coords;
+        let found = neighbours.nearest(&from, 2);
+        let other = found.into_iter().map(|at| (all[at] - from).norm());
         other.fold(0.0, f64::max)
     };
     let mut distances: Vec<f64> = some.iter().map(nearest).collect();
@@ -150,25 +179,27 @@ fn distinct(points: &[Point3<f64>], axis: usize) -> f64 {
     values.len() as f64 / points.len() as f64
 }
 
-/// The means of exp(2 pi i f x) over points, for evenly spaced f.
+/// The means of exp(2 pi i f x) over places, for evenly spaced f.
 fn waves(
-    points: &[Point3<f64>],
-    from: &Vector3<f64>,
+    places: &[Place],
     axis: usize,
     [first, step]: [f64; 2],
     steps: usize,
 ) -> Vec<Complex<f64>> {
-    let along = points.iter().map(|point| TAU * (point[axis] - from[axis]));
-    let mut turning: Vec<[Complex<f64>; 2]> = along
-        .map(|angle| [first, step].map(|f| Complex::from_polar(1.0, f * angle)))
-        .collect();
+    let total: f64 = places.iter().map(|place| place.weights[axis]).sum();
+    let turning = places.iter().map(|place| {
+        let angle = TAU * place.point[axis];
+        let wave = Complex::from_polar(place.weights[axis] / total, first * angle);
+        [wave, Complex::from_polar(1.0, step * angle)]
+    });
+    let mut turning: Vec<[Complex<f64>; 2]> = turning.collect();
     let mean = |_| {
         let mut sum = Complex::ZERO;
         for [wave, by] in &mut turning {
             sum += *wave;
             *wave *= *by;
         }
-        sum / points.len() as f64
+        sum
     };
     (0..steps).map(mean).collect()
 }
@@ -203,8 +234,12 @@ mod tests {
         }
     }
 
-    /// Means over the cells of a grid whose origin is anywhere.
+    /// Means of an ellipsoid over the cells of a grid whose origin is anywhere.
     fn means(side: f64) -> Vec<Point3<f64>> {
+        means_of(side, place)
+    }
+
+    fn means_of(side: f64, place: impl Fn(&Vector3<f64>) -> Point3<f64>) -> Vec<Point3<f64>> {
         let directions = Sampling::Random.directions(40_000, 1).unwrap();
         let mut cells: HashMap<[i64; 3], Vec<Vector3<f64>>> = HashMap::new();
         for point in directions.iter().map(place) {
@@ -228,6 +263,21 @@ mod tests {
             let area = 11.59_f64;
             let lack = side * side / 12.0 * 1.03 * (4.0 * PI * area).sqrt() / (3.0 * volume);
             assert!((1.1..1.9).contains(&(share / lack)), "{share} {lack}");
+        }
+    }
+
+    #[test]
+    fn means_of_flat_bodies_are_told_along_the_grid_and_across_it() {
+        let turn = Rotation3::from_euler_angles(0.4, 0.7, 1.3);
+        for [a, b, c] in [[2.0, 1.0, 0.7], [1.2, 1.2, 0.5], [1.0, 1.0, 0.4]] {
+            let along = move |n: &Vector3<f64>| Point3::new(a * n.x, b * n.y, c * n.z);
+            for side in [0.1, 0.2] {
+                for points in [means_of(side, along), means_of(side, |n| turn * along(n))] {
+                    let [cell, _] = told(points.clone())
+                        .unwrap_or_else(|| panic!("{a} {c} {side} {}", points.len()));
+                    assert!((cell / side - 1.0).abs() < 0.03, "{a} {c} {cell}");
+                }
+            }
         }
     }
 
