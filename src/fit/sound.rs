@@ -21,8 +21,11 @@ const FAR_FROM_ESTIMATE: f64 = 0.06;
 const COARSE: f64 = 0.02;
 
 /// How far a single point may be from the surface before it is told, as a share of the mean radius. Of kernels it is .2 at most, of
-/// grains with the pin that held them .4 to .8.
+/// grains with the pin that held them .3 to .8. ...
 const NOT_FOLLOWED: f64 = 0.25;
+
+/// ... Along rays that graze long and steep bodies noise takes points as far, up to 8 times the RMS residual; pins are 12 or more.
+const BEYOND_NOISE: f64 = 10.0;
 
 /// A surface holds at most so many times the volume of the polyhedron of its points, which is smaller: of 50 points by
 /// a seventh. ...
@@ -79,7 +82,8 @@ pub(super) fn check(
     }
     let largest = fitted.residuals.max;
     let mut warnings = Vec::new();
-    if !is_rod && !is_asked_for && largest > NOT_FOLLOWED * fitted.mean_radius {
+    let sticks_out = largest > NOT_FOLLOWED * fitted.mean_radius && largest > BEYOND_NOISE * rms;
+    if !is_rod && !is_asked_for && sticks_out {
         let share = largest / fitted.mean_radius;
         warnings.push(FitWarning::NotFollowed { largest, share });
     }
@@ -144,6 +148,7 @@ fn times_as_large(grain: &Grain, volume: f64) -> f64 {
 mod tests {
     use super::*;
     use crate::fit::fit;
+    use crate::fit::outcome::Residuals;
     use crate::scan::Scan;
     use crate::shapes::Sampling;
 
@@ -153,15 +158,17 @@ mod tests {
         let points = directions.iter().map(|n| (2.0 * n).into()).collect();
         let options = FitOptions::default();
         let mut fitted = fit(&Scan::from_points(points), &options).unwrap();
-        let mut told = |largest: f64, is_rod: bool| {
-            fitted.residuals.max = largest;
+        let mut told = |largest: f64, rms: f64, is_rod: bool| {
+            fitted.residuals = Residuals { rms, max: largest };
             check(&fitted, &options, is_rod).unwrap()
         };
-        assert_eq!(told(0.4, false), []);
-        let [FitWarning::NotFollowed { largest, share }] = told(0.6, false)[..] else {
+        assert_eq!(told(0.4, 0.03, false), []);
+        let [FitWarning::NotFollowed { largest, share }] = told(0.6, 0.03, false)[..] else {
             panic!("not told");
         };
         assert!(largest == 0.6 && (share - 0.3).abs() < 1e-9);
-        assert_eq!(told(0.6, true), []);
+        assert_eq!(told(0.6, 0.03, true), []);
+        // So far does noise take points that rays graze.
+        assert_eq!(told(0.6, 0.07, false), []);
     }
 }
