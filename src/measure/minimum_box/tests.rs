@@ -2,8 +2,9 @@ use super::*;
 use crate::measure::convex_hull;
 use crate::shapes::{Body, Sampling};
 use approx::assert_relative_eq;
-use nalgebra::Rotation3;
+use nalgebra::{Point3, Rotation2, Rotation3, Vector2};
 use proptest::prelude::*;
+use std::f64::consts::PI;
 
 fn turn(angles: [f64; 3]) -> Rotation3<f64> {
     Rotation3::from_euler_angles(angles[0], angles[1], angles[2])
@@ -181,4 +182,34 @@ fn boxes_that_are_as_small_are_among_the_others() {
             found.others
         );
     }
+}
+
+/// A disc that is cut by roofs of three degrees above and below: the box may lie along one side of them or along the other.
+#[test]
+fn boxes_beside_the_least_one_are_found() {
+    let disc =
+        (-400..400).map(|i| Rotation2::new(f64::from(i) / 400.0 * PI) * Vector2::new(1.5, 0.0));
+    let slope = 3.0_f64.to_radians().tan();
+    let ends = disc.filter(|p| p.y.abs() < 1.0 - slope * p.x.abs());
+    let ridges = [1.0, -1.0].map(|y| Vector2::new(0.0, y));
+    let corners = ends.chain(ridges);
+    let corners: Vec<[f64; 3]> = corners
+        .flat_map(|c| [0.0, 1.0].map(|z| [c.x, c.y, z]))
+        .collect();
+    let prism = hull(&corners, [0.3, 0.2, 0.1]);
+    let least = least_boxes(&prism).unwrap().least;
+    let angles = |larger: [f64; 2]| {
+        let beside = boxes_beside(&prism, &least, larger).into_iter();
+        let angles =
+            beside.map(|other| other.axes.column(0).dot(&least.axes.column(0)).abs().acos());
+        angles.map(f64::to_degrees).collect::<Vec<_>>()
+    };
+    let near_six = |angle: &f64| (angle - 6.0).abs() < 0.5;
+    assert!(angles([-1e-3, 1e-3]).iter().any(near_six));
+    assert!(!angles([-1e-3, -1e-3]).iter().any(near_six));
+    let close = angles([0.05, 0.0]);
+    assert!(
+        close.iter().any(|angle| (0.2..2.0).contains(angle)),
+        "{close:?}"
+    );
 }

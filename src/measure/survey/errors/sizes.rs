@@ -1,7 +1,7 @@
 //! How well the least box, the ellipsoid of equal moments and the convex hull are known.
 
 use super::{OF_MESH, Survey, SurveyError};
-use crate::measure::minimum_box::LeastBoxes;
+use crate::measure::minimum_box::{LeastBoxes, boxes_beside};
 use crate::measure::{Convexity, SideRatios};
 use crate::sphere::cube_grid;
 use crate::spread::root_mean_square;
@@ -37,7 +37,10 @@ impl Survey<'_> {
         let LeastBoxes { least, others } = self.unit_least_boxes()?;
         let volume = 3.0 * share * least.volume();
         let largest = least.volume() + volume;
-        let rivals = others.iter().filter(|other| other.volume() <= largest);
+        // What is no local minimum differs from the least by no more than the surface does between places that lie close together.
+        let beside = boxes_beside(self.hull()?, least, [share, 3.0 * share]);
+        let others = others.iter().filter(|other| other.volume() <= largest);
+        let rivals = others.chain(&beside);
         let apart = rivals.fold(Vector3::zeros(), |apart: Vector3<f64>, other| {
             apart.sup(&(other.extents - least.extents).abs())
         });
@@ -138,13 +141,17 @@ mod tests {
         };
         let (found, off, ratio) = told(0.1);
         let share = 0.001_f64.hypot(OF_MESH);
-        assert_relative_eq!(off.extents, found.extents * share, max_relative = 1e-9);
+        let beyond = (off.extents - found.extents * share).component_div(&found.extents);
+        assert!(
+            beyond.min() >= 0.0 && beyond.max() < 2.0 * share,
+            "{beyond}"
+        );
         assert_relative_eq!(
             off.volume,
             3.0 * share * found.volume(),
             max_relative = 1e-9
         );
-        assert_relative_eq!(ratio, 2.0 * share, max_relative = 1e-9);
+        assert!((2.0 * share..6.0 * share).contains(&ratio), "{ratio}");
         let (found, off, _) = told(1.0);
         assert!(off.extents.z > 1.5 * 0.01 * found.extents.z, "{off:?}");
         assert_relative_eq!(off.volume, 0.03 * found.volume(), max_relative = 1e-3);
