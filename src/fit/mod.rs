@@ -11,6 +11,7 @@
 
 mod blended;
 mod candidate;
+mod close_pairs;
 mod context;
 mod contradicted;
 mod crust;

@@ -29,6 +29,7 @@ use super::posterior::Posterior;
 use super::rims::Rim;
 use super::texture::hidden_slopes;
 use super::unresolved::{is_rough, kurtosis};
+use crate::fit::close_pairs;
 use crate::fit::figures::{Figures, INTEGRALS, derivatives, list, mass};
 use crate::fit::gaps::random_gap;
 use crate::fit::hole::Holes;
@@ -86,7 +87,25 @@ impl Estimate {
         let known = known(self, &posterior, &residuals, beside, slopes);
         let known = known.ok_or(NoInterval::NotFinite)?;
         let all_over = off.hypot(blur.swelling);
-        Ok(KnownErrors { all_over, ..known })
+        let between = 0.5 * known.figures.area * self.slopes_between(&residuals);
+        Ok(KnownErrors {
+            all_over,
+            texture: known.texture.max(between),
+            ..known
+        })
+    }
+
+    /// The mean square of the slopes of texture, as points close together tell it.
+    fn slopes_between(&self, residuals: &[f64]) -> f64 {
+        let rays = self.cloud.directions.iter();
+        let rays = rays.map(|n| n.component_div(&self.cloud.stretch));
+        let radii = self.cloud.radii.iter().zip(residuals);
+        let places = rays
+            .clone()
+            .zip(radii)
+            .map(|(ray, (radius, e))| ray * (radius - e));
+        let off = rays.zip(residuals).map(|(ray, e)| ray * *e);
+        close_pairs::slopes(&places.collect::<Vec<_>>(), &off.collect::<Vec<_>>())
     }
 }
 

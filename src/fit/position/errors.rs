@@ -18,7 +18,8 @@
 //! - of [voxels](super::voxels), that those inside are not the grain: flat sides may lie anywhere between two layers;
 //! - of points without faces what a [hole](crate::fit::hole) between them may hide;
 //! - what is [not resolved](Solved::unresolved): a part of it is taken to have the same sign everywhere;
-//! - of the area what second order brings: ripples of noise that the surface has, and of the grain that it has not;
+//! - of the area what second order brings: ripples of noise that the surface has, and of the grain that it has not, and
+//!   [texture](crate::fit::close_pairs) between the points;
 //!
 //! Those of lengths are [elsewhere](super::dimension_errors).
 //!
@@ -31,6 +32,7 @@ use super::functionals::{FIGURES, FigureVector, Functionals, by_move};
 use super::functions::{Functions, Rows};
 use super::least_squares::values;
 use super::voxels::Hidden;
+use crate::fit::close_pairs;
 use crate::fit::figures::{INERTIA, INTEGRALS, derivatives, form, mass, unlist};
 use crate::fit::hole::Holes;
 use crate::fit::linear::BlockFactor;
@@ -91,6 +93,7 @@ impl Solved<'_> {
         let one_sided = (ONE_SIDED * unresolved).hypot(miscounted);
         of_mass += self.left(&jacobian, &distances, one_sided);
         of_mass[(0, 0)] += self.ripples(unresolved).iter().map(|x| x * x).sum::<f64>();
+        of_mass[(0, 0)] += (0.5 * best.area * self.texture(&feet)).powi(2);
         let errors = unlist(&of_mass.diagonal());
         let axes = &functionals.principal.axes;
         let inertia = of_mass.fixed_view::<6, 6>(INERTIA, INERTIA);
@@ -268,6 +271,14 @@ impl Solved<'_> {
         let of_noise = fitted * (1.0 + spent_without) / (1.0 - spent);
         let scatter = held_out * (2.0 / ((1.0 - HELD_IN) * count)).sqrt();
         together.max(held_out - of_noise - scatter).max(0.0).sqrt()
+    }
+
+    /// The mean square of the slopes of texture between points.
+    fn texture(&self, feet: &[Vector3<f64>]) -> f64 {
+        let points = (0..feet.len()).filter(|&at| self.cloud.is_point(at));
+        let off = points.map(|at| (feet[at], self.cloud.points[at] - feet[at]));
+        let (feet, off): (Vec<_>, Vec<_>) = off.unzip();
+        close_pairs::slopes(&feet, &off)
     }
 
     /// By what the area is larger for the ripples of noise, and smaller for those of the grain. A band of functions on an
