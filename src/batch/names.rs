@@ -6,8 +6,15 @@ use std::collections::{HashMap, HashSet};
 use std::iter::once;
 use std::path::{Path, PathBuf};
 
+/// Bytes of a name at most: a label, a number and the ending of a file are beside it in the 255 that file systems take.
+const LONGEST: usize = 200;
+
+/// Letters of a hash, by which long names are told apart.
+const HASH: usize = 16;
+
 /// A name for every scan, by which its model and its mesh are saved: that of its file, or where several have it or it has
 /// a `#`, that of its path. Where that is taken too, as of `lot/x/1.ply` by `lot_x/1.ply`, a number follows.
+/// One that is too long for a file is cut.
 pub(super) fn of_scans(scans: &[PathBuf]) -> Vec<String> {
     let mut counts = HashMap::new();
     for path in scans {
@@ -28,7 +35,7 @@ pub(super) fn of_scans(scans: &[PathBuf]) -> Vec<String> {
             .find(|name| taken.insert(name.clone()))
             .unwrap_or(name)
     };
-    scans.iter().map(|path| free(name(path))).collect()
+    scans.iter().map(|path| free(cut(name(path)))).collect()
 }
 
 /// The names of models by the rows of results.
@@ -46,6 +53,17 @@ pub(crate) fn names(rows: &[String]) -> Vec<String> {
         with_label(&names[at], label)
     })
     .collect()
+}
+
+/// A name as it is or, where it is too long, its beginning and a hash of all of it.
+fn cut(name: String) -> String {
+    if name.len() <= LONGEST {
+        return name;
+    }
+    let ends = name.char_indices().map(|(end, _)| end);
+    let end = ends.take_while(|end| end + 1 + HASH <= LONGEST).last();
+    let hash = blake3::hash(name.as_bytes()).to_hex();
+    format!("{}_{}", &name[..end.unwrap_or(0)], &hash[..HASH])
 }
 
 /// A path in one word; `./` at its beginning would hide the file.
@@ -76,6 +94,23 @@ mod tests {
         assert_eq!(names(&rows), expected);
         let rows = ["a/im#5.ply", "a/im.nrrd#5"].map(String::from);
         assert_eq!(names(&rows), ["a_im#5.ply", "im#5"]);
+    }
+
+    #[test]
+    fn long_names_are_cut_and_told_apart() {
+        let long = "\u{e4}".repeat(125);
+        let rows = [
+            format!("{long}.ply"),
+            format!("{long}b.ply"),
+            "b.ply".into(),
+        ];
+        let found = names(&rows);
+        assert!(found[..2].iter().all(|name| name.len() <= LONGEST));
+        let start = &long[..LONGEST - HASH - 2];
+        assert!(found[..2].iter().all(|name| name.starts_with(start)));
+        assert_ne!(found[0], found[1]);
+        assert_eq!(found[2], "b");
+        assert_eq!(names(&rows[1..])[0], found[1]);
     }
 
     #[cfg(unix)]
