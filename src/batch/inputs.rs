@@ -17,7 +17,7 @@ pub(super) const JOURNAL: &str = "journal.jsonl";
 /// What is named to a batch.
 #[derive(Debug, Default)]
 pub(crate) struct Inputs {
-    /// Each scan once, by its first name.
+    /// Each scan once, by its first name, and each folder that cannot be read.
     pub scans: Vec<PathBuf>,
     /// What is in folders and not named as a scan is, or no file: a pipe, a device.
     pub left_out: Vec<PathBuf>,
@@ -25,18 +25,18 @@ pub(crate) struct Inputs {
 
 /// The files that paths name, in their order and each once, by its first name: a file is itself, a folder the scans in it
 /// and in its folders, `@list.txt` the paths in its lines, but for those that begin with `#`, and what is no file is a pattern such as `lot*/*.ply`. Links
-/// to folders are not followed in folders, nor by `**`.
+/// to folders are not followed in folders, nor by `**`. A folder that cannot be read stands for its scans.
 ///
 /// # Errors
-/// [`BatchError`] where a folder or list cannot be read, what is named is a pipe or a device, or where nothing is found. A
-/// file that is not there is told in its row.
+/// [`BatchError`] where a list cannot be read, what is named is a pipe or a device, or where nothing is found. A file that
+/// is not there, and a folder that cannot be read, are told in their rows.
 pub(crate) fn inputs(paths: &[PathBuf]) -> Result<Inputs, BatchError> {
     let mut all = Inputs::default();
     for path in paths {
         all.scans.extend(named(path, &mut all.left_out)?);
     }
     let mut scans = all.scans.iter();
-    if let Some(path) = scans.find(|path| is_endless(path) && !path.is_dir()) {
+    if let Some(path) = scans.find(|path| is_endless(path)) {
         return Err(BatchError::NoFile { path: path.clone() });
     }
     let mut seen = HashSet::new();
@@ -99,7 +99,7 @@ fn named(path: &Path, left_out: &mut Vec<PathBuf>) -> Result<Vec<PathBuf>, Batch
         }
         let (scans, others): (Vec<_>, Vec<_>) = files_in(path)?
             .into_iter()
-            .partition(|path| is_scan(path) && !is_endless(path));
+            .partition(|path| path.is_dir() || is_scan(path) && !is_endless(path));
         left_out.extend(others);
         scans
     } else if path.exists() || !text.contains(['*', '?', '[']) {
@@ -120,12 +120,12 @@ fn named(path: &Path, left_out: &mut Vec<PathBuf>) -> Result<Vec<PathBuf>, Batch
     }
 }
 
-/// Whether something is there that is no file, and may never end, such as a pipe.
+/// Whether something is there that is neither file nor folder, and may never end, such as a pipe.
 fn is_endless(path: &Path) -> bool {
-    path.exists() && !path.is_file()
+    path.exists() && !path.is_file() && !path.is_dir()
 }
 
-/// The files that match a pattern.
+/// The files that match a pattern, and the folders that were looked into and cannot be read.
 fn matching(text: &str) -> Result<Vec<PathBuf>, BatchError> {
     let failed = |source| BatchError::Pattern {
         pattern: text.into(),
@@ -133,7 +133,11 @@ fn matching(text: &str) -> Result<Vec<PathBuf>, BatchError> {
     };
     let Some((before, _)) = text.split_once("**") else {
         let found = glob::glob(text).map_err(failed)?;
-        return Ok(found.flatten().filter(|path| !path.is_dir()).collect());
+        let found = found.filter_map(|found| match found {
+            Ok(path) => (!path.is_dir()).then_some(path),
+            Err(unread) => Some(unread.path().into()),
+        });
+        return Ok(found.collect());
     };
     let pattern = glob::Pattern::new(text).map_err(failed)?;
     let folder = plain(before);
@@ -148,7 +152,7 @@ fn matching(text: &str) -> Result<Vec<PathBuf>, BatchError> {
         _ => file,
     });
     Ok(files
-        .filter(|file| pattern.matches_path_with(file, options))
+        .filter(|file| file.is_dir() || pattern.matches_path_with(file, options))
         .collect())
 }
 
@@ -163,7 +167,8 @@ fn plain(pattern: &str) -> PathBuf {
     }
 }
 
-/// The files in a folder and in its folders, by name; also those that are not to be read.
+/// The files in a folder and in its folders, by name; also those that are not to be read. A folder that cannot be read is
+/// among them, in place of what is in it.
 fn files_in(folder: &Path) -> Result<Vec<PathBuf>, BatchError> {
     let mut files = Vec::new();
     walk(folder, &mut files)?;
@@ -179,7 +184,14 @@ fn walk(folder: &Path, files: &mut Vec<PathBuf>) -> Result<(), BatchError> {
         path: folder.into(),
         source,
     };
-    for entry in folder.read_dir().map_err(failed)? {
+    let entries = match folder.read_dir() {
+        Err(_) if folder.is_dir() => {
+            files.push(folder.into());
+            return Ok(());
+        }
+        entries => entries.map_err(failed)?,
+    };
+    for entry in entries {
         let path = entry.map_err(failed)?.path();
         let is_hidden = path
             .file_name()

@@ -268,7 +268,10 @@ impl Work<'_> {
                 })
             }),
             Err(error) => Ok(Row {
-                reason: Some(format!("cannot read the file {shown}: {error}")),
+                reason: Some(format!(
+                    "cannot read the {} {shown}: {error}",
+                    if task.path.is_dir() { "folder" } else { "file" }
+                )),
                 ..Row::default()
             }),
         };

@@ -10,6 +10,8 @@ mod contact;
 mod errors;
 mod export_dem;
 mod fit;
+#[cfg(unix)]
+mod forbidden;
 mod harmonics;
 mod idle;
 mod labels;
