@@ -52,6 +52,25 @@ pub(crate) enum BatchError {
         /// The folder.
         folder: PathBuf,
     },
+    /// A file that would be replaced is not of a batch.
+    #[error(
+        "{} would be replaced, and no journal.jsonl beside it tells that a batch has written it: give another folder with -o, \
+         or remove it",
+        path.display()
+    )]
+    NotOwn {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A file is named as the journal of a batch, and is none.
+    #[error(
+        "{} is not the journal of a batch, which would go there: give another folder with -o, or remove it",
+        path.display()
+    )]
+    NoJournal {
+        /// The file.
+        path: PathBuf,
+    },
     /// No scan is there.
     #[error(
         "there is no {}{}; correct the paths, nothing was written",
@@ -70,10 +89,10 @@ pub(crate) enum BatchError {
         /// The list.
         path: PathBuf,
     },
-    /// A folder or list cannot be read.
+    /// A folder, list or journal cannot be read.
     #[error("cannot read {}: {source}", path.display())]
     Read {
-        /// The folder or list.
+        /// The folder, list or journal.
         path: PathBuf,
         /// Why.
         source: io::Error,

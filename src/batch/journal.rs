@@ -156,6 +156,15 @@ impl Journal {
     }
 }
 
+/// Whether a file begins as a journal does, as far as it goes: one may be cut off anywhere.
+pub(super) fn begins_as_journal(path: &Path) -> io::Result<bool> {
+    let mut start = Vec::new();
+    let mut file = File::open(path)?.take(CHECKSUM as u64 + 2);
+    file.read_to_end(&mut start)?;
+    let (sum, rest) = start.split_at(start.len().min(CHECKSUM));
+    Ok(sum.iter().all(u8::is_ascii_hexdigit) && b" {".starts_with(rest))
+}
+
 /// The hash of the model that was saved with each row of a journal that is only read; none of what it was saved without.
 pub(super) fn saved_models(path: &Path) -> io::Result<HashMap<Key, Option<String>>> {
     let mut models = HashMap::new();

@@ -15,6 +15,7 @@ mod csv_table;
 mod error;
 mod gaps;
 mod grain;
+mod in_the_way;
 mod inputs;
 mod interval;
 mod journal;

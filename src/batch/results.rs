@@ -17,6 +17,14 @@ use std::sync::Arc;
 /// Rows that are held at a time.
 const GROUP: usize = 1024;
 
+/// The files, in the order in which they are written.
+pub(super) const FILES: [&str; 4] = [
+    "results.csv",
+    "results.parquet",
+    "seconds.csv",
+    "summary.json",
+];
+
 /// A cell.
 enum Cell {
     Text(Option<String>),
@@ -24,20 +32,14 @@ enum Cell {
     Real(Option<f64>),
 }
 
-/// Writes `results.csv`, `results.parquet`, `seconds.csv` and `summary.json`; gives their paths.
+/// Writes the [`FILES`]; gives their paths.
 pub(super) fn write_results<I: Iterator<Item = io::Result<Row>>>(
     folder: &Path,
     columns: &[Column],
     rows: &dyn Fn() -> I,
     population: &Population,
 ) -> Result<Vec<PathBuf>, BatchError> {
-    let paths = [
-        "results.csv",
-        "results.parquet",
-        "seconds.csv",
-        "summary.json",
-    ];
-    let [csv, parquet, seconds, summary] = paths.map(|name| folder.join(name));
+    let [csv, parquet, seconds, summary] = FILES.map(|name| folder.join(name));
     write_atomically(&csv, |file| Ok(write_csv(columns, rows(), file)?))?;
     write_atomically(&parquet, |file| Ok(write_parquet(columns, rows(), file)?))?;
     write_atomically(&seconds, |file| Ok(write_seconds(rows(), file)?))?;

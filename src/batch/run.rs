@@ -3,6 +3,7 @@
 use super::columns::{FIRST, columns};
 use super::error::BatchError;
 use super::grain::{Outputs, Settings, grain};
+use super::in_the_way::check_own;
 use super::inputs::JOURNAL;
 use super::journal::{Journal, Place, Row, key};
 use super::left_over::{MESHES, MODELS, left_over, mesh, model};
@@ -70,8 +71,8 @@ pub(crate) struct Done {
 /// `progress` is told after every grain.
 ///
 /// # Errors
-/// [`BatchError`] if no scan is there, another batch works on the folder, it cannot be written to, or is removed. What is wrong with a scan is told
-/// in its row.
+/// [`BatchError`] if no scan is there, another batch works on the folder, it holds files of others, cannot be written to, or
+/// is removed. What is wrong with a scan is told in its row.
 pub(crate) fn run(batch: &Batch, progress: &(dyn Fn(Progress) + Sync)) -> Result<Done, BatchError> {
     let folder = &batch.folder;
     if let Some(first) = batch.inputs.first()
@@ -82,6 +83,7 @@ pub(crate) fn run(batch: &Batch, progress: &(dyn Fn(Progress) + Sync)) -> Result
             scans: batch.inputs.len(),
         });
     }
+    check_own(folder)?;
     std::fs::create_dir_all(folder).map_err(|source| BatchError::NoFolder {
         folder: folder.clone(),
         source,

@@ -521,3 +521,20 @@ fn a_second_batch_on_the_same_folder_refuses() {
     drop(lock);
     succeed(&folder, &batch(&["lot", "-o", "r"]));
 }
+
+#[test]
+fn a_table_that_no_batch_has_written_is_not_replaced() {
+    let folder = lot(1);
+    let table = folder.path().join("own/results.csv");
+    std::fs::create_dir(folder.path().join("own")).unwrap();
+    std::fs::write(&table, "mine").unwrap();
+    let refused = grainform(&folder, &batch(&["lot", "-o", "own"]));
+    let told = errors(&refused);
+    assert_eq!(refused.status.code(), Some(2), "{told}");
+    assert!(told.contains("own/results.csv would be replaced"), "{told}");
+    assert_eq!(names(&folder.path().join("own")), ["results.csv"]);
+    std::fs::remove_file(&table).unwrap();
+    for _ in 0..2 {
+        succeed(&folder, &batch(&["lot", "-o", "own"]));
+    }
+}
