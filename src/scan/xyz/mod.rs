@@ -5,6 +5,7 @@
 //! are remarks. A line of words before the rows names the columns, also behind the mark of a
 //! remark; a first line of one whole number counts the rows (PTS).
 
+mod decimal_commas;
 mod head;
 mod names;
 mod separator;
@@ -17,6 +18,7 @@ use super::error::ParseError;
 use super::text::{Lines, number, quote, unexpected};
 use crate::digits::plural;
 use head::{Head, remark};
+use names::named_columns;
 use separator::Separator;
 
 pub(super) fn parse(bytes: &[u8]) -> Result<Scan, ParseError> {
@@ -41,23 +43,33 @@ fn read(bytes: &[u8], warnings: &mut Vec<String>) -> Result<Vec<Point3<f64>>, Pa
     let separator = Separator::of(first);
     let columns = separator.split(first).count();
     let named = head.axes(separator, columns);
-    if let (None, Some(heading)) = (named, head.heading()) {
-        warnings.push(format!(
-            "The heading {} does not name the columns x, y and z; the first three were read.",
-            quote(heading)
-        ));
+    let names = head.heading().and_then(named_columns);
+    if decimal_commas::cut_columns(lines.clone(), separator, columns, names.unwrap_or(0)) {
+        return Err(unexpected(first_line, decimal_commas::EXPECTED, first));
     }
-    if unnamed::have_decimal_commas(lines.clone(), separator, columns) {
-        let expected = "numbers with decimal points, but commas separate columns and decimals alike: write points, as in \
-                        `1.5,2.5,3.5`";
-        return Err(unexpected(first_line, expected, first));
+    if let (None, Some(heading)) = (named, head.heading()) {
+        let heading = quote(heading);
+        let odd = match names {
+            Some(names) => format!("names {names} columns, but the first row has {columns}"),
+            None => "does not name the columns x, y and z".into(),
+        };
+        warnings.push(format!(
+            "The heading {heading} {odd}; the first three were read."
+        ));
     }
     let axes = named.unwrap_or([0, 1, 2]);
     let rows = lines.filter(|(_, row)| remark(row).is_none());
     let mut points = Vec::new();
     let mut skipped = 0;
     for (line, row) in rows.clone() {
-        let point = read_row(line, row, separator, columns, axes)?;
+        let point = match read_row(line, row, separator, columns, axes) {
+            Err(_) if decimal_commas::are_in(row) => {
+                // They explain what is odd about the heading.
+                warnings.clear();
+                return Err(unexpected(line, decimal_commas::EXPECTED, row));
+            }
+            point => point?,
+        };
         if point.iter().all(|c| c.is_finite()) {
             points.push(point);
         } else {
@@ -271,6 +283,42 @@ mod tests {
         );
         assert_eq!(first("2,8,-2,4,0,10\n3,34,-2,0,1,35"), [2.0, 8.0, -2.0]);
         assert_eq!(first("2,08,-2,4,0,1.5"), [2.0, 8.0, -2.0]);
+    }
+
+    #[test]
+    fn decimal_commas_are_named_wherever_they_stand() {
+        for rows in [
+            "1,09 2,5 3",
+            "1,09\t2,5\t-3,1",
+            "1\t2\t3\n1,09\t2\t3",
+            "1,5;2,5;3,5",
+            "\"1,09\",\"2,5\",\"3,1\"",
+            "\"1,09\",\"2,5\",3",
+            "\"1,09\" \"2,5\" \"3\"",
+            "1,9,2,5,3,1",
+            "1,09,2,5,3,1",
+        ] {
+            for heading in ["x,y,z", "X\tY\tZ", "\"X\";\"Y\";\"Z\""] {
+                let text = format!("{heading}\n{rows}");
+                let told = parse(text.as_bytes()).unwrap_err().to_string();
+                assert!(
+                    told.contains("write points") && !told.contains("heading"),
+                    "{text}: {told}"
+                );
+            }
+        }
+        for rows in ["1, 2, 3, 4\n1, 2, 3", "1 2 3\n1,5 2", "1,000.5 2 3"] {
+            let told = parse(rows.as_bytes()).unwrap_err().to_string();
+            assert!(!told.contains("write points"), "{rows}: {told}");
+        }
+        assert_eq!(first("x,y,z,note\n1,2,3,\"4,5\""), [1.0, 2.0, 3.0]);
+    }
+
+    #[test]
+    fn a_heading_that_names_axes_is_not_said_to_name_none() {
+        let scan = parse(b"x,y,z\n1,2,3,4").unwrap();
+        let expected = "The heading `x,y,z` names 3 columns, but the first row has 4; the first three were read.";
+        assert_eq!(scan.warnings, [expected]);
     }
 
     #[test]

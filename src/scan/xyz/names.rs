@@ -43,6 +43,13 @@ pub(super) fn named_axes(
     })
 }
 
+/// How many columns a heading names, if it names those of x, y and z among them.
+pub(super) fn named_columns(heading: &[u8]) -> Option<usize> {
+    let separator = Separator::of(heading);
+    let columns = names(heading, separator).len();
+    named_axes(heading, separator, columns).map(|_| columns)
+}
+
 /// The words of every name of a heading.
 fn names(heading: &[u8], separator: Separator) -> Vec<Vec<String>> {
     // Between blanks a unit in brackets stands alone.

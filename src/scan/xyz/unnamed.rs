@@ -2,10 +2,6 @@
 
 use nalgebra::Point3;
 
-use super::head::remark;
-use super::separator::Separator;
-use crate::scan::text::integer;
-
 /// Fewer rows may be numbered, or of length 1, by chance.
 const LEAST_ROWS: usize = 4;
 
@@ -20,9 +16,6 @@ const MOST: f64 = 0.95;
 
 /// Columns of normals and places.
 const WITH_NORMALS: usize = 6;
-
-/// Columns of three numbers that decimal commas have cut in two.
-const CUT: usize = 6;
 
 /// What should stand there instead, as an error says it; nothing where all is well. `others` are the next three columns, of
 /// a ball its normals.
@@ -66,31 +59,4 @@ fn are_normals(points: &[Point3<f64>]) -> bool {
         points.iter().filter(is_so_long).count() as f64 >= MOST * points.len() as f64
     };
     points.len() >= LEAST_ROWS && lengths.iter().any(are_so_long)
-}
-
-/// Whether commas separate columns and decimals alike: all columns are whole numbers, every other one has no sign, and
-/// some of these begin with zeros, as decimals do.
-pub(super) fn have_decimal_commas<'a>(
-    rows: impl Iterator<Item = (usize, &'a [u8])>,
-    separator: Separator,
-    columns: usize,
-) -> bool {
-    if separator != Separator::Byte(b',') || columns < CUT || columns % 2 == 1 {
-        return false;
-    }
-    let mut begin_with_zeros = false;
-    for (line, row) in rows.filter(|(_, row)| remark(row).is_none()) {
-        for (column, word) in separator.split(row).enumerate() {
-            let is_decimals = column % 2 == 1;
-            let is_whole = match is_decimals {
-                true => !word.is_empty() && word.iter().all(u8::is_ascii_digit),
-                false => integer(line, word).is_ok(),
-            };
-            if !is_whole {
-                return false;
-            }
-            begin_with_zeros |= is_decimals && word.len() > 1 && word.starts_with(b"0");
-        }
-    }
-    begin_with_zeros
 }
