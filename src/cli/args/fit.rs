@@ -14,10 +14,10 @@ pub(in crate::cli) struct FitArgs {
 
     /// What is fitted: star (a radius in every direction from a centre), position (of points over the sphere, of any
     /// closed faces without handles, or of dense points), or auto: a radius, and where that hides area, ends above its limit or is
-    /// steep, the better of both. Or the few numbers of a superquadric (5), of one whose octants differ (poly, 8;
-    /// poly12), or of a union of superquadrics (multi: as many as held-out points ask for, 4 or PARTS at most)
-    #[arg(long, value_name = "auto|star|position|superquadric|poly|poly12|multi[:PARTS]", default_value = "auto",
-          help_heading = SEARCH)]
+    /// steep, the better of both. Or the few numbers of a superquadric (superquadric: 5), of one whose octants differ
+    /// (poly: 8; poly12), or of a union of superquadrics (multi or multi:PARTS: as many as held-out points ask for, 4 or
+    /// PARTS at most)
+    #[arg(long, value_name = "KIND", default_value = "auto", help_heading = SEARCH)]
     pub(in crate::cli) surface: SurfaceArg,
 
     /// Tell area, volume, moments and size where much of the surface was not seen, as guesses with the errors of

@@ -95,6 +95,19 @@ mod tests {
         Cli::command().debug_assert();
     }
 
+    /// Beside longer ones help has no room on a narrow terminal, and is told a word per line.
+    #[test]
+    fn names_of_values_are_short() {
+        let mut cli = Cli::command();
+        cli.build();
+        for command in cli.get_subcommands() {
+            for argument in command.get_arguments() {
+                let name = argument.to_string();
+                assert!(name.len() <= 40, "{}: {name}", command.get_name());
+            }
+        }
+    }
+
     #[test]
     fn the_help_of_measure_has_the_name_of_every_measure() {
         let mut cli = Cli::command();
