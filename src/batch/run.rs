@@ -133,11 +133,7 @@ fn work(batch: &Batch, progress: &(dyn Fn(Progress) + Sync)) -> Result<Done, Bat
         .map(|_| rayon::ThreadPoolBuilder::new().num_threads(1).build())
         .collect::<Result<_, _>>()
         .map_err(|source| BatchError::Threads { source })?;
-    std::thread::scope(|scope| {
-        for pool in &pools {
-            scope.spawn(|| pool.install(|| work.go_on()));
-        }
-    });
+    work.go_on_in(&pools);
     let State {
         mut journal,
         places,
@@ -225,6 +221,16 @@ struct State {
 }
 
 impl Work<'_> {
+    /// Goes on in each of some pools, until no grain is left.
+    fn go_on_in(&self, pools: &[rayon::ThreadPool]) {
+        if let [first, others @ ..] = pools {
+            first.in_place_scope(|scope| {
+                scope.spawn(|_| self.go_on());
+                self.go_on_in(others);
+            });
+        }
+    }
+
     /// Takes one grain after the other until none is left.
     fn go_on(&self) {
         while let Some(task) = self.queue.next() {

@@ -39,6 +39,7 @@ mod usage;
 mod values;
 mod wrap;
 
+use anyhow::Result;
 use args::Command;
 use console::Console;
 use std::io::{self, ErrorKind};
@@ -58,9 +59,25 @@ pub fn run() -> ExitCode {
         Err(code) => return code,
     };
     #[cfg(unix)]
-    signals::watch();
+    let ready = signals::watch();
+    #[cfg(not(unix))]
+    let ready = Ok(());
     let console = Console::new(cli.quiet, cli.verbose);
-    let result = match cli.command {
+    let result = ready.and_then(|()| done(cli.command, console));
+    match result {
+        Err(error) if !is_broken_pipe(&error) => {
+            say_error(&sentence(&error));
+            ExitCode::from(match error.is::<batch::SomeFailed>() {
+                true => SOME_FAILED,
+                false => UNUSABLE,
+            })
+        }
+        _ => ExitCode::SUCCESS,
+    }
+}
+
+fn done(command: Command, console: Console) -> Result<()> {
+    match command {
         Command::Fit(args) => fit::run(args, console),
         Command::Search(args) => search::run(args, console),
         Command::Mesh(args) => mesh::run(args, console),
@@ -77,16 +94,6 @@ pub fn run() -> ExitCode {
         Command::Report(args) => report::run(args, console),
         Command::Completions(args) => shell::completions(&args),
         Command::Man(args) => shell::man(&args),
-    };
-    match result {
-        Err(error) if !is_broken_pipe(&error) => {
-            say_error(&sentence(&error));
-            ExitCode::from(match error.is::<batch::SomeFailed>() {
-                true => SOME_FAILED,
-                false => UNUSABLE,
-            })
-        }
-        _ => ExitCode::SUCCESS,
     }
 }
 

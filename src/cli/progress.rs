@@ -3,6 +3,7 @@
 use super::streams::say;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::fmt::Display;
+use std::thread::{Builder, sleep};
 use std::time::{Duration, Instant};
 
 /// How often the line moves.
@@ -28,7 +29,7 @@ impl Progress {
     pub(super) fn bar() -> Self {
         let bar = ProgressBar::new_spinner();
         bar.set_style(style(OPEN));
-        bar.enable_steady_tick(TICK);
+        keep_moving(&bar);
         Self::Bar(bar)
     }
 
@@ -68,6 +69,20 @@ impl Drop for Progress {
             bar.finish_and_clear();
         }
     }
+}
+
+/// Lets a line move also within a stage, where that is seen and a thread can be had.
+fn keep_moving(bar: &ProgressBar) {
+    if bar.is_hidden() {
+        return;
+    }
+    let bar = bar.clone();
+    let _ = Builder::new().spawn(move || {
+        while !bar.is_finished() {
+            bar.tick();
+            sleep(TICK);
+        }
+    });
 }
 
 fn style(template: &str) -> ProgressStyle {

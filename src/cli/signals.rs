@@ -2,6 +2,7 @@
 
 use super::console::Console;
 use crate::export::remove_temporaries;
+use anyhow::{Context, Result};
 use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
 use signal_hook::iterator::Signals;
 use signal_hook::low_level::emulate_default_handler;
@@ -16,15 +17,15 @@ pub(super) fn keeps_work(console: Console) {
     let _ = GOES_ON.set(console);
 }
 
-/// Waits for the signals in a thread of its own. Where that cannot be had, they end the process at once.
-pub(super) fn watch() {
+/// Waits for the signals in a thread of its own. Where they cannot be heard of, they end the process at once.
+pub(super) fn watch() -> Result<()> {
     let heeded = [SIGHUP, SIGINT, SIGTERM]
         .into_iter()
         .filter(|signal| !is_ignored(*signal));
     let Ok(mut signals) = Signals::new(heeded) else {
-        return;
+        return Ok(());
     };
-    thread::spawn(move || {
+    let wait = move || {
         for signal in signals.forever() {
             remove_temporaries();
             if let Some(console) = GOES_ON.get() {
@@ -32,7 +33,12 @@ pub(super) fn watch() {
             }
             let _ = emulate_default_handler(signal);
         }
-    });
+    };
+    let started = thread::Builder::new().spawn(wait);
+    started.context(
+        "cannot start a thread; allow this user more of them, or this process more memory (ulimit)",
+    )?;
+    Ok(())
 }
 
 /// Whether the process was started to ignore a signal, as `nohup` does with SIGHUP: then it goes on doing so. Only

@@ -52,3 +52,15 @@ fn a_folder_that_cannot_be_read_is_a_row_that_failed() {
     }
     set_permissions(&closed, Permissions::from_mode(0o700)).unwrap();
 }
+
+#[test]
+fn a_thread_that_cannot_be_started_is_told() {
+    let folder = lot(1);
+    let allowed = "ulimit -u 1 2> /dev/null || ulimit -p 1";
+    for words in ["fit lot/00.xyz", "batch lot -o results"] {
+        let done = bound(&folder, &format!("{allowed}; exec $0 {words}"));
+        let told = errors(&done);
+        assert_eq!(done.status.code(), Some(2), "{told}");
+        assert!(told.starts_with("error: cannot start a thread"), "{told}");
+    }
+}
