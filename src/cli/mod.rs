@@ -59,6 +59,8 @@ pub fn run() -> ExitCode {
         Err(code) => return code,
     };
     #[cfg(unix)]
+    signals::outlive_large_files();
+    #[cfg(unix)]
     let ready = signals::watch();
     #[cfg(not(unix))]
     let ready = Ok(());

@@ -3,10 +3,11 @@
 use super::console::Console;
 use crate::export::remove_temporaries;
 use anyhow::{Context, Result};
-use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM, SIGXFSZ};
+use signal_hook::flag;
 use signal_hook::iterator::Signals;
 use signal_hook::low_level::emulate_default_handler;
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 use std::thread;
 
 /// Who is told that the work can go on.
@@ -39,6 +40,11 @@ pub(super) fn watch() -> Result<()> {
         "cannot start a thread; allow this user more of them, or this process more memory (ulimit)",
     )?;
     Ok(())
+}
+
+/// From here on writing more of a file than the process may is an error, and does not end it.
+pub(super) fn outlive_large_files() {
+    let _ = flag::register(SIGXFSZ, Arc::default());
 }
 
 /// Whether the process was started to ignore a signal, as `nohup` does with SIGHUP: then it goes on doing so. Only

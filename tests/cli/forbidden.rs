@@ -1,7 +1,7 @@
 //! What the system does not allow: folders that cannot be read, threads and files that are too many or too large.
 
 use super::batch::{lot, rows};
-use super::errors;
+use super::{errors, folder, names};
 use std::fs::{Permissions, copy, create_dir, set_permissions};
 use std::os::unix::fs::PermissionsExt;
 use std::os::unix::process::CommandExt;
@@ -63,4 +63,17 @@ fn a_thread_that_cannot_be_started_is_told() {
         assert_eq!(done.status.code(), Some(2), "{told}");
         assert!(told.starts_with("error: cannot start a thread"), "{told}");
     }
+}
+
+#[test]
+fn a_file_larger_than_allowed_is_told_and_leaves_nothing() {
+    let folder = folder();
+    let done = bound(&folder, "ulimit -f 8; $0 synth bean -o b.ply");
+    let told = errors(&done);
+    assert_eq!(done.status.code(), Some(2), "{told}");
+    assert!(
+        told.contains("cannot save b.ply") && told.contains("File too large"),
+        "{told}"
+    );
+    assert_eq!(names(folder.path()), ["grainform"]);
 }
