@@ -70,7 +70,9 @@ pub(super) fn run(args: FitArgs, console: Console) -> Result<()> {
         )
     });
     let before = started.elapsed().as_secs_f64();
-    progress.stage("Writing");
+    if args.writes() {
+        progress.stage("Writing");
+    }
     let doubts = outputs::write_grain(&args, &fitted.grain)?;
     let loss = write_published(&args, &fitted)?;
     if let Some(path) = &args.png {

@@ -44,7 +44,9 @@ pub(super) fn run(
             "there is no picture of it; write a --mesh instead",
         )?;
     }
-    progress.stage("Writing");
+    if args.writes() {
+        progress.stage("Writing");
+    }
     report.warnings.extend(outputs::write_grain(args, &grain)?);
     if let Some(path) = &args.png {
         let title = format!("{}: {} points", args.fitting.name(), scan.points().len());

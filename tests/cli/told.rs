@@ -101,6 +101,11 @@ fn quiet_runs_say_nothing_and_verbose_ones_what_they_do() {
     ] {
         assert!(told.contains(words), "{words:?} in {told}");
     }
+    let nowhere = ["fit", &bean, "--surface", "superquadric", "-v"];
+    for words in [&nowhere[..], &[&["fit", &bean, "-v"], &QUICK[..]].concat()] {
+        let told = errors(&grainform(&folder, words));
+        assert!(!told.contains("Writing"), "{told}");
+    }
     let both = grainform(&folder, &[&fit[..], &["-v", "-q"]].concat());
     assert!(errors(&both).contains("cannot be used with"));
 }

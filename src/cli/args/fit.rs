@@ -49,6 +49,13 @@ pub(in crate::cli) struct FitArgs {
     pub(in crate::cli) meshing: MeshingArgs,
 }
 
+impl FitArgs {
+    /// Whether a file is asked for, beside a picture, which is drawn.
+    pub(in crate::cli) fn writes(&self) -> bool {
+        self.output.is_some() || self.mesh.is_some() || self.harmonics.is_some()
+    }
+}
+
 /// Fit every candidate of the search and list them
 ///
 /// Nothing is skipped, as by `fit --exhaustive`. Listed are models of the radius, and the choice is that of
