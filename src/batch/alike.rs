@@ -44,7 +44,8 @@ fn fitted_otherwise(first: &Lot, second: &Lot) -> Option<String> {
 
 /// How many grains are in both lots.
 fn shared(first: &Lot, second: &Lot) -> Option<String> {
-    let count = first.scans.intersection(&second.scans).count();
+    let in_both = |(scan, own): (_, &usize)| Some(*own.min(second.scans.get(scan)?));
+    let count = first.scans.iter().filter_map(in_both).sum();
     (count > 0).then(|| {
         format!(
             "The lots share {}, by the bytes of their scans: the intervals do not hold, for they take the lots as \
@@ -56,12 +57,13 @@ fn shared(first: &Lot, second: &Lot) -> Option<String> {
 
 /// How many grains of a lot are counted again.
 fn copied(lot: &Lot, which: &str) -> Option<String> {
-    (lot.copies > 0).then(|| {
+    let copies = lot.scans.values().sum::<usize>() - lot.scans.len();
+    (copies > 0).then(|| {
         format!(
             "{} of the {which} lot {} of scans that others are of, by their bytes: the intervals do not hold, for they \
              take the grains as independent.",
-            plural(lot.copies, "grain"),
-            if lot.copies == 1 { "is" } else { "are" }
+            plural(copies, "grain"),
+            if copies == 1 { "is" } else { "are" }
         )
     })
 }
@@ -104,10 +106,9 @@ mod tests {
             let values = lot.settings.entry((*name).into()).or_default();
             values.insert((*value).into());
         }
-        lot.scans = scans
-            .iter()
-            .map(|(hash, label)| ((*hash).into(), *label))
-            .collect();
+        for (hash, label) in scans {
+            *lot.scans.entry(((*hash).into(), *label)).or_default() += 1;
+        }
         lot
     }
 
@@ -141,6 +142,9 @@ mod tests {
         let told = doubts(&one, &other);
         assert!(told[0].starts_with("The lots share 1 grain,"), "{told:?}");
         assert!(doubts(&one, &one)[0].starts_with("The lots share 3 grains,"));
+        let copied = lot(&[], &[("a", None), ("a", None), ("b", None)]);
+        assert!(doubts(&copied, &copied)[0].starts_with("The lots share 3 grains,"));
+        assert!(doubts(&copied, &one)[0].starts_with("The lots share 1 grain,"));
         let apart = lot(&[], &[("ct", Some(3))]);
         assert!(doubts(&one, &apart).is_empty());
     }
@@ -179,10 +183,8 @@ mod tests {
 
     #[test]
     fn grains_that_a_lot_counts_again_are_told_of_either() {
-        let [one, other] = [("a", 1), ("b", 2)].map(|(hash, copies)| Lot {
-            copies,
-            ..lot(&[], &[(hash, None)])
-        });
+        let one = lot(&[], &[("a", None); 2]);
+        let other = lot(&[], &[("b", None); 3]);
         let told = doubts(&one, &other);
         let [first, second] = &told[..] else {
             panic!("{told:?}");

@@ -34,10 +34,8 @@ pub(crate) struct Lot {
     pub unitless: usize,
     /// How its grains were fitted: the values of each setting, and the versions that fitted them.
     pub settings: BTreeMap<String, BTreeSet<String>>,
-    /// Its scans: the hash of each, and the label of a grain in an image.
-    pub scans: BTreeSet<(String, Option<i64>)>,
-    /// How many more grains it has than scans.
-    pub copies: usize,
+    /// How many grains are of each of its scans: by its hash, and the label of a grain in an image.
+    pub scans: BTreeMap<(String, Option<i64>), usize>,
     /// Of a column, how many cells hold something that is no finite number.
     pub unread: BTreeMap<String, usize>,
 }
@@ -169,7 +167,7 @@ impl Lot {
         }
         if let Some(hash) = cell("hash") {
             let (_, label) = without_label(cell("path").unwrap_or_default());
-            self.copies += usize::from(!self.scans.insert((hash.into(), label)));
+            *self.scans.entry((hash.into(), label)).or_default() += 1;
         }
         true
     }
