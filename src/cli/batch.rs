@@ -3,7 +3,7 @@
 use super::args::BatchArgs;
 use super::console::Console;
 use super::count::Count;
-use super::{signals, threads};
+use super::{outputs, signals, threads};
 use crate::batch::{Batch, Inputs, Population, Settings, check_folder, inputs, run as run_batch};
 use crate::digits::plural;
 use crate::fit::FitOptions;
@@ -33,6 +33,7 @@ pub(super) fn run(args: BatchArgs, console: Console) -> Result<()> {
         .with_tolerance(args.tolerance)
         .with_segments(args.segments.0);
     fit.check()?;
+    outputs::check_folder(&args.output)?;
     check_folder(&args.output, &args.paths)?;
     let Inputs { scans, left_out } = inputs(&args.paths)?;
     tell_left_out(&left_out, console);

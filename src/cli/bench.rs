@@ -16,6 +16,7 @@ use comfy_table::{CellAlignment, Table, presets::NOTHING};
 use std::path::{Path, PathBuf};
 
 pub(super) fn run(args: BenchArgs, console: Console) -> Result<()> {
+    outputs::check_folder(&args.output)?;
     rayon::ThreadPoolBuilder::new()
         .num_threads(1)
         .build_global()

@@ -27,6 +27,7 @@ pub(super) fn run(args: ExportDemArgs, console: Console) -> Result<()> {
     if let Some((option, reason)) = args.deck.idle(args.engine) {
         bail!("{option} is for engines in which {reason}: leave it out");
     }
+    outputs::check_folder(&args.output)?;
     threads::start(0, console)?;
     let progress = console.progress();
     progress.stage("Reading");

@@ -53,6 +53,14 @@ pub(super) fn check<'a>(
     Ok(!streams.is_empty())
 }
 
+/// Refuses standard output in place of a folder.
+pub(super) fn check_folder(folder: &Path) -> Result<()> {
+    if is_stream(folder) {
+        bail!("- is standard output, which holds no files: give -o the name of a folder");
+    }
+    Ok(())
+}
+
 /// Makes a folder for outputs, if it is not there, and removes what a killed run left in it.
 pub(super) fn make_folder(folder: &Path) -> Result<()> {
     std::fs::create_dir_all(folder)

@@ -14,6 +14,7 @@ use std::path::Path;
 const EXTENSIONS: [&str; 2] = ["ply", "nrrd"];
 
 pub(super) fn run(args: SplitArgs, console: Console) -> Result<()> {
+    outputs::check_folder(&args.output)?;
     spares_the_scan(&args.scan, &args.output)?;
     threads::start(args.threads, console)?;
     let name = inputs::name(&args.scan);

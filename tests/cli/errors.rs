@@ -251,3 +251,25 @@ fn a_reader_that_leaves_early_is_no_error() {
         (Some(0), String::new())
     );
 }
+
+#[test]
+fn standard_output_is_no_folder() {
+    let folder = ["-o", "-"];
+    for words in [
+        &["split", "torus.obj"][..],
+        &["batch", "torus.obj"],
+        &["bench", "torus.obj"],
+        &[
+            "export-dem",
+            "torus.obj",
+            "--engine",
+            "yade",
+            "--unit",
+            "mm",
+        ],
+        &["bed", "torus.obj", "--box", "9,9", "--unit", "mm"],
+    ] {
+        let told = ["- is standard output", "the name of a folder"];
+        refuse(&[words, &folder].concat(), &told);
+    }
+}

@@ -22,6 +22,7 @@ use std::path::Path;
 use watch::Watch;
 
 pub(super) fn run(args: BedArgs, console: Console) -> Result<()> {
+    outputs::check_folder(&args.output)?;
     threads::start(args.threads, console)?;
     let Some(last_seed) = args.seed.checked_add(args.seeds - 1) else {
         bail!(
