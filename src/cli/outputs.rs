@@ -82,6 +82,13 @@ fn check_file(path: &Path, extensions: &[&str]) -> Result<()> {
         );
     }
     let folder = folder(path);
+    let mut there = folder.ancestors().filter(|part| part.exists());
+    if let Some(file) = there.next().filter(|part| !part.is_dir()) {
+        bail!(
+            "cannot save {shown}: {} is a file, and no folder",
+            file.display()
+        );
+    }
     if !folder.is_dir() {
         bail!(
             "cannot save {shown}: the folder {} does not exist; create it first",

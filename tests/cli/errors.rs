@@ -273,3 +273,11 @@ fn standard_output_is_no_folder() {
         refuse(&[words, &folder].concat(), &told);
     }
 }
+
+#[test]
+fn a_file_is_no_folder_to_save_in() {
+    for mesh in ["torus.obj/x.stl", "torus.obj/in/x.stl"] {
+        let words = ["fit", "torus.obj", "--mesh", mesh];
+        refuse(&words, &["torus.obj is a file, and no folder"]);
+    }
+}
