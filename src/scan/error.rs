@@ -35,6 +35,12 @@ pub enum ReadError {
         /// What is wrong with it.
         source: io::Error,
     },
+    /// What is packed with gzip is packed so itself: unpack the file once.
+    #[error("{} is packed with gzip twice: unpack it once, for what is packed once is read", path.display())]
+    PackedTwice {
+        /// The file asked for.
+        path: PathBuf,
+    },
     /// The file is an image, but no grain can be read from it.
     #[error("cannot read a grain from {}", path.display())]
     Volume {

@@ -20,7 +20,8 @@ const GZIP: &[u8] = b"\x1f\x8b\x08";
 /// # Errors
 ///
 /// [`ReadError::Io`] where the file cannot be read, [`ReadError::TooLarge`] where it goes on beyond the limit, as
-/// devices and archives made to do harm do, [`ReadError::Packed`] where it cannot be unpacked.
+/// devices and archives made to do harm do, [`ReadError::Packed`] where it cannot be unpacked,
+/// [`ReadError::PackedTwice`] where that leaves gzip again.
 pub fn read_bytes(path: &Path, limit: u64) -> Result<Vec<u8>, ReadError> {
     let io = |source| ReadError::Io {
         path: path.into(),
@@ -58,7 +59,11 @@ pub fn read_stream(stream: impl Read, name: &Path, limit: u64) -> Result<Vec<u8>
         path: path(),
         source,
     })?;
-    unpacked.ok_or_else(too_large)
+    let unpacked = unpacked.ok_or_else(too_large)?;
+    match unpacked.starts_with(GZIP) {
+        true => Err(ReadError::PackedTwice { path: path() }),
+        false => Ok(unpacked),
+    }
 }
 
 /// What is packed with gzip, member after member; none where it is more than the limit. Zeros after the last member,
@@ -139,6 +144,12 @@ mod tests {
             read(&bomb, 1 << 12),
             Err(ReadError::TooLarge { .. })
         ));
+    }
+
+    #[test]
+    fn what_is_packed_twice_is_told() {
+        let refused = read(&packed(&packed(b"1 2 3")), 1000);
+        assert!(matches!(refused, Err(ReadError::PackedTwice { .. })));
     }
 
     #[test]
