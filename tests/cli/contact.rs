@@ -187,7 +187,7 @@ fn what_cannot_be_pressed_is_refused_in_a_sentence() {
         ),
         (
             &["1", "--youngs-modulus-mpa", "inf"],
-            "both bodies are rigid",
+            "both bodies are rigid, so that no force presses them together: give one of them a finite Young's modulus\n",
         ),
         (
             &["1", "--youngs-modulus-mpa", "9", "--poissons-ratio", "0.6"],
