@@ -83,6 +83,9 @@ pub(crate) enum BatchError {
         /// How many there should be.
         scans: usize,
     },
+    /// A list of paths is not named.
+    #[error("@ names no list of paths: write the name of its file behind it, as in @list.txt")]
+    NamelessList,
     /// A list of paths is empty.
     #[error("{} names no scans: write a path into each line", path.display())]
     EmptyList {

@@ -77,6 +77,9 @@ fn place(path: &Path) -> PathBuf {
 fn named(path: &Path, left_out: &mut Vec<PathBuf>) -> Result<Vec<PathBuf>, BatchError> {
     let text = path.to_string_lossy();
     if let Some(list) = text.strip_prefix('@') {
+        if list.is_empty() {
+            return Err(BatchError::NamelessList);
+        }
         let list = PathBuf::from(list);
         let text = std::fs::read_to_string(&list).map_err(|source| BatchError::Read {
             path: list.clone(),
@@ -280,6 +283,8 @@ mod tests {
         assert!(matches!(empty, Err(BatchError::EmptyList { .. })));
         assert_eq!(of(&[path("./b.ply"), path("b.ply")]), ["b.ply"]);
         assert_eq!(of(&[path("gone.ply")]), ["gone.ply"]);
+        let nameless = inputs(&["@".into()]);
+        assert!(matches!(nameless, Err(BatchError::NamelessList)));
         let nothing = inputs(&[path("*.obj")]);
         assert!(matches!(nothing, Err(BatchError::Empty { .. })));
     }

@@ -31,6 +31,12 @@ fn called(path: &Path) -> &Path {
 /// The bytes of a file or of standard input, unpacked.
 pub(super) fn read(path: &Path, limit: &LimitArgs) -> Result<Vec<u8>> {
     let limit = limit.max_bytes;
+    if path.is_dir() {
+        bail!(
+            "cannot read {}: it is a folder; name a file in it, or fit all of its scans with grainform batch",
+            path.display()
+        );
+    }
     let bytes = match is_stream(path) {
         true => read_stream(io::stdin().lock(), called(path), limit),
         false => read_bytes(path, limit),

@@ -6,6 +6,8 @@ use super::negative::joined;
 use super::streams::say_error;
 use clap::error::ErrorKind;
 use clap::{CommandFactory, Parser};
+use std::ffi::OsString;
+use std::path::Path;
 use std::process::ExitCode;
 
 /// The arguments, or the code to end with once help was printed or an error told.
@@ -28,10 +30,22 @@ pub(super) fn parse() -> Result<Cli, ExitCode> {
                 known.find_subcommand(name).is_some()
             });
             let text = error.render().to_string();
-            say_error(&sentence(&text, command));
+            let told = match file_like_options(&words) {
+                Some(file) => format!("{file} is taken for options: name the file ./{file}"),
+                None => sentence(&text, command),
+            };
+            say_error(&told);
             ExitCode::from(UNUSABLE)
         }
     })
+}
+
+/// A word that begins as an option does, and is the name of a file.
+fn file_like_options(words: &[OsString]) -> Option<String> {
+    let is_file =
+        |word: &&OsString| word.as_encoded_bytes().starts_with(b"-") && Path::new(word).is_file();
+    let file = words.iter().skip(1).find(is_file)?;
+    Some(file.to_string_lossy().into_owned())
 }
 
 /// What takes a number takes neither a unit nor a decimal comma.
@@ -96,6 +110,10 @@ mod tests {
                 &["bed", "a.json", "--density", "2.5g/cm3"],
                 "invalid value '2.5g/cm3' for '--density <RHO>': expected a number such as 2.5, without its unit; \
                  see grainform bed --help",
+            ),
+            (
+                &["bed", "a.json", "--unit", "mm", "-o", "bed"],
+                "the following required arguments were not provided: <--box <X,Y>|--cylinder <D>>; see grainform bed --help",
             ),
             (
                 &["fitt"],

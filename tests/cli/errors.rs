@@ -1,4 +1,4 @@
-use super::{errors, folder, grain, grainform, names};
+use super::{errors, folder, grain, grainform, names, succeed};
 use grainform::Mesh;
 use nalgebra::point;
 use std::f64::consts::TAU;
@@ -280,4 +280,20 @@ fn a_file_is_no_folder_to_save_in() {
         let words = ["fit", "torus.obj", "--mesh", mesh];
         refuse(&words, &["torus.obj is a file, and no folder"]);
     }
+}
+
+#[test]
+fn folders_and_files_that_look_like_options_are_told_from_scans() {
+    for command in ["fit", "measure", "clump"] {
+        refuse(
+            &[command, "."],
+            &["cannot read .: it is a folder", "grainform batch"],
+        );
+    }
+    let folder = folder();
+    succeed(&folder, &["synth", "bean", "-o", "./-dash.ply"]);
+    let told = errors(&grainform(&folder, &["measure", "-dash.ply"]));
+    let expected = "error: -dash.ply is taken for options: name the file ./-dash.ply\n";
+    assert_eq!(told, expected);
+    succeed(&folder, &["measure", "./-dash.ply", "--only", "area"]);
 }

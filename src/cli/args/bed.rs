@@ -6,7 +6,7 @@ use crate::cli::numbers::{count, pair};
 use crate::cli::values::ShareArg;
 use crate::report::Unit;
 use clap::builder::RangedI64ValueParser;
-use clap::{Args, value_parser};
+use clap::{ArgGroup, Args, value_parser};
 use std::path::PathBuf;
 
 const MATERIAL: &str = "Material, of grains and walls";
@@ -18,6 +18,7 @@ const MATERIAL: &str = "Material, of grains and walls";
 /// state.json, from which a bed that was stopped goes on when it is started again; frames, LAMMPS dumps that OVITO
 /// opens; bed.vtk, the grains as polygons for ParaView; and a picture, bed.png.
 #[derive(Args)]
+#[command(group(ArgGroup::new("container").args(["sides", "cylinder"]).required(true)))]
 pub(in crate::cli) struct BedArgs {
     /// Models, each with its share of the grains, 1 where it is not told: lens.json:0.7 rod.json:0.3
     #[arg(value_name = "GRAIN[:SHARE]", required = true)]
@@ -28,8 +29,7 @@ pub(in crate::cli) struct BedArgs {
     pub(in crate::cli) count: usize,
 
     /// Width and depth of the box, from the origin on, whose walls have no end
-    #[arg(long = "box", value_name = "X,Y", value_parser = lengths, required_unless_present = "cylinder",
-          conflicts_with = "cylinder")]
+    #[arg(long = "box", value_name = "X,Y", value_parser = lengths)]
     pub(in crate::cli) sides: Option<[f64; 2]>,
 
     /// Diameter of an upright cylinder about the z axis, in place of a box
