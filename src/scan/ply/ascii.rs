@@ -8,7 +8,7 @@ use nalgebra::Point3;
 use ply_rs::ply::{ElementDef, PropertyType};
 
 use super::header::Header;
-use super::strips;
+use super::{spare, strips};
 use crate::digits::plural;
 use crate::scan::Scan;
 use crate::scan::error::{ParseError, Place};
@@ -47,12 +47,10 @@ pub(super) fn read(bytes: &[u8], header: &Header) -> Result<Scan, ParseError> {
             }
         }
     }
-    let spare = lines.filter(|(_, line)| !line.trim_ascii().is_empty());
-    if let spare @ 1.. = spare.count() {
-        let lines = plural(spare, "line");
-        scan.warnings.push(format!(
-            "Left {lines} unread after the data that the header counts."
-        ));
+    let mut lines = lines.filter(|(_, line)| !line.trim_ascii().is_empty());
+    if let Some((_, start)) = lines.next() {
+        let left = spare::left(&plural(1 + lines.count(), "line"), start);
+        scan.warnings.push(left);
     }
     faces.give(&mut scan);
     Ok(scan)

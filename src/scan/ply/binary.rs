@@ -8,7 +8,7 @@ use ply_rs::ply::{
 };
 
 use super::header::{Header, Skipped};
-use super::strips;
+use super::{spare, strips};
 use crate::digits::plural;
 use crate::scan::Scan;
 use crate::scan::error::{ParseError, Place};
@@ -40,11 +40,9 @@ pub(super) fn read(bytes: &[u8], header: &Header) -> Result<Scan, ParseError> {
             _ => rows.read(element, "row", |Skipped, _| Ok(()))?,
         }
     }
-    if let spare @ 1.. = rows.rest.len() {
-        let bytes = plural(spare, "byte");
-        scan.warnings.push(format!(
-            "Left {bytes} unread after the data that the header counts."
-        ));
+    if let count @ 1.. = rows.rest.len() {
+        let left = spare::left(&plural(count, "byte"), rows.rest);
+        scan.warnings.push(left);
     }
     faces.give(&mut scan);
     Ok(scan)

@@ -6,6 +6,7 @@ mod ascii;
 mod binary;
 mod header;
 mod meaning;
+mod spare;
 mod strips;
 mod unseen;
 
@@ -32,6 +33,25 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Scan, ParseError> {
 mod tests {
     use super::*;
     use nalgebra::point;
+
+    #[test]
+    fn another_file_behind_the_first_is_told() {
+        for (encoding, row) in [
+            ("ascii", "1 2 3\n"),
+            ("binary_little_endian", "abcdefghijkl"),
+        ] {
+            let one = format!(
+                "ply\nformat {encoding} 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n\
+                 end_header\n{row}"
+            );
+            let scan = parse(one.repeat(2).as_bytes()).unwrap();
+            assert!(
+                scan.warnings[0].contains("Another PLY file begins there"),
+                "{:?}",
+                scan.warnings
+            );
+        }
+    }
 
     /// Three points of numbers of three types and the triangle over them, in a byte order.
     fn binary(order: &str) -> Vec<u8> {
