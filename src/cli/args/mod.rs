@@ -87,6 +87,7 @@ pub(super) struct ManArgs {
 #[cfg(test)]
 mod tests {
     use super::Cli;
+    use crate::cli::outputs::MESH;
     use crate::report::Measure;
     use clap::CommandFactory;
 
@@ -105,6 +106,17 @@ mod tests {
                 let name = argument.to_string();
                 assert!(name.len() <= 40, "{}: {name}", command.get_name());
             }
+        }
+    }
+
+    #[test]
+    fn the_help_of_synth_has_the_ending_of_every_mesh() {
+        let mut cli = Cli::command();
+        let synth = cli.find_subcommand_mut("synth").unwrap();
+        let output = synth.get_arguments().find(|a| a.get_id() == "output");
+        let help = output.and_then(|output| output.get_help()).unwrap();
+        for ending in MESH {
+            assert!(help.to_string().contains(&format!(".{ending}")), "{ending}");
         }
     }
 

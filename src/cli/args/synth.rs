@@ -61,7 +61,8 @@ pub(in crate::cli) struct SynthArgs {
     #[arg(long, value_name = "K", value_parser = count::<u64>, default_value_t = 0)]
     pub(in crate::cli) seed: u64,
 
-    /// Write the points here: .ply or .xyz, a mesh .stl or .obj too (- for standard output)
+    /// Write the points here: .ply or .xyz (- for standard output); a banana, cup, mushroom, hook or random is a mesh,
+    /// .stl, .ply, .obj, .vtp or .glb, unless --points asks for points
     #[arg(short, long, value_name = "FILE")]
     pub(in crate::cli) output: Option<PathBuf>,
 
