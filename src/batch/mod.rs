@@ -43,6 +43,6 @@ pub(crate) use inputs::{Inputs, check_folder, inputs};
 pub(crate) use left_over::model;
 pub(crate) use names::names;
 pub(crate) use population::Population;
-pub(crate) use run::{Batch, run};
+pub(crate) use run::{Batch, Progress, Step, run};
 pub(crate) use saved::{RowKey, SavedModels};
 pub(crate) use table::{read_lot, read_results, results_table};

@@ -45,6 +45,15 @@ pub(crate) struct Progress {
     pub all: usize,
 }
 
+/// What is heard of a grain, by its name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Step<'a> {
+    /// Work on it begins.
+    Begun(&'a str),
+    /// It is done, and the batch so far.
+    Done(&'a str, Progress),
+}
+
 /// A batch that is done.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
@@ -68,12 +77,12 @@ pub(crate) struct Done {
 /// Runs a batch, or goes on with one that was stopped.
 ///
 /// Rows that earlier runs left in the folder are taken over if path, bytes, settings and version are the same.
-/// `progress` is told after every grain.
+/// `hear` is told of every grain, when it begins and when it is done.
 ///
 /// # Errors
 /// [`BatchError`] if no scan is there, another batch works on the folder, it holds files of others, cannot be written to, or
 /// is removed. What is wrong with a scan is told in its row.
-pub(crate) fn run(batch: &Batch, progress: &(dyn Fn(Progress) + Sync)) -> Result<Done, BatchError> {
+pub(crate) fn run(batch: &Batch, hear: &(dyn Fn(Step) + Sync)) -> Result<Done, BatchError> {
     let folder = &batch.folder;
     if let Some(first) = batch.inputs.first()
         && !batch.inputs.iter().any(|path| path.exists())
@@ -88,7 +97,7 @@ pub(crate) fn run(batch: &Batch, progress: &(dyn Fn(Progress) + Sync)) -> Result
         folder: folder.clone(),
         source,
     })?;
-    let done = work(batch, progress);
+    let done = work(batch, hear);
     match folder.is_dir() {
         true => done,
         false => Err(BatchError::Removed {
@@ -97,7 +106,7 @@ pub(crate) fn run(batch: &Batch, progress: &(dyn Fn(Progress) + Sync)) -> Result
     }
 }
 
-fn work(batch: &Batch, progress: &(dyn Fn(Progress) + Sync)) -> Result<Done, BatchError> {
+fn work(batch: &Batch, hear: &(dyn Fn(Step) + Sync)) -> Result<Done, BatchError> {
     let folder = &batch.folder;
     let failed = |source| BatchError::Write {
         folder: folder.clone(),
@@ -127,7 +136,7 @@ fn work(batch: &Batch, progress: &(dyn Fn(Progress) + Sync)) -> Result<Done, Bat
             kept: 0,
             error: None,
         }),
-        progress,
+        hear,
     };
     let pools: Vec<rayon::ThreadPool> = (0..batch.jobs.max(1))
         .map(|_| rayon::ThreadPoolBuilder::new().num_threads(1).build())
@@ -208,7 +217,7 @@ struct Work<'a> {
     settings: String,
     queue: Queue<'a>,
     state: Mutex<State>,
-    progress: &'a (dyn Fn(Progress) + Sync),
+    hear: &'a (dyn Fn(Step) + Sync),
 }
 
 struct State {
@@ -246,6 +255,7 @@ impl Work<'_> {
         let settings = &self.batch.settings;
         let outputs = self.outputs(task);
         let shown = task.name();
+        (self.hear)(Step::Begun(&shown));
         let version = env!("CARGO_PKG_VERSION");
         let content = task.content(settings.max_bytes);
         let hash = content.as_ref().ok();
@@ -329,7 +339,7 @@ impl Work<'_> {
         };
         let goes_on = state.error.is_none() && self.batch.folder.is_dir();
         drop(state);
-        (self.progress)(told);
+        (self.hear)(Step::Done(&task.name(), told));
         goes_on
     }
 

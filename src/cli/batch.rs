@@ -59,9 +59,7 @@ pub(super) fn run(args: BatchArgs, console: Console) -> Result<()> {
     };
     let count = Count::new(batch.inputs.len(), console);
     signals::keeps_work(console);
-    let done = run_batch(&batch, &|progress| {
-        count.step(progress.done, progress.kept, progress.all);
-    })?;
+    let done = run_batch(&batch, &|step| count.hear(step))?;
     drop(count);
 
     if done.kept > 0 {

@@ -1,7 +1,10 @@
 //! How many of many are done, how fast, and how long the rest will take.
 
 use super::console::Console;
+use super::progress::Progress;
 use super::streams::say;
+use crate::batch::{Progress as SoFar, Step};
+use crate::report::escaped;
 use indicatif::{HumanDuration, ProgressBar, ProgressStyle};
 use std::io::{IsTerminal, stderr};
 use std::sync::{Mutex, PoisonError};
@@ -13,9 +16,11 @@ const TEMPLATE: &str = "[{bar:20}] {pos} of {len}, {per_sec}, {elapsed} gone, {e
 /// How often a line is told elsewhere.
 const EVERY: Duration = Duration::from_secs(10);
 
-/// Told on standard error while it lives: a bar on a terminal, elsewhere a line now and then.
+/// Told on standard error while it lives: where it is asked for, lines of each; else a bar on a terminal, elsewhere a line
+/// now and then.
 pub(super) enum Count {
     Bar(ProgressBar),
+    Each(Progress),
     Lines {
         started: Instant,
         told: Mutex<Instant>,
@@ -27,6 +32,7 @@ impl Count {
         let started = Instant::now();
         match (console.is_quiet(), stderr().is_terminal()) {
             (true, _) => Self::Bar(ProgressBar::hidden()),
+            _ if console.is_verbose() => Self::Each(Progress::lines()),
             (_, true) => {
                 let style = ProgressStyle::with_template(TEMPLATE);
                 let style = style.unwrap_or_else(|_| ProgressStyle::default_bar());
@@ -39,9 +45,17 @@ impl Count {
         }
     }
 
-    /// So many are done, some of which took no time, of so many.
-    pub(super) fn step(&self, done: usize, kept: usize, all: usize) {
+    /// One of them begins, or is done: of all that are, some took no time.
+    pub(super) fn hear(&self, step: Step) {
+        let (name, SoFar { done, kept, all }) = match (self, step) {
+            (Self::Each(lines), Step::Begun(name)) => {
+                return lines.stage(format_args!("Fitting {}", escaped(name)));
+            }
+            (_, Step::Begun(_)) => return,
+            (_, Step::Done(name, so_far)) => (name, so_far),
+        };
         match self {
+            Self::Each(lines) => lines.step(done, all, format_args!("Ended {}", escaped(name))),
             Self::Bar(bar) => {
                 bar.set_length(all as u64);
                 bar.set_position(done as u64);

@@ -538,3 +538,22 @@ fn a_table_that_no_batch_has_written_is_not_replaced() {
         succeed(&folder, &batch(&["lot", "-o", "own"]));
     }
 }
+
+#[test]
+fn each_scan_is_told_when_it_begins_and_when_it_ends_if_asked_for() {
+    let folder = lot(2);
+    let words = ["batch", "lot", "-o", "own", "--only", "area", "--jobs", "1"];
+    let told = errors(&grainform(&folder, &[&words[..], &["-v"]].concat()));
+    let steps: Vec<&str> = told
+        .lines()
+        .filter_map(|line| Some(line.split_once(" s  ")?.1))
+        .collect();
+    let expected = [
+        "Fitting lot/00.xyz",
+        "Ended lot/00.xyz (1 of 2 done)",
+        "Fitting lot/01.xyz",
+        "Ended lot/01.xyz (2 of 2 done)",
+    ];
+    assert_eq!(steps, expected);
+    assert!(!errors(&grainform(&folder, &words)).contains("Fitting"));
+}
