@@ -20,7 +20,10 @@ const ON_RIM: f64 = 0.05;
 /// Turns to either side that are looked at.
 const TURNS: u32 = 4;
 
-/// Standard errors, at most, of what is measured of an outline, as shares of it; those of ratios are sums of these, each times its
+/// Two dimensions that differ by fewer standard deviations may be taken for each other, and the outlines along them.
+const TAKEN_FOR: f64 = 2.0;
+
+/// Standard errors, at most, of what is measured of an outline, as shares of it, and of which of the dimensions it is seen along; those of ratios are sums of these, each times its
 /// power.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
@@ -60,6 +63,8 @@ impl Survey<'_> {
         };
         let turned = self.turned(&axes, &errors)?;
         let area = errors.area / self.area()?;
+        let dimensions = self.dimensions()?;
+        let sds = dimensions.component_mul(&off);
         let of = |i: usize| {
             let outline = &outlines[i];
             let (known, turned) = (rims[i], turned[i].hypot(OF_MESH));
@@ -70,12 +75,28 @@ impl Survey<'_> {
             let own_area = (rim * outline.perimeter / outline.area).max(seen);
             let own_perimeter = (rim * TAU / outline.perimeter).max(0.5 * seen);
             let inscribed = diameter.max(2.0 * rim / outline.inscribed_diameter);
+            let is_taken_for = |j: &usize| {
+                let gap = (dimensions[i] - dimensions[*j]).abs();
+                *j != i && gap < TAKEN_FOR * sds[i].hypot(sds[*j])
+            };
+            let differs = |of: &dyn Fn(&Outline) -> f64| {
+                let others = (0..3).filter(is_taken_for);
+                let differ = others.map(|j| (of(&outlines[j]) / of(outline) - 1.0).abs());
+                differ.fold(0.0, f64::max)
+            };
+            let diameters = differs(&|outline| outline.largest_feret)
+                .max(differs(&|outline| outline.smallest_feret))
+                .max(differs(&|outline| outline.enclosing_diameter));
+            let roundness = roundness_error(outline, known, inscribed);
             OutlineErrors {
-                area: own_area.hypot(turned),
-                perimeter: own_perimeter.hypot(area).hypot(turned),
-                diameter,
-                inscribed,
-                roundness: roundness_error(outline, known, inscribed),
+                area: own_area.hypot(turned).hypot(differs(&|o| o.area)),
+                perimeter: own_perimeter
+                    .hypot(area)
+                    .hypot(turned)
+                    .hypot(differs(&|o| o.perimeter)),
+                diameter: diameter.hypot(diameters),
+                inscribed: inscribed.hypot(differs(&|o| o.inscribed_diameter)),
+                roundness: roundness.hypot(outline.roundness * differs(&|o| o.roundness)),
             }
         };
         Ok(Some([0, 1, 2].map(of)))
@@ -196,6 +217,19 @@ mod tests {
             let diameter = f64::max(one, other);
             assert_relative_eq!(off.diameter, diameter, max_relative = 1e-3);
             assert_relative_eq!(off.inscribed, diameter, max_relative = 1e-3);
+        }
+    }
+
+    /// Length and width that may be taken for each other, and the outlines along them.
+    #[test]
+    fn outlines_along_dimensions_that_are_taken_for_each_other_are_off_by_what_they_differ() {
+        let (outlines, clear) = told(&egg([0.0; 5], 0.02));
+        let (_, errors) = told(&egg([0.0, 0.0, 40.0, 40.0, 0.0], 0.02));
+        for (i, j) in [(0, 1), (1, 0)] {
+            let differ = outlines[j].area / outlines[i].area - 1.0;
+            assert!(differ.abs() > 0.1 && errors[i].area >= differ.abs());
+            let differ = outlines[j].largest_feret / outlines[i].largest_feret - 1.0;
+            assert!(errors[i].diameter > differ.abs() && clear[i].diameter < 0.01);
         }
     }
 
