@@ -13,6 +13,7 @@
 //! .72 % by this; with .5 % noise nothing is told.
 
 use super::neighbours::Neighbours;
+use crate::spread::principal;
 use nalgebra::{Matrix3, Vector3};
 
 /// Fewer points are too few to tell.
@@ -66,7 +67,9 @@ pub(super) fn slopes(places: &[Vector3<f64>], off: &[Vector3<f64>]) -> f64 {
     let pairs = closest.into_iter().filter_map(|(own, distance)| {
         let near: Vec<usize> = others(own, FARTHER).collect();
         let (first, last) = (*near.first()?, *near.last()?);
-        let normal = normal(near.iter().map(|&at| places[at] - places[own]));
+        let about = near.iter().map(|&at| places[at] - places[own]);
+        let squares: Matrix3<f64> = about.map(|place| place * place.transpose()).sum();
+        let normal = principal(&squares)?.1.column(0).into_owned();
         let heights = |other: usize| normal.dot(&(off[other] - off[own])).powi(2);
         let apart = (places[last] - places[own]).norm_squared();
         (distance > TWICE * TWICE * apart).then(|| Pair {
@@ -81,13 +84,6 @@ pub(super) fn slopes(places: &[Vector3<f64>], off: &[Vector3<f64>]) -> f64 {
         true => 0.0,
         false => of_pairs(closest, close),
     }
-}
-
-/// Across the plane through some places about the origin.
-fn normal(about: impl Iterator<Item = Vector3<f64>>) -> Vector3<f64> {
-    let squares: Matrix3<f64> = about.map(|place| place * place.transpose()).sum();
-    let eigen = squares.symmetric_eigen();
-    eigen.eigenvectors.column(eigen.eigenvalues.imin()).into()
 }
 
 fn of_pairs(closest: &[Pair], close: &[Pair]) -> f64 {

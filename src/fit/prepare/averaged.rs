@@ -273,8 +273,7 @@ mod tests {
             let along = move |n: &Vector3<f64>| Point3::new(a * n.x, b * n.y, c * n.z);
             for side in [0.1, 0.2] {
                 for points in [means_of(side, along), means_of(side, |n| turn * along(n))] {
-                    let [cell, _] = told(points.clone())
-                        .unwrap_or_else(|| panic!("{a} {c} {side} {}", points.len()));
+                    let [cell, _] = told(points).unwrap();
                     assert!((cell / side - 1.0).abs() < 0.03, "{a} {c} {cell}");
                 }
             }
