@@ -27,6 +27,7 @@ mod linear;
 mod local_cells;
 mod mirrored;
 mod neighbours;
+mod not_followed;
 mod options;
 mod outcome;
 mod position;
