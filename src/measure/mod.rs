@@ -84,7 +84,7 @@ pub use outline::Outline;
 pub use projection::{ProjectionError, project};
 pub use roundness::ROUNDNESS_ORDER;
 pub use scanned::{FacesDefect, Fill, ScannedBody, scanned_body};
-pub(crate) use scanned::{LeftOut, are_steps, largest_part, spikes, without_dust};
+pub(crate) use scanned::{LeftOut, are_steps, largest_part, share_of_area, spikes, without_dust};
 pub use self_crossing::SelfCrossing;
 pub(crate) use self_crossing::self_crossing;
 #[cfg(feature = "cli")]

@@ -4,7 +4,7 @@ use super::number::{percent, short};
 use super::unit::{Labels, Unit};
 use crate::digits::{plural, significant};
 use crate::fit::{FitWarning, Rejection};
-use crate::measure::{FacesDefect, Fill};
+use crate::measure::{FacesDefect, Fill, share_of_area};
 use crate::model::{Contradicted, NoInterval, Unseen};
 use nalgebra::Vector3;
 use std::fmt;
@@ -48,9 +48,9 @@ impl FitWarning {
         match *self {
             Self::FacesNotClosed(FacesDefect::Open { holes, share }) => write!(
                 f,
-                "Closing the holes between the faces ({holes}) would take {:.0} % of their area, and is left: the \
+                "Closing the holes between the faces ({holes}) would take {}, and is left: the \
                  surface is fitted to the faces, and compared with the triangulation of their points' directions.",
-                100.0 * share
+                share_of_area(share)
             ),
             Self::FacesNotClosed(defect) => write!(
                 f,
@@ -253,9 +253,8 @@ impl fmt::Display for Unseen {
             ),
             Self::Open { share, .. } => write!(
                 f,
-                "holes between the faces would take {:.0} % of their area to close, and what the surface does there is \
-                 a guess",
-                100.0 * share
+                "holes between the faces would take {} to close, and what the surface does there is a guess",
+                share_of_area(share)
             ),
         }
     }

@@ -4,6 +4,7 @@
 //! panics, and each error says what was wrong, where, and what to do.
 
 pub(crate) mod check;
+mod close_gaps;
 mod drawn;
 mod error;
 mod format;
@@ -173,7 +174,7 @@ impl Scan {
             self.warnings.push(FLAT.into());
         }
         if are_loose {
-            weld::close_gaps(self, span.extent);
+            close_gaps::close_gaps(self, span.extent);
         }
         inspect::inspect(self);
         self.look_for_voxels();

@@ -49,10 +49,10 @@ pub struct ScannedBody {
 pub enum FacesDefect {
     /// There are holes whose fills would be a guess.
     #[error(
-        "the faces leave {} open, {:.0} % of the area or more; scan what is missing, or fit a guess of it \
+        "the faces leave {} open, and to close them takes {} or more; scan what is missing, or fit a guess of it \
          (fit --extrapolate)",
         plural(*holes, "hole"),
-        100.0 * share
+        share_of_area(*share)
     )]
     Open {
         /// Number of holes.
@@ -80,6 +80,14 @@ pub enum FacesDefect {
     /// A body goes through itself, so that the volume of its triangles is not what they enclose.
     #[error("{0}; mend the mesh")]
     Crossing(SelfCrossing),
+}
+
+/// A share of the area of faces, as text: above all of it figures are of no use, for faces then hold next to nothing together.
+pub(crate) fn share_of_area(share: f64) -> String {
+    match share <= 1.0 {
+        true => format!("{:.0} % of their area", 100.0 * share),
+        false => "their whole area".into(),
+    }
 }
 
 /// The bodies that the faces of a scan enclose; `None` of points without faces.
@@ -124,5 +132,27 @@ fn refused(mesh: Mesh, defect: FacesDefect) -> ScannedBody {
         crossing: None,
         defect: Some(defect),
         mesh,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_share_above_all_of_the_area_is_told() {
+        let told = |share: f64| FacesDefect::Open { holes: 2, share }.to_string();
+        assert!(
+            told(0.34).contains("takes 34 % of their area or more"),
+            "{}",
+            told(0.34)
+        );
+        for share in [1.44, f64::INFINITY, f64::NAN] {
+            let told = told(share);
+            assert!(
+                told.contains("takes their whole area or more") && !told.contains('%'),
+                "{told}"
+            );
+        }
     }
 }
