@@ -72,12 +72,13 @@ pub(super) fn share(text: &str) -> Result<f64, &'static str> {
     Ok(number / scale)
 }
 
-/// A number of bytes: digits, and k, M or G for thousands, millions and billions.
+/// A number of bytes: digits, and k, M or G, in either case, for thousands, millions and billions.
 pub(super) fn bytes(text: &str) -> Result<u64, &'static str> {
-    let suffixes = [('k', 1_000), ('M', 1_000_000), ('G', 1_000_000_000)];
+    let suffixes = [('k', 1_000), ('m', 1_000_000), ('g', 1_000_000_000)];
+    let either_case = |suffix: char| [suffix, suffix.to_ascii_uppercase()];
     let suffixed = suffixes
         .iter()
-        .find_map(|(suffix, scale)| Some((text.strip_suffix(*suffix)?, *scale)));
+        .find_map(|(suffix, scale)| Some((text.strip_suffix(either_case(*suffix))?, *scale)));
     let (digits, scale) = suffixed.unwrap_or((text, 1));
     let count: Option<u64> = digits.parse().ok();
     count
@@ -112,6 +113,9 @@ mod tests {
     fn bytes_have_decimal_suffixes() {
         assert_eq!(bytes("1G"), Ok(crate::scan::MAX_BYTES));
         assert_eq!(bytes("12k"), Ok(12_000));
+        for (lower, upper) in [("3k", "3K"), ("3m", "3M"), ("3g", "3G")] {
+            assert_eq!(bytes(lower), bytes(upper));
+        }
         assert_eq!(bytes("7"), Ok(7));
         for text in ["", "0", "-1", "1T", "99999999999G", "1.5G"] {
             assert!(bytes(text).is_err(), "{text}");

@@ -164,7 +164,7 @@ impl FromStr for CloudFormat {
     type Err = &'static str;
 
     fn from_str(text: &str) -> Result<Self, Self::Err> {
-        match text {
+        match text.to_ascii_lowercase().as_str() {
             "ply" => Ok(Self::Ply),
             "xyz" => Ok(Self::Xyz),
             _ => Err("expected ply or xyz"),
@@ -304,6 +304,14 @@ impl FromStr for ShareArg {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_format_may_have_letters_of_either_case() {
+        for name in ["ply", "PLY", "Ply"] {
+            assert_eq!(name.parse(), Ok(CloudFormat::Ply));
+        }
+        assert!("stl".parse::<CloudFormat>().is_err());
+    }
 
     #[test]
     fn a_file_may_have_a_share() {

@@ -29,7 +29,7 @@ impl MeshFormat {
     /// The format that a path's extension names, in letters of either case.
     pub fn of(path: &Path) -> Option<Self> {
         let extension = path.extension()?.to_str()?;
-        extension.to_ascii_lowercase().parse().ok()
+        extension.parse().ok()
     }
 
     /// By how much coordinates of a mesh are rounded at most, as a share of the mean edge of its triangles: those of STL have 24
@@ -81,7 +81,7 @@ impl FromStr for MeshFormat {
     type Err = &'static str;
 
     fn from_str(name: &str) -> Result<Self, Self::Err> {
-        match name {
+        match name.to_ascii_lowercase().as_str() {
             "stl" => Ok(Self::Stl),
             "ply" => Ok(Self::Ply),
             "obj" => Ok(Self::Obj),
@@ -96,6 +96,16 @@ impl FromStr for MeshFormat {
 mod tests {
     use super::*;
     use nalgebra::Vector3;
+
+    #[test]
+    fn a_name_may_have_letters_of_either_case() {
+        for name in ["stl", "STL", "Stl"] {
+            assert_eq!(name.parse(), Ok(MeshFormat::Stl));
+            let path = Path::new("a").with_extension(name);
+            assert_eq!(MeshFormat::of(&path), Some(MeshFormat::Stl));
+        }
+        assert!("xyz".parse::<MeshFormat>().is_err());
+    }
 
     #[test]
     fn stl_rounds_what_is_far_from_its_origin() {
