@@ -48,7 +48,12 @@ pub(super) fn words(line: &[u8]) -> impl Iterator<Item = &[u8]> {
 pub(super) fn number(line: usize, word: &[u8]) -> Result<f64, ParseError> {
     std::str::from_utf8(word)
         .ok()
-        .and_then(|word| word.parse().ok().or_else(|| of_fortran(word)))
+        .and_then(|word| {
+            let number = word.parse().ok();
+            number
+                .or_else(|| of_fortran(word))
+                .or_else(|| of_windows(word))
+        })
         .ok_or_else(|| unexpected(line, "a number with a decimal point", word))
 }
 
@@ -56,6 +61,16 @@ pub(super) fn number(line: usize, word: &[u8]) -> Result<f64, ParseError> {
 fn of_fortran(word: &str) -> Option<f64> {
     let (digits, exponent) = word.split_once(['D', 'd'])?;
     format!("{digits}e{exponent}").parse().ok()
+}
+
+/// What is no finite number, as programs of Windows write it: `1.#QNAN`, `-1.#IND`, `1.#INF` or `-nan(ind)`.
+fn of_windows(word: &str) -> Option<f64> {
+    let word = word.trim_start_matches(['+', '-']).to_ascii_lowercase();
+    match word.strip_prefix("1.#") {
+        Some(name) if name.starts_with("inf") => Some(f64::INFINITY),
+        Some(name) => (!name.is_empty()).then_some(f64::NAN),
+        None => word.starts_with("nan(").then_some(f64::NAN),
+    }
 }
 
 /// A number that can be a coordinate.
@@ -113,6 +128,27 @@ mod tests {
     fn a_decimal_comma_is_not_a_number() {
         assert!(number(3, b"1,5").is_err());
         assert_eq!(number(3, b"+.5"), Ok(0.5));
+    }
+
+    #[test]
+    fn what_windows_writes_for_no_number_is_none() {
+        for word in [
+            "1.#QNAN",
+            "-1.#IND",
+            "-1.#IND00",
+            "1.#SNAN",
+            "-nan(ind)",
+            "NaN(snan)",
+            "1.#QO",
+        ] {
+            assert!(number(1, word.as_bytes()).unwrap().is_nan(), "{word}");
+        }
+        for word in ["1.#INF", "-1.#INF00"] {
+            assert!(number(1, word.as_bytes()).unwrap().is_infinite(), "{word}");
+        }
+        for word in ["1.#", "2.#INF", "nano", "#INF"] {
+            assert!(number(1, word.as_bytes()).is_err(), "{word}");
+        }
     }
 
     #[test]
