@@ -63,12 +63,15 @@ fn read(bytes: &[u8], warnings: &mut Vec<String>) -> Result<Vec<Point3<f64>>, Pa
     let mut skipped = 0;
     for (line, row) in rows.clone() {
         let point = match read_row(line, row, separator, columns, axes) {
-            Err(_) if decimal_commas::are_in(row) => {
+            Ok(point) => point,
+            Err(error) => {
+                let Some(expected) = decimal_commas::expected(row) else {
+                    return Err(error);
+                };
                 // They explain what is odd about the heading.
                 warnings.clear();
-                return Err(unexpected(line, decimal_commas::EXPECTED, row));
+                return Err(unexpected(line, expected, row));
             }
-            point => point?,
         };
         if point.iter().all(|c| c.is_finite()) {
             points.push(point);
@@ -315,6 +318,26 @@ mod tests {
     }
 
     #[test]
+    fn separators_of_thousands_are_named() {
+        for rows in [
+            "1.234,50;2;3",
+            "5.453,05 2,5 3,1",
+            "1 2 3\n5,453.05\t2\t-3.5",
+            "\"5,453.05\",\"-12,000.1\",\"3\"",
+            "1 2 3\n-1,234,567 2 3",
+        ] {
+            let told = parse(rows.as_bytes()).unwrap_err().to_string();
+            assert!(told.contains("separators of thousands"), "{rows}: {told}");
+        }
+        for rows in ["1.2.3 2 3", "1,23.5 2 3", "1,2345.6 2 3", "a 5,453.05 2"] {
+            let told = parse(format!("0 0 0\n{rows}").as_bytes())
+                .unwrap_err()
+                .to_string();
+            assert!(!told.contains("thousands"), "{rows}: {told}");
+        }
+    }
+
+    #[test]
     fn a_heading_that_names_axes_is_not_said_to_name_none() {
         let scan = parse(b"x,y,z\n1,2,3,4").unwrap();
         let expected = "The heading `x,y,z` names 3 columns, but the first row has 4; the first three were read.";
@@ -356,10 +379,10 @@ mod tests {
 
     #[test]
     fn rows_that_are_not_finite_are_dropped_with_a_warning() {
-        let scan = parse(b"1 2 3\nNaN NaN nan\n4 5 6").unwrap();
+        let scan = parse(b"1 2 3\nNaN NaN nan\n-1.#IND 0 1.#INF\n4 5 6").unwrap();
         assert_eq!(scan.points.len(), 2);
         assert!(
-            scan.warnings[0].starts_with("Dropped 1 row "),
+            scan.warnings[0].starts_with("Dropped 2 rows "),
             "{:?}",
             scan.warnings
         );
