@@ -3,6 +3,7 @@
 use super::streams::say;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::fmt::Display;
+use std::sync::Mutex;
 use std::thread::{Builder, sleep};
 use std::time::{Duration, Instant};
 
@@ -14,6 +15,16 @@ const OPEN: &str = "{spinner} {elapsed:>4} {wide_msg}";
 
 /// A stage whose steps are counted.
 const COUNTED: &str = "[{bar:20}] {pos} of {len}, {elapsed} gone, {eta} left: {wide_msg}";
+
+/// The line that is shown.
+static SHOWN: Mutex<Option<ProgressBar>> = Mutex::new(None);
+
+/// Takes the line that is shown off the terminal for good.
+pub(super) fn clear() {
+    if let Some(bar) = SHOWN.lock().ok().and_then(|mut shown| shown.take()) {
+        bar.finish_and_clear();
+    }
+}
 
 /// Told on standard error while it lives: a line that moves, where that is a terminal, or a line per stage.
 pub(super) enum Progress {
@@ -30,6 +41,9 @@ impl Progress {
         let bar = ProgressBar::new_spinner();
         bar.set_style(style(OPEN));
         keep_moving(&bar);
+        if let Ok(mut shown) = SHOWN.lock() {
+            *shown = Some(bar.clone());
+        }
         Self::Bar(bar)
     }
 

@@ -1,6 +1,7 @@
-//! Ctrl-C and its like: temporary files are removed, then the process ends as it would have.
+//! Ctrl-C and its like: temporary files are removed and the terminal is left as it was, then the process ends as it would have.
 
 use super::console::Console;
+use super::progress;
 use crate::export::remove_temporaries;
 use anyhow::{Context, Result};
 use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM, SIGXFSZ};
@@ -29,6 +30,7 @@ pub(super) fn watch() -> Result<()> {
     let wait = move || {
         for signal in signals.forever() {
             remove_temporaries();
+            progress::clear();
             if let Some(console) = GOES_ON.get() {
                 console.note("stopped", "the same command goes on from what is saved");
             }

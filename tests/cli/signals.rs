@@ -108,6 +108,26 @@ fn a_batch_that_is_stopped_tells_how_it_goes_on() {
     assert!(told.contains(expected), "{told}");
 }
 
+/// What is told of the work while it lasts is taken off the terminal.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_signal_leaves_no_line_on_the_terminal() {
+    let folder = folder();
+    let words = ["synth", "bean", "--points", "300000", "--noise", "0.5%"];
+    succeed(&folder, &[&words[..], &["-o", "b.ply"]].concat());
+    let grainform = assert_cmd::cargo::cargo_bin!("grainform").display();
+    let run = format!("timeout --foreground --signal TERM 1 {grainform} fit b.ply");
+    let output = Command::new("script")
+        .args(["--quiet", "--return", "--command", &run, "/dev/null"])
+        .current_dir(folder.path())
+        .stdin(Stdio::null())
+        .output()
+        .expect("a terminal");
+    assert_eq!(output.status.code(), Some(124));
+    let told = String::from_utf8(output.stdout).unwrap();
+    assert!(told.trim_end().ends_with("\r\u{1b}[2K"), "{told:?}");
+}
+
 #[cfg(target_os = "linux")]
 #[test]
 fn a_run_under_nohup_outlives_its_terminal() {
