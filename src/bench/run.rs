@@ -115,9 +115,7 @@ impl<'a> Bench<'a> {
                 let found = fitted
                     .ok()
                     .and_then(|fitted| Found::superquadric(form, &fitted, points.len()));
-                let none = FitError::NoVolume {
-                    points: points.len(),
-                };
+                let none = FitError::NoVolume;
                 (found.ok_or(none)?, seconds)
             }
         };

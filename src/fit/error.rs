@@ -78,13 +78,10 @@ pub enum FitError {
     },
     /// The scan has too few distinct points, or they enclose no volume.
     #[error(
-        "the scan's points ({points}) enclose no volume; a closed surface needs at least 4 points \
-         that do not lie in one plane"
+        "the scan's points enclose no volume; a closed surface needs at least 4 points that do not lie in one plane, and of a \
+         slender body many more"
     )]
-    NoVolume {
-        /// Number of points.
-        points: usize,
-    },
+    NoVolume,
     /// The numbers of the scan are too large or too small to compute with.
     #[error(
         "the scan is some {size:e} of its units across; area and volume of such a size cannot be written as numbers: \

@@ -40,7 +40,7 @@ pub(crate) fn check(points: &[Point3<f64>]) -> Result<Span, ParseError> {
     let extent = (high - low).max();
     if extent < SMALLEST {
         let points = points.len();
-        return Err(ParseError::NoExtent { points, extent });
+        return Err(ParseError::NoExtent { points });
     }
     let offsets = || points.iter().map(|point| (point - first) / extent);
     // Half the extent at least lies between the first point and some other.
@@ -110,11 +110,7 @@ mod tests {
     fn one_place_or_none_is_refused() {
         assert_eq!(check(&[]), Err(ParseError::NoPoints));
         let same = [point![1.0, 1.0, 1.0]; 5];
-        let extent = 0.0;
-        assert_eq!(
-            check(&same),
-            Err(ParseError::NoExtent { points: 5, extent })
-        );
+        assert_eq!(check(&same), Err(ParseError::NoExtent { points: 5 }));
     }
 
     #[test]

@@ -248,14 +248,11 @@ pub enum ParseError {
     },
     /// All points coincide, or are so near that squares underflow.
     #[error(
-        "all points ({points}) lie within {extent:e} of each other; expected the surface of a body, \
-         check the unit and the export"
+        "all points ({points}) lie at one place; expected the surface of a body, check the unit and the export"
     )]
     NoExtent {
         /// How many points there are.
         points: usize,
-        /// The longest side of their bounding box.
-        extent: f64,
     },
     /// All points lie on one straight line.
     #[error("all points ({points}) lie on one line; expected the surface of a body")]

@@ -45,16 +45,13 @@ impl LocalFaces {
             kind,
             warnings,
         } = faces(scan)?;
-        let no_volume = FitError::NoVolume {
-            points: mesh.vertices.len(),
-        };
         let unit = Unit::of(&mesh);
         let at_unit = unit.mesh(&mesh);
         let Ok(properties) = mesh_properties(&at_unit) else {
-            return Err(no_volume);
+            return Err(FitError::NoVolume);
         };
         if properties.volume.is_nan() || properties.volume <= 0.0 {
-            return Err(no_volume);
+            return Err(FitError::NoVolume);
         }
         let size = equivalent_radius(properties.volume);
         let at_unit_frame = Frame {

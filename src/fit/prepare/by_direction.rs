@@ -83,9 +83,7 @@ fn mesh_of_directions(points: Vec<Point3<f64>>, centre: &Point3<f64>) -> Result<
             }
         })
         .collect();
-    let triangles = triangulate_directions(&directions).map_err(|_| FitError::NoVolume {
-        points: points.len(),
-    })?;
+    let triangles = triangulate_directions(&directions).map_err(|_| FitError::NoVolume)?;
     Ok(Mesh {
         vertices: points,
         triangles,

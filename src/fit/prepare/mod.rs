@@ -122,9 +122,7 @@ impl<'a> PreparedScan<'a> {
         let properties = mesh_properties(&mesh)
             .ok()
             .filter(|properties| properties.volume > Unit::LEAST_VOLUME)
-            .ok_or(FitError::NoVolume {
-                points: scan.points.len(),
-            })?;
+            .ok_or(FitError::NoVolume)?;
         // Steps of voxels face anywhere.
         let without_steps = (scan.scatter > 0.0).then(|| relaxed(&mesh, ROUNDS_OVER_STEPS));
         let seen = without_steps.as_ref().unwrap_or(&mesh);

@@ -94,8 +94,7 @@ pub(crate) fn usable(scan: &Scan) -> Result<(), FitError> {
         return Err(FitError::Scale { size });
     }
     if scan.is_flat() {
-        let points = scan.points.len();
-        return Err(FitError::NoVolume { points });
+        return Err(FitError::NoVolume);
     }
     Ok(())
 }
