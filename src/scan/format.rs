@@ -22,8 +22,8 @@ const FOREIGN: [(&[u8], &str, &str); 14] = [
         "a Git LFS pointer",
         "fetch the file itself with `git lfs pull`",
     ),
-    (b"\xff\xfe", "UTF-16 text", "save it as UTF-8 or ASCII"),
-    (b"\xfe\xff", "UTF-16 text", "save it as UTF-8 or ASCII"),
+    (b"\xff\xfe", UTF_16.0, UTF_16.1),
+    (b"\xfe\xff", UTF_16.0, UTF_16.1),
     (
         b"<",
         "a web page or XML",
@@ -36,8 +36,12 @@ const FOREIGN: [(&[u8], &str, &str); 14] = [
     (b"# .PCD", "a PCD point cloud", CONVERT),
     (b"# vtk", "a VTK file", CONVERT),
 ];
+const UTF_16: (&str, &str) = ("UTF-16 text", "save it as UTF-8 or ASCII");
 const UNPACK: &str = "unpack it first";
 const CONVERT: &str = "convert it to PLY";
+
+/// Bytes that tell whether a file is text.
+const EARLY: usize = 4096;
 
 pub(super) fn detect(bytes: &[u8], extension: Option<&str>) -> Result<Format, ParseError> {
     if bytes.is_empty() {
@@ -51,6 +55,10 @@ pub(super) fn detect(bytes: &[u8], extension: Option<&str>) -> Result<Format, Pa
         if start.starts_with(magic) {
             return Err(ParseError::Foreign { what, advice });
         }
+    }
+    if is_utf_16(bytes) {
+        let (what, advice) = UTF_16;
+        return Err(ParseError::Foreign { what, advice });
     }
     if starts_with_ply(bytes) {
         return Ok(Format::Ply);
@@ -70,6 +78,17 @@ pub(super) fn detect(bytes: &[u8], extension: Option<&str>) -> Result<Format, Pa
     }
 }
 
+/// Whether a file begins as UTF-16 does without a mark: every other byte is zero, and those between are text.
+fn is_utf_16(bytes: &[u8]) -> bool {
+    let start = &bytes[..bytes.len().min(EARLY)];
+    let every_other = |first: usize| start.iter().skip(first).step_by(2);
+    let is_text_after = |zeros: usize| {
+        let are_zeros = every_other(zeros).all(|byte| *byte == 0);
+        are_zeros && !every_other(1 - zeros).any(is_strange)
+    };
+    start.len() > 1 && [0, 1].into_iter().any(is_text_after)
+}
+
 fn starts_with_ply(bytes: &[u8]) -> bool {
     let [a, b, c, next, ..] = *bytes else {
         return false;
@@ -79,8 +98,11 @@ fn starts_with_ply(bytes: &[u8]) -> bool {
 
 /// The first byte that text of no single-byte encoding nor UTF-8 holds, early in the file.
 fn first_strange_byte(bytes: &[u8]) -> Option<usize> {
-    let strange = |b: &u8| b.is_ascii_control() && !b.is_ascii_whitespace();
-    bytes.iter().take(4096).position(strange)
+    bytes.iter().take(EARLY).position(is_strange)
+}
+
+fn is_strange(byte: &u8) -> bool {
+    byte.is_ascii_control() && !byte.is_ascii_whitespace()
 }
 
 #[cfg(test)]
@@ -120,6 +142,9 @@ mod tests {
         for (bytes, what) in [
             (&b"\x1f\x8b\x08"[..], "gzip"),
             (b"<!DOCTYPE html>", "web page"),
+            (b"\xff\xfe1\0 \0", "UTF-16"),
+            (b"1\0 \x002\0", "UTF-16"),
+            (b"\x001\0 \x002", "UTF-16"),
         ] {
             let error = detect(bytes, Some("stl")).unwrap_err().to_string();
             assert!(error.contains(what), "{error}");
