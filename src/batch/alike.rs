@@ -1,6 +1,7 @@
 //! What two lots differ by, or share, beside their grains.
 
 use super::columns::is_figure;
+use super::gaps::{key, list};
 use super::table::Lot;
 use crate::digits::plural;
 use std::collections::BTreeSet;
@@ -21,6 +22,8 @@ pub(crate) fn doubts(first: &Lot, second: &Lot) -> Vec<String> {
         second.gaps.sentence(" of the other lot"),
         unread(first, second, "first"),
         unread(second, first, "other"),
+        of_one(first, second, "first"),
+        of_one(second, first, "other"),
     ];
     found.into_iter().flatten().collect()
 }
@@ -92,6 +95,27 @@ fn unread(lot: &Lot, other: &Lot, which: &str) -> Option<String> {
         format!(
             "Cells of the {which} lot that hold no number are left out: {}.",
             cells.join(", ")
+        )
+    })
+}
+
+/// Which measures a lot has and the other lacks altogether; what is unknown of all its grains is told otherwise.
+fn of_one(lot: &Lot, other: &Lot, which: &str) -> Option<String> {
+    let is_alone = |name: &&String| {
+        let is_told = other.gaps.covers(name) || other.unread.contains_key(*name);
+        !other.names.contains(name) && !is_told
+    };
+    let has_figures = |measure: &str| other.names.iter().any(|name| key(name) == measure);
+    let name = |column: &String| match key(column) {
+        measure if has_figures(measure) => column.clone(),
+        measure => measure.into(),
+    };
+    let mut names: Vec<String> = lot.names.iter().filter(is_alone).map(name).collect();
+    names.dedup();
+    (!names.is_empty()).then(|| {
+        format!(
+            "Only the {which} lot has figures of {}: they are not compared.",
+            list(&names)
         )
     })
 }

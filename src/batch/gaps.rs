@@ -53,6 +53,12 @@ impl Gaps {
         }
     }
 
+    /// Whether it would tell that a column is unknown.
+    pub(crate) fn covers(&self, column: &str) -> bool {
+        let mut columns = self.groups.iter().flat_map(|group| &group.columns);
+        columns.any(|(_, name)| name == column)
+    }
+
     /// Hears the row of a grain: whether it tells the column at a position, and its `not_measured`.
     pub(crate) fn hear<'a>(
         &mut self,
@@ -175,7 +181,7 @@ impl Group {
 }
 
 /// The measure that a column is a figure of.
-fn key(column: &str) -> &str {
+pub(super) fn key(column: &str) -> &str {
     column
         .split_once('.')
         .map_or(column, |(measure, _)| measure)
@@ -204,7 +210,7 @@ fn kind(reason: &str) -> String {
 }
 
 /// `a, b and c`; of many the first ones.
-fn list(names: &[String]) -> String {
+pub(super) fn list(names: &[String]) -> String {
     match names {
         [most @ .., last] if !most.is_empty() && names.len() <= MOST_NAMES => {
             format!("{} and {last}", most.join(", "))

@@ -91,6 +91,34 @@ fn a_column_without_any_number_is_told_where_it_should_have_some() {
     }
 }
 
+#[test]
+fn measures_of_one_lot_alone_are_told() {
+    let folder = folder();
+    let lot = |name: &str, columns: &str| {
+        let rows = ["a", "b"].map(|grain| {
+            let values = columns.split(',').map(|_| ",1.5").collect::<String>();
+            format!("{grain}{name}.ply,ok{values}\n")
+        });
+        let table = format!("path,status,{columns}\n{}", rows.concat());
+        std::fs::write(folder.path().join(name), table).unwrap();
+    };
+    lot(
+        "a.csv",
+        "area,volume,form.elongation,sphericity.wadell,sphericity.maximum_projection",
+    );
+    lot("b.csv", "volume,volume_se,form.elongation,form.flatness");
+    let told = errors(&grainform(&folder, &["compare", "a.csv", "b.csv"]));
+    assert_eq!(
+        told,
+        "warning: Only the first lot has figures of area and sphericity: they are not compared.\n\
+         warning: Only the other lot has figures of form.flatness: they are not compared.\n"
+    );
+    assert_eq!(
+        errors(&grainform(&folder, &["compare", "a.csv", "a.csv"])),
+        ""
+    );
+}
+
 /// Writes a lot of five grains whose convexities scatter by nothing but rounding.
 fn convex(folder: &tempfile::TempDir, name: &str, mean: f64) {
     let rows = (0..5).map(|grain| {
