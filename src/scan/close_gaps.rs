@@ -70,12 +70,9 @@ fn nearly_same(scan: &Scan, extent: f64) -> Vec<u32> {
         are_apart[first[from as usize] as usize] |= first[from as usize] == first[to as usize];
     }
     let own = (0..).zip(first);
-    own.map(|(own, first)| {
-        if are_apart[first as usize] {
-            own
-        } else {
-            first
-        }
+    own.map(|(own, first)| match are_apart[first as usize] {
+        true => own,
+        false => first,
     })
     .collect()
 }
