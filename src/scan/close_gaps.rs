@@ -204,21 +204,25 @@ mod tests {
         assert_eq!(scan, loose(&ball(), 0.01));
     }
 
-    /// A strip of ever narrower teeth: where they are as narrow as gaps, nothing is merged.
+    /// Between two corners of a narrow face there are corners of others, each near the next.
     #[test]
     fn no_face_loses_a_corner() {
-        let mut scan = Scan::default();
-        for tooth in 0..200_u32 {
-            let x = 0.9_f64.powi(tooth as i32);
-            let corners = [[x, 0.0, 0.0], [0.9 * x, 0.0, 0.0], [x, 1.0, 0.0]];
-            scan.points.extend(corners.map(Point3::from));
-            let first = 3 * tooth;
-            scan.triangles.push([first, first + 1, first + 2]);
-        }
-        close_gaps(&mut scan, 1.0);
-        assert!(scan.points.len() < 600);
-        for [a, b, c] in scan.triangles {
-            assert!(a != b && b != c && c != a);
-        }
+        let face = |tip: f64, z: f64| [[tip, 0.0, 0.0], [0.5, -1.0, z], [1.0, -0.5, z]];
+        let mut faces = vec![[[0.0, 0.0, 0.0], [1e-3, 0.0, 0.0], [0.0, 1.0, 0.0]]];
+        faces.extend((1..5).map(|at| face(2e-4 * f64::from(at), 0.1 * f64::from(at))));
+        let scan = Scan {
+            points: faces.as_flattened().iter().map(|&c| c.into()).collect(),
+            triangles: (0..5)
+                .map(|face| [0, 1, 2].map(|corner| 3 * face + corner))
+                .collect(),
+            ..Scan::default()
+        };
+        let mut merged = scan.clone();
+        close_gaps(&mut merged, 1.0);
+        assert_eq!(merged, scan);
+        // Without that face they are one.
+        merged.triangles.remove(0);
+        close_gaps(&mut merged, 1.0);
+        assert_eq!(merged.points.len(), scan.points.len() - 3);
     }
 }
