@@ -39,6 +39,7 @@ mod rod;
 mod samples;
 mod scatter;
 mod segments;
+mod slope;
 mod sound;
 mod sparse;
 mod standard_errors;

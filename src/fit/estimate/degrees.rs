@@ -8,6 +8,7 @@ use super::outliers::{ROUNDS, alone};
 use super::patches::Patches;
 use super::posterior::{Posterior, is_small};
 use super::spectrum_fit::{Count, SpectrumFit, fit_spectrum};
+use super::stopping::MOST_FACTORED_DEGREE;
 use super::tilt::most_likely;
 use crate::fit::context::{Cancelled, Context};
 use crate::sphere::coefficient_count;
@@ -45,6 +46,8 @@ pub(super) struct Degrees {
     /// Rounds of leaving out.
     rounds: usize,
     may_stand_alone: bool,
+    /// Whether the matrix is factored.
+    is_factored: bool,
     /// Whether `fit` is one of this degree to this cloud.
     is_fitted: bool,
     /// The degree below and its fit, which this one has to beat.
@@ -80,6 +83,7 @@ impl Degrees {
             fit.spectrum = fit.spectrum.tilted(tilt);
         }
         Self {
+            is_factored: is_small(cloud.len()),
             outliers: patches
                 .as_ref()
                 .map_or(outliers, |patches| patches.left_out),
@@ -109,11 +113,15 @@ impl Degrees {
     }
 
     fn fit(&mut self) {
-        let posterior = Posterior::new(&self.cloud, self.degree, is_small(self.cloud.len()));
+        let posterior = Posterior::new(&self.cloud, self.degree, self.is_factored);
         let mut coefficients = std::mem::take(&mut self.fit.coefficients);
         coefficients.resize(coefficient_count(self.degree), 0.0);
         let spectrum = self.fit.spectrum;
         self.fit = fit_spectrum(&posterior, spectrum, Some(coefficients), Count::Probed);
+        if self.fit.is_hard {
+            self.is_factored = true;
+            self.fit();
+        }
     }
 
     /// Leaves out points that stand alone, and goes back to the lower degree, which was fitted to all points. Whether there
@@ -182,9 +190,10 @@ impl Degrees {
             return None;
         }
         let most = MOST_PER_POINT * points as f64;
-        let mut higher = DEGREES
-            .into_iter()
-            .filter(|&next| next > self.degree && coefficient_count(next) as f64 <= most);
+        let is_cheap = |degree| !self.is_factored || degree <= MOST_FACTORED_DEGREE;
+        let mut higher = DEGREES.into_iter().filter(|&next| {
+            next > self.degree && coefficient_count(next) as f64 <= most && is_cheap(next)
+        });
         let highest = higher.clone().next_back()?;
         match self
             .fit
@@ -200,7 +209,12 @@ impl Degrees {
 mod tests {
     use super::super::trial::{estimated, fibonacci, samples};
     use super::*;
+    use crate::sphere::HarmonicBasis;
+    use crate::vectorize::dot;
     use nalgebra::Vector3;
+    use rand::SeedableRng;
+    use rand_chacha::ChaCha8Rng;
+    use rand_distr::{Distribution, StandardNormal};
 
     /// At degree 36, after 30, of which points are missed by so many times as much.
     fn above(times: f64) -> Degrees {
@@ -213,6 +227,7 @@ mod tests {
             cost: 0.0,
             sums: estimate.sums,
             factor: None,
+            is_hard: false,
         };
         let cloud = estimate.cloud;
         let mut lower = fit.clone();
@@ -228,6 +243,7 @@ mod tests {
             outliers: 0,
             rounds: 0,
             may_stand_alone: true,
+            is_factored: false,
             is_fitted: true,
             lower: Some((30, lower)),
             higher: None,
@@ -241,5 +257,40 @@ mod tests {
             assert!(!degrees.goes_on());
             assert_eq!(degrees.degree, kept, "{times}");
         }
+    }
+
+    /// One side is seen twenty times more densely than the other.
+    #[test]
+    fn an_uneven_cloud_is_factored_and_right_where_it_is_thin() {
+        let basis = HarmonicBasis::new(18);
+        let mut random = ChaCha8Rng::seed_from_u64(1);
+        let coefficients = (0..coefficient_count(18)).map(|at| {
+            let normal: f64 = StandardNormal.sample(&mut random);
+            0.1 * normal / (1.0 + at as f64 / 16.0)
+        });
+        let coefficients: Vec<f64> = coefficients.collect();
+        let radius = |n: &Vector3<f64>| {
+            let mut values = vec![0.0; coefficients.len()];
+            basis.evaluate(n, &mut values);
+            3.0 + dot(&values, &coefficients)
+        };
+        let even = fibonacci(8000);
+        let is_seen = |(i, n): &(usize, &Vector3<f64>)| n.z > 0.0 || i % 20 == 0;
+        let seen = even.iter().enumerate().filter(is_seen).map(|(_, n)| *n);
+        let seen: Vec<Vector3<f64>> = seen.collect();
+        let axes = Vector3::repeat(3.0);
+        let found = estimated(&samples(&seen, radius, 0.0), axes);
+        assert!(found.factor.is_some());
+        let below: Vec<Vector3<f64>> = even.iter().copied().filter(|n| n.z < -0.2).collect();
+        let fitted = found.stretched_radii(&below);
+        let posterior = found.posterior();
+        let variances = found.given(&posterior).directional_variances(&below);
+        let mean = found.cloud.mean;
+        let squares = below.iter().zip(&fitted).zip(&variances);
+        let squares = squares.map(|((n, r), v)| ((r - radius(n)) / mean).powi(2) / v);
+        let z = (squares.sum::<f64>() / below.len() as f64).sqrt();
+        assert!(z < 2.0, "{z}");
+        let alike = estimated(&samples(&fibonacci(4200), radius, 0.01), axes);
+        assert!(alike.factor.is_none());
     }
 }

@@ -17,11 +17,12 @@ pub(super) const ROUNDS: usize = 5;
 pub(super) const NEIGHBOURS: usize = 8;
 
 /// A point is an outlier when its residual differs from the median of its neighbours' by more than this many
-/// standard deviations of such differences, of all points and of the [`VICINITY`] nearest (told by their medians, so
-/// that outliers do not hide themselves) ...
+/// standard deviations of such differences, of all points, of the [`VICINITY`] nearest and of as many alike in spacing (told by
+/// their medians, so that outliers do not hide themselves) ...
 const DEVIATIONS: f64 = 8.0;
 
-/// Points near by that tell how rough the surface is there.
+/// Points near by that tell how rough the surface is there, and points with neighbours as far off, that tell how much what is
+/// not followed differs over such distances: where a cloud is thin, more than where it is dense.
 const VICINITY: usize = 32;
 
 /// ... and by more than this share of the mean radius ...
@@ -40,7 +41,8 @@ pub(super) fn alone(posterior: &Posterior<'_>, fit: &SpectrumFit) -> Vec<usize> 
 }
 
 /// Of the samples that an estimate has left out, one round after the other, the positions of those that are strays, ascending;
-/// `None` if all are. The others have [`COMPANY`] among their neighbours that were left out on the same side.
+/// `None` if all are. The others have [`COMPANY`] among their neighbours that were left out on the same side, or lie where the
+/// others do not tell better than that.
 pub(super) fn strays(samples: &[Sample], estimate: &Estimate) -> Option<Vec<usize>> {
     let cloud = &estimate.cloud;
     let mapped = Cloud::mapped(samples, cloud.stretch, 1.0);
@@ -48,19 +50,26 @@ pub(super) fn strays(samples: &[Sample], estimate: &Estimate) -> Option<Vec<usiz
     let mut kept = cloud.directions.iter().peekable();
     let is_left_out = |&at: &usize| kept.next_if_eq(&&directions[at]).is_none();
     let left_out: Vec<usize> = (0..samples.len()).filter(is_left_out).collect();
-    let at = left_out.iter().map(|&at| directions[at]);
-    let fitted = estimate.stretched_radii(&at.collect::<Vec<_>>());
-    let sides = left_out.iter().zip(fitted);
-    let sides: HashMap<usize, bool> = sides.map(|(&at, r)| (at, measured[at] > r)).collect();
+    let at: Vec<Vector3<f64>> = left_out.iter().map(|&at| directions[at]).collect();
+    let fitted = estimate.stretched_radii(&at);
+    let off = left_out.iter().zip(fitted);
+    let off: HashMap<usize, f64> = off.map(|(&at, r)| (at, measured[at] - r)).collect();
+    let posterior = estimate.posterior();
+    let variances = estimate.given(&posterior).directional_variances(&at);
+    let noise = estimate.spectrum.noise().powi(2);
+    let expected = variances.iter().map(|v| cloud.mean * (v + noise).sqrt());
     let neighbours = Neighbours::new(&directions);
-    let is_stray = |at: &usize| {
-        let near = neighbours.nearest(&directions[*at], NEIGHBOURS + 1);
-        let alike = near
-            .iter()
-            .filter(|other| sides.get(other) == sides.get(at));
-        alike.count() <= COMPANY
+    let keeps_company = |at: usize| {
+        let near = neighbours.nearest(&directions[at], NEIGHBOURS + 1);
+        let side = |at| off.get(at).map(|off| off.is_sign_positive());
+        let alike = near.iter().filter(|&other| side(other) == side(&at));
+        alike.count() > COMPANY
     };
-    let strays: Vec<usize> = left_out.iter().copied().filter(is_stray).collect();
+    let strays = left_out.iter().copied().zip(expected);
+    let strays: Vec<usize> = strays
+        .filter(|(at, expected)| off[at].abs() > DEVIATIONS * expected && !keeps_company(*at))
+        .map(|(at, _)| at)
+        .collect();
     (strays.len() < left_out.len()).then_some(strays)
 }
 
@@ -91,24 +100,49 @@ fn outliers(directions: &[Vector3<f64>], residuals: &[f64]) -> Vec<usize> {
         })
         .collect();
     let limit = (DEVIATIONS * robust_deviation(contrasts.iter().copied())).max(LEAST);
-    let stands_off: Vec<bool> = (0..contrasts.len())
+    let exceeds = |at: usize, others: &[usize]| {
+        let others = others.iter().map(|&other| contrasts[other]);
+        contrasts[at].abs() > DEVIATIONS * robust_deviation(others)
+    };
+    let mut stands_off: Vec<bool> = (0..contrasts.len())
         .map(|at| {
-            contrasts[at].abs() > limit && {
-                let near = neighbours.nearest(&directions[at], VICINITY);
-                let near = near.into_iter().map(|other| contrasts[other]);
-                contrasts[at].abs() > DEVIATIONS * robust_deviation(near)
-            }
+            contrasts[at].abs() > limit
+                && exceeds(at, &neighbours.nearest(&directions[at], VICINITY))
         })
         .collect();
+    if stands_off.contains(&true) {
+        let by_spacing = by_spacing(directions, &around);
+        for (rank, &at) in by_spacing.iter().enumerate() {
+            stands_off[at] = stands_off[at] && exceeds(at, alike(&by_spacing, rank));
+        }
+    }
     (0..residuals.len())
         .filter(|&at| stands_off[at])
         .filter(|&at| {
-            let alike = |&&other: &&usize| {
+            let keeps_company = |&&other: &&usize| {
                 stands_off[other] && contrasts[other].signum() == contrasts[at].signum()
             };
-            around[at].iter().filter(alike).count() < COMPANY
+            around[at].iter().filter(keeps_company).count() < COMPANY
         })
         .collect()
+}
+
+/// The points by the distance of the farthest of their neighbours, nearest first.
+fn by_spacing(directions: &[Vector3<f64>], around: &[Vec<usize>]) -> Vec<usize> {
+    let spacings = directions.iter().zip(around).map(|(n, near)| {
+        let distances = near.iter().map(|&other| (directions[other] - n).norm());
+        distances.fold(0.0, f64::max)
+    });
+    let mut order: Vec<(f64, usize)> = spacings.zip(0..).collect();
+    order.sort_by(|one, other| one.0.total_cmp(&other.0));
+    order.into_iter().map(|(_, at)| at).collect()
+}
+
+/// The [`VICINITY`] points in this order about one of them.
+fn alike(order: &[usize], rank: usize) -> &[usize] {
+    let last = order.len().saturating_sub(VICINITY);
+    let first = rank.saturating_sub(VICINITY / 2).min(last);
+    &order[first..order.len().min(first + VICINITY)]
 }
 
 #[cfg(test)]

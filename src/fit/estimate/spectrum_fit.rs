@@ -11,7 +11,7 @@ use super::newton::{Newton, Next, Place};
 use super::outcome::{learnt, variance};
 use super::posterior::{Conditioned, Posterior, Solved};
 use super::spectrum::{HIGHEST, PARAMETERS, Spectrum};
-use super::stopping::{ROUGHLY_SETTLED, SETTLED};
+use super::stopping::{HARD, MOST_FACTORED_DEGREE, ROUGHLY_SETTLED, SETTLED};
 use super::sums::Sums;
 use crate::fit::prepare::Sample;
 use crate::sphere::ScatteredHarmonics;
@@ -43,6 +43,8 @@ pub(crate) struct SpectrumFit {
     pub(crate) sums: Arc<Sums>,
     /// The factored matrix, where it is factored.
     pub(crate) factor: Option<Arc<Factor>>,
+    /// Whether conjugate gradients for the mean were [hard](HARD), and the matrix is better factored.
+    pub(crate) is_hard: bool,
 }
 
 /// A surface is small when it is so, as RMS, beside this share of the standard deviation of the estimate ...
@@ -126,7 +128,7 @@ impl Count {
     }
 }
 
-/// Finds the most likely spectrum from `start`.
+/// Finds the most likely spectrum from `start`; ends at once where conjugate gradients for the mean are [hard](HARD).
 pub(crate) fn fit_spectrum(
     posterior: &Posterior<'_>,
     start: Spectrum,
@@ -153,6 +155,9 @@ pub(crate) fn fit_spectrum(
             counted,
         );
         let is_first = newton.is_none();
+        if look.is_hard() && count == Count::Probed {
+            return look.fit();
+        }
         if let Some(smooth) = smooth.take_if(|smooth| is_first && look.is_worse(smooth, HOPELESS)) {
             return smooth.fit();
         }
@@ -210,6 +215,8 @@ struct Look<'a> {
     given: Conditioned<'a>,
     place: Place,
     mean: Vec<f64>,
+    /// Steps that it took.
+    steps: usize,
     told: Told,
 }
 
@@ -226,7 +233,7 @@ impl<'a> Look<'a> {
         if !posterior.is_factored() {
             posterior.make_gram();
         }
-        let ((mean, _), shares) = rayon::join(
+        let ((mean, steps), shares) = rayon::join(
             || given.mean(coefficients, count.settled()),
             || unlearnt_shares(&given, solved, count),
         );
@@ -250,8 +257,15 @@ impl<'a> Look<'a> {
             given,
             place,
             mean,
+            steps,
             told,
         }
+    }
+
+    fn is_hard(&self) -> bool {
+        let posterior = self.given.posterior;
+        let may_be_factored = posterior.degree() <= MOST_FACTORED_DEGREE;
+        self.steps > HARD && may_be_factored && !posterior.is_factored()
     }
 
     /// A spectrum with texture that is clearly likelier, where this one has none.
@@ -270,11 +284,13 @@ impl<'a> Look<'a> {
     }
 
     fn fit(self) -> SpectrumFit {
+        let is_hard = self.is_hard();
         let Self {
             given,
             place,
             mean,
             told,
+            ..
         } = self;
         let value = || told.evidence.value(&place.spectrum).0;
         SpectrumFit {
@@ -289,6 +305,7 @@ impl<'a> Look<'a> {
             },
             sums: Arc::clone(&given.posterior.sums),
             factor: given.factor,
+            is_hard,
         }
     }
 }

@@ -8,6 +8,13 @@ pub(crate) const SETTLED: f64 = 0.1;
 /// The same where the mean is only to be compared, or to be found again under a better spectrum.
 pub(super) const ROUGHLY_SETTLED: f64 = 2.0;
 
+/// Of points that lie alike everywhere a mean takes 8 to 30 steps. Where they are many times denser on one side, or in rows far
+/// apart, it takes 100 to 1000, and ends before the thin side is right: beyond so many the matrix is better factored, ...
+pub(super) const HARD: usize = 100;
+
+/// ... up to this degree: it takes 30 MB then, and half a second.
+pub(super) const MOST_FACTORED_DEGREE: usize = 60;
+
 /// Steps that are looked back on.
 const LOOK_BACK: usize = 8;
 

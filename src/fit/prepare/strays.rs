@@ -1,5 +1,6 @@
 //! Points that stand apart from their neighbours: outliers of the scan.
 
+use crate::fit::slope::on_slope;
 use crate::mesh::Mesh;
 use crate::spread::{lower_quartile, median, robust_deviation};
 use nalgebra::{Point3, Vector3};
@@ -18,7 +19,8 @@ const SCATTERS: f64 = 8.0;
 
 /// ... and by more than this many times the spread of the neighbours' own radii: where the surface
 /// runs steeply across the rays, neighbours differ by nature. So do they beside a rim, from which the surface falls off on both
-/// sides: there it counts how much it goes on falling beyond three neighbours of four.
+/// sides: there it counts how much it goes on falling beyond three neighbours of four. Nor is one a stray that lies as near the plane
+/// through its neighbours: where a cloud is denser on one side than on the other, most of them are on one side of it.
 const SPREADS: f64 = 3.0;
 
 /// Points of a rim that stand out one beside the other, at least.
@@ -68,12 +70,20 @@ pub(crate) fn find_strays(mesh: &Mesh, centre: &Point3<f64>) -> Strays {
         let least = LEAST_STRAY * c.distance;
         least.max(SCATTERS * scatter).max(SPREADS * c.spread)
     };
-    let cloud = Cloud {
+    let mut cloud = Cloud {
         stands_apart: comparisons.iter().map(|c| c.deviation > limit(c)).collect(),
+        rays,
         radii,
         neighbours,
         comparisons,
     };
+    let on_slopes: Vec<usize> = (0..cloud.radii.len())
+        .filter(|&own| cloud.stands_apart[own])
+        .filter(|&own| cloud.off_slope(own) <= limit(&cloud.comparisons[own]))
+        .collect();
+    for own in on_slopes {
+        cloud.stands_apart[own] = false;
+    }
     let all = 0..cloud.radii.len();
     Strays {
         indices: all
@@ -86,6 +96,7 @@ pub(crate) fn find_strays(mesh: &Mesh, centre: &Point3<f64>) -> Strays {
 
 /// What is known of the points.
 struct Cloud {
+    rays: Vec<Vector3<f64>>,
     radii: Vec<f64>,
     neighbours: Vec<Vec<usize>>,
     comparisons: Vec<Comparison>,
@@ -131,6 +142,17 @@ impl Cloud {
         let side = (self.radii[own] - self.radii[from]).signum();
         let falls = beyond.map(|to| side * (self.radii[from] - self.radii[to]));
         falls.fold(0.0, f64::max) / self.radii[from]
+    }
+
+    /// How far a point lies from the plane through its neighbours, along its ray, relative to that plane's distance.
+    fn off_slope(&self, own: usize) -> f64 {
+        let of = |at: usize| (self.rays[at] / self.radii[at], 1.0 / self.radii[at]);
+        let near: Vec<_> = self.near(own).map(of).collect();
+        let (n, _) = of(own);
+        match on_slope(&n, &near) {
+            Some(inverse) if inverse > 0.0 => (self.radii[own] * inverse - 1.0).abs(),
+            _ => f64::INFINITY,
+        }
     }
 
     /// Neighbours that do not stand apart.
@@ -197,5 +219,24 @@ mod tests {
                 "{sampling:?}"
             );
         }
+    }
+
+    /// A long body, seen twelve times more densely from above: there most neighbours of a point on its flank lie on one side of it.
+    #[test]
+    fn a_point_on_the_slope_of_its_neighbours_is_no_stray() {
+        let even = Sampling::Fibonacci.directions(2000, 0).unwrap();
+        let is_seen = |(i, n): &(usize, Vector3<f64>)| n.z > 0.6 || i % 12 == 0;
+        let seen = even.into_iter().enumerate().filter(is_seen);
+        let directions: Vec<Vector3<f64>> = seen.map(|(_, n)| n).collect();
+        let axes = Vector3::new(2.5, 1.0, 1.0);
+        let radius = |n: &Vector3<f64>| 1.0 / n.component_div(&axes).norm();
+        assert_eq!(strays(&directions, |_, n| radius(n)), [0; 0]);
+        let flank = Vector3::new(-0.87, 0.06, 0.5).normalize();
+        let angle = |&at: &usize| directions[at].angle(&flank);
+        let near = (0..directions.len()).min_by(|a, b| angle(a).total_cmp(&angle(b)));
+        let lifted = near.unwrap();
+        let lift = |i: usize| if i == lifted { 1.4 } else { 1.0 };
+        let found = strays(&directions, |i, n| radius(n) * lift(i));
+        assert_eq!(found, [lifted as u32]);
     }
 }

@@ -110,3 +110,44 @@ fn points_left_out_beside_each_other_are_no_strays() {
     all[tip[0]][3] = 2.4;
     assert_eq!(strays(&all, &of_rest(&all, &left_out)), None);
 }
+
+/// Directions of so many, but for most of those below a height.
+fn thinned(points: usize, height: f64, one_in: usize) -> Vec<Vector3<f64>> {
+    let all = fibonacci(points).into_iter().enumerate();
+    let kept = all.filter(|(i, n)| n.z > height || i % one_in == 0);
+    kept.map(|(_, n)| n).collect()
+}
+
+#[test]
+fn what_is_not_followed_is_no_outlier_where_points_are_thin() {
+    let directions = thinned(6000, 0.2, 80);
+    let wave = |n: &Vector3<f64>| 0.02 * (6.0 * n.x).sin() * (6.0 * n.y).cos();
+    let mut residuals: Vec<f64> = directions.iter().map(wave).collect();
+    assert_eq!(outliers(&directions, &residuals), [0; 0]);
+    for at in [1200, residuals.len() - 20] {
+        residuals[at] += 0.4;
+        assert_eq!(outliers(&directions, &residuals), [at]);
+        residuals[at] -= 0.4;
+    }
+}
+
+/// One side is seen two hundred times more densely than the other, where a bump between the points is no stray; the same bump on the
+/// dense side is one.
+#[test]
+fn a_point_where_the_others_tell_little_is_no_stray() {
+    let directions = thinned(8000, 0.0, 200);
+    let mut all = samples(&directions, |n| 3.0 + 0.2 * (6.0 * n.x + n.y).sin(), 0.003);
+    let at = |z: f64| {
+        let near = Neighbours::new(&directions).nearest(&Vector3::new(0.6, 0.0, z), 1);
+        near[0]
+    };
+    let [thin, dense] = [at(-0.8), at(0.8)];
+    for at in [thin, dense] {
+        all[at][3] += 0.15;
+    }
+    let mut left_out = [thin, dense];
+    left_out.sort_unstable();
+    let rest = without(&all, left_out);
+    let estimate = by_degrees(&rest, Vector3::repeat(3.0), false, &Context::default()).unwrap();
+    assert_eq!(strays(&all, &estimate), Some(vec![dense]));
+}
