@@ -33,7 +33,7 @@ impl PreparedScan<'_> {
         })?;
         fitted
             .warnings
-            .extend(sound::check(&fitted, options, self)?);
+            .extend(sound::check(&fitted, options, self.is_rod)?);
         if self.may_be_known {
             fitted = fitted.between_points();
         }

@@ -27,7 +27,6 @@ mod linear;
 mod local_cells;
 mod mirrored;
 mod neighbours;
-mod not_followed;
 mod options;
 mod outcome;
 mod position;

@@ -1,10 +1,8 @@
 //! Whether what was fitted is a body, and that of the points.
 
 use super::error::FitError;
-use super::not_followed::not_followed;
 use super::options::FitOptions;
 use super::outcome::Fitted;
-use super::prepare::PreparedScan;
 use super::warning::FitWarning;
 use crate::measure::grain_properties;
 use crate::model::{Grain, InvalidGrain};
@@ -21,6 +19,13 @@ const FAR_FROM_ESTIMATE: f64 = 0.06;
 /// A model that differs from the estimate by more than this share may differ as the points do, and these from the estimate by less
 /// than the squares tell.
 const COARSE: f64 = 0.02;
+
+/// How far a single point may be from the surface before it is told, as a share of the mean radius. Of kernels it is .2 at most, of
+/// grains with the pin that held them .3 to .8. ...
+const NOT_FOLLOWED: f64 = 0.25;
+
+/// ... Along rays that graze long and steep bodies noise takes points as far, up to 8 times the RMS residual; pins are 12 or more.
+const BEYOND_NOISE: f64 = 10.0;
 
 /// A surface holds at most so many times the volume of the polyhedron of its points, which is smaller: of 50 points by
 /// a seventh. ...
@@ -45,9 +50,8 @@ const CLEARLY_FINE: f64 = 1.2;
 pub(super) fn check(
     fitted: &Fitted,
     options: &FitOptions,
-    prepared: &PreparedScan<'_>,
+    is_rod: bool,
 ) -> Result<Vec<FitWarning>, FitError> {
-    let is_rod = prepared.is_rod;
     let is_asked_for = options.degree.is_some();
     let rms = fitted.residuals.rms;
     let (off, far) = match (fitted.search.choice().estimate_rms, &fitted.posterior) {
@@ -76,9 +80,12 @@ pub(super) fn check(
             return Err(FitError::FarBeyondPoints { times });
         }
     }
+    let largest = fitted.residuals.max;
     let mut warnings = Vec::new();
-    if !is_rod && !is_asked_for {
-        warnings.extend(not_followed(fitted, prepared.points()));
+    let sticks_out = largest > NOT_FOLLOWED * fitted.mean_radius && largest > BEYOND_NOISE * rms;
+    if !is_rod && !is_asked_for && sticks_out {
+        let share = largest / fitted.mean_radius;
+        warnings.push(FitWarning::NotFollowed { largest, share });
     }
     let Some(star) = fitted.grain.star() else {
         return Ok(warnings);
@@ -135,4 +142,33 @@ fn times_as_large(grain: &Grain, volume: f64) -> f64 {
     coarse
         .filter(|times| *times <= CLEARLY_FINE)
         .unwrap_or_else(|| grain_properties(grain).properties.volume / volume)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fit::fit;
+    use crate::fit::outcome::Residuals;
+    use crate::scan::Scan;
+    use crate::shapes::Sampling;
+
+    #[test]
+    fn a_point_that_is_far_from_the_surface_is_told_unless_it_is_on_a_rod() {
+        let directions = Sampling::Fibonacci.directions(500, 0).unwrap();
+        let points = directions.iter().map(|n| (2.0 * n).into()).collect();
+        let options = FitOptions::default();
+        let mut fitted = fit(&Scan::from_points(points), &options).unwrap();
+        let mut told = |largest: f64, rms: f64, is_rod: bool| {
+            fitted.residuals = Residuals { rms, max: largest };
+            check(&fitted, &options, is_rod).unwrap()
+        };
+        assert_eq!(told(0.4, 0.03, false), []);
+        let [FitWarning::NotFollowed { largest, share }] = told(0.6, 0.03, false)[..] else {
+            panic!("not told");
+        };
+        assert!(largest == 0.6 && (share - 0.3).abs() < 1e-9);
+        assert_eq!(told(0.6, 0.03, true), []);
+        // So far does noise take points that rays graze.
+        assert_eq!(told(0.6, 0.07, false), []);
+    }
 }

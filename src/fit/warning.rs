@@ -102,7 +102,7 @@ pub enum FitWarning {
     },
     /// Some point is far from the surface.
     NotFollowed {
-        /// Its distance, the largest of all, in the scan's unit.
+        /// Largest distance along a ray, in the scan's unit.
         largest: f64,
         /// The same as a share of the mean radius.
         share: f64,

@@ -186,7 +186,7 @@ impl FitWarning {
             ),
             Self::NotFollowed { largest, share } => write!(
                 f,
-                "A point is {}{} from the surface, {:.0} % of the mean radius. Look whether something sticks out of the grain, \
+                "Along its ray a point is {}{} from the surface, {:.0} % of the mean radius. Look whether something sticks out of the grain, \
                  such as a stalk or what held it, and take it out of the scan if it is not the grain's.",
                 short(largest),
                 labels.length(),
