@@ -186,8 +186,8 @@ impl FitWarning {
             ),
             Self::NotFollowed { largest, share } => write!(
                 f,
-                "Along its ray a point is {}{} from the surface, {:.0} % of the mean radius. Look whether something sticks out of the grain, \
-                 such as a stalk or what held it, and take it out of the scan if it is not the grain's.",
+                "Along its ray a point is {}{} from the surface, {:.0} % of the mean radius. Few points lie there where the grain is steep, or \
+                 something sticks out of it, such as a stalk or what held it: take that out of the scan if it is not the grain's.",
                 short(largest),
                 labels.length(),
                 100.0 * share

@@ -113,10 +113,8 @@ fn a_batch_that_is_stopped_tells_how_it_goes_on() {
 #[test]
 fn a_signal_leaves_no_line_on_the_terminal() {
     let folder = folder();
-    let words = ["synth", "bean", "--points", "300000", "--noise", "0.5%"];
-    succeed(&folder, &[&words[..], &["-o", "b.ply"]].concat());
     let grainform = assert_cmd::cargo::cargo_bin!("grainform").display();
-    let run = format!("timeout --foreground --signal TERM 1 {grainform} fit b.ply");
+    let run = format!("sleep 5 | timeout --foreground --signal TERM 2 {grainform} fit -");
     let output = Command::new("script")
         .args(["--quiet", "--return", "--command", &run, "/dev/null"])
         .current_dir(folder.path())

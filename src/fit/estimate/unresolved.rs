@@ -27,7 +27,8 @@
 
 use super::outcome::{Estimate, last_power};
 use crate::fit::neighbours::Neighbours;
-use crate::spread::covariance;
+use crate::sphere::CubeCell;
+use crate::spread::{covariance, median};
 use nalgebra::Vector3;
 use std::f64::consts::PI;
 
@@ -127,11 +128,24 @@ impl Estimate {
         last_power(&self.coefficients, self.degree) > small * small
     }
 
-    /// Whether the points leave open more than their noise.
+    /// Whether the points leave open more than their noise, and not only over a hole or where they are thin.
     fn is_sparse(&self) -> bool {
-        self.deviation() / self.cloud.mean > self.spectrum.noise().max(FLOOR_OF_DEVIATION)
+        let limit = self.spectrum.noise().max(FLOOR_OF_DEVIATION);
+        self.deviation() / self.cloud.mean > limit && self.usual_deviation() > limit
+    }
+
+    /// The standard deviation of the radius that is exceeded in half of the directions, in units of the mean radius.
+    fn usual_deviation(&self) -> f64 {
+        let cells = CubeCell::uniform(PLACES_PER_EDGE);
+        let places: Vec<Vector3<f64>> = cells.iter().map(CubeCell::middle).collect();
+        let posterior = self.posterior();
+        let mut variances = self.given(&posterior).directional_variances(&places);
+        median(&mut variances).unwrap_or(0.0).sqrt()
     }
 }
+
+/// Places along an edge of the cube where that is looked at.
+const PLACES_PER_EDGE: u16 = 4;
 
 /// What points may leave open of any body, in units of the mean radius.
 const FLOOR_OF_DEVIATION: f64 = 2e-5;
@@ -191,6 +205,22 @@ mod tests {
             let hides = estimate.hides_edges(estimate.is_rough());
             assert_eq!(hides, !is_told, "{points} {}", estimate.deviation());
         }
+    }
+
+    /// A hole leaves more open than noise, and says nothing of edges.
+    #[test]
+    fn a_smooth_body_with_a_hole_hides_no_edges() {
+        let axes = Vector3::new(1.3, 1.1, 1.0);
+        let radius = |n: &Vector3<f64>| {
+            n.component_div(&axes).norm().recip()
+                + 0.02 * (12.0 * n.x).cos() * (11.0 * n.y + 1.0).cos()
+        };
+        let all = fibonacci(6000).into_iter();
+        let seen: Vec<Vector3<f64>> = all.filter(|n| n.z > -0.6_f64.cos()).collect();
+        let estimate = estimated(&samples(&seen, radius, 0.0), axes);
+        let deviation = estimate.deviation() / estimate.cloud.mean;
+        assert!(deviation > 2.0 * FLOOR_OF_DEVIATION, "{deviation}");
+        assert!(!estimate.hides_edges(estimate.is_rough()));
     }
 
     #[test]

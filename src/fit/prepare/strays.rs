@@ -19,9 +19,13 @@ const SCATTERS: f64 = 8.0;
 
 /// ... and by more than this many times the spread of the neighbours' own radii: where the surface
 /// runs steeply across the rays, neighbours differ by nature. So do they beside a rim, from which the surface falls off on both
-/// sides: there it counts how much it goes on falling beyond three neighbours of four. Nor is one a stray that lies as near the plane
-/// through its neighbours: where a cloud is denser on one side than on the other, most of them are on one side of it.
+/// sides: there it counts how much it goes on falling beyond three neighbours of four.
 const SPREADS: f64 = 3.0;
+
+/// Nor is one of few that stand apart a stray if it lies as near the plane through its neighbours: where a cloud is denser on one
+/// side than on the other, most of them are on one side of it. More of them than this share may be of another surface, as of a
+/// table, which is a plane of its own.
+const FEW: f64 = 0.01;
 
 /// Points of a rim that stand out one beside the other, at least.
 const ROW: usize = 6;
@@ -77,14 +81,14 @@ pub(crate) fn find_strays(mesh: &Mesh, centre: &Point3<f64>) -> Strays {
         neighbours,
         comparisons,
     };
-    let on_slopes: Vec<usize> = (0..cloud.radii.len())
-        .filter(|&own| cloud.stands_apart[own])
-        .filter(|&own| cloud.off_slope(own) <= limit(&cloud.comparisons[own]))
-        .collect();
-    for own in on_slopes {
-        cloud.stands_apart[own] = false;
-    }
     let all = 0..cloud.radii.len();
+    let apart: Vec<usize> = all.clone().filter(|&own| cloud.stands_apart[own]).collect();
+    if apart.len() as f64 <= FEW * all.len() as f64 {
+        let is_on_slope = |&own: &usize| cloud.off_slope(own) <= limit(&cloud.comparisons[own]);
+        for own in apart.into_iter().filter(is_on_slope).collect::<Vec<_>>() {
+            cloud.stands_apart[own] = false;
+        }
+    }
     Strays {
         indices: all
             .filter(|&own| cloud.stands_apart[own] && !cloud.is_of_rim(own))
