@@ -94,7 +94,7 @@ fn points_of_two_bodies_that_touch_are_refused() {
     let scan = Scan::from_points(large.chain(small).collect());
     match fit(&scan, &FitOptions::default()) {
         Err(FitError::NoKind { radius, .. }) => {
-            assert!(matches!(*radius, FitError::SecondSurface { share } if share > 0.1));
+            assert!(matches!(*radius, FitError::SecondSurface { share } if share > 0.09));
         }
         other => panic!("{:?}", other.map(|_| ())),
     }

@@ -31,6 +31,10 @@ const LEAST: f64 = 0.01;
 /// ... unless so many neighbours stand off on the same side: that is an edge.
 pub(super) const COMPANY: usize = 2;
 
+/// A stray is off the estimate that was made without it by more than this many standard deviations of what that tells of a point
+/// there.
+const UNEXPECTED: f64 = 5.0;
+
 /// Positions of the points of a cloud that stand alone, ascending.
 pub(super) fn alone(posterior: &Posterior<'_>, fit: &SpectrumFit) -> Vec<usize> {
     // Errors of predictions from all other points, were the points spread evenly.
@@ -41,8 +45,8 @@ pub(super) fn alone(posterior: &Posterior<'_>, fit: &SpectrumFit) -> Vec<usize> 
 }
 
 /// Of the samples that an estimate has left out, one round after the other, the positions of those that are strays, ascending;
-/// `None` if all are. The others have [`COMPANY`] among their neighbours that were left out on the same side, or lie where the
-/// others do not tell better than that.
+/// `None` if all are. The others have [`COMPANY`] among their neighbours that were left out on the same side, or are not
+/// [unexpected](UNEXPECTED), as where points are thin.
 pub(super) fn strays(samples: &[Sample], estimate: &Estimate) -> Option<Vec<usize>> {
     let cloud = &estimate.cloud;
     let mapped = Cloud::mapped(samples, cloud.stretch, 1.0);
@@ -67,7 +71,7 @@ pub(super) fn strays(samples: &[Sample], estimate: &Estimate) -> Option<Vec<usiz
     };
     let strays = left_out.iter().copied().zip(expected);
     let strays: Vec<usize> = strays
-        .filter(|(at, expected)| off[at].abs() > DEVIATIONS * expected && !keeps_company(*at))
+        .filter(|(at, expected)| off[at].abs() > UNEXPECTED * expected && !keeps_company(*at))
         .map(|(at, _)| at)
         .collect();
     (strays.len() < left_out.len()).then_some(strays)
