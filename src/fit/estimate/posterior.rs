@@ -2,8 +2,8 @@
 //!
 //! With Y the harmonics in the points' directions, W the weights and V the variances of the spectrum, the
 //! coefficients given the radii y are normal with the covariance C = (Y'WY / s^2 + V^-1)^-1 and the mean
-//! C Y'W y / s^2. Either C^-1 is formed and factored, or systems are solved by conjugate gradients,
-//! preconditioned by the matrix of an even cloud.
+//! C Y'W y / s^2. Either C^-1 is formed and factored, of few points and where conjugate gradients turn out to be
+//! [hard](super::stopping::HARD), or systems are solved by these, preconditioned by the matrix of an even cloud.
 
 use super::cloud::Cloud;
 use super::dense::Factor;
