@@ -11,6 +11,10 @@ const REACH: f64 = 6.0;
 /// ... and below this.
 pub(super) const HIGHEST: usize = 96;
 
+/// Standard deviation of heights, in units of the mean radius, before a point is seen: that of beaks. Without it points far down the
+/// sides of a bump, as about a hole, would tell heights of any size.
+pub(super) const EXPECTED: f64 = 0.1;
+
 /// Legendre polynomials at the pole: of the circle that is a point.
 pub(super) const AT_POLE: [f64; HIGHEST] = [1.0; HIGHEST];
 

@@ -9,7 +9,7 @@
 //! 10 times as wide as thick, and on ones of unequal halves, of 1500 and 6000 points with noise of .1 to 2 % of the mean
 //! radius: their areas were 2 to 14 standard errors too small, and with four times this as an allowance .5 to 2.8.
 
-use super::bump::{HIGHEST, LegendreBump, falls};
+use super::bump::{EXPECTED, HIGHEST, LegendreBump, falls};
 use super::cloud::Cloud;
 use super::functionals::RingSurface;
 use super::outcome::Estimate;
@@ -26,10 +26,6 @@ const BANDS: usize = 180;
 
 /// Bands from one circle to the next.
 const STEP: usize = 5;
-
-/// Standard deviation of the height, in units of the mean radius, before a point is seen: over a hole points far down the sides of
-/// a narrow rim would tell heights of any size.
-const EXPECTED: f64 = 0.1;
 
 /// How much likelier the points are with a rim, as twice the logarithm: four standard deviations of its height.
 const CLEAR: f64 = 16.0;

@@ -22,7 +22,7 @@
 
 mod sums;
 
-use super::bump::{AT_POLE, LegendreBump, cusp_falls, falls};
+use super::bump::{AT_POLE, EXPECTED, LegendreBump, cusp_falls, falls};
 use super::outcome::Estimate;
 use super::posterior::Posterior;
 use nalgebra::Vector3;
@@ -39,9 +39,6 @@ const NOTABLE: f64 = 3.0;
 
 /// ... and the share of the largest that a likely one has.
 const LIKELY: f64 = 0.5;
-
-/// Standard deviation of heights, in units of the mean radius, before a point is seen: that of beaks.
-const EXPECTED: f64 = 0.1;
 
 /// What is missing at an end.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]

@@ -188,6 +188,7 @@ fn compare(around: &mut [f64], radius: f64) -> Comparison {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::fit::neighbours::Neighbours;
     use crate::shapes::Sampling;
     use crate::sphere::triangulate_directions;
 
@@ -236,9 +237,7 @@ mod tests {
         let radius = |n: &Vector3<f64>| 1.0 / n.component_div(&axes).norm();
         assert_eq!(strays(&directions, |_, n| radius(n)), [0; 0]);
         let flank = Vector3::new(-0.87, 0.06, 0.5).normalize();
-        let angle = |&at: &usize| directions[at].angle(&flank);
-        let near = (0..directions.len()).min_by(|a, b| angle(a).total_cmp(&angle(b)));
-        let lifted = near.unwrap();
+        let lifted = Neighbours::new(&directions).nearest(&flank, 1)[0];
         let lift = |i: usize| if i == lifted { 1.4 } else { 1.0 };
         let found = strays(&directions, |i, n| radius(n) * lift(i));
         assert_eq!(found, [lifted as u32]);
