@@ -163,7 +163,7 @@ pub(super) fn estimated(
         deviation: estimate.deviation(),
         noise: estimate.noise(),
         slope: estimate.spectrum.slope(),
-        outliers: outliers + one_sided,
+        outliers: prepared.strays() + outliers + one_sided,
         largest_difference,
     });
     if estimate.hides_edges(estimate.is_rough()) {

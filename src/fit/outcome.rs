@@ -106,7 +106,8 @@ pub struct EstimateSummary {
     pub noise: f64,
     /// Exponent of the power law by which the variance of its harmonics falls with their degree, without that of texture.
     pub slope: f64,
-    /// Points that stand alone and were left out.
+    /// Points that were left out: those that stand apart from their neighbours, those that stand alone, and dust or glare on one
+    /// side.
     pub outliers: usize,
     /// Largest difference of the model's radius from the estimate. `None` where the model is its expansion.
     pub largest_difference: Option<f64>,

@@ -261,6 +261,10 @@ fn gross_outliers_are_left_out_and_counted() {
     let fitted = fit(&scan, &FitOptions::default()).expect("a grain");
     let left_out: usize = fitted.warnings.iter().map(left_out).sum();
     assert_eq!(left_out, moved, "{:?}", fitted.warnings);
+    assert_eq!(
+        fitted.estimate.map(|estimate| estimate.outliers),
+        Some(moved)
+    );
     let found = grain_properties(&fitted.grain).properties;
     assert!((found.volume / synthetic.truth.properties.volume - 1.0).abs() < 0.001);
 }

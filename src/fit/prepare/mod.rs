@@ -182,6 +182,15 @@ impl<'a> PreparedScan<'a> {
         &self.points
     }
 
+    /// Points of the scan that stand apart from their neighbours and are not fitted.
+    pub(crate) fn strays(&self) -> usize {
+        let of = |warning: &FitWarning| match warning {
+            FitWarning::Strays { strays, .. } => *strays,
+            _ => 0,
+        };
+        self.warnings.iter().map(of).sum()
+    }
+
     /// Distinct samples of the radius in the grain's own frame, sorted by place.
     pub(crate) fn sorted_samples(&self) -> Samples {
         Samples::by_place(&self.points, &self.frame)
