@@ -23,6 +23,7 @@ pub struct PlacedReport {
     /// The second body.
     pub second: String,
     /// Unit of the scans' lengths, if it was told.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub unit: Option<Unit>,
     /// Where they touch; nothing if they are apart.
     pub touches: Vec<PlacedTouch>,

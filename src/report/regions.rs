@@ -30,6 +30,7 @@ pub struct RegionsReport {
     /// The second body.
     pub second: String,
     /// Unit of the scans' lengths, if it was told.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub unit: Option<Unit>,
     /// Where they overlap; nothing if they are apart.
     pub regions: Vec<RegionRecord>,

@@ -20,6 +20,7 @@ pub struct SuperquadricReport {
     /// The scan.
     pub input: String,
     /// Unit of the scan's lengths, if it was told.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub unit: Option<Unit>,
     /// Points of the scan that were fitted.
     pub points: usize,
@@ -33,11 +34,11 @@ pub struct SuperquadricReport {
     pub mean_radius: f64,
     /// Area, of the union if there are several; `null`, as the next three, where it is in `not_measured`.
     pub area: Option<f64>,
-    /// Its error by quadrature, as a share of it.
+    /// Its error by quadrature, as a share of it; the harmonics' `area_error` is another, beside the reference.
     pub area_error: Option<f64>,
     /// Volume.
     pub volume: Option<f64>,
-    /// Its error, as a share of it; zero of a single one, whose volume is a closed form.
+    /// Its error by quadrature, likewise; zero of a single one, whose volume is a closed form.
     pub volume_error: Option<f64>,
     /// Standard error of the area, of one superquadric: of how well the points tell the nearest one, and not of how well it
     /// suits the grain. `null` where its numbers are not determined, and of unions.

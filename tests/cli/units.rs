@@ -14,6 +14,7 @@ fn a_unit_labels_lengths_areas_and_volumes_and_is_in_the_json() {
     );
     let fit = [&["fit", &bean], &QUICK[..]].concat();
     let search = [&["search", &bean], &QUICK[..]].concat();
+    let quadric = ["fit", &bean, "--surface", "superquadric"];
     let measure = ["measure", "m.json"];
     for (words, labelled) in [
         (
@@ -21,6 +22,7 @@ fn a_unit_labels_lengths_areas_and_volumes_and_is_in_the_json() {
             &[" mm², ", " mm³\n", "mm (", "mean radius   4.", "are in mm."][..],
         ),
         (&search, &["RMS, mm", " mm ("]),
+        (&quadric, &[" mm², ", " mm³", "are in mm."]),
         (
             &measure,
             &[

@@ -71,9 +71,9 @@ pub struct FitReport {
     pub coefficients_touched: f64,
     /// What the fit is compared with; `null` where much of the surface was not seen.
     pub reference: Option<ReferenceRecord>,
-    /// Area of the surface against the reference, which is itself off; told also where `area` is not.
+    /// Area of the surface over that of the reference, which is itself off, less one; told also where `area` is not.
     pub area_error: Option<f64>,
-    /// Volume against the reference, likewise.
+    /// The same of the volume.
     pub volume_error: Option<f64>,
     /// Root mean square of the residuals of all points: along rays, of positions along normals.
     pub rms: f64,

@@ -16,7 +16,7 @@ pub struct Measures {
     /// Area.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub area: Option<f64>,
-    /// Its error by quadrature, as a share of it; absent unless the body is a union of superquadrics.
+    /// Its error by quadrature, as a share of it; absent unless the body is of superquadrics, one or several.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub area_error: Option<f64>,
     /// Volume.
