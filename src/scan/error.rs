@@ -51,7 +51,7 @@ pub enum ReadError {
     },
     /// The file is a fitted model.
     #[error(
-        "{} is no scan: it starts as a model does, which measure, mesh, report and contact read",
+        "{} is no scan: it starts as a model does, which measure, mesh, report, contact, clump, export-dem and bed read",
         path.display()
     )]
     Model {
