@@ -82,6 +82,7 @@ pub(super) fn run(args: ReportArgs, console: Console) -> Result<()> {
 fn of_grains(args: &ReportArgs) -> Option<&'static str> {
     let options = [
         (args.unit.is_some(), "--unit"),
+        (args.extrapolate, "--extrapolate"),
         (args.input.label.is_some(), "--label"),
         (args.input.format.is_some(), "--format"),
     ];
@@ -149,7 +150,10 @@ impl<'a> Input<'a> {
             "no page shows it; measure it, or write its mesh",
         )?;
         let survey = Survey::of_grain(&grain, Scheme::Exact);
-        let (told, warnings) = measured(&survey, &grain, args);
+        let (told, missing) = measured(&survey, &grain, args);
+        let guess = grain.unseen().filter(|_| args.extrapolate);
+        let guess = guess.map(|unseen| format!("Of {name}, {unseen}."));
+        let warnings = guess.into_iter().chain(missing).collect();
         let measures = MeasureRow::of(&told.measures, told.standard_errors.as_ref(), args.unit);
         draw(args, &name, &grain, None)?;
         let mut facts = vec![("model", plural(grain.coefficient_count(), "coefficient"))];
@@ -175,7 +179,7 @@ impl<'a> Input<'a> {
         } = self;
         let scan = inputs::parse_scan(path, &bytes, &args.input, args.unit)?;
         let (scan, left_out) = whole_or_largest(scan, args.largest);
-        let options = FitOptions::default();
+        let options = FitOptions::default().with_extrapolate(args.extrapolate);
         let failed = || format!("cannot fit {name}");
         let fitted = fit_scan(&scan, &options, &FitContext::default()).with_context(failed);
         let mut fitted = inputs::explained(fitted, &scan)?;
@@ -215,7 +219,7 @@ impl<'a> Input<'a> {
 
 /// All measures of a grain, and those that cannot be had or are withheld, as sentences.
 fn measured(survey: &Survey, grain: &Grain, args: &ReportArgs) -> (MeasureReport, Vec<String>) {
-    let withheld = Withheld::of(grain, false);
+    let withheld = Withheld::of(grain, args.extrapolate);
     let report = MeasureReport::of_model(String::new(), survey, &Measure::ALL, &withheld);
     let report = report.in_unit(args.unit);
     let missing = by_reason(&report.not_measured).into_iter();

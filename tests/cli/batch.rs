@@ -264,7 +264,7 @@ fn what_is_withheld_of_some_grains_is_told_of_their_means() {
     // The advice can be followed.
     let reason = &rows(&folder.path().join("r/results.csv"))[0]["not_measured"];
     assert!(
-        reason.ends_with("take the guess (fit and measure --extrapolate)"),
+        reason.ends_with("take the guess (fit, measure and report --extrapolate)"),
         "{reason}"
     );
     let guess = ["fit", "lot/band.xyz", "--extrapolate"];

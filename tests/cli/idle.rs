@@ -179,6 +179,7 @@ fn results_are_reported_as_they_are() {
         "--search",
         "--bench",
         "--largest",
+        "--extrapolate",
         "--unit mm",
         "--label 1",
         "--format ply",

@@ -1,5 +1,6 @@
 //! What a model's file says is not to be relied on is not told of it, or told of with what is made of it.
 
+use super::report::record;
 use super::{errors, folder, grainform, json, succeed};
 use grainform::Mesh;
 use grainform::nalgebra::Point3;
@@ -30,6 +31,37 @@ fn nothing_is_measured_of_a_model_beside_a_hole_unless_as_a_guess() {
     assert!(reason.contains("40 degrees"), "{reason}");
     let report = json(&folder, &["measure", "m.json", "--extrapolate"]);
     assert!((report["area"].as_f64().unwrap() / (16.0 * PI) - 1.0).abs() < 1e-12);
+}
+
+#[test]
+fn a_page_tells_guesses_where_they_are_asked_for_and_says_so() {
+    let folder = folder();
+    save(&folder, "unseen", &json!({"hole": {"half_angle": 0.7}}));
+    let synth = "synth ellipsoid --points 800 --missing-cap 50 -o s.ply";
+    succeed(&folder, &synth.split(' ').collect::<Vec<_>>());
+    for (input, doubt) in [
+        ("m.json", "no point lies in holes as large as a cap of 40"),
+        ("s.ply", "No point lies within 51 degrees"),
+    ] {
+        for (words, names) in [
+            (&[][..], &[][..]),
+            (&["--extrapolate"], &["area", "volume"]),
+        ] {
+            let report = ["report", input, "-o", "page.html"];
+            succeed(&folder, &[&report, words].concat());
+            let page = std::fs::read_to_string(folder.path().join("page.html")).unwrap();
+            let shown = &record(&page)["page"]["grains"][0];
+            let rows = shown["measures"].as_array().unwrap();
+            let told = rows.iter().map(|row| row["name"].as_str().unwrap());
+            let told: Vec<&str> = told
+                .filter(|name| ["area", "volume"].contains(name))
+                .collect();
+            assert_eq!(told, names, "{input}");
+            let warnings = shown["warnings"].to_string();
+            assert!(warnings.contains(doubt), "{warnings}");
+            assert_eq!(warnings.contains("Not measured: area"), names.is_empty());
+        }
+    }
 }
 
 #[test]

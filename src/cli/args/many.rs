@@ -153,6 +153,10 @@ pub(in crate::cli) struct ReportArgs {
     #[arg(long, help_heading = SEARCH)]
     pub(in crate::cli) largest: bool,
 
+    /// Tell measures also where much of the surface was not seen, as guesses with the errors of guesses
+    #[arg(long, help_heading = OUTPUT)]
+    pub(in crate::cli) extrapolate: bool,
+
     /// Unit of the scans' lengths, told beside them: um, mm, cm or m
     #[arg(long, value_name = "UNIT", help_heading = OUTPUT)]
     pub(in crate::cli) unit: Option<Unit>,

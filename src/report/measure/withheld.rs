@@ -73,7 +73,7 @@ impl Withheld {
     pub(in crate::report) fn reason(&self, measure: Measure) -> Option<String> {
         if let Some(unseen) = self.unseen {
             return Some(format!(
-                "{unseen}; scan what is missing, or take the guess (fit and measure --extrapolate)"
+                "{unseen}; scan what is missing, or take the guess (fit, measure and report --extrapolate)"
             ));
         }
         if let Some(crossing) = self.crossing.filter(|_| is_made_of_area(measure)) {
