@@ -55,8 +55,25 @@ fn of_grain(grain: Grain, name: &str) -> Result<Solid> {
         properties,
         volume_error: grain.standard_errors().ok().map(|errors| errors.volume),
         mesh: grain.mesh(RESOLUTION),
-        warnings: Withheld::of(&grain, false).sentences(name),
+        warnings: doubts(&grain, name),
         grain: Some(grain),
+    })
+}
+
+/// What is not to be relied on of a model, nor of what is made of all of it: whole sentences.
+pub(super) fn doubts(grain: &Grain, name: &str) -> Vec<String> {
+    let mut doubts = Withheld::of(grain, false).sentences(name);
+    doubts.extend(guess(grain, name));
+    doubts
+}
+
+/// That figures are guesses which are withheld elsewhere: what is made of all of a grain needs them.
+fn guess(grain: &Grain, name: &str) -> Option<String> {
+    grain.unseen().map(|_| {
+        format!(
+            "A part of the surface of {name} is a guess, and so are volume, mass, centre and inertia: scan what is missing where \
+             these count."
+        )
     })
 }
 
@@ -80,9 +97,12 @@ fn of_faces(scanned: ScannedBody, scan: &Scan, name: &str) -> Result<Solid> {
 /// The grain that is fitted to points: the polyhedron through them is too small.
 fn of_points(scan: &Scan, name: &str, unit: Option<Unit>) -> Result<Solid> {
     let fitted = fit(scan, &FitOptions::default()).with_context(|| format!("cannot fit {name}"))?;
+    let grain = fitted.grain_with_errors();
+    let mut warnings = sentences(&scan.warnings, &fitted.warnings, unit);
+    warnings.extend(guess(&grain, name));
     Ok(Solid {
-        warnings: sentences(&scan.warnings, &fitted.warnings, unit),
-        ..of_grain(fitted.grain_with_errors(), name)?
+        warnings,
+        ..of_grain(grain, name)?
     })
 }
 

@@ -120,7 +120,35 @@ fn whatever_is_made_of_such_a_model_is_told_so() {
 }
 
 #[test]
-fn touches_of_superquadrics_that_were_half_seen_are_told_as_such() {
+fn bodies_that_are_made_of_a_guess_are_told_to_be_guesses() {
+    let folder = folder();
+    save(&folder, "unseen", &json!({"hole": {"half_angle": 0.7}}));
+    let synth = "synth ellipsoid --points 800 --missing-cap 50 -o s.ply";
+    succeed(&folder, &synth.split(' ').collect::<Vec<_>>());
+    for input in ["m.json", "s.ply"] {
+        let told = format!("A part of the surface of {input} is a guess, and so are volume, mass");
+        let clump = ["clump", input, "--spheres", "2"];
+        let warned = errors(&grainform(&folder, &clump));
+        assert!(warned.contains(&told), "{warned}");
+        let warned = json(&folder, &clump)["warnings"].to_string();
+        assert!(warned.contains(&told), "{warned}");
+        let dem = format!("export-dem {input} --engine lammps --unit mm --spheres 2 -o dem");
+        succeed(&folder, &dem.split(' ').collect::<Vec<_>>());
+        let readme = std::fs::read_to_string(folder.path().join("dem/README")).unwrap();
+        assert!(readme.contains(&told), "{readme}");
+        let bed = format!(
+            "bed {input} --spheres 2 --grains 2 --box 20,20 --unit mm --seconds 1e-4 -o {input}.bed"
+        );
+        let warned = json(&folder, &bed.split(' ').collect::<Vec<_>>())["warnings"].to_string();
+        assert!(warned.contains(&told), "{warned}");
+    }
+    save(&folder, "contradicted", &json!({"volume": -0.2}));
+    let warned = errors(&grainform(&folder, &["clump", "m.json", "--spheres", "2"]));
+    assert!(!warned.contains("is a guess"), "{warned}");
+}
+
+#[test]
+fn superquadrics_that_were_half_seen_are_told_as_such() {
     let folder = folder();
     save(&folder, "unseen", &json!({"hole": {"half_angle": 0.7}}));
     let path = folder.path().join("m.json");
@@ -139,6 +167,9 @@ fn touches_of_superquadrics_that_were_half_seen_are_told_as_such() {
     let warned = errors(&output);
     assert!(output.status.success(), "{warned}");
     assert!(warned.contains("Of m.json, ") && warned.contains("a cap of 40 degrees"));
+    let bed = "bed m.json --grains 2 --box 20,20 --unit mm --seconds 1e-4 -o bed";
+    let warned = json(&folder, &bed.split(' ').collect::<Vec<_>>())["warnings"].to_string();
+    assert!(warned.contains("A part of the surface of m.json is a guess"));
 }
 
 #[test]

@@ -18,7 +18,7 @@ pub(super) struct Cast {
     pub(super) names: Vec<String>,
     pub(super) kinds: Vec<GrainKind>,
     pub(super) shares: Vec<f64>,
-    /// What is lost by clumps, and the unit of sizes.
+    /// What is lost by clumps, what of a grain is not to be relied on, and the unit of sizes.
     pub(super) warnings: Vec<String>,
 }
 
@@ -82,6 +82,7 @@ impl Cast {
                      first"
                 )
             })?;
+            self.warnings.extend(solid::doubts(&model, &name));
             return GrainKind::new(convex.body(), metres, args.density).with_context(failed);
         };
         let solid = solid::read(path, &args.input, Some(args.unit))?;
