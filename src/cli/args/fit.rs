@@ -33,7 +33,8 @@ pub(in crate::cli) struct FitArgs {
     #[arg(short, long, value_name = "MODEL.json", help_heading = OUTPUT)]
     pub(in crate::cli) output: Option<PathBuf>,
 
-    /// Write a closed mesh of the fitted surface here: .stl, .ply, .obj, .vtp or .glb (- for standard output, as PLY)
+    /// Write a closed mesh of the fitted surface here: .stl, .ply, .obj, .vtp or .glb (- for standard output, as PLY).
+    /// It holds places and faces alone; PLY, VTP and GLB that `mesh` writes of the model hold normals and curvatures too
     #[arg(long, value_name = "OUT", help_heading = OUTPUT)]
     pub(in crate::cli) mesh: Option<PathBuf>,
 

@@ -109,7 +109,7 @@ pub(in crate::cli) struct FittingArgs {
 #[derive(Args)]
 pub(in crate::cli) struct MeshingArgs {
     /// Cells N along each edge of a cube of directions: 6 N^2 + 2 vertices, 12 N^2 triangles; at most 2886, or
-    /// 1348 with what is known at each vertex, which takes 4 GB of memory
+    /// 1348 of VTP, of GLB and of the PLY that `mesh` writes, which takes 4 GB of memory
     #[arg(long, value_name = "N", default_value_t = DEFAULT_RESOLUTION, help_heading = OUTPUT,
           value_parser = resolution)]
     pub(in crate::cli) resolution: u16,
