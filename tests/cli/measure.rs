@@ -298,13 +298,20 @@ fn what_points_do_not_tell_is_withheld() {
         &folder,
         &["measure", "s.ply", "--only", "volume", "--extrapolate"],
     );
-    assert!(guess["volume"].is_number());
+    assert!(guess["volume"].is_number() && guess["standard_errors"].is_null());
+    let why = guess["no_standard_errors"].as_str().unwrap();
+    assert!(
+        why.contains("facets over what was not seen are a guess"),
+        "{why}"
+    );
     let rough = told("--noise 0.03");
     assert!(
         rough["area"].is_null() && rough["sphericity"].is_null() && rough["volume"].is_number()
     );
     let fine = told("--noise 0.001");
     assert!(fine["area"].is_number());
+    let why = fine["no_standard_errors"].as_str().unwrap();
+    assert!(why.contains("those of the polyhedron itself"), "{why}");
 }
 
 #[test]

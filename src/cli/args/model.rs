@@ -53,7 +53,8 @@ pub(in crate::cli) struct MeasureArgs {
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     pub(in crate::cli) only: Vec<Measure>,
 
-    /// Measure a model also where its scan did not see much of the surface: the measures are guesses then
+    /// Measure also where much of the surface was not seen: the measures are guesses then, of a model with the errors that
+    /// its file keeps, of points without any
     #[arg(long)]
     pub(in crate::cli) extrapolate: bool,
 

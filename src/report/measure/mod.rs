@@ -81,6 +81,10 @@ pub struct MeasureReport {
     pub warnings: Vec<String>,
 }
 
+/// Why what is measured of points with a large hole has no standard errors.
+const OF_GUESS: &str = "the figures are those of the polyhedron, whose facets over what was not seen are a guess; fit the scan, and \
+     measure the model, both with --extrapolate";
+
 /// A measure that cannot be had.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
@@ -132,14 +136,20 @@ impl MeasureReport {
         warnings: Vec<String>,
     ) -> Self {
         let withheld = Withheld::of_points(surface, roughness, is_guess_told);
-        Self::without(
+        let report = Self::without(
             &withheld,
             input,
             surface.kind.into(),
             survey,
             only,
             warnings,
-        )
+        );
+        let is_guess = is_guess_told && surface.unseen.is_some() && !surface.is_sparse;
+        let why = |why| if is_guess { OF_GUESS.into() } else { why };
+        Self {
+            no_standard_errors: report.no_standard_errors.map(why),
+            ..report
+        }
     }
 
     /// The same of a model, without what is withheld of it, which is not computed either.
