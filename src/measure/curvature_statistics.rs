@@ -1,6 +1,6 @@
 //! Curvature over a whole surface.
 
-use super::nodes::curved_nodes;
+use super::nodes::{curved_nodes, on_planes};
 use super::peaks::{Peak, highest};
 use crate::model::Surface;
 use nalgebra::Vector3;
@@ -10,6 +10,9 @@ use std::f64::consts::PI;
 
 /// Curvature of a flat side by rounding, in one over the root of the area.
 const ROUNDING: f64 = 1e-9;
+
+/// Share of the largest curvature that is rounding, where the surface is flat.
+const NOTHING: f64 = 1e-12;
 
 /// Share of the total curvature that nodes may miss.
 const MISSED: f64 = 0.01;
@@ -114,14 +117,16 @@ impl Distribution {
 impl CurvatureStatistics {
     /// That of a surface, at nodes all over its [tiling](Surface::tiling).
     pub fn new(surface: &(impl Surface + ?Sized)) -> Self {
-        let found = curved_nodes(surface);
+        let (found, on_planes) = (curved_nodes(surface), on_planes(surface));
         let ends = Kind::ALL.map(|kind| End::BOTH.map(|end| (kind, end)));
-        let peak =
-            |&(kind, end): &(Kind, End)| highest(surface, &found, |k| end.sign() * kind.of(k));
+        let peak = |&(kind, end): &(Kind, End)| {
+            highest(surface, &found, &on_planes, |k| end.sign() * kind.of(k))
+        };
         let peaks: Vec<Peak> = ends.as_flattened().par_iter().map(peak).collect();
         let ends =
             ends.map(|ends| ends.map(|(kind, end)| (peaks[2 * kind as usize + end as usize], end)));
-        let mut extremes = ends.map(|ends| ends.map(|(peak, end)| end.sign() * peak.value));
+        let extremes = ends.map(|ends| ends.map(|(peak, end)| end.sign() * peak.value));
+        let mut extremes = extremes.map(without_rounding);
         // Where one has no bound others have none; a climb may have missed it.
         let [mean, gaussian, larger, smaller] = &mut extremes;
         if smaller[1] == f64::INFINITY {
@@ -232,6 +237,13 @@ impl CurvatureStatistics {
     }
 }
 
+/// Least and largest, of which the one that is nothing beside the other is zero.
+fn without_rounding(ends: [f64; 2]) -> [f64; 2] {
+    let finite = ends.iter().filter(|end| end.is_finite());
+    let size = finite.fold(0.0, |size: f64, end| size.max(end.abs()));
+    ends.map(|end| if end.abs() < NOTHING * size { 0.0 } else { end })
+}
+
 /// Whether a surface of this area is convex where its smaller principal curvature is this one, up to rounding.
 pub(super) fn is_convex(smaller: f64, area: f64) -> bool {
     smaller > -ROUNDING / area.sqrt()
@@ -245,7 +257,7 @@ mod tests {
     };
     use crate::shapes::{Body, Ellipsoid, Sphere};
     use approx::assert_relative_eq;
-    use nalgebra::Point3;
+    use nalgebra::{Point3, Rotation3};
     use std::f64::consts::TAU;
 
     fn statistics(surface: &(impl StarSurface + ?Sized)) -> CurvatureStatistics {
@@ -324,6 +336,23 @@ mod tests {
         assert!(CurvatureStatistics::new(&pair).is_on_edges());
         let rounded = found(6.0, 6.0);
         assert!(!rounded.is_on_edges() && rounded.larger().standard_deviation > 0.0);
+    }
+
+    /// On the planes of its octants one principal curvature vanishes, by the power .04 of the distance, and at its tips both do.
+    #[test]
+    fn a_superquadric_a_little_beyond_an_ellipsoid_is_flat_at_its_tips() {
+        let turn = Rotation3::from_euler_angles(0.3, 0.5, 0.7).into_inner();
+        let frame = Frame {
+            axes: turn,
+            ..Frame::SCAN
+        };
+        let shape = Superquadric::single([4.0, 7.0, 3.2], 2.04, 2.3).unwrap();
+        let found = CurvatureStatistics::new(&SuperquadricGrain::single(frame, shape).unwrap());
+        let kinds = [found.mean(), found.larger(), found.smaller()];
+        for least in kinds.map(|kind| kind.least) {
+            assert_eq!(least, 0.0);
+        }
+        assert!(found.larger().largest > 0.5);
     }
 
     #[test]

@@ -10,7 +10,7 @@ use crate::model::{Node, Parts, Piece, Surface};
 use crate::sphere::GaussLegendre;
 use nalgebra::Vector3;
 use rayon::prelude::*;
-use std::f64::consts::PI;
+use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Nodes at which the surface is evaluated together.
 const CHUNK: usize = 1024;
@@ -28,6 +28,9 @@ const CLOSED: f64 = 5e-5;
 
 /// Nodes of pieces that are cut a second time and more: on creases the total never settles.
 const MAX_NODES: usize = 60_000;
+
+/// Places on a quarter of a plane between octants.
+const PER_QUARTER: usize = 64;
 
 /// A node of a quadrature over a surface.
 #[derive(Debug, Clone, Copy)]
@@ -57,6 +60,36 @@ pub(super) fn curved_nodes(surface: &(impl Surface + ?Sized)) -> Vec<CurvedNode>
             cuts,
         } => cut(surface, pieces, cuts, orders[0]),
     }
+}
+
+/// Places on the planes between the octants of a surface that is tiled by angles, where curvatures of some superquadrics end in
+/// cusps: they stand for no area.
+pub(super) fn on_planes(surface: &(impl Surface + ?Sized)) -> Vec<CurvedNode> {
+    let is_of_angles = match surface.tiling().parts {
+        Parts::Sphere { .. } => false,
+        Parts::Pieces { pieces, .. } => matches!(pieces.first(), Some(Piece::Angles(_))),
+    };
+    if !is_of_angles {
+        return Vec::new();
+    }
+    let quarter = (0..=PER_QUARTER).map(|at| match at {
+        0 => [1.0, 0.0],
+        PER_QUARTER => [0.0, 1.0],
+        _ => {
+            let (sin, cos) = (FRAC_PI_2 * at as f64 / PER_QUARTER as f64).sin_cos();
+            [cos, sin]
+        }
+    });
+    let on_plane = |(axis, [along, across]): (usize, [f64; 2])| {
+        [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)].map(|(one, other)| {
+            let mut n = Vector3::zeros();
+            (n[(axis + 1) % 3], n[(axis + 2) % 3]) = (one * along, other * across);
+            (n, 0.0)
+        })
+    };
+    let places = quarter.flat_map(|place| [0, 1, 2].map(|axis| (axis, place)));
+    let nodes: Vec<Node> = places.flat_map(on_plane).collect();
+    curved(surface, &nodes)
 }
 
 /// Rings of nodes for a surface that is analytic on the whole sphere.

@@ -39,6 +39,9 @@ const LEAST: f64 = 1e-9;
 /// spacing, nor so short that it matters how near the climb has come.
 const WIDER: [f64; 3] = [1e3, 3e4, 9e5];
 
+/// A climb that ends so near a plane between octants ends on it.
+const NEXT: f64 = 1e-6;
+
 /// Rounds of steps of one climb at most, and after how many it ends where these have led no higher than by the tolerance, with
 /// steps of no less than such a share of the spacing: along a ridge that is bent sharply steps are short, on one that comes to
 /// an edge far shorter.
@@ -57,16 +60,26 @@ pub(super) struct Peak {
 }
 
 /// The highest peak of a value of the principal curvatures that is found from the highest of the nodes over a surface, to
-/// 1e-5 of itself; at a cusp, to 1e-3 of the largest value.
+/// 1e-5 of itself; at a cusp, to 1e-3 of the largest value. Those [on planes](super::nodes::on_planes) may be peaks themselves.
 pub(super) fn highest(
     surface: &(impl Surface + ?Sized),
     nodes: &[CurvedNode],
+    on_planes: &[CurvedNode],
     value: impl Fn([f64; 2]) -> f64,
 ) -> Peak {
     let heights: Vec<f64> = nodes.iter().map(|node| value(node.principal)).collect();
     let sizes = heights.iter().map(|height| height.abs());
     let low = LOW * sizes.filter(|size| size.is_finite()).fold(0.0, f64::max);
-    let mut peaks: Vec<Peak> = Vec::new();
+    let of_node = |node: &CurvedNode| Peak {
+        n: node.n,
+        place: node.place,
+        value: value(node.principal),
+    };
+    let on_planes = on_planes.iter().map(of_node);
+    // What is higher than all nodes may have no bound there: climbs tell.
+    let on_planes = on_planes.filter(|peak| peak.value <= low / LOW);
+    let best = on_planes.max_by(|one, other| one.value.total_cmp(&other.value));
+    let mut peaks: Vec<Peak> = best.into_iter().collect();
     for start in starts(nodes, &heights) {
         let climb = Climb {
             surface,
@@ -213,10 +226,22 @@ impl<S: Surface + ?Sized, V: Fn([f64; 2]) -> f64> Climb<'_, S, V> {
         // Beyond all nodes: what is not has its peak on a ridge across.
         let is_high = here.value > self.low / LOW;
         match last > tolerance {
-            true if is_cusp => here.value.max(near + last * last / (before - last)),
+            true if is_cusp => {
+                let end = || near + last * last / (before - last);
+                here.value.max(self.on_planes(here).unwrap_or_else(end))
+            }
             true if is_high => f64::INFINITY,
             _ => here.value,
         }
+    }
+
+    /// The value on the planes between octants that a place lies next to.
+    fn on_planes(&self, here: &Stand) -> Option<f64> {
+        let axes = self.surface.frame().axes;
+        let local = axes.tr_mul(&here.n);
+        let on_planes = local.map(|c| if c.abs() < NEXT { 0.0 } else { c });
+        let value = self.stands(&[axes * on_planes])[0].value;
+        (on_planes != local && value.is_finite()).then_some(value)
     }
 
     fn stands(&self, directions: &[Vector3<f64>]) -> Vec<Stand> {
@@ -310,15 +335,15 @@ mod tests {
         ] {
             let grain = ellipsoid([a, b, c]);
             let nodes = curved_nodes(&grain);
-            let sharpest = highest(&grain, &nodes, |[larger, _]| larger);
+            let sharpest = highest(&grain, &nodes, &[], |[larger, _]| larger);
             assert_relative_eq!(sharpest.value, a / (c * c), max_relative = TOLERANCE);
-            let gaussian = highest(&grain, &nodes, |[larger, smaller]| larger * smaller);
+            let gaussian = highest(&grain, &nodes, &[], |[larger, smaller]| larger * smaller);
             assert_relative_eq!(
                 gaussian.value,
                 (a / (b * c)).powi(2),
                 max_relative = TOLERANCE
             );
-            let flattest = highest(&grain, &nodes, |[_, smaller]| -smaller);
+            let flattest = highest(&grain, &nodes, &[], |[_, smaller]| -smaller);
             assert_relative_eq!(-flattest.value, c / (a * a), max_relative = TOLERANCE);
             if a > b {
                 assert_relative_eq!(sharpest.place.norm(), a, max_relative = 1e-4);
@@ -332,7 +357,7 @@ mod tests {
         let surface = Radial(surface.as_ref());
         let nodes = curved_nodes(&surface);
         for sign in [1.0, -1.0] {
-            let found = highest(&surface, &nodes, |[larger, smaller]| {
+            let found = highest(&surface, &nodes, &[], |[larger, smaller]| {
                 sign * larger * smaller
             });
             let dense = Sampling::Fibonacci.directions(100_000, 0).unwrap();
@@ -357,13 +382,13 @@ mod tests {
             let shape = Superquadric::single([3.0, 2.0, 1.0], exponents[0], exponents[1]).unwrap();
             let grain = SuperquadricGrain::single(Frame::SCAN, shape).unwrap();
             let nodes = curved_nodes(&grain);
-            let largest = highest(&grain, &nodes, |[larger, _]| larger).value;
-            let least = highest(&grain, &nodes, |[_, smaller]| -smaller).value;
+            let largest = highest(&grain, &nodes, &[], |[larger, _]| larger).value;
+            let least = highest(&grain, &nodes, &[], |[_, smaller]| -smaller).value;
             assert!(
                 largest.is_finite() && least.abs() < CUSP * largest,
                 "{least} {largest}"
             );
-            let mean = highest(&grain, &nodes, |[larger, smaller]| -larger - smaller).value;
+            let mean = highest(&grain, &nodes, &[], |[larger, smaller]| -larger - smaller).value;
             assert!(mean.abs() < CUSP * largest, "{mean} {largest}");
         }
     }
@@ -372,16 +397,16 @@ mod tests {
     fn what_grows_without_bound_is_infinite_and_what_is_alike_everywhere_is_met_at_once() {
         let edged = Superquadric::single([1.0; 3], 1.5, 1.5).unwrap();
         let edged = SuperquadricGrain::single(Frame::SCAN, edged).unwrap();
-        let found = highest(&edged, &curved_nodes(&edged), |[larger, _]| larger);
+        let found = highest(&edged, &curved_nodes(&edged), &[], |[larger, _]| larger);
         assert_eq!(found.value, f64::INFINITY);
         let sphere = Ellipsoid {
             semi_axes: Vector3::repeat(2.0),
         };
         let sphere = Radial(&sphere);
-        let found = highest(&sphere, &curved_nodes(&sphere), |[larger, _]| larger);
+        let found = highest(&sphere, &curved_nodes(&sphere), &[], |[larger, _]| larger);
         assert_relative_eq!(found.value, 0.5, max_relative = 1e-12);
         assert_eq!(
-            highest(&sphere, &[], |[larger, _]| larger).value,
+            highest(&sphere, &[], &[], |[larger, _]| larger).value,
             f64::NEG_INFINITY
         );
     }

@@ -4,7 +4,7 @@ use super::bending::bent;
 use super::chance::{Part, error_of_mean};
 use super::{Survey, SurveyError};
 
-/// Share of itself by which the roundness of a smooth grain may be off by quadrature.
+/// Share of itself by which the roundness may be off by quadrature.
 const OF_ROUNDNESS: f64 = 5e-3;
 
 impl Survey<'_> {
