@@ -102,16 +102,26 @@ fn plain(name: &str) -> String {
 
 /// Numbers and lists of numbers; nothing of what is not measured, nor of names.
 fn text(value: &Value) -> Option<String> {
+    text_beside(value, 1e-12 * largest(value))
+}
+
+/// The largest number in lists, however deep, but for its sign; zero of a number alone.
+fn largest(value: &Value) -> f64 {
+    let parts = value.as_array().into_iter().flatten();
+    let sizes = parts.map(|part| part.as_f64().map_or_else(|| largest(part), f64::abs));
+    sizes.fold(0.0, f64::max)
+}
+
+/// The same, with what is below `rounding` as zero.
+fn text_beside(value: &Value, rounding: f64) -> Option<String> {
     match value {
-        Value::Number(number) => number.as_f64().map(short),
+        Value::Number(number) => {
+            let told = |x: f64| short(if x.abs() < rounding { 0.0 } else { x });
+            number.as_f64().map(told)
+        }
         Value::Array(parts) => {
-            let sizes = parts.iter().filter_map(Value::as_f64).map(f64::abs);
-            let rounding = 1e-12 * sizes.fold(0.0, f64::max);
-            let entry = |part: &Value| match part.as_f64() {
-                Some(number) if number.abs() < rounding => Some("0".into()),
-                _ => text(part),
-            };
-            let told = parts.iter().take(MOST_ENTRIES).map(entry);
+            let told = parts.iter().take(MOST_ENTRIES);
+            let told = told.map(|part| text_beside(part, rounding));
             let told = told.collect::<Option<Vec<_>>>()?;
             let more = if parts.len() > MOST_ENTRIES {
                 ", ..."
@@ -227,6 +237,15 @@ mod tests {
                 ("spheres.inscribed.radius", Some("0.125000")),
             ]
         );
+    }
+
+    /// What is nothing beside the largest of all rows: beside the largest of its own row it would be told on one side only.
+    #[test]
+    fn a_symmetric_tensor_is_told_symmetrically() {
+        let tensor = json!([[2.0, -3e-12, 0.5], [-3e-12, 4.0, 0.0], [0.5, 0.0, 5.0]]);
+        let told = "2.00000, 0, 0.500000; 0, 4.00000, 0; 0.500000, 0, 5.00000";
+        assert_eq!(text(&tensor).as_deref(), Some(told));
+        assert_eq!(text(&json!(1e-20)).as_deref(), Some("1.00000e-20"));
     }
 
     #[test]

@@ -36,13 +36,19 @@ pub(super) fn integrated(value: f64, error: Option<f64>, share: Option<f64>, uni
 
 /// The components of a vector; those that are nothing but rounding beside the others as zero.
 pub(super) fn triple(components: [f64; 3]) -> String {
-    let largest = components
-        .into_iter()
-        .fold(0.0, |most: f64, x| most.max(x.abs()));
+    let [row] = triples([components]);
+    row
+}
+
+/// The rows of a tensor; what is nothing but rounding beside its largest component as zero, so that one that is symmetric stays so.
+pub(super) fn triples<const N: usize>(rows: [[f64; 3]; N]) -> [String; N] {
+    let components = rows.as_flattened().iter();
+    let largest = components.fold(0.0, |most: f64, x| most.max(x.abs()));
     let is_rounding = |x: f64| x.abs() < 1e-12 * largest;
-    components
-        .map(|x| short(if is_rounding(x) { 0.0 } else { x }))
-        .join("  ")
+    rows.map(|row| {
+        row.map(|x| short(if is_rounding(x) { 0.0 } else { x }))
+            .join("  ")
+    })
 }
 
 /// Without the last digits of a product: 0.3 and not 0.30000000000000004.
@@ -75,6 +81,13 @@ mod tests {
             assert_eq!(short(value), text);
         }
         assert_eq!(triple([3.0, 1e-16, -0.25]), "3.00000  0  -0.250000");
+        let rows = triples([[2.0, -3e-12, 0.5], [-3e-12, 4.0, 0.0], [0.5, 0.0, 5.0]]);
+        let told = [
+            "2.00000  0  0.500000",
+            "0  4.00000  0",
+            "0.500000  0  5.00000",
+        ];
+        assert_eq!(rows, told);
         assert_eq!(with_error(256.312_77, Some(0.012_3)), "256.313 ± 0.012");
         assert_eq!(with_error(25_243.51, Some(31.4)), "25244 ± 31");
         assert_eq!(with_error(8.45e-5, Some(3.2e-8)), "8.45000e-5 ± 3.2e-8");

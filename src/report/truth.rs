@@ -1,7 +1,7 @@
 //! The figures of a body that is known.
 
 use super::measure::rows;
-use super::number::{short, triple};
+use super::number::{short, triple, triples};
 use crate::measure::MassProperties;
 use serde::Serialize;
 use std::fmt;
@@ -40,9 +40,9 @@ impl fmt::Display for TruthRecord {
         writeln!(f, "area         {}", short(self.area))?;
         writeln!(f, "volume       {}", short(self.volume))?;
         writeln!(f, "centroid     {}", triple(self.centroid))?;
-        for (i, row) in self.inertia.into_iter().enumerate() {
+        for (i, row) in triples(self.inertia).into_iter().enumerate() {
             let name = if i == 0 { "inertia" } else { "" };
-            writeln!(f, "{name:<13}{}", triple(row))?;
+            writeln!(f, "{name:<13}{row}")?;
         }
         Ok(())
     }

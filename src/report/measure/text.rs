@@ -6,7 +6,7 @@ use super::{
 };
 use crate::measure::{Convexity, CurvatureErrors, Distribution, Form, SideRatios, Sphericity};
 use crate::report::escape::escaped;
-use crate::report::number::{integrated, triple, with_error};
+use crate::report::number::{integrated, triple, triples, with_error};
 use crate::report::unit::Labels;
 use std::fmt::{self, Write as _};
 
@@ -82,9 +82,9 @@ impl MeasureReport {
             writeln!(f, "centroid      {}{}", triple(centroid), labels.length())?;
         }
         if let Some(inertia) = measures.inertia {
-            for (i, row) in inertia.into_iter().enumerate() {
+            for (i, row) in triples(inertia).into_iter().enumerate() {
                 let name = if i == 0 { "inertia" } else { "" };
-                writeln!(f, "{name:<13} {}{}", triple(row), labels.moment())?;
+                writeln!(f, "{name:<13} {row}{}", labels.moment())?;
             }
         }
         if let Some(Principal { moments, axes }) = measures.principal {
