@@ -3,7 +3,7 @@
 use super::args::ContactArgs;
 use super::console::Console;
 use super::{inputs, placed, threads};
-use crate::contact::{TouchError, touch};
+use crate::contact::{Touch, TouchError, touch};
 use crate::model::Grain;
 use crate::report::{ContactReport, Load, TouchRecord, Withheld};
 use anyhow::{Context, Result, anyhow, bail};
@@ -43,20 +43,26 @@ fn contact(args: &ContactArgs) -> Result<ContactReport> {
     let mut touched = |path: &Path, towards: &Vector3<f64>| {
         let grain = inputs::parse_model(path, &inputs::read(path, &args.limit)?)?;
         doubts.extend(Withheld::of(&grain, false).sentences(&inputs::name(path)));
-        touched(inputs::name(path), &grain, towards, args.edge_radius)
+        touched(inputs::name(path), grain, towards, args.edge_radius)
     };
-    let first = touched(&args.model, &args.towards)?;
-    let second = match &args.other {
+    let (first, one) = touched(&args.model, &args.towards)?;
+    let (second, two) = match &args.other {
         Some(path) => Some(touched(path, &args.other_towards)?),
         None => None,
-    };
+    }
+    .unzip();
     let mut touches = std::iter::once(&first).chain(&second);
     if args.edge_radius.is_some() && touches.all(|touch| touch.edge_radius.is_none()) {
         bail!(
             "--edge-radius rounds an edge, and there is none where the bodies touch: leave it out"
         );
     }
-    let mut report = ContactReport::new(first, second, args.angle_deg.to_radians(), &load)?;
+    let over = |reaches| {
+        let of_other = two.as_ref().map(|body: &Touched| body.over(reaches));
+        [one.over(reaches), of_other.unwrap_or_default()]
+    };
+    let angle = args.angle_deg.to_radians();
+    let mut report = ContactReport::new(first, second, angle, &load, over)?;
     if !(report.normal_force_n.is_finite() && report.normal_stiffness_n_per_m.is_finite()) {
         bail!("the force of an indentation of {indentation_um} um is beyond the range of numbers");
     }
@@ -64,22 +70,38 @@ fn contact(args: &ContactArgs) -> Result<ContactReport> {
     Ok(report)
 }
 
+/// A model, and where it is touched.
+struct Touched {
+    grain: Grain,
+    touch: Touch,
+}
+
+impl Touched {
+    fn over(&self, reaches: [f64; 2]) -> [f64; 2] {
+        self.touch.curvatures_over(&self.grain, reaches)
+    }
+}
+
 /// Where a model is touched in a direction.
 fn touched(
     input: String,
-    grain: &Grain,
+    grain: Grain,
     towards: &Vector3<f64>,
     edge_radius: Option<f64>,
-) -> Result<TouchRecord> {
+) -> Result<(TouchRecord, Touched)> {
     // Of numbers whose squares are still numbers.
     let towards = (towards / towards.amax())
         .try_normalize(0.0)
         .filter(|n| n.iter().all(|x| x.is_finite()))
         .ok_or_else(|| anyhow!("the direction of the contact must not be zero"))?;
-    let touch = touch(grain, &towards, edge_radius).map_err(|error| match error {
+    let touch = touch(&grain, &towards, edge_radius).map_err(|error| match error {
         TouchError::Edge { .. } => anyhow!("{error}; round it with --edge-radius"),
+        TouchError::Unbounded => anyhow!(
+            "{error}; choose a direction away from the edge, or a model that rounds it (fit --segments 1)"
+        ),
         other => anyhow!(other),
     });
     let touch = touch.with_context(|| format!("{input} cannot be touched there"))?;
-    Ok(TouchRecord::new(input, grain, &towards, &touch))
+    let record = TouchRecord::new(input, &grain, &towards, &touch);
+    Ok((record, Touched { grain, touch }))
 }

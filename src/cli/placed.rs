@@ -135,12 +135,9 @@ fn of_unions(
     };
     let frame = first.frame();
     let bodies = [(one.body(), &frame), (two.body(), &moved)];
-    let touches = union_contacts(bodies[0], bodies[1]).into_iter();
-    let touches: Vec<_> = touches
-        .map(|touch| (touch, touch.curvatures(bodies)))
-        .collect();
+    let touches = union_contacts(bodies[0], bodies[1]);
     let [one, two] = names.clone();
-    Some(PlacedReport::new(one, two, unit, &touches, law))
+    Some(PlacedReport::new(one, two, unit, &touches, bodies, law))
 }
 
 /// What is not to be relied on of either grain.

@@ -56,6 +56,17 @@ pub enum ContactError {
         /// Its standard error.
         error: f64,
     },
+    /// The gap is curved in its middle as it is not over the contact.
+    #[error(
+        "where the surfaces touch, the gap between them is curved far more than over the rest of the contact, as beside an edge, \
+         where curvature has no bound: by the whole contact the force would be {} times as large, so Hertz's theory does not hold; \
+         choose another place, a model that rounds the edge (fit --segments 1), or, where the shared volume is told, --law volume",
+        significant(*times, 2)
+    )]
+    Edge {
+        /// How many times the force is that curvatures over the contact tell.
+        times: f64,
+    },
     /// The bodies would touch all over a side.
     #[error(
         "by their curvatures there the surfaces would touch as far as {} from the middle of the contact, and the body \

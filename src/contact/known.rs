@@ -78,6 +78,17 @@ impl KnownContact {
         &self.relative
     }
 
+    /// How many times the force of Hertz is that curvatures of both bodies tell, each along its own principal directions, but
+    /// not in the middle of the contact: such as those over all of it.
+    ///
+    /// # Errors
+    ///
+    /// See [`RelativeCurvature::new`].
+    pub fn times(&self, [one, other]: [[f64; 2]; 2]) -> Result<f64, ContactError> {
+        let over = RelativeCurvature::new(one, other, self.angle_rad)?;
+        Ok(force(&over) / force(&self.relative))
+    }
+
     /// Standard error of a figure of the relative curvature, as a share of it, where those of both bodies are known: by how
     /// much it changes when each principal curvature is off by its error, up or down, whichever is more. Changes of
     /// different curvatures are added as squares: the error of a body's tensor holds those of both.
@@ -103,11 +114,13 @@ impl KnownContact {
 
     /// Standard error of the normal force by Hertz, as a share of it, at a depth with its own error, where all are known.
     pub fn force_share(&self, depth: f64, depth_error: Option<f64>) -> Option<f64> {
-        let force = |relative: &RelativeCurvature| {
-            relative.correction(Correction::Elliptic) * relative.effective_radius().sqrt()
-        };
         Some(self.share(force)?.hypot(1.5 * depth_error? / depth))
     }
+}
+
+/// What forces of the same indentation are proportional to.
+fn force(relative: &RelativeCurvature) -> f64 {
+    relative.correction(Correction::Elliptic) * relative.effective_radius().sqrt()
 }
 
 /// Refuses a depth that its standard error does not tell from none.

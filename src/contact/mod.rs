@@ -23,6 +23,7 @@ mod error;
 mod known;
 pub mod law;
 mod material;
+mod over;
 mod regions;
 mod relative;
 mod touch;

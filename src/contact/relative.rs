@@ -96,15 +96,20 @@ impl RelativeCurvature {
         0.5 / self.larger
     }
 
-    /// How far from its middle the overlap reaches of bodies that do not give, sqrt(u / B) for an indentation u; half of the
-    /// length of Hertz's patch is .6 to 1 of it. Checks that it ends before a body does that reaches `body`, all in the unit of the
+    /// How far from its middle the overlap reaches of bodies that do not give along the larger and the smaller curvature,
+    /// sqrt(u / A) and sqrt(u / B) for an indentation u.
+    pub fn reaches(&self, indentation: f64) -> [f64; 2] {
+        [self.larger, self.smaller].map(|bent| (pressed(indentation) / bent).sqrt())
+    }
+
+    /// The larger of [`Self::reaches`]; half of the length of Hertz's patch is .6 to 1 of it. Checks that it ends before a body does that reaches `body`, all in the unit of the
     /// surfaces.
     ///
     /// # Errors
     ///
     /// [`ContactError::Flat`] if not.
     pub fn reach(&self, indentation: f64, body: f64) -> Result<f64, ContactError> {
-        let reach = (pressed(indentation) / self.smaller).sqrt();
+        let [_, reach] = self.reaches(indentation);
         match reach < body {
             true => Ok(reach),
             false => Err(ContactError::Flat { reach, body }),

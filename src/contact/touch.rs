@@ -15,6 +15,13 @@ const ASIDE: f64 = 1e-6;
 /// Directions round an edge in which its sides are looked at.
 const AROUND: usize = 16;
 
+/// Where curvature has a bound, it is at most by this share more at a place than all round it, [`ASIDE`]. Across a plane of a
+/// superquadric whose exponent is 1.999 it is 1 % more.
+const MORE_CURVED: f64 = 1e-3;
+
+/// Curvature that may be rounding, as a share of that of a sphere of the place's distance from the centre.
+const ROUNDED: f64 = 1e-6;
+
 /// Largest angle between the normals of one side, in radians: on a side that is curved a thousand
 /// times as much as a sphere they are as far apart.
 const ONE_SIDE: f64 = 2e-3;
@@ -52,6 +59,11 @@ pub enum TouchError {
         /// Angle between the normals of its sides, in degrees.
         turn_deg: f64,
     },
+    /// The surface is an edge without an angle, as of a superquadric across the planes of exponents below two.
+    #[error(
+        "the surface has an edge there: its curvature has no bound, so Hertz's theory does not hold"
+    )]
+    Unbounded,
     /// More than two sides meet: no cap is tangent to all of them.
     #[error("the surface has a corner there, which has no curvature")]
     Corner,
@@ -98,6 +110,7 @@ pub fn touch(
     }
     let found = support(surface, towards);
     if found.is_smooth {
+        refuse_unbounded(surface, &found)?;
         return Ok(Touch {
             direction: found.direction,
             point: found.point,
@@ -135,20 +148,38 @@ fn refuse_crossings(mesh: &Mesh) -> Result<(), TouchError> {
     }
 }
 
+/// Refuses a place that is curved more than all places round it, however near these are.
+fn refuse_unbounded(surface: &(impl Surface + ?Sized), found: &Support) -> Result<(), TouchError> {
+    let own = found.curvature.mean();
+    let beside = around(surface, &found.direction);
+    let most = beside.iter().map(Curvature::mean);
+    let most = most.fold(f64::NEG_INFINITY, f64::max);
+    let is_told = own * found.point.norm() > ROUNDED;
+    match is_told && own > (1.0 + MORE_CURVED) * most {
+        true => Err(TouchError::Unbounded),
+        false => Ok(()),
+    }
+}
+
+/// The surface a little aside of `n`, all round it.
+fn around(surface: &(impl Surface + ?Sized), n: &Vector3<f64>) -> Vec<Curvature> {
+    let [first, second] = tangents(n);
+    // Half a step off the axes, along which edges tend to run.
+    let turns = (0..AROUND).map(|i| (TAU * (i as f64 + 0.5) / AROUND as f64).sin_cos());
+    turns
+        .map(|(sin, cos)| {
+            let aside = (n + (first * cos + second * sin) * ASIDE).normalize();
+            Curvature::new(&aside, &surface.jet(&aside))
+        })
+        .collect()
+}
+
 /// The two sides of an edge: those that are farthest apart of all round `n`.
 fn sides(
     surface: &(impl Surface + ?Sized),
     n: &Vector3<f64>,
 ) -> Result<[Curvature; 2], TouchError> {
-    let [first, second] = tangents(n);
-    // Half a step off the axes, along which edges tend to run.
-    let around: Vec<Curvature> = (0..AROUND)
-        .map(|i| {
-            let (sin, cos) = (TAU * (i as f64 + 0.5) / AROUND as f64).sin_cos();
-            let aside = (n + (first * cos + second * sin) * ASIDE).normalize();
-            Curvature::new(&aside, &surface.jet(&aside))
-        })
-        .collect();
+    let around = around(surface, n);
     let apart = |one: &Curvature, other: &Curvature| (one.normal - other.normal).norm();
     let one = around[0];
     let farthest = |from: &Curvature| {
@@ -195,7 +226,7 @@ fn round(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::Radial;
+    use crate::model::{Radial, Superquadric};
     use crate::shapes::{Bicone, Body, Cuboid, Ellipsoid};
     use approx::assert_relative_eq;
 
@@ -240,6 +271,35 @@ mod tests {
             max_relative = 1e-5
         );
         assert_relative_eq!(found.directions[1].y.abs(), 1.0, epsilon = 1e-5);
+    }
+
+    #[test]
+    fn edges_without_an_angle_are_refused_and_flat_places_are_not() {
+        let along = |n1: f64, n2: f64, towards: [f64; 3]| {
+            let body = Superquadric::single([3.0, 2.0, 1.0], n1, n2).unwrap();
+            touch(&Radial(&body), &towards.into(), None)
+        };
+        let [tip, plane, aside] = [[0.0, 0.0, 1.0], [1.0, 0.0, 1.0], [1.0, 0.5, 1.0]];
+        for (n1, n2, towards) in [
+            (1.7, 1.9, tip),
+            (1.7, 1.9, plane),
+            (2.0, 1.5, plane),
+            (3.0, 1.999, plane),
+            (1.1, 2.0, tip),
+        ] {
+            let refused = along(n1, n2, towards);
+            assert_eq!(refused, Err(TouchError::Unbounded), "{n1} {n2} {towards:?}");
+        }
+        for (n1, n2, towards) in [
+            (1.7, 1.9, aside),
+            (1.7, 2.0, plane),
+            (2.0, 2.0, tip),
+            (2.0, 2.0, plane),
+            (3.0, 2.5, tip),
+            (2.01, 8.0, plane),
+        ] {
+            assert!(along(n1, n2, towards).is_ok(), "{n1} {n2} {towards:?}");
+        }
     }
 
     #[test]

@@ -122,6 +122,26 @@ pub(super) fn beside_hertz(
     Ok(deep.into_iter().chain(wide).collect())
 }
 
+/// From so many times the force on that curvatures over a contact tell, those in its middle tell none.
+const EDGE: f64 = 1.5;
+
+/// What to know of a force that is so many `times` as large by what the contact is over all of it.
+///
+/// # Errors
+///
+/// [`ContactError::Edge`] where curvature is that of its middle alone.
+pub(super) fn beside_middle(times: f64) -> Result<Option<String>, ContactError> {
+    if times > EDGE {
+        return Err(ContactError::Edge { times });
+    }
+    Ok(((times - 1.0).abs() > UNCERTAIN).then(|| {
+        format!(
+            "the surfaces are not curved over the whole contact as in its middle: by how the gap opens over all of it the force is about \
+             {times:.2} times as large"
+        )
+    }))
+}
+
 /// What to know of a depth that is such a share of a radius, if it is too deep for Hertz.
 pub(super) fn beyond_hertz(depth: &str, share: f64, radius: &str) -> Option<String> {
     (share > HERTZIAN).then(|| {
@@ -164,7 +184,8 @@ fn is_whole(grain: &Grain) -> bool {
 }
 
 impl ContactReport {
-    /// The report of a contact under a load, the bodies' first principal directions at `angle_rad` to each other.
+    /// The report of a contact under a load, the bodies' first principal directions at `angle_rad` to each other; `over` tells
+    /// the curvatures of both over a contact that reaches so far along them ([`Touch::curvatures_over`]).
     ///
     /// # Errors
     ///
@@ -174,6 +195,7 @@ impl ContactReport {
         second: Option<TouchRecord>,
         angle_rad: f64,
         load: &Load,
+        over: impl Fn([f64; 2]) -> [[f64; 2]; 2],
     ) -> Result<Self, ContactError> {
         let other = second.as_ref().map_or(Curved::PLANE, TouchRecord::curved);
         let known = KnownContact::new(first.curved(), other, angle_rad)?;
@@ -194,6 +216,8 @@ impl ContactReport {
             indentation,
             body,
         )?);
+        let times = known.times(over(relative.reaches(indentation)))?;
+        warnings.extend(beside_middle(times)?);
         match share {
             None => warnings.push(
                 "how certain the curvature is there is not known, so the force has no standard error: superquadrics, fits \

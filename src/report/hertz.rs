@@ -1,7 +1,7 @@
 //! Normal forces by Hertz where two bodies are placed so that they overlap.
 
-use super::contact::beside_hertz;
-use crate::contact::{KnownContact, told_depth};
+use super::contact::{beside_hertz, beside_middle};
+use crate::contact::{ContactError, KnownContact, told_depth};
 use crate::measure::Curvature;
 use crate::model::LocalError;
 
@@ -26,6 +26,8 @@ pub(super) struct Overlap<'a> {
     pub(super) errors: Option<&'a [LocalError; 2]>,
     /// Standard error of the depth, where it is known.
     pub(super) depth_error: Option<f64>,
+    /// How many times the force of the curvatures there is that of the whole contact.
+    pub(super) times: &'a dyn Fn(&KnownContact) -> Result<f64, ContactError>,
 }
 
 /// A force in newtons, and its standard error where that is known.
@@ -40,7 +42,9 @@ impl HertzLaw {
         let known = told_depth(overlap.depth, overlap.depth_error)
             .and_then(|()| KnownContact::at(overlap.curvatures, overlap.errors))
             .and_then(|known| {
-                let beside = beside_hertz("the depth", known.relative(), overlap.depth, self.body)?;
+                let mut beside =
+                    beside_hertz("the depth", known.relative(), overlap.depth, self.body)?;
+                beside.extend(beside_middle((overlap.times)(&known)?)?);
                 Ok((known, beside))
             });
         match known {

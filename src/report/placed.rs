@@ -6,7 +6,7 @@ use super::number::{short, triple};
 use super::unit::{Labels, Unit};
 use crate::contact::UnionContact;
 use crate::digits::plural;
-use crate::measure::Curvature;
+use crate::model::{Frame, MultiSuperquadric};
 use serde::Serialize;
 use std::fmt;
 
@@ -52,30 +52,37 @@ pub struct PlacedTouch {
 }
 
 impl PlacedReport {
-    /// The report of these touches with the curvatures there, and with forces by a law.
+    /// The report of these touches of two unions with the curvatures there, and with forces by a law.
     pub fn new(
         first: String,
         second: String,
         unit: Option<Unit>,
-        touches: &[(UnionContact, [Curvature; 2])],
+        touches: &[UnionContact],
+        bodies: [(&MultiSuperquadric, &Frame); 2],
         law: Option<&HertzLaw>,
     ) -> Self {
         let mut warnings = Vec::new();
-        let touches = touches.iter().map(|(touch, curvatures)| PlacedTouch {
-            parts: touch.parts,
-            point: touch.point.into(),
-            normal: touch.normal.into(),
-            overlap: touch.overlap,
-            principal_curvatures: curvatures.each_ref().map(|curvature| curvature.principal),
-            normal_force_n: law.and_then(|law| {
-                let overlap = Overlap {
-                    depth: touch.overlap,
-                    curvatures,
-                    errors: None,
-                    depth_error: None,
-                };
-                Some(law.force(&overlap, &mut warnings)?.force_n)
-            }),
+        let touches = touches.iter().map(|touch| {
+            let curvatures = touch.curvatures(bodies);
+            let overlap = Overlap {
+                depth: touch.overlap,
+                curvatures: &curvatures,
+                errors: None,
+                depth_error: None,
+                times: &|known| {
+                    let reaches = known.relative().reaches(touch.overlap);
+                    known.times(touch.curvatures_over(bodies, reaches))
+                },
+            };
+            let force = law.and_then(|law| law.force(&overlap, &mut warnings));
+            PlacedTouch {
+                parts: touch.parts,
+                point: touch.point.into(),
+                normal: touch.normal.into(),
+                overlap: touch.overlap,
+                principal_curvatures: curvatures.map(|curvature| curvature.principal),
+                normal_force_n: force.map(|force| force.force_n),
+            }
         });
         Self {
             first,

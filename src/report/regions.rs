@@ -215,6 +215,7 @@ impl NormalLaw {
             curvatures,
             errors: region.errors.as_ref(),
             depth_error: region.depth_error(),
+            times: &|known| Ok(region.times(known.relative())),
         };
         law.force(&overlap, warnings)
     }

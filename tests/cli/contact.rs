@@ -317,6 +317,41 @@ fn a_flat_side_has_no_force_by_hertz() {
     }
 }
 
+/// Across its planes, on the axes and between them, the curvature of a body with exponents below 2 has no bound.
+#[test]
+fn an_edge_without_an_angle_has_no_force_by_hertz_and_beside_it_a_warning() {
+    let folder = folder();
+    let edged = r#"{"format": "grainform model", "version": 8, "centre": [0, 0, 0],
+        "axes": [[1, 0, 0], [0, 1, 0], [0, 0, 1]], "no_standard_errors": "not_estimated",
+        "superquadrics": [{"centre": [0, 0, 0], "axes": [[1, 0, 0], [0, 1, 0], [0, 0, 1]],
+        "semi_axes": [[3, 3], [2, 2], [1, 1]], "n1": [1.7, 1.7], "n2": [[1.9, 1.9], [1.9, 1.9]]}]}"#;
+    std::fs::write(folder.path().join("m.json"), edged).unwrap();
+    std::fs::write(folder.path().join("ball.json"), BALL).unwrap();
+    let words = |towards| [&["contact", "m.json", "--towards", towards], &LIGHT[..]].concat();
+    for edge in ["0,0,1", "1,0,1", "1,1e-9,1"] {
+        let output = grainform(&folder, &words(edge));
+        assert_eq!(output.status.code(), Some(2), "{edge}");
+        let told = errors(&output);
+        assert!(told.contains("curvature has no bound"), "{told}");
+    }
+    let warned = |towards| {
+        let report = json(&folder, &words(towards));
+        report["warnings"].to_string().contains("as in its middle")
+    };
+    assert!(warned("1,1e-4,1") && !warned("1,0.1,1"));
+    let placed = |pose| {
+        let load = ["--unit", "mm", "--youngs-modulus-mpa", "91"];
+        let words = ["contact", "m.json", "ball.json", "--pose-b", pose];
+        json(&folder, &[&words, &load[..]].concat())
+    };
+    let edge = placed("0,0,1.999,1,0,0,0");
+    assert!(edge["regions"][0]["normal_force_n"].is_null());
+    let told = edge["warnings"].to_string();
+    assert!(told.contains("as beside an edge"), "{told}");
+    let aside = placed("2,1.5,0.9,1,0,0,0");
+    assert!(aside["regions"][0]["normal_force_n"].is_number(), "{aside}");
+}
+
 /// On its axis a fitted ellipsoid, whose exponents are 2 but for rounding, is as curved as beside it.
 #[test]
 fn ellipsoids_that_were_fitted_are_curved_on_their_axes() {

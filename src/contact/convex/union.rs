@@ -25,13 +25,23 @@ pub struct UnionContact {
 impl UnionContact {
     /// Curvatures of the surfaces of both unions there, of the parts that touch.
     pub fn curvatures(&self, bodies: [(&MultiSuperquadric, &Frame); 2]) -> [Curvature; 2] {
-        let ends = [0.5, -0.5].map(|half| self.point + self.normal * (half * self.overlap));
         [0, 1].map(|body| {
-            let (union, frame) = bodies[body];
-            let part = union.parts()[self.parts[body]].placed(frame);
-            let (n, jet) = part.jet_at(&ends[body]);
+            let (part, end) = self.end(bodies, body);
+            let (n, jet) = part.jet_at(&end);
             Curvature::new(&n, &jet)
         })
+    }
+
+    /// The part of one of the bodies that touches, where it is, and its point that lies deepest in the other.
+    pub(in crate::contact) fn end(
+        &self,
+        bodies: [(&MultiSuperquadric, &Frame); 2],
+        body: usize,
+    ) -> (Part, Point3<f64>) {
+        let (union, frame) = bodies[body];
+        let half = [0.5, -0.5][body] * self.overlap;
+        let part = union.parts()[self.parts[body]].placed(frame);
+        (part, self.point + self.normal * half)
     }
 }
 

@@ -20,7 +20,7 @@ mod pair;
 mod patch;
 mod sums;
 
-use super::KnownContact;
+use super::{KnownContact, RelativeCurvature};
 use crate::measure::Curvature;
 use crate::model::{LocalError, Surface};
 use cluster::{Cluster, Found};
@@ -29,6 +29,7 @@ use nalgebra::{Isometry3, Point3, Translation3, Vector3};
 use near::near_places;
 pub use pair::{ContactPair, ContactPlace};
 use patch::Patch;
+use std::f64::consts::PI;
 use std::fmt;
 use thiserror::Error;
 
@@ -118,6 +119,13 @@ impl ContactRegion {
         let error = self.depth_error()?;
         let of_depth = self.area.norm() * error * (1.0 + error / self.depth);
         Some(of_radius.hypot(of_depth))
+    }
+
+    /// How many times the force of Hertz is that the volume of the region tells, and not the curvature in its middle: a gap
+    /// A x² + B y² holds V = pi rho u² at the depth u, and the force goes with the root of rho.
+    pub fn times(&self, relative: &RelativeCurvature) -> f64 {
+        let radius = self.volume / (PI * self.depth * self.depth);
+        (radius / relative.effective_radius()).sqrt()
     }
 
     /// Standard error, as a share, of the effective radius to a power, by which figures of a lens go. However little is known

@@ -101,6 +101,24 @@ const ROD: Ellipsoid = Ellipsoid {
     semi_axes: Vector3::new(3.0, 0.3, 0.3),
 };
 
+/// Of a gap that was curved four times as much the radius is a quarter, and the force half.
+#[test]
+fn a_lens_tells_how_far_the_force_of_its_middle_is_off() {
+    let ball = ball(1.0);
+    let ball = Radial(&ball);
+    let body = ContactBody::new(&ball);
+    let pose = Isometry3::translation(0.0, 0.0, 1.999);
+    let found = contact_regions(&body, &body, &pose).unwrap();
+    for (bent, expected) in [(1.0, 1.0), (4.0, 2.0)] {
+        let relative = RelativeCurvature::new([bent; 2], [bent; 2], 0.0).unwrap();
+        assert_relative_eq!(
+            found.regions[0].times(&relative),
+            expected,
+            max_relative = 1e-3
+        );
+    }
+}
+
 #[test]
 fn a_dented_body_is_touched_on_both_sides_of_its_dent() {
     let (dented, rod) = (Radial(&Dented), Radial(&ROD));
