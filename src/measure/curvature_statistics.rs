@@ -61,6 +61,15 @@ impl Kind {
         }
     }
 
+    /// Whether it has no bound at an end, where the larger principal curvature, and the smaller, have none.
+    fn is_unbounded(self, end: End, [larger, smaller]: [bool; 2]) -> bool {
+        let unbounded = match self {
+            Self::Smaller => smaller,
+            Self::Mean | Self::Gaussian | Self::Larger => larger,
+        };
+        unbounded && matches!(end, End::Largest)
+    }
+
     /// Of a surface that is so many times as large, how many times as large it is.
     pub(super) fn per(self, length: f64) -> f64 {
         match self {
@@ -119,14 +128,22 @@ impl CurvatureStatistics {
     pub fn new(surface: &(impl Surface + ?Sized)) -> Self {
         let (found, on_planes) = (curved_nodes(surface), on_planes(surface));
         let ends = Kind::ALL.map(|kind| End::BOTH.map(|end| (kind, end)));
-        let peak = |&(kind, end): &(Kind, End)| {
-            highest(surface, &found, &on_planes, |k| end.sign() * kind.of(k))
+        let unbounded = surface.unbounded_curvatures().unwrap_or_default();
+        let peak = |&(kind, end): &(Kind, End)| match kind.is_unbounded(end, unbounded) {
+            true => Peak::UNBOUNDED,
+            false => highest(surface, &found, &on_planes, |k| end.sign() * kind.of(k)),
         };
         let peaks: Vec<Peak> = ends.as_flattened().par_iter().map(peak).collect();
         let ends =
             ends.map(|ends| ends.map(|(kind, end)| (peaks[2 * kind as usize + end as usize], end)));
-        let extremes = ends.map(|ends| ends.map(|(peak, end)| end.sign() * peak.value));
-        let mut extremes = extremes.map(without_rounding);
+        let mut extremes = ends.map(|ends| ends.map(|(peak, end)| end.sign() * peak.value));
+        for (kind, ends) in Kind::ALL.into_iter().zip(&mut extremes) {
+            let sizes = found.iter().map(|node| kind.of(node.principal).abs());
+            let size = sizes.filter(|size| size.is_finite()).fold(0.0, f64::max);
+            for end in ends.iter_mut().filter(|end| end.abs() < NOTHING * size) {
+                *end = 0.0;
+            }
+        }
         // Where one has no bound others have none; a climb may have missed it.
         let [mean, gaussian, larger, smaller] = &mut extremes;
         if smaller[1] == f64::INFINITY {
@@ -237,13 +254,6 @@ impl CurvatureStatistics {
     }
 }
 
-/// Least and largest, of which the one that is nothing beside the other is zero.
-fn without_rounding(ends: [f64; 2]) -> [f64; 2] {
-    let finite = ends.iter().filter(|end| end.is_finite());
-    let size = finite.fold(0.0, |size: f64, end| size.max(end.abs()));
-    ends.map(|end| if end.abs() < NOTHING * size { 0.0 } else { end })
-}
-
 /// Whether a surface of this area is convex where its smaller principal curvature is this one, up to rounding.
 pub(super) fn is_convex(smaller: f64, area: f64) -> bool {
     smaller > -ROUNDING / area.sqrt()
@@ -319,7 +329,7 @@ mod tests {
         let rim = found(1.8, 2.0);
         assert!(!rim.is_on_edges() && rim.larger().largest.is_infinite());
         assert!(rim.larger().standard_deviation.is_nan());
-        assert!(rim.smaller().standard_deviation > 0.0);
+        assert!(rim.smaller().standard_deviation.is_nan());
         let blunt = found(1.95, 1.91);
         assert!(blunt.mean().largest.is_infinite() && blunt.larger().largest.is_infinite());
         assert!(found(1.2, 1.2).is_on_edges());
@@ -336,6 +346,24 @@ mod tests {
         assert!(CurvatureStatistics::new(&pair).is_on_edges());
         let rounded = found(6.0, 6.0);
         assert!(!rounded.is_on_edges() && rounded.larger().standard_deviation > 0.0);
+    }
+
+    /// At the end of z of n1 below two both principal curvatures have no bound; across y = 0 of n2 below two one has none, and the other is
+    /// that of the outline, which is largest there.
+    #[test]
+    fn of_superquadrics_below_ellipsoids_the_curvatures_without_a_bound_are_told() {
+        let found = |axes, n1, n2| {
+            let shape = Superquadric::single(axes, n1, n2).unwrap();
+            CurvatureStatistics::new(&SuperquadricGrain::single(Frame::SCAN, shape).unwrap())
+        };
+        let pointed = found([2.0, 2.0, 0.5], 1.8, 2.0);
+        assert!(pointed.smaller().largest.is_infinite() && pointed.larger().largest.is_infinite());
+        assert!(pointed.smaller().standard_deviation.is_nan());
+        let edged = found([3.0, 2.0, 1.0], 4.0, 1.95);
+        assert!(edged.larger().largest.is_infinite() && edged.gaussian().least == 0.0);
+        let [near, far] = [edged, found([3.0, 2.0, 1.0], 4.0, 1.7)].map(|found| found.smaller());
+        assert!(near.standard_deviation > 0.0);
+        assert_relative_eq!(near.largest, far.largest, max_relative = 1e-3);
     }
 
     /// On the planes of its octants one principal curvature vanishes, by the power .04 of the distance, and at its tips both do.

@@ -30,7 +30,7 @@ const CLOSED: f64 = 5e-5;
 const MAX_NODES: usize = 60_000;
 
 /// Places on a quarter of a plane between octants.
-const PER_QUARTER: usize = 64;
+const PER_QUARTER: usize = 128;
 
 /// A node of a quadrature over a surface.
 #[derive(Debug, Clone, Copy)]

@@ -52,15 +52,25 @@ const SHORT: f64 = 1e-5;
 /// A place from which no small step leads higher.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Peak {
-    /// Its direction; a zero without any node.
+    /// Its direction; a zero without any node, and where none is needed.
     pub n: Vector3<f64>,
     pub place: Vector3<f64>,
     /// Infinite where it grows without bound.
     pub value: f64,
 }
 
+impl Peak {
+    /// Of a value that is known to grow without bound.
+    pub(super) const UNBOUNDED: Self = Self {
+        n: Vector3::new(0.0, 0.0, 0.0),
+        place: Vector3::new(0.0, 0.0, 0.0),
+        value: f64::INFINITY,
+    };
+}
+
 /// The highest peak of a value of the principal curvatures that is found from the highest of the nodes over a surface, to
-/// 1e-5 of itself; at a cusp, to 1e-3 of the largest value. Those [on planes](super::nodes::on_planes) may be peaks themselves.
+/// 1e-5 of itself; at a cusp, to 1e-3 of the largest value. Surfaces that know which curvatures are [unbounded](Surface::unbounded_curvatures)
+/// are asked for others only. Those [on planes](super::nodes::on_planes) may be peaks themselves.
 pub(super) fn highest(
     surface: &(impl Surface + ?Sized),
     nodes: &[CurvedNode],
@@ -77,7 +87,8 @@ pub(super) fn highest(
     };
     let on_planes = on_planes.iter().map(of_node);
     // What is higher than all nodes may have no bound there: climbs tell.
-    let on_planes = on_planes.filter(|peak| peak.value <= low / LOW);
+    let is_bounded = surface.unbounded_curvatures().is_some();
+    let on_planes = on_planes.filter(|peak| is_bounded || peak.value <= low / LOW);
     let best = on_planes.max_by(|one, other| one.value.total_cmp(&other.value));
     let mut peaks: Vec<Peak> = best.into_iter().collect();
     for start in starts(nodes, &heights) {
@@ -85,6 +96,7 @@ pub(super) fn highest(
             surface,
             value: &value,
             low,
+            is_bounded,
         };
         peaks.extend(climb.from(&nodes[start], &peaks));
     }
@@ -136,6 +148,8 @@ struct Climb<'a, S: ?Sized, V> {
     surface: &'a S,
     value: &'a V,
     low: f64,
+    /// Whether the value is known to be bounded.
+    is_bounded: bool,
 }
 
 /// A place on the way.
@@ -230,7 +244,7 @@ impl<S: Surface + ?Sized, V: Fn([f64; 2]) -> f64> Climb<'_, S, V> {
                 let end = || near + last * last / (before - last);
                 here.value.max(self.on_planes(here).unwrap_or_else(end))
             }
-            true if is_high => f64::INFINITY,
+            true if is_high && !self.is_bounded => f64::INFINITY,
             _ => here.value,
         }
     }
@@ -396,7 +410,7 @@ mod tests {
     #[test]
     fn what_grows_without_bound_is_infinite_and_what_is_alike_everywhere_is_met_at_once() {
         let edged = Superquadric::single([1.0; 3], 1.5, 1.5).unwrap();
-        let edged = SuperquadricGrain::single(Frame::SCAN, edged).unwrap();
+        let edged = Radial(&edged);
         let found = highest(&edged, &curved_nodes(&edged), &[], |[larger, _]| larger);
         assert_eq!(found.value, f64::INFINITY);
         let sphere = Ellipsoid {

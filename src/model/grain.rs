@@ -245,6 +245,10 @@ impl Surface for Grain {
         self.surface().elements(nodes)
     }
 
+    fn unbounded_curvatures(&self) -> Option<[bool; 2]> {
+        self.surface().unbounded_curvatures()
+    }
+
     fn may_cross(&self) -> bool {
         self.surface().may_cross()
     }

@@ -84,6 +84,11 @@ pub trait Surface: Sync {
         None
     }
 
+    /// Whether the larger and the smaller principal curvature grow without bound somewhere, where the formulas of the surface tell.
+    fn unbounded_curvatures(&self) -> Option<[bool; 2]> {
+        None
+    }
+
     /// X(n) in the scan.
     fn point(&self, n: &Vector3<f64>) -> Point3<f64> {
         self.frame().centre + self.place(n)

@@ -141,6 +141,13 @@ impl Surface for SuperquadricGrain {
         false
     }
 
+    fn unbounded_curvatures(&self) -> Option<[bool; 2]> {
+        match self.body.parts() {
+            [part] => Some(part.shape.unbounded_curvatures()),
+            _ => None,
+        }
+    }
+
     /// From directions of the body stretched to equal widths.
     fn node(&self, node: Node) -> Node {
         let (direction, solid_angle) = self.stretch.node(node);

@@ -94,6 +94,9 @@ pub(crate) struct Octant {
     pub(crate) signs: [f64; 3],
 }
 
+/// By how much an exponent may be below two for curvatures not to grow to twice as much within the range of a number.
+const ROUND: f64 = 1e-3;
+
 impl Superquadric {
     /// One set of numbers for all octants: semi-axes a, b, c and exponents n1, n2.
     ///
@@ -149,6 +152,17 @@ impl Superquadric {
     /// The exponent n2 by the side of x, then of y.
     pub fn n2(&self) -> [[f64; 2]; 2] {
         self.n2
+    }
+
+    /// Whether the larger and the smaller principal curvature grow without bound somewhere: across a plane of coordinates with an
+    /// exponent n one goes as the distance to the power n - 2, and where n1 is below two both do so at the end of z.
+    pub(crate) fn unbounded_curvatures(&self) -> [bool; 2] {
+        let is_edged = |n: &f64| *n < 2.0 - ROUND;
+        let at_ends = self.n1.iter().any(is_edged);
+        [
+            at_ends || self.n2.as_flattened().iter().any(is_edged),
+            at_ends,
+        ]
     }
 
     /// The body, so many times as large.
