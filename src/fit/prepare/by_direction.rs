@@ -60,16 +60,6 @@ fn rounded(mesh: &Mesh, centre: &Point3<f64>) -> Option<Vec<Point3<f64>>> {
     Some(places.map(Point3::from).collect())
 }
 
-/// The mean of the points, from sums that do not lose digits to a far-off origin.
-pub(super) fn middle(points: &[Point3<f64>]) -> Point3<f64> {
-    let origin = points.first().copied().unwrap_or_else(Point3::origin);
-    let sum: Vector3<f64> = points
-        .chunks(1024)
-        .map(|chunk| chunk.iter().map(|p| p - origin).sum::<Vector3<f64>>())
-        .sum();
-    origin + sum / points.len().max(1) as f64
-}
-
 fn mesh_of_directions(points: Vec<Point3<f64>>, centre: &Point3<f64>) -> Result<Mesh, FitError> {
     let directions: Vec<Vector3<f64>> = points
         .iter()
@@ -92,6 +82,7 @@ fn mesh_of_directions(points: Vec<Point3<f64>>, centre: &Point3<f64>) -> Result<
 
 #[cfg(test)]
 mod tests {
+    use super::super::middle::middle;
     use super::*;
     use crate::shapes::Sampling;
     use std::f64::consts::TAU;

@@ -12,6 +12,7 @@ mod holes;
 mod largest;
 mod layers;
 mod left_out;
+mod middle;
 mod pieces;
 mod reference;
 mod rounder;

@@ -1,8 +1,8 @@
 //! The surface that a scan draws: a closed mesh through its points, by its own faces or by the
 //! triangulation of their directions.
 
-use super::by_direction::middle;
 use super::left_out::told;
+use super::middle::middle;
 use super::reference::ReferenceKind;
 use super::rounder::rounder_of_rod;
 use super::scanned::ScannedSurface;

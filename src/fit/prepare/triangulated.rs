@@ -1,9 +1,10 @@
 //! The surface that points without faces draw: the triangulation of their directions, without those that stand apart.
 
 use super::averaged::averaged;
-use super::by_direction::{middle, one_surface};
+use super::by_direction::one_surface;
 use super::gap::Gap;
 use super::layers::layers;
+use super::middle::middle;
 use super::pieces::Pieces;
 use super::reference::ReferenceKind;
 use super::scanned::ScannedSurface;
