@@ -102,8 +102,8 @@ impl RelativeCurvature {
         [self.larger, self.smaller].map(|bent| (pressed(indentation) / bent).sqrt())
     }
 
-    /// The larger of [`Self::reaches`]; half of the length of Hertz's patch is .6 to 1 of it. Checks that it ends before a body does that reaches `body`, all in the unit of the
-    /// surfaces.
+    /// The larger of [`Self::reaches`]; half of the length of Hertz's patch is .6 to 1 of it. Checks that it ends before a body
+    /// does that reaches `body`, all in the unit of the surfaces.
     ///
     /// # Errors
     ///

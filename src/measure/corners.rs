@@ -8,11 +8,10 @@
 //! against the surface's axes. Measured on ellipsoids: of 1 : 1 : 0.1 it is off by 6e-3, of 1 : 1 : 0.2 by 4e-3, of round ones by
 //! 1e-3; on superquadrics of 4 : 4 : 1 with exponents of 1.2 to 8 by up to 1.5e-2.
 
-use super::Curvature;
+use super::nodes::{CurvedNode, curved};
 use crate::model::{Node, Surface};
 use crate::sphere::CubeCell;
-use nalgebra::{Rotation3, Vector3};
-use rayon::prelude::*;
+use nalgebra::Rotation3;
 
 /// Cells along an edge of the cube of nodes.
 const PARTS: u16 = 48;
@@ -20,13 +19,10 @@ const PARTS: u16 = 48;
 /// Angles by which it is turned, in radians: about no axis by some part of a right angle.
 const TURN: [f64; 3] = [0.3, 0.5, 0.7];
 
-/// Nodes at which the surface is evaluated together.
-const CHUNK: usize = 1024;
-
-/// The larger principal curvature at nodes all over a surface, and the areas that they stand for.
+/// Curvatures at nodes all over a surface.
 #[derive(Debug, Clone)]
 pub(super) struct Corners {
-    nodes: Vec<[f64; 2]>,
+    nodes: Vec<CurvedNode>,
 }
 
 impl Corners {
@@ -37,31 +33,21 @@ impl Corners {
     fn at(surface: &(impl Surface + ?Sized), parts: u16) -> Self {
         let [roll, pitch, yaw] = TURN;
         let turn = Rotation3::from_euler_angles(roll, pitch, yaw);
-        let of_chunk = |cells: &[CubeCell]| {
-            let node = |cell: &CubeCell| surface.node((turn * cell.middle(), cell.solid_angle()));
-            let nodes: Vec<Node> = cells.iter().map(node).collect();
-            let directions: Vec<Vector3<f64>> = nodes.iter().map(|(n, _)| *n).collect();
-            let found = nodes.into_iter().zip(surface.jets(&directions));
-            found.map(|((n, solid_angle), jet)| {
-                let curvature = Curvature::new(&n, &jet);
-                [curvature.principal[0], curvature.area() * solid_angle]
-            })
-        };
-        let cells = CubeCell::uniform(parts);
-        let chunks = cells.par_chunks(CHUNK);
+        let node = |cell: &CubeCell| (turn * cell.middle(), cell.solid_angle());
+        let nodes: Vec<Node> = CubeCell::uniform(parts).iter().map(node).collect();
         Self {
-            nodes: chunks.flat_map_iter(of_chunk).collect(),
+            nodes: curved(surface, &nodes),
         }
     }
 
     /// The mean, by area, of 1 / (k R) where k > 1 / R; 1 without such corners.
     pub(super) fn roundness(&self, radius: f64) -> f64 {
         let (mut corners, mut radii) = (0.0, 0.0);
-        for [curvature, area] in &self.nodes {
-            let sharpness = curvature * radius;
+        for node in &self.nodes {
+            let sharpness = node.principal[0] * radius;
             if sharpness > 1.0 {
-                corners += area;
-                radii += area / sharpness;
+                corners += node.area;
+                radii += node.area / sharpness;
             }
         }
         match corners > 0.0 {

@@ -72,23 +72,17 @@ pub(super) fn on_planes(surface: &(impl Surface + ?Sized)) -> Vec<CurvedNode> {
     if !is_of_angles {
         return Vec::new();
     }
-    let quarter = (0..=PER_QUARTER).map(|at| match at {
-        0 => [1.0, 0.0],
-        PER_QUARTER => [0.0, 1.0],
-        _ => {
-            let (sin, cos) = (FRAC_PI_2 * at as f64 / PER_QUARTER as f64).sin_cos();
-            [cos, sin]
-        }
-    });
-    let on_plane = |(axis, [along, across]): (usize, [f64; 2])| {
-        [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)].map(|(one, other)| {
+    let on_circle = |at: usize| {
+        let (sin, cos) = (FRAC_PI_2 * at as f64 / PER_QUARTER as f64).sin_cos();
+        // At the tips to the last bit.
+        let [along, across] = [cos, sin].map(|c| if c.abs() < f64::EPSILON { 0.0 } else { c });
+        [0, 1, 2].map(|axis| {
             let mut n = Vector3::zeros();
-            (n[(axis + 1) % 3], n[(axis + 2) % 3]) = (one * along, other * across);
+            (n[(axis + 1) % 3], n[(axis + 2) % 3]) = (along, across);
             (n, 0.0)
         })
     };
-    let places = quarter.flat_map(|place| [0, 1, 2].map(|axis| (axis, place)));
-    let nodes: Vec<Node> = places.flat_map(on_plane).collect();
+    let nodes: Vec<Node> = (0..4 * PER_QUARTER).flat_map(on_circle).collect();
     curved(surface, &nodes)
 }
 
@@ -139,7 +133,7 @@ fn cut(
 }
 
 /// Curvatures at nodes of the surface's own sphere.
-fn curved(surface: &(impl Surface + ?Sized), nodes: &[Node]) -> Vec<CurvedNode> {
+pub(super) fn curved(surface: &(impl Surface + ?Sized), nodes: &[Node]) -> Vec<CurvedNode> {
     let of_chunk = |nodes: &[Node]| {
         let nodes: Vec<Node> = nodes.iter().map(|node| surface.node(*node)).collect();
         let directions: Vec<_> = nodes.iter().map(|(n, _)| *n).collect();

@@ -85,10 +85,11 @@ pub(super) fn highest(
         place: node.place,
         value: value(node.principal),
     };
-    let on_planes = on_planes.iter().map(of_node);
-    // What is higher than all nodes may have no bound there: climbs tell.
+    // What is higher than all nodes may have no bound there, unless that is known: climbs tell.
     let is_bounded = surface.unbounded_curvatures().is_some();
-    let on_planes = on_planes.filter(|peak| is_bounded || peak.value <= low / LOW);
+    let most = if is_bounded { f64::INFINITY } else { low / LOW };
+    let on_planes = on_planes.iter().map(of_node);
+    let on_planes = on_planes.filter(|peak| peak.value <= most);
     let best = on_planes.max_by(|one, other| one.value.total_cmp(&other.value));
     let mut peaks: Vec<Peak> = best.into_iter().collect();
     for start in starts(nodes, &heights) {

@@ -33,12 +33,18 @@ fn nothing_is_measured_of_a_model_beside_a_hole_unless_as_a_guess() {
     assert!((report["area"].as_f64().unwrap() / (16.0 * PI) - 1.0).abs() < 1e-12);
 }
 
-#[test]
-fn a_page_tells_guesses_where_they_are_asked_for_and_says_so() {
+/// A model m.json and a scan s.ply of bodies that were seen but for a large hole.
+fn half_seen() -> TempDir {
     let folder = folder();
     save(&folder, "unseen", &json!({"hole": {"half_angle": 0.7}}));
     let synth = "synth ellipsoid --points 800 --missing-cap 50 -o s.ply";
     succeed(&folder, &synth.split(' ').collect::<Vec<_>>());
+    folder
+}
+
+#[test]
+fn a_page_tells_guesses_where_they_are_asked_for_and_says_so() {
+    let folder = half_seen();
     for (input, doubt) in [
         ("m.json", "no point lies in holes as large as a cap of 40"),
         ("s.ply", "No point lies within 51 degrees"),
@@ -121,10 +127,7 @@ fn whatever_is_made_of_such_a_model_is_told_so() {
 
 #[test]
 fn bodies_that_are_made_of_a_guess_are_told_to_be_guesses() {
-    let folder = folder();
-    save(&folder, "unseen", &json!({"hole": {"half_angle": 0.7}}));
-    let synth = "synth ellipsoid --points 800 --missing-cap 50 -o s.ply";
-    succeed(&folder, &synth.split(' ').collect::<Vec<_>>());
+    let folder = half_seen();
     for input in ["m.json", "s.ply"] {
         let told = format!("A part of the surface of {input} is a guess, and so are volume, mass");
         let clump = ["clump", input, "--spheres", "2"];

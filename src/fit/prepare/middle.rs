@@ -42,13 +42,14 @@ fn mean(points: &[Point3<f64>]) -> Point3<f64> {
 
 /// The mean of the means of the points in cubes of this width about a place, from there; zero without any.
 fn mean_of_parts(points: &[Point3<f64>], about: &Point3<f64>, width: f64) -> Vector3<f64> {
-    let mut parts = vec![(Vector3::zeros(), 0_u32); (2 * REACH).pow(3)];
+    let side = 2 * REACH;
+    let mut parts = vec![(Vector3::zeros(), 0_u32); side.pow(3)];
     for point in points {
         let away = point - about;
         let place = (away / width).map(|c| (c + REACH as f64).floor());
-        if place.iter().all(|c| (0.0..(2 * REACH) as f64).contains(c)) {
+        if place.iter().all(|c| (0.0..side as f64).contains(c)) {
             let [x, y, z] = [place.x, place.y, place.z].map(|c| c as usize);
-            let (sum, count) = &mut parts[(x * 2 * REACH + y) * 2 * REACH + z];
+            let (sum, count) = &mut parts[(x * side + y) * side + z];
             *sum += away;
             *count += 1;
         }
@@ -58,10 +59,7 @@ fn mean_of_parts(points: &[Point3<f64>], about: &Point3<f64>, width: f64) -> Vec
     let (sum, all) = means.fold((Vector3::zeros(), 0.0), |(sum, all), mean: Vector3<f64>| {
         (sum + mean, all + 1.0)
     });
-    match all > 0.0 {
-        true => sum / all,
-        false => sum,
-    }
+    sum / f64::max(all, 1.0)
 }
 
 #[cfg(test)]
