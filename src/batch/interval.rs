@@ -216,8 +216,11 @@ mod tests {
         }
     }
 
-    /// Shares of intervals of so many pairs of normal lots that hold the truth, of the difference and of the effect.
-    fn coverage(counts: [usize; 2], ratio: f64, effect: f64, pairs: usize) -> [f64; 2] {
+    /// Pairs of normal lots.
+    const PAIRS: usize = 200;
+
+    /// Shares of their intervals that hold the truth, of the difference and of the effect.
+    fn coverage(counts: [usize; 2], ratio: f64, effect: f64) -> [f64; 2] {
         let mut random = ChaCha8Rng::seed_from_u64(5);
         let difference = effect * (0.5 * (1.0 + ratio * ratio)).sqrt();
         let mut lot = |count: usize, mean: f64, deviation: f64| {
@@ -231,7 +234,7 @@ mod tests {
             sample(count, mean, deviation.unwrap())
         };
         let mut held = [0_usize; 2];
-        for _ in 0..pairs {
+        for _ in 0..PAIRS {
             let lots = [lot(counts[0], 0.0, 1.0), lot(counts[1], difference, ratio)];
             let found = intervals(lots).unwrap();
             let sign = |[low, high]: [f64; 2]| [low > 0.0, high < 0.0];
@@ -241,12 +244,12 @@ mod tests {
                 *held += usize::from(low < truth && truth < high);
             }
         }
-        held.map(|held| held as f64 / pairs as f64)
+        held.map(|held| held as f64 / PAIRS as f64)
     }
     #[test]
     fn of_a_hundred_intervals_95_or_more_hold_the_truth() {
-        // The largest difference from .95 by chance: three standard errors of 400 pairs.
-        let least = 0.95 - 3.0 * (0.95_f64 * 0.05 / 400.0).sqrt();
+        // The largest difference from .95 by chance: three standard errors.
+        let least = 0.95 - 3.0 * (0.95_f64 * 0.05 / PAIRS as f64).sqrt();
         for (counts, ratio, effect) in [
             ([2, 2], 0.2, 5.0),
             ([2, 20], 0.2, 1.0),
@@ -255,14 +258,14 @@ mod tests {
             ([10, 80], 0.5, 1.0),
             ([20, 20], 5.0, 0.0),
         ] {
-            let shares = coverage(counts, ratio, effect, 400);
+            let shares = coverage(counts, ratio, effect);
             assert!(
                 shares.iter().all(|share| *share > least),
                 "{counts:?} {ratio} {effect}: {shares:?}"
             );
         }
         // Where the lots tell enough, they are no wider than need be.
-        let most = coverage([20, 40], 2.0, 1.0, 400);
+        let most = coverage([20, 40], 2.0, 1.0);
         assert!(most.iter().all(|share| *share < 0.975), "{most:?}");
     }
 }
