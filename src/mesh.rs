@@ -3,6 +3,7 @@
 mod bounds_tree;
 mod contour;
 mod edges;
+mod enclosing;
 mod kept;
 mod least_area;
 mod parts;
@@ -12,6 +13,7 @@ mod winding;
 pub(crate) use bounds_tree::{Bounds, BoundsTree};
 pub(crate) use contour::{Grid, contour};
 pub(crate) use edges::{edges, undirected};
+pub(crate) use enclosing::Enclosing;
 pub(crate) use kept::keep_vertices;
 pub(crate) use least_area::{LEAST_AREA_CORNERS, least_area};
 pub(crate) use parts::{part, parts};

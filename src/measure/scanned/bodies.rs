@@ -3,8 +3,9 @@
 use super::{FacesDefect, Fill, ScannedBody};
 use crate::measure::crossings::clear_crossings;
 use crate::measure::{SelfCrossing, self_crossing};
-use crate::mesh::{Bounds, BoundsTree, Mesh, part, parts, winding_number};
+use crate::mesh::{Bounds, BoundsTree, Enclosing, Mesh, part, parts};
 use nalgebra::Point3;
+use std::cell::OnceCell;
 
 /// Places in a part by which it is told whether they are inside of another.
 const PROBES: usize = 24;
@@ -46,25 +47,48 @@ impl Part {
         }
     }
 
-    /// Places inside, just below the middle of each triangle.
-    fn places(&self) -> impl Iterator<Item = Point3<f64>> {
+    /// The place inside, just below the middle of a triangle; `None` of one without a normal.
+    fn place(&self, triangle: usize) -> Option<Point3<f64>> {
         let below = BELOW * self.bounds.size() * self.volume.signum();
-        self.mesh.triangles.iter().filter_map(move |corners| {
-            let [a, b, c] = corners.map(|corner| self.mesh.vertices[corner as usize]);
-            let out = (b - a).cross(&(c - a)).try_normalize(0.0)?;
-            Some(a + ((b - a) + (c - a)) / 3.0 - out * below)
-        })
+        let corners = self.mesh.triangles[triangle];
+        let [a, b, c] = corners.map(|corner| self.mesh.vertices[corner as usize]);
+        let out = (b - a).cross(&(c - a)).try_normalize(0.0)?;
+        Some(a + ((b - a) + (c - a)) / 3.0 - out * below)
+    }
+}
+
+/// A part that is asked what it holds, and what others hold of it.
+struct Holder<'a> {
+    part: &'a Part,
+    surface: Enclosing<'a>,
+    /// Triangles with a normal.
+    places: usize,
+}
+
+impl<'a> Holder<'a> {
+    fn new(part: &'a Part) -> Self {
+        let triangles = 0..part.mesh.triangles.len();
+        Self {
+            surface: Enclosing::new(&part.mesh),
+            places: triangles.filter_map(|at| part.place(at)).count(),
+            part,
+        }
     }
 
     /// How much of this part another one holds, by the winding number about some of its places: those that lie in the
     /// other's box, where a small overlap is.
     fn held_by(&self, other: &Self) -> Held {
-        let is_near = |place: &Point3<f64>| other.bounds.holds(place);
-        let near: Vec<Point3<f64>> = self.places().filter(is_near).collect();
-        let is_whole = near.len() == self.places().count();
+        let Self { part, surface, .. } = self;
+        let bounds = &other.part.bounds;
+        let near = surface.triangles_near(bounds).into_iter();
+        let near: Vec<Point3<f64>> = near
+            .filter_map(|triangle| part.place(triangle))
+            .filter(|place| bounds.holds(place))
+            .collect();
+        let is_whole = near.len() == self.places;
         let step = near.len().div_ceil(PROBES).max(1);
         let probes = || near.iter().step_by(step);
-        let is_inside = |place: &&Point3<f64>| winding_number(&other.mesh, place).abs() > 0.5;
+        let is_inside = |place: &&Point3<f64>| other.surface.winding_number(place) != 0;
         match probes().filter(is_inside).count() {
             0 => Held::Nothing,
             inside if is_whole && inside == probes().count() => Held::All,
@@ -74,19 +98,22 @@ impl Part {
 }
 
 /// For every part, the others whose boxes meet its own.
-fn neighbours(parts: &[Part]) -> Vec<Vec<&Part>> {
+fn neighbours(parts: &[Part]) -> Vec<Vec<usize>> {
     let tree = BoundsTree::new(parts.iter().map(|part| part.bounds).collect());
     let of_part = |(own, part): (usize, &Part)| {
         let met = tree.meeting(&part.bounds).map(|other| other as usize);
-        met.filter(|&other| other != own)
-            .map(|other| &parts[other])
-            .collect()
+        met.filter(|&other| other != own).collect()
     };
     parts.iter().enumerate().map(of_part).collect()
 }
 
 /// Whether triangles of different parts go through one another. Only those are looked at that other parts may reach.
-fn are_crossing(mesh: &Mesh, lists: &[Vec<usize>], neighbours: &[Vec<&Part>]) -> bool {
+fn are_crossing(
+    mesh: &Mesh,
+    lists: &[Vec<usize>],
+    parts: &[Part],
+    neighbours: &[Vec<usize>],
+) -> bool {
     let mut near = Mesh {
         vertices: mesh.vertices.clone(),
         triangles: Vec::new(),
@@ -97,7 +124,8 @@ fn are_crossing(mesh: &Mesh, lists: &[Vec<usize>], neighbours: &[Vec<&Part>]) ->
             let corners = mesh.triangles[triangle];
             let places = corners.map(|corner| mesh.vertices[corner as usize]);
             let bounds = Bounds::new(places, 0.0);
-            if others.iter().any(|other| other.bounds.meets(&bounds)) {
+            let meets = |&other: &usize| parts[other].bounds.meets(&bounds);
+            if others.iter().any(meets) {
                 near.triangles.push(corners);
                 owners.push(owner);
             }
@@ -122,11 +150,13 @@ pub(super) fn arrange(mut mesh: Mesh, fill: Option<Fill>) -> ScannedBody {
     let parts: Vec<Part> = lists.iter().map(|list| Part::new(&mesh, list)).collect();
     let mut cavities = 0;
     let neighbours = neighbours(&parts);
-    let mut is_overlapping = are_crossing(&mesh, &lists, &neighbours);
+    let mut is_overlapping = are_crossing(&mesh, &lists, &parts, &neighbours);
+    let holders: Vec<OnceCell<Holder<'_>>> = parts.iter().map(|_| OnceCell::new()).collect();
+    let holder = |at: usize| holders[at].get_or_init(|| Holder::new(&parts[at]));
     for (index, part) in parts.iter().enumerate() {
         let mut depth = 0;
-        for other in &neighbours[index] {
-            let held = part.held_by(other);
+        for &other in &neighbours[index] {
+            let held = holder(index).held_by(holder(other));
             is_overlapping |= held == Held::Some;
             depth += usize::from(held == Held::All);
         }
