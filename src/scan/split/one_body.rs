@@ -3,7 +3,7 @@
 use super::links::Links;
 use super::neck::{Neck, THIN};
 use super::spacing::covering;
-use crate::scan::drawn::drawn;
+use crate::scan::drawn::{drawn, evenly_drawn};
 use nalgebra::Point3;
 
 /// The same of slabs in which necks between voxels show.
@@ -14,7 +14,7 @@ const NECK_POINTS: usize = 4000;
 
 /// Whether a cloud without faces, taken for one body, has a neck at which [`split`] would cut it.
 pub(crate) fn has_neck(points: &[Point3<f64>]) -> bool {
-    let drawn = drawn(points, NECK_POINTS);
+    let drawn = evenly_drawn(points, NECK_POINTS);
     let waist = |times: f64| neck_of(&drawn, times).filter(Neck::is_waist);
     // Between rows of points thin slabs hold few of them; a neck is a waist in thick slabs too.
     let is_thick = || waist(1.0).is_some_and(|neck| neck.is_narrow()) && waist(2.0).is_some();
