@@ -184,10 +184,8 @@ pub enum FitError {
     },
     /// No centre sees (nearly) the whole surface.
     #[error(
-        "the surface is not star-shaped: seen from the best centre, {:.1} % of its area faces away, \
-         so the radius is not a function of the direction; hooks and cups are fitted by positions \
-         (grainform fit without --surface star), rings and several bodies are not",
-        100.0 * share
+        "{}; hooks and cups are fitted by positions (grainform fit without --surface star), rings and several bodies are not",
+        not_star_shaped(*share)
     )]
     NotStarShaped {
         /// Share of the area that faces away from the best centre.
@@ -251,7 +249,10 @@ pub enum FitError {
         place: Point3<f64>,
     },
     /// Neither a radius nor positions can be fitted to points without faces, or to voxels.
-    #[error("{radius}. Positions cannot be fitted either: {position}")]
+    #[error(
+        "{}. Positions cannot be fitted either: {position}",
+        why_no_radius(radius)
+    )]
     NoKind {
         /// Why no radius can.
         radius: Box<FitError>,
@@ -315,6 +316,22 @@ impl FitError {
     }
 }
 
+fn not_star_shaped(share: f64) -> String {
+    let share = 100.0 * share;
+    format!(
+        "the surface is not star-shaped: seen from the best centre, {share:.1} % of its area faces away, so the radius is not a \
+         function of the direction"
+    )
+}
+
+/// What kept a radius from being fitted, without the way out of positions.
+fn why_no_radius(radius: &FitError) -> String {
+    match radius {
+        FitError::NotStarShaped { share } => not_star_shaped(*share),
+        other => other.to_string(),
+    }
+}
+
 impl From<MapError> for FitError {
     fn from(error: MapError) -> Self {
         match error {
@@ -327,5 +344,23 @@ impl From<MapError> for FitError {
 impl From<Cancelled> for FitError {
     fn from(_: Cancelled) -> Self {
         Self::Cancelled
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn positions_are_no_way_out_where_they_were_tried() {
+        let radius = FitError::NotStarShaped { share: 0.25 };
+        let way_out = "fitted by positions";
+        assert!(radius.to_string().contains(way_out));
+        let neither = FitError::NoKind {
+            radius: radius.into(),
+            position: FitError::NoVolume.into(),
+        };
+        let told = neither.to_string();
+        assert!(told.contains("25.0 % of its area") && !told.contains(way_out));
     }
 }
