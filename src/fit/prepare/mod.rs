@@ -15,6 +15,7 @@ mod left_out;
 mod middle;
 mod pieces;
 mod reference;
+mod representatives;
 mod rounder;
 mod rows;
 mod samples;

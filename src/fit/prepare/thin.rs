@@ -13,10 +13,15 @@ use nalgebra::{Matrix3, Point3, Rotation3};
 /// Clouds up to this size are used whole.
 pub(crate) const WHOLE_CLOUD: usize = 16_384;
 
+/// So many points of a bin, the representative and those near it, may be strays that are near each other by chance.
+const FEW: usize = 3;
+
 /// A representative of each bin that holds a point, and the points that stand apart from theirs.
 pub(crate) struct Thinned {
     /// Indices of the representatives, by bin.
     pub(crate) representatives: Vec<u32>,
+    /// Of each, whether so [few](FEW) points of its bin are near it that it may be the one that stands apart.
+    pub(crate) are_alone: Vec<bool>,
     /// Indices of points whose radius after the map differs from their bin's median by more than `apart`
     /// (relative), sorted.
     pub(crate) strays: Vec<u32>,
@@ -37,6 +42,7 @@ pub(super) fn thin(
     let sorted = Buckets::new(BINS, &bins);
     let mut thinned = Thinned {
         representatives: Vec::new(),
+        are_alone: Vec::new(),
         strays: Vec::new(),
     };
     let mut keyed: Vec<(Sample, u32)> = Vec::new();
@@ -50,13 +56,16 @@ pub(super) fn thin(
         let middle = keyed.len() / 2;
         let (_, &mut ([.., median], index), _) =
             keyed.select_nth_unstable_by(middle, |a, b| order(&a.0, &b.0));
-        thinned.representatives.push(index);
+        let before = thinned.strays.len();
         thinned.strays.extend(
             keyed
                 .iter()
                 .filter(|([.., r], _)| (r - median).abs() > apart * median)
                 .map(|&(_, index)| index),
         );
+        let apart = thinned.strays.len() - before;
+        thinned.representatives.push(index);
+        thinned.are_alone.push(members.len() - apart <= FEW);
     }
     thinned.strays.sort_unstable();
     thinned

@@ -24,6 +24,12 @@ const ASKED: usize = 1000;
 const TIP: usize = 6;
 const TIP_SHARE: f64 = 0.005;
 
+/// Points lie in one direction within this angle, in radians.
+const ONE_DIRECTION: f64 = 0.15;
+
+/// Number of points that do so by chance, below which they belong together.
+const BY_CHANCE: f64 = 0.05;
+
 /// The number of points of a cloud, other than those that were kept, that are in company of each other.
 pub(super) fn together(points: &[Point3<f64>], kept: &[Point3<f64>]) -> usize {
     let (apart, near) = apart(points, kept);
@@ -43,17 +49,47 @@ pub(super) fn neighbouring(points: &[Point3<f64>], kept: &[Point3<f64>]) -> Vec<
     found.map(|place| Point3::from(*place)).collect()
 }
 
-/// The points that were not kept, and what is near in their cloud.
-fn apart(points: &[Point3<f64>], kept: &[Point3<f64>]) -> (Places, f64) {
+/// Of points that were not kept, those that lie in one direction from a centre with others of them, as points strewn about a grain
+/// do by chance one time in twenty: the few points of an awn.
+pub(super) fn in_one_direction(
+    points: &[Point3<f64>],
+    kept: &[Point3<f64>],
+    centre: &Point3<f64>,
+) -> Vec<Point3<f64>> {
+    let apart: Vec<&Point3<f64>> = not_kept(points, kept).collect();
+    let rays = apart.iter().map(|&point| point - centre);
+    let directions: Vec<_> = rays.map(|ray| ray.try_normalize(0.0)).collect();
+    // Of others that lie anywhere, so many are expected within the angle.
+    let expected = apart.len() as f64 * (1.0 - ONE_DIRECTION.cos()) / 2.0;
+    let is_of_several = |own: &Vector3<f64>| {
+        let is_beside = |other: &&Vector3<f64>| own.dot(other) > ONE_DIRECTION.cos();
+        let beside = directions.iter().flatten().filter(is_beside).count() - 1;
+        let as_many: f64 = (1..=beside).map(|k| expected / k as f64).product();
+        beside > 0 && apart.len() as f64 * as_many < BY_CHANCE
+    };
+    let found = apart.iter().zip(&directions);
+    let found = found.filter(|(_, direction)| direction.as_ref().is_some_and(is_of_several));
+    found.map(|(point, _)| **point).collect()
+}
+
+fn not_kept<'a>(
+    points: &'a [Point3<f64>],
+    kept: &[Point3<f64>],
+) -> impl Iterator<Item = &'a Point3<f64>> {
     let key = |point: &Point3<f64>| [point.x, point.y, point.z].map(f64::to_bits);
     let mut known: Vec<_> = kept.iter().map(key).collect();
     known.sort_unstable();
-    let is_apart = |point: &&Point3<f64>| known.binary_search(&key(point)).is_err();
+    let is_apart = move |point: &&Point3<f64>| known.binary_search(&key(point)).is_err();
+    points.iter().filter(is_apart)
+}
+
+/// The points that were not kept, and what is near in their cloud.
+fn apart(points: &[Point3<f64>], kept: &[Point3<f64>]) -> (Places, f64) {
     let all = Places::new(points.iter());
     let asked = all.places.iter().step_by(all.places.len().div_ceil(ASKED));
     let mut spacings: Vec<f64> = asked.map(|own| all.distance(own, NEIGHBOUR)).collect();
     let near = NEAR * median(&mut spacings).unwrap_or(0.0);
-    (Places::new(points.iter().filter(is_apart)), near)
+    (Places::new(not_kept(points, kept)), near)
 }
 
 struct Places {
@@ -124,6 +160,22 @@ mod tests {
         let table = (0..50).map(|i| Point3::new(0.01 * f64::from(i), 0.0, -2.0));
         cloud.extend(table);
         assert_eq!(neighbouring(&cloud, &kept), []);
+    }
+
+    #[test]
+    fn few_points_in_one_direction_are_an_awn_and_strewn_ones_are_none() {
+        let kept = ellipsoid(1000);
+        let centre = Point3::origin();
+        let awn = [[4.0, 0.0, 0.1], [5.0, 0.2, 0.0], [6.5, 0.0, -0.2]].map(Point3::from);
+        let strewn = [[0.0, 4.0, 0.0], [-5.0, 0.0, 1.0], [0.0, 0.0, -3.0]].map(Point3::from);
+        let cloud = [kept.as_slice(), &strewn[..1], &awn, &strewn[1..]].concat();
+        assert_eq!(in_one_direction(&cloud, &kept, &centre), awn);
+        let mut random = ChaCha8Rng::seed_from_u64(3);
+        let far = Uniform::new(-9.0, 9.0).unwrap();
+        let strewn = (0..300).map(|_| Point3::from([(); 3].map(|()| far.sample(&mut random))));
+        let many = [kept.as_slice(), &strewn.collect::<Vec<_>>()].concat();
+        assert_eq!(in_one_direction(&many, &kept, &centre), []);
+        assert_eq!(in_one_direction(&kept, &kept, &centre), []);
     }
 
     #[test]

@@ -7,10 +7,10 @@ use super::layers::layers;
 use super::middle::middle;
 use super::pieces::Pieces;
 use super::reference::ReferenceKind;
+use super::representatives::Representatives;
 use super::scanned::ScannedSurface;
-use super::strays::LEAST_STRAY;
-use super::thin::{Thinned, WHOLE_CLOUD, select, thin};
-use super::together::{neighbouring, together};
+use super::thin::{WHOLE_CLOUD, select};
+use super::together::{in_one_direction, neighbouring, together};
 use super::twins::merged;
 use crate::fit::error::FitError;
 use crate::fit::repeated::without_repeats;
@@ -36,6 +36,9 @@ const MOST_WITH_TWINS: usize = 4 * WHOLE_CLOUD;
 
 /// Rounds of leaving out strays.
 const STRAY_ROUNDS: usize = 5;
+
+/// The same where a bin of directions with several strays shows one after the other.
+const REPRESENTATIVE_ROUNDS: usize = 20;
 
 /// The surface of points alone; a rod after a `map` that makes it as wide as long, for along it directions differ by little.
 ///
@@ -73,24 +76,9 @@ pub(super) fn from_directions(
             (mesh, points, None)
         }
         false => {
-            let centre = middle(&points);
-            let Thinned {
-                representatives,
-                strays,
-            } = thin(
-                &points,
-                &centre,
-                &map.unwrap_or(Matrix3::identity()),
-                LEAST_STRAY,
-            );
-            refuse_background(strays.len(), points.len())?;
-            let representatives = select(&points, &representatives);
-            let (mesh, _) = one_surface(&representatives, &centre)?;
-            let kept = match strays.is_empty() {
-                true => points,
-                false => Cow::Owned(without(&points, strays.iter().map(|&index| index as usize))),
-            };
-            (mesh, kept, Some(representatives))
+            let map = map.unwrap_or(Matrix3::identity());
+            let (mesh, points, representatives) = by_representatives(points, &map)?;
+            (mesh, points, Some(representatives))
         }
     };
     let strays = all - points.len();
@@ -146,6 +134,37 @@ fn whole(points: Points<'_>) -> Result<(Mesh, Points<'_>), FitError> {
     Ok((mesh, Cow::Owned(kept)))
 }
 
+/// The same of a large cloud, by representatives of its points; and these.
+fn by_representatives<'a>(
+    points: Points<'a>,
+    map: &Matrix3<f64>,
+) -> Result<(Mesh, Points<'a>, Vec<Point3<f64>>), FitError> {
+    let given = points.clone();
+    let mut kept = points;
+    let mut found = Representatives::new(&kept, map)?;
+    for _ in 0..REPRESENTATIVE_ROUNDS {
+        if found.apart.is_empty() {
+            break;
+        }
+        kept = Cow::Owned(without(&kept, found.apart));
+        found = Representatives::new(&kept, map)?;
+    }
+    let left = kept.len();
+    if left < given.len() {
+        let tips = neighbouring(&given, &kept);
+        kept.to_mut().extend(tips);
+        let awn = in_one_direction(&given, &kept, &middle(&kept));
+        kept.to_mut().extend(awn);
+    }
+    if kept.len() > left {
+        found = Representatives::new(&kept, map)?;
+    }
+    if !found.strays.is_empty() {
+        kept = Cow::Owned(without(&kept, found.strays));
+    }
+    Ok((found.mesh, kept, found.points))
+}
+
 fn without_strays(mut points: Points<'_>) -> Result<(Mesh, Points<'_>), FitError> {
     let all = points.len();
     for _ in 0..STRAY_ROUNDS {
@@ -182,5 +201,41 @@ fn refuse_second_surface(points: &[Point3<f64>], kept: &[Point3<f64>]) -> Result
             share: count / points.len() as f64,
         }),
         _ => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shapes::Sampling;
+    use nalgebra::Vector3;
+    use rand::{RngExt, SeedableRng};
+    use rand_chacha::ChaCha8Rng;
+
+    /// With 1.5 points in a bin of directions, a stray is often the only one, or one of two.
+    #[test]
+    fn strays_strewn_about_a_large_cloud_are_left_out() {
+        let axes = Vector3::new(3.0, 2.0, 1.5);
+        let directions = Sampling::Fibonacci.directions(20_000, 0).unwrap();
+        let mut cloud: Vec<Point3<f64>> = directions
+            .iter()
+            .map(|n| Point3::from(n.component_mul(&axes)))
+            .collect();
+        let is_off = |point: &Point3<f64>| {
+            let far = point.coords.component_div(&axes).norm();
+            (far - 1.0).abs() > 1e-9
+        };
+        let mut random = ChaCha8Rng::seed_from_u64(1);
+        let strewn =
+            (0..600).map(|_| Point3::from([(); 3].map(|()| random.random_range(-15.0..15.0))));
+        cloud.extend(strewn);
+        let surface = from_directions(Cow::Borrowed(&cloud), None).unwrap();
+        assert!(surface.points.len() > 19_950);
+        assert_eq!(
+            surface.points.iter().filter(|point| is_off(point)).count(),
+            0
+        );
+        let representatives = surface.representatives.unwrap();
+        assert!(!representatives.iter().any(is_off));
     }
 }
