@@ -18,9 +18,7 @@ impl TriangleTree {
     /// The tree of a mesh whose triangles all name vertices that exist.
     pub(crate) fn new(mesh: &Mesh) -> Self {
         let corners = |t: &[u32; 3]| t.map(|corner| mesh.vertices[corner as usize]);
-        let triangles = mesh.triangles.iter();
-        let boxes = triangles.map(|t| Bounds::new(corners(t), 0.0));
-        let tree = BoundsTree::new(boxes.collect());
+        let tree = BoundsTree::of_triangles(mesh);
         let in_order = tree.order().iter().map(|&at| &mesh.triangles[at as usize]);
         Self {
             triangles: in_order

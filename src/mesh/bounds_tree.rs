@@ -1,5 +1,6 @@
 //! A tree of boxes: which of them meet, and which are near a place, without a look at most of them.
 
+use super::Mesh;
 use nalgebra::{Point3, Vector3};
 use std::ops::Range;
 
@@ -95,6 +96,13 @@ impl BoundsTree {
             tree.grow(0, tree.boxes.len(), &mut Vec::new());
         }
         tree
+    }
+
+    /// Of the boxes of a mesh's triangles, all of which name vertices that exist.
+    pub(crate) fn of_triangles(mesh: &Mesh) -> Self {
+        let corners = |t: &[u32; 3]| t.map(|corner| mesh.vertices[corner as usize]);
+        let boxes = mesh.triangles.iter().map(|t| Bounds::new(corners(t), 0.0));
+        Self::new(boxes.collect())
     }
 
     /// Adds the node of a span; `middles` is used anew by each.

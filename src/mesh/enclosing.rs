@@ -13,10 +13,8 @@ pub(crate) struct Enclosing<'a> {
 impl<'a> Enclosing<'a> {
     /// Of a mesh whose triangles name vertices that exist.
     pub(crate) fn new(mesh: &'a Mesh) -> Self {
-        let corners = |corners: &[u32; 3]| corners.map(|corner| mesh.vertices[corner as usize]);
-        let bounds = mesh.triangles.iter().map(corners);
         Self {
-            tree: BoundsTree::new(bounds.map(|places| Bounds::new(places, 0.0)).collect()),
+            tree: BoundsTree::of_triangles(mesh),
             mesh,
         }
     }
@@ -28,9 +26,9 @@ impl<'a> Enclosing<'a> {
         near
     }
 
-    /// How often the mesh goes round a place off it: as often as a ray from there leaves it through triangles less often than
-    /// it comes in. Which triangles it goes through is told by signs that rounding does not change, and each edge
-    /// belongs to one of its triangles only (Shimrat 1962), so that the number is exact.
+    /// How often the mesh goes round a place off it: through so many more triangles a ray from there goes out than in. Which
+    /// triangles it goes through is told by signs that rounding does not change, and each edge belongs to one of its
+    /// triangles only (Shimrat 1962), so that the number is exact.
     pub(crate) fn winding_number(&self, place: &Point3<f64>) -> i32 {
         let Some(bounds) = self.tree.bounds() else {
             return 0;

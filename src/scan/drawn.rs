@@ -1,5 +1,6 @@
 //! A few of many points, the same whatever their order.
 
+use crate::mesh::Bounds;
 use nalgebra::Point3;
 use std::cmp::Ordering;
 
@@ -39,15 +40,10 @@ pub(super) fn evenly_drawn(points: &[Point3<f64>], most: usize) -> Vec<Point3<f6
 
 /// The part of space that each point lies in, of cubes along the longest side of the box round all.
 fn parts(points: &[Point3<f64>]) -> Vec<usize> {
-    let Some(&first) = points.first() else {
-        return Vec::new();
-    };
-    let bounds = points.iter().fold((first, first), |(low, high), point| {
-        (low.inf(point), high.sup(point))
-    });
-    let (low, size) = (bounds.0, (bounds.1 - bounds.0).max());
+    let [low, high] = Bounds::new(points.iter().copied(), 0.0).corners();
+    let size = (high - low).max();
     let part = |point: &Point3<f64>| {
-        let place = (point - low) / size * PARTS as f64;
+        let place = (point.coords - low) / size * PARTS as f64;
         let place = place.map(|c| (c as usize).min(PARTS - 1));
         (place.x * PARTS + place.y) * PARTS + place.z
     };

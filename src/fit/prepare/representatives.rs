@@ -14,7 +14,7 @@ use nalgebra::{Matrix3, Point3};
 pub(super) struct Representatives {
     pub(super) mesh: Mesh,
     pub(super) points: Vec<Point3<f64>>,
-    /// Indices of those that stand apart from their neighbours, and that no point of their bin is near; sorted.
+    /// Indices of those that stand apart from their neighbours, and that few points of their bin are near; sorted.
     pub(super) apart: Vec<usize>,
     /// Indices of points that stand apart from the representative of their bin, sorted.
     pub(super) strays: Vec<usize>,
@@ -29,14 +29,14 @@ impl Representatives {
         let centre = middle(cloud);
         let Thinned {
             representatives,
-            are_alone,
+            may_be_strays,
             strays,
         } = thin(cloud, &centre, map, LEAST_STRAY);
         let points = select(cloud, &representatives);
         let (mesh, apart) = one_surface(&points, &centre)?;
         let apart = apart.into_iter().map(|at| at as usize);
-        let alone = apart.filter(|&at| are_alone[at]);
-        let mut apart: Vec<usize> = alone.map(|at| representatives[at] as usize).collect();
+        let strays_too = apart.filter(|&at| may_be_strays[at]);
+        let mut apart: Vec<usize> = strays_too.map(|at| representatives[at] as usize).collect();
         apart.sort_unstable();
         Ok(Self {
             mesh,

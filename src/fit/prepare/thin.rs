@@ -20,8 +20,8 @@ const FEW: usize = 3;
 pub(crate) struct Thinned {
     /// Indices of the representatives, by bin.
     pub(crate) representatives: Vec<u32>,
-    /// Of each, whether so [few](FEW) points of its bin are near it that it may be the one that stands apart.
-    pub(crate) are_alone: Vec<bool>,
+    /// Of each, whether so [few](FEW) points of its bin are near it that it may be a stray itself.
+    pub(crate) may_be_strays: Vec<bool>,
     /// Indices of points whose radius after the map differs from their bin's median by more than `apart`
     /// (relative), sorted.
     pub(crate) strays: Vec<u32>,
@@ -42,7 +42,7 @@ pub(super) fn thin(
     let sorted = Buckets::new(BINS, &bins);
     let mut thinned = Thinned {
         representatives: Vec::new(),
-        are_alone: Vec::new(),
+        may_be_strays: Vec::new(),
         strays: Vec::new(),
     };
     let mut keyed: Vec<(Sample, u32)> = Vec::new();
@@ -63,9 +63,9 @@ pub(super) fn thin(
                 .filter(|([.., r], _)| (r - median).abs() > apart * median)
                 .map(|&(_, index)| index),
         );
-        let apart = thinned.strays.len() - before;
+        let near = members.len() - (thinned.strays.len() - before);
         thinned.representatives.push(index);
-        thinned.are_alone.push(members.len() - apart <= FEW);
+        thinned.may_be_strays.push(near <= FEW);
     }
     thinned.strays.sort_unstable();
     thinned
