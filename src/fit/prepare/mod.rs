@@ -9,6 +9,7 @@ mod centre;
 mod facets;
 mod gap;
 mod holes;
+mod islands;
 mod largest;
 mod layers;
 mod left_out;

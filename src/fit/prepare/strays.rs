@@ -1,5 +1,6 @@
 //! Points that stand apart from their neighbours: outliers of the scan.
 
+use super::islands::Seen;
 use crate::fit::slope::on_slope;
 use crate::mesh::Mesh;
 use crate::spread::{lower_quartile, median, robust_deviation};
@@ -89,13 +90,20 @@ pub(crate) fn find_strays(mesh: &Mesh, centre: &Point3<f64>) -> Strays {
             cloud.stands_apart[own] = false;
         }
     }
-    Strays {
-        indices: all
-            .filter(|&own| cloud.stands_apart[own] && !cloud.is_of_rim(own))
-            .map(|own| own as u32)
-            .collect(),
-        scatter,
-    }
+    let mut indices: Vec<u32> = all
+        .filter(|&own| cloud.stands_apart[own] && !cloud.is_of_rim(own))
+        .map(|own| own as u32)
+        .collect();
+    let seen = Seen {
+        rays: &cloud.rays,
+        radii: &cloud.radii,
+        neighbours: &cloud.neighbours,
+    };
+    let islands = seen.islands(LEAST_STRAY.max(SCATTERS * scatter), NEAR);
+    indices.extend(islands.into_iter().map(|own| own as u32));
+    indices.sort_unstable();
+    indices.dedup();
+    Strays { indices, scatter }
 }
 
 /// What is known of the points.

@@ -6,6 +6,7 @@
 //! point of median radius, which also drops outliers.
 
 use super::bin::{BINS, bin};
+use super::islands::LARGEST;
 use super::samples::{Sample, order};
 use crate::buckets::Buckets;
 use nalgebra::{Matrix3, Point3, Rotation3};
@@ -14,7 +15,7 @@ use nalgebra::{Matrix3, Point3, Rotation3};
 pub(crate) const WHOLE_CLOUD: usize = 16_384;
 
 /// So many points of a bin, the representative and those near it, may be strays that are near each other by chance.
-const FEW: usize = 3;
+const FEW: usize = LARGEST;
 
 /// A representative of each bin that holds a point, and the points that stand apart from theirs.
 pub(crate) struct Thinned {

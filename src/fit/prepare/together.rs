@@ -3,6 +3,7 @@
 //!
 //! Outliers lie anywhere, and so far from each other; the points of a surface have others of it about them.
 
+use super::islands::LARGEST;
 use crate::fit::neighbours::Neighbours;
 use crate::spread::median;
 use nalgebra::{Point3, Vector3};
@@ -24,27 +25,40 @@ const ASKED: usize = 1000;
 const TIP: usize = 6;
 const TIP_SHARE: f64 = 0.005;
 
+/// Of a tip and of a surface, more points than an island has are within so many times what is near.
+const BEYOND: f64 = 2.0;
+
 /// Points lie in one direction within this angle, in radians.
 const ONE_DIRECTION: f64 = 0.15;
+
+/// The same of what is between two of them: in a group they lie in any direction from each other.
+const ALONG: f64 = 0.5;
 
 /// Number of points that do so by chance, below which they belong together.
 const BY_CHANCE: f64 = 0.05;
 
 /// The number of points of a cloud, other than those that were kept, that are in company of each other.
 pub(super) fn together(points: &[Point3<f64>], kept: &[Point3<f64>]) -> usize {
-    let (apart, near) = apart(points, kept);
-    let is_in_company = |own: &&Vector3<f64>| apart.distance(own, COMPANY) <= near;
+    let near = Places::new(points.iter()).near();
+    let apart = Places::new(not_kept(points, kept));
+    let is_in_company = |own: &&Vector3<f64>| {
+        apart.distance(own, COMPANY) <= near && apart.distance(own, LARGEST) <= BEYOND * near
+    };
     apart.places.iter().filter(is_in_company).count()
 }
 
-/// Of a few points that were not kept, those that are near another of them: they may be a tip of the grain.
+/// Of a few points that were not kept, those that are near another of them, and as a group near the others: they may be a tip of the
+/// grain.
 pub(super) fn neighbouring(points: &[Point3<f64>], kept: &[Point3<f64>]) -> Vec<Point3<f64>> {
     if !may_be_tip(points, kept) {
         return Vec::new();
     }
-    let (apart, near) = apart(points, kept);
+    let all = Places::new(points.iter());
+    let near = all.near();
+    let apart = Places::new(not_kept(points, kept));
     let is_near_one = |own: &&Vector3<f64>| apart.distance(own, 1) <= near;
-    let found = apart.places.iter().filter(is_near_one);
+    let is_of_tip = |own: &&Vector3<f64>| all.distance(own, LARGEST) <= BEYOND * near;
+    let found = apart.places.iter().filter(is_near_one).filter(is_of_tip);
     found.map(|place| Point3::from(*place)).collect()
 }
 
@@ -54,8 +68,8 @@ fn may_be_tip(points: &[Point3<f64>], kept: &[Point3<f64>]) -> bool {
     points.len() - kept.len() <= most
 }
 
-/// Of a few points that were not kept, those that lie in one direction from a centre with others of them, as points strewn about a
-/// grain do by chance one time in twenty: they may be an awn.
+/// Of a few points that were not kept, those that lie in one direction from a centre with others of them that are not near, as points
+/// strewn about a grain do by chance one time in twenty: they may be an awn.
 pub(super) fn in_one_direction(
     points: &[Point3<f64>],
     kept: &[Point3<f64>],
@@ -64,19 +78,29 @@ pub(super) fn in_one_direction(
     if !may_be_tip(points, kept) {
         return Vec::new();
     }
+    let near = Places::new(points.iter()).near();
     let apart: Vec<&Point3<f64>> = not_kept(points, kept).collect();
     let rays = apart.iter().map(|&point| point - centre);
     let directions: Vec<_> = rays.map(|ray| ray.try_normalize(0.0)).collect();
     // Of others that lie anywhere, so many are expected within the angle.
     let expected = apart.len() as f64 * (1.0 - ONE_DIRECTION.cos()) / 2.0;
-    let is_of_several = |own: &Vector3<f64>| {
-        let is_beside = |other: &&Vector3<f64>| own.dot(other) > ONE_DIRECTION.cos();
-        let beside = directions.iter().flatten().filter(is_beside).count() - 1;
+    let is_of_several = |(own, direction): &(&&Point3<f64>, &Option<Vector3<f64>>)| {
+        let Some(direction) = direction else {
+            return false;
+        };
+        let others = apart.iter().zip(&directions);
+        let beside = others.filter(|&(other, towards)| {
+            let is_in_line = |towards: &Vector3<f64>| direction.dot(towards) > ONE_DIRECTION.cos();
+            let between = *other - **own;
+            let is_beyond = between.norm() > near
+                && between.dot(direction).abs() > ALONG.cos() * between.norm();
+            is_beyond && towards.as_ref().is_some_and(is_in_line)
+        });
+        let beside = beside.count();
         let as_many: f64 = (1..=beside).map(|k| expected / k as f64).product();
         beside > 0 && apart.len() as f64 * as_many < BY_CHANCE
     };
-    let found = apart.iter().zip(&directions);
-    let found = found.filter(|(_, direction)| direction.as_ref().is_some_and(is_of_several));
+    let found = apart.iter().zip(&directions).filter(is_of_several);
     found.map(|(point, _)| **point).collect()
 }
 
@@ -91,15 +115,6 @@ fn not_kept<'a>(
     points.iter().filter(is_apart)
 }
 
-/// The points that were not kept, and what is near in their cloud.
-fn apart(points: &[Point3<f64>], kept: &[Point3<f64>]) -> (Places, f64) {
-    let all = Places::new(points.iter());
-    let asked = all.places.iter().step_by(all.places.len().div_ceil(ASKED));
-    let mut spacings: Vec<f64> = asked.map(|own| all.distance(own, NEIGHBOUR)).collect();
-    let near = NEAR * median(&mut spacings).unwrap_or(0.0);
-    (Places::new(not_kept(points, kept)), near)
-}
-
 struct Places {
     places: Vec<Vector3<f64>>,
     neighbours: Neighbours,
@@ -112,6 +127,14 @@ impl Places {
             neighbours: Neighbours::new(&places),
             places,
         }
+    }
+
+    /// What is near in a cloud of these places.
+    fn near(&self) -> f64 {
+        let asked = self.places.iter();
+        let asked = asked.step_by(self.places.len().div_ceil(ASKED));
+        let mut spacings: Vec<f64> = asked.map(|own| self.distance(own, NEIGHBOUR)).collect();
+        NEAR * median(&mut spacings).unwrap_or(0.0)
     }
 
     /// How far one of the places is from so distant a neighbour; infinite if there are fewer.
@@ -165,6 +188,10 @@ mod tests {
         cloud.extend(tip);
         cloud.push(alone);
         assert_eq!(neighbouring(&cloud, &kept), tip);
+        let group = [[0.0, 0.0, 4.0], [0.05, 0.0, 4.0]].map(Point3::from);
+        cloud.extend(group);
+        assert_eq!(neighbouring(&cloud, &kept), tip);
+        cloud.truncate(cloud.len() - 2);
         let table = (0..50).map(|i| Point3::new(0.01 * f64::from(i), 0.0, -2.0));
         cloud.extend(table);
         assert_eq!(neighbouring(&cloud, &kept), []);
@@ -178,6 +205,9 @@ mod tests {
         let strewn = [[0.0, 4.0, 0.0], [-5.0, 0.0, 1.0], [0.0, 0.0, -3.0]].map(Point3::from);
         let cloud = [kept.as_slice(), &strewn[..1], &awn, &strewn[1..]].concat();
         assert_eq!(in_one_direction(&cloud, &kept, &centre), awn);
+        let group = [[4.0, 0.0, 0.0], [4.2, 0.3, 0.0], [4.0, -0.3, 0.1]].map(Point3::from);
+        let grouped = [kept.as_slice(), &group].concat();
+        assert_eq!(in_one_direction(&grouped, &kept, &centre), []);
         let mut random = ChaCha8Rng::seed_from_u64(3);
         let far = Uniform::new(-9.0, 9.0).unwrap();
         let strewn = (0..30).map(|_| Point3::from([(); 3].map(|()| far.sample(&mut random))));

@@ -212,30 +212,56 @@ mod tests {
     use rand::{RngExt, SeedableRng};
     use rand_chacha::ChaCha8Rng;
 
+    const AXES: [f64; 3] = [3.0, 2.0, 1.5];
+
+    fn ellipsoid(points: usize) -> Vec<Point3<f64>> {
+        let directions = Sampling::Fibonacci.directions(points, 0).unwrap();
+        let places = directions
+            .iter()
+            .map(|n| n.component_mul(&Vector3::from(AXES)));
+        places.map(Point3::from).collect()
+    }
+
+    fn is_off(point: &&Point3<f64>) -> bool {
+        let far = point.coords.component_div(&Vector3::from(AXES)).norm();
+        (far - 1.0).abs() > 1e-9
+    }
+
     /// With 1.5 points in a bin of directions, a stray is often the only one, or one of two.
     #[test]
     fn strays_strewn_about_a_large_cloud_are_left_out() {
-        let axes = Vector3::new(3.0, 2.0, 1.5);
-        let directions = Sampling::Fibonacci.directions(20_000, 0).unwrap();
-        let mut cloud: Vec<Point3<f64>> = directions
-            .iter()
-            .map(|n| Point3::from(n.component_mul(&axes)))
-            .collect();
-        let is_off = |point: &Point3<f64>| {
-            let far = point.coords.component_div(&axes).norm();
-            (far - 1.0).abs() > 1e-9
-        };
+        let mut cloud = ellipsoid(20_000);
         let mut random = ChaCha8Rng::seed_from_u64(1);
         let strewn =
             (0..600).map(|_| Point3::from([(); 3].map(|()| random.random_range(-15.0..15.0))));
         cloud.extend(strewn);
         let surface = from_directions(Cow::Borrowed(&cloud), None).unwrap();
         assert!(surface.points.len() > 19_950);
-        assert_eq!(
-            surface.points.iter().filter(|point| is_off(point)).count(),
-            0
-        );
+        assert_eq!(surface.points.iter().filter(is_off).count(), 0);
         let representatives = surface.representatives.unwrap();
-        assert!(!representatives.iter().any(is_off));
+        assert_eq!(representatives.iter().filter(is_off).count(), 0);
+    }
+
+    #[test]
+    fn strays_in_groups_are_left_out_of_clouds_of_any_size() {
+        for (count, groups) in [(6000, 2), (6000, 10), (20_000, 2), (20_000, 60)] {
+            for members in [2, 4, 8] {
+                let clean = ellipsoid(count);
+                let mut cloud = clean.clone();
+                let mut random = ChaCha8Rng::seed_from_u64(members);
+                for group in 0..groups {
+                    let place = clean[(group * 997 + 311) % count] * random.random_range(1.4..1.8);
+                    let aside = |_| Vector3::from_fn(|_, _| random.random_range(-0.03..0.03));
+                    cloud.extend((0..members).map(aside).map(|aside| place + aside));
+                }
+                let surface = from_directions(Cow::Borrowed(&cloud), None).unwrap();
+                let off = surface.points.iter().filter(is_off).count();
+                let lost = count + off - surface.points.len();
+                assert!(
+                    off == 0 && lost < 10,
+                    "{count} {groups} {members}: {off} {lost}"
+                );
+            }
+        }
     }
 }

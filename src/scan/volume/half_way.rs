@@ -48,7 +48,12 @@ fn along(frame: &Matrix3<f64>, points: &[Point3<f64>]) -> Option<VoxelLattice> {
         along.iter().all(|&count| count > 0)
             && along.iter().sum::<usize>() as f64 >= SHARE * points.len() as f64
     })?;
-    let first = [4, 2, 1].map(|bit| f64::from(u8::from(middle & bit > 0)));
+    let is_odd = [4, 2, 1].map(|bit| middle & bit > 0);
+    let mut of_layers = axes.iter().zip(is_odd);
+    if !of_layers.all(|(axis, is_odd)| axis.holds_layers(is_odd)) {
+        return None;
+    }
+    let first = is_odd.map(|is_odd| f64::from(u8::from(is_odd)));
     let place = |at: usize| axes[at].first + first[at] * axes[at].half;
     Some(VoxelLattice {
         first: frame * Point3::new(place(0), place(1), place(2)),
@@ -57,11 +62,12 @@ fn along(frame: &Matrix3<f64>, points: &[Point3<f64>]) -> Option<VoxelLattice> {
 }
 
 /// Places along an axis that are half steps apart.
-#[derive(Clone, Copy)]
 struct Steps {
     along: Vector3<f64>,
     first: f64,
     half: f64,
+    /// The half steps from the first place to all of them, ascending.
+    numbers: Vec<i64>,
 }
 
 impl Steps {
@@ -88,12 +94,23 @@ impl Steps {
     fn of(along: Vector3<f64>, levels: &[f64], about: f64) -> Option<Self> {
         let (&first, &last) = (levels.first()?, levels.last()?);
         let half = (last - first) / ((last - first) / about).round();
-        let is_on_step = |level: &f64| {
-            let number = (level - first) / half;
-            (number - number.round()).abs() < ON_STEP
-        };
-        let are_on_steps = levels.iter().all(is_on_step);
-        are_on_steps.then_some(Self { along, first, half })
+        let numbers = levels.iter().map(|level| (level - first) / half);
+        let are_on_steps = numbers.clone().all(|n| (n - n.round()).abs() < ON_STEP);
+        are_on_steps.then(|| Self {
+            along,
+            first,
+            half,
+            numbers: numbers.map(|n| n.round() as i64).collect(),
+        })
+    }
+
+    /// Whether vertices lie in one layer of voxels after the other: where the surface was drawn at a quarter of the way they do in
+    /// every other one of these steps, at a sixth in every third.
+    fn holds_layers(&self, is_odd: bool) -> bool {
+        let layers = self.numbers.iter().filter(|&n| (n % 2 != 0) == is_odd);
+        let layers: Vec<i64> = layers.copied().collect();
+        let next = layers.windows(2).filter(|pair| pair[1] - pair[0] == 2);
+        2 * next.count() >= layers.len() - layers.len().min(1)
     }
 
     fn is_odd(&self, point: &Point3<f64>) -> bool {
@@ -128,16 +145,24 @@ mod tests {
 
     /// The same of a body whose middle is the origin.
     fn made(steps: &Vector3<f64>, is_inside: impl Fn(&Vector3<f64>) -> bool) -> Mesh {
+        drawn(0.5, steps, is_inside)
+    }
+
+    /// The same of a surface drawn at this share of the way from a voxel outside to one inside.
+    fn drawn(share: f64, steps: &Vector3<f64>, is_inside: impl Fn(&Vector3<f64>) -> bool) -> Mesh {
         let mut grid = Grid::new([24, 24, 24]);
         let line = || 0..24;
         let voxels = line().flat_map(|x| line().flat_map(move |y| line().map(move |z| [x, y, z])));
-        for voxel in voxels {
-            let at = Vector3::from(voxel.map(|i| i as f64)).add_scalar(-11.3);
-            if is_inside(&at) {
-                grid.fill(voxel);
-            }
+        let holds = |voxel: [usize; 3]| {
+            is_inside(&Vector3::from(voxel.map(|i| i as f64)).add_scalar(-11.3))
+        };
+        for voxel in voxels.filter(|&voxel| holds(voxel)) {
+            grid.fill(voxel);
         }
-        let mut mesh = contour(&grid, |_, _| 0.5);
+        let mut mesh = contour(&grid, |voxel, _| match holds(voxel.map(|i| i - 1)) {
+            true => 1.0 - share,
+            false => share,
+        });
         for vertex in &mut mesh.vertices {
             *vertex = vertex.coords.component_mul(steps).into();
         }
@@ -182,6 +207,22 @@ mod tests {
         for mesh in [cylinder, block] {
             let found = half_way(&mesh.vertices, &mesh.triangles).unwrap();
             assert_relative_eq!(found.steps, Matrix3::identity(), max_relative = 1e-12);
+        }
+    }
+
+    /// Vertices then lie between voxels of half and of a third the sides, but for layers that hold none.
+    #[test]
+    fn the_surface_of_a_mask_at_a_quarter_or_a_sixth_is_not_half_way() {
+        let steps = Vector3::new(1.0, 1.0, 1.0);
+        let semi_axes = Vector3::new(10.0, 7.0, 5.0);
+        let turn = Rotation3::from_euler_angles(0.6, 0.5, 0.7);
+        for share in [0.25, 1.0 / 6.0] {
+            let mesh = drawn(share, &steps, |at| {
+                (turn * at).component_div(&semi_axes).norm() < 1.0
+            });
+            let axes = |axis: usize| Steps::new(&mesh.vertices, Vector3::ith(axis, 1.0));
+            assert!((0..3).all(|axis| axes(axis).is_some()));
+            assert_eq!(half_way(&mesh.vertices, &mesh.triangles), None);
         }
     }
 
