@@ -12,6 +12,9 @@ pub(super) const LARGEST: usize = 8;
 /// An island is farther from the points round it than so many times what is typical of these among each other.
 const FARTHER: f64 = 4.0;
 
+/// The least step in radius to an island over the usual one: to the tip of a spike one leads from the points below it.
+const ALONE: f64 = 0.5;
+
 /// Points as seen from a centre, with the neighbours of each in a triangulation of their directions.
 pub(super) struct Seen<'a> {
     pub(super) rays: &'a [Vector3<f64>],
@@ -58,19 +61,25 @@ impl Seen<'_> {
         members
     }
 
+    /// Whether nothing leads from what lies round an island to it, neither in space nor in radius.
     fn is_far(&self, island: &[usize], jumps: impl Fn(usize, usize) -> bool) -> bool {
         let around = island.iter().flat_map(|&from| {
             let out = self.neighbours[from].iter().map(move |&to| (from, to));
             out.filter(|(_, to)| !island.contains(to))
         });
         let (mut nearest, mut spacings) = (f64::INFINITY, Vec::new());
+        let (mut step, mut steps) = (f64::INFINITY, Vec::new());
         for (from, beside) in around {
             nearest = nearest.min(self.distance(from, beside));
+            let up = (self.radii[from] - self.radii[beside]).abs();
+            step = step.min(up);
+            steps.push(up);
             let others = self.neighbours[beside].iter().copied();
             let on_surface = others.filter(|&to| !island.contains(&to) && !jumps(beside, to));
             spacings.extend(on_surface.map(|to| self.distance(beside, to)));
         }
-        median(&mut spacings).is_some_and(|typical| nearest > FARTHER * typical)
+        let is_on_nothing = median(&mut steps).is_some_and(|usual| step > ALONE * usual);
+        is_on_nothing && median(&mut spacings).is_some_and(|typical| nearest > FARTHER * typical)
     }
 
     fn distance(&self, from: usize, to: usize) -> f64 {

@@ -14,7 +14,7 @@ use nalgebra::{Matrix3, Point3};
 pub(super) struct Representatives {
     pub(super) mesh: Mesh,
     pub(super) points: Vec<Point3<f64>>,
-    /// Indices of those that stand apart from their neighbours, and that few points of their bin are near; sorted.
+    /// Indices of those that stand apart from their neighbours and that few points of their bin are near, and of these; sorted.
     pub(super) apart: Vec<usize>,
     /// Indices of points that stand apart from the representative of their bin, sorted.
     pub(super) strays: Vec<usize>,
@@ -34,9 +34,8 @@ impl Representatives {
         } = thin(cloud, &centre, map, LEAST_STRAY);
         let points = select(cloud, &representatives);
         let (mesh, apart) = one_surface(&points, &centre)?;
-        let apart = apart.into_iter().map(|at| at as usize);
-        let strays_too = apart.filter(|&at| may_be_strays[at]);
-        let mut apart: Vec<usize> = strays_too.map(|at| representatives[at] as usize).collect();
+        let strays_too = apart.into_iter().flat_map(|at| &may_be_strays[at as usize]);
+        let mut apart: Vec<usize> = strays_too.map(|&at| at as usize).collect();
         apart.sort_unstable();
         Ok(Self {
             mesh,

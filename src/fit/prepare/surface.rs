@@ -46,7 +46,7 @@ pub fn scanned_surface(scan: &Scan) -> Result<ScannedSurface<'_>, FitError> {
         let has_neck = match scan.scatter > 0.0 {
             true => {
                 surface.kind = ReferenceKind::Voxels;
-                voxels_have_neck(&surface.points)
+                voxels_have_neck(&surface.points, scan.voxel_lattice())
             }
             false => faces_have_neck(&surface.mesh),
         };

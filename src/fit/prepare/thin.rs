@@ -21,8 +21,8 @@ const FEW: usize = LARGEST;
 pub(crate) struct Thinned {
     /// Indices of the representatives, by bin.
     pub(crate) representatives: Vec<u32>,
-    /// Of each, whether so [few](FEW) points of its bin are near it that it may be a stray itself.
-    pub(crate) may_be_strays: Vec<bool>,
+    /// Of each, the points of its bin that are near it and itself; none where they are not so [few](FEW) that they may be strays.
+    pub(crate) may_be_strays: Vec<Vec<u32>>,
     /// Indices of points whose radius after the map differs from their bin's median by more than `apart`
     /// (relative), sorted.
     pub(crate) strays: Vec<u32>,
@@ -57,16 +57,14 @@ pub(super) fn thin(
         let middle = keyed.len() / 2;
         let (_, &mut ([.., median], index), _) =
             keyed.select_nth_unstable_by(middle, |a, b| order(&a.0, &b.0));
-        let before = thinned.strays.len();
-        thinned.strays.extend(
-            keyed
-                .iter()
-                .filter(|([.., r], _)| (r - median).abs() > apart * median)
-                .map(|&(_, index)| index),
-        );
-        let near = members.len() - (thinned.strays.len() - before);
+        let is_near = |([.., r], _): &&(Sample, u32)| (r - median).abs() <= apart * median;
+        let (near, strays): (Vec<_>, Vec<_>) = keyed.iter().partition(is_near);
+        let indices = |some: Vec<(Sample, u32)>| some.into_iter().map(|(_, index)| index);
+        thinned.strays.extend(indices(strays));
         thinned.representatives.push(index);
-        thinned.may_be_strays.push(near <= FEW);
+        let is_few = near.len() <= FEW;
+        let few = is_few.then(|| indices(near).collect());
+        thinned.may_be_strays.push(few.unwrap_or_default());
     }
     thinned.strays.sort_unstable();
     thinned

@@ -25,14 +25,15 @@ const ASKED: usize = 1000;
 const TIP: usize = 6;
 const TIP_SHARE: f64 = 0.005;
 
-/// Of a tip and of a surface, more points than an island has are within so many times what is near.
+/// A tip is within so many times what is near of the others; and of a surface more points are within it of each other than an island
+/// has.
 const BEYOND: f64 = 2.0;
 
 /// Points lie in one direction within this angle, in radians.
 const ONE_DIRECTION: f64 = 0.15;
 
 /// The same of what is between two of them: in a group they lie in any direction from each other.
-const ALONG: f64 = 0.5;
+const ALONG: f64 = 0.3;
 
 /// Number of points that do so by chance, below which they belong together.
 const BY_CHANCE: f64 = 0.05;
@@ -47,17 +48,16 @@ pub(super) fn together(points: &[Point3<f64>], kept: &[Point3<f64>]) -> usize {
     apart.places.iter().filter(is_in_company).count()
 }
 
-/// Of a few points that were not kept, those that are near another of them, and as a group near the others: they may be a tip of the
-/// grain.
+/// Of a few points that were not kept, those that are near another of them and not far from the others: they may be a tip of the grain.
 pub(super) fn neighbouring(points: &[Point3<f64>], kept: &[Point3<f64>]) -> Vec<Point3<f64>> {
     if !may_be_tip(points, kept) {
         return Vec::new();
     }
-    let all = Places::new(points.iter());
-    let near = all.near();
     let apart = Places::new(not_kept(points, kept));
+    let kept = Places::new(kept.iter());
+    let near = kept.near();
     let is_near_one = |own: &&Vector3<f64>| apart.distance(own, 1) <= near;
-    let is_of_tip = |own: &&Vector3<f64>| all.distance(own, LARGEST) <= BEYOND * near;
+    let is_of_tip = |own: &&Vector3<f64>| kept.distance(own, 0) <= BEYOND * near;
     let found = apart.places.iter().filter(is_near_one).filter(is_of_tip);
     found.map(|place| Point3::from(*place)).collect()
 }
@@ -78,7 +78,7 @@ pub(super) fn in_one_direction(
     if !may_be_tip(points, kept) {
         return Vec::new();
     }
-    let near = Places::new(points.iter()).near();
+    let near = Places::new(kept.iter()).near();
     let apart: Vec<&Point3<f64>> = not_kept(points, kept).collect();
     let rays = apart.iter().map(|&point| point - centre);
     let directions: Vec<_> = rays.map(|ray| ray.try_normalize(0.0)).collect();
@@ -137,7 +137,7 @@ impl Places {
         NEAR * median(&mut spacings).unwrap_or(0.0)
     }
 
-    /// How far one of the places is from so distant a neighbour; infinite if there are fewer.
+    /// How far a place is from so distant a neighbour, of which the first, if it is one of these, is itself; infinite if there are fewer.
     fn distance(&self, own: &Vector3<f64>, neighbour: usize) -> f64 {
         let near = self.neighbours.nearest(own, neighbour + 1);
         let last = near.get(neighbour).map(|&at| self.places[at]);

@@ -149,20 +149,26 @@ fn by_representatives<'a>(
         kept = Cow::Owned(without(&kept, found.apart));
         found = Representatives::new(&kept, map)?;
     }
-    let left = kept.len();
-    if left < given.len() {
+    kept = lacking(kept, found.strays);
+    let sure = kept.len();
+    if sure < given.len() {
         let tips = neighbouring(&given, &kept);
         kept.to_mut().extend(tips);
         let awn = in_one_direction(&given, &kept, &middle(&kept));
         kept.to_mut().extend(awn);
     }
-    if kept.len() > left {
+    if kept.len() > sure {
         found = Representatives::new(&kept, map)?;
-    }
-    if !found.strays.is_empty() {
-        kept = Cow::Owned(without(&kept, found.strays));
+        kept = lacking(kept, found.strays);
     }
     Ok((found.mesh, kept, found.points))
+}
+
+fn lacking(points: Points<'_>, strays: Vec<usize>) -> Points<'_> {
+    match strays.is_empty() {
+        true => points,
+        false => Cow::Owned(without(&points, strays)),
+    }
 }
 
 fn without_strays(mut points: Points<'_>) -> Result<(Mesh, Points<'_>), FitError> {

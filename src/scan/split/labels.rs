@@ -70,7 +70,7 @@ fn of_label(
     for body in bodies {
         match volume.alone(&body).scan(None) {
             Ok(scan) => grains.push(SplitGrain {
-                may_touch: voxels_have_neck(&scan.points),
+                may_touch: voxels_have_neck(&scan.points, scan.voxel_lattice()),
                 scan,
                 indices: Vec::new(),
                 label: Some(label),

@@ -3,6 +3,7 @@
 use super::links::Links;
 use super::neck::{Neck, THIN};
 use super::spacing::covering;
+use crate::scan::VoxelLattice;
 use crate::scan::drawn::{drawn, evenly_drawn};
 use nalgebra::Point3;
 
@@ -29,12 +30,23 @@ pub(crate) fn are_two_grains(points: &[Point3<f64>]) -> bool {
 
 /// The same of the middles between voxels inside and outside, whose rows are as near as their points, so that thin slabs tell: the
 /// neck of two equal grains may lie between two thick ones. Of 130 bodies of voxels without a neck none has one, however broad.
-pub(crate) fn voxels_have_neck(points: &[Point3<f64>]) -> bool {
-    let drawn = drawn(points, NECK_POINTS);
-    let neck = |times: f64| neck_of(&drawn, times).filter(Neck::may_part_two);
-    neck(THIN_OF_VOXELS).is_some()
-        || neck(THIN).is_some_and(|neck| neck.is_narrow())
-        || between_two(&drawn)
+///
+/// Of long voxels a slab may lie between two layers; a neck is a waist also in a space in which they are cubes.
+pub(crate) fn voxels_have_neck(points: &[Point3<f64>], lattice: Option<&VoxelLattice>) -> bool {
+    let narrows = |points: &[Point3<f64>]| {
+        let drawn = drawn(points, NECK_POINTS);
+        let neck = |times: f64| neck_of(&drawn, times).filter(Neck::may_part_two);
+        neck(THIN_OF_VOXELS).is_some()
+            || neck(THIN).is_some_and(|neck| neck.is_narrow())
+            || between_two(&drawn)
+    };
+    let has_waist = |cubes: Vec<Point3<f64>>| {
+        let drawn = drawn(&cubes, NECK_POINTS);
+        let waist = |times: f64| neck_of(&drawn, times).filter(Neck::is_waist);
+        waist(THIN_OF_VOXELS).or_else(|| waist(THIN)).is_some()
+    };
+    let of_cubes = || lattice.and_then(|lattice| lattice.places(points));
+    narrows(points) && of_cubes().is_none_or(has_waist)
 }
 
 fn between_two(points: &[Point3<f64>]) -> bool {
@@ -55,7 +67,7 @@ mod tests {
     use crate::shapes::{
         Body, Curled, CurledOptions, Sampling, SynthOptions, synthesize, synthesize_curled,
     };
-    use nalgebra::Vector3;
+    use nalgebra::{Matrix3, Rotation3, Vector3};
     use std::f64::consts::{PI, TAU};
 
     #[test]
@@ -149,5 +161,43 @@ mod tests {
         let hook = CurledOptions::clean(Curled::Hook).with_points(3000);
         let points = synthesize_curled(&hook).unwrap().mesh.vertices;
         assert!(!are_two_grains(&points));
+    }
+
+    /// The middles between voxels inside an ellipsoid and outside; voxels are three times as long as wide.
+    fn of_long_voxels(
+        semi_axes: Vector3<f64>,
+        turn: &Rotation3<f64>,
+        shift: f64,
+    ) -> (Vec<Point3<f64>>, VoxelLattice) {
+        let lattice = VoxelLattice {
+            first: Point3::new(shift, 0.3 * shift, 0.7 * shift),
+            steps: Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, 3.0)),
+        };
+        let place = |at: Vector3<f64>| lattice.first + lattice.steps * at;
+        let holds =
+            |at: Vector3<f64>| (turn * place(at).coords).component_div(&semi_axes).norm() < 1.0;
+        let line = |most: i32| (-most..most).map(f64::from);
+        let all = line(12)
+            .flat_map(|x| line(12).flat_map(move |y| line(5).map(move |z| Vector3::new(x, y, z))));
+        let middles = all.flat_map(|at| (0..3).map(move |axis| (at, at + Vector3::ith(axis, 1.0))));
+        let middles = middles.filter(|&(one, next)| holds(one) != holds(next));
+        (
+            middles
+                .map(|(one, next)| place(0.5 * (one + next)))
+                .collect(),
+            lattice,
+        )
+    }
+
+    /// Between two layers of such voxels a thin slab holds few of them.
+    #[test]
+    fn a_grain_of_long_voxels_has_no_neck() {
+        for seed in [2.0, 142.0, 281.0] {
+            let turn = Rotation3::from_euler_angles(0.7 * seed, 0.31 * seed, 1.3 * seed);
+            let semi_axes = Vector3::new(9.2, 9.8, 6.5);
+            let (points, lattice) = of_long_voxels(semi_axes, &turn, 0.37 * seed % 1.0);
+            assert!(voxels_have_neck(&points, None), "{seed}");
+            assert!(!voxels_have_neck(&points, Some(&lattice)), "{seed}");
+        }
     }
 }

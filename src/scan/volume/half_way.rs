@@ -50,7 +50,7 @@ fn along(frame: &Matrix3<f64>, points: &[Point3<f64>]) -> Option<VoxelLattice> {
     })?;
     let is_odd = [4, 2, 1].map(|bit| middle & bit > 0);
     let mut of_layers = axes.iter().zip(is_odd);
-    if !of_layers.all(|(axis, is_odd)| axis.holds_layers(is_odd)) {
+    if !of_layers.any(|(axis, is_odd)| axis.holds_neighbours(is_odd)) {
         return None;
     }
     let first = is_odd.map(|is_odd| f64::from(u8::from(is_odd)));
@@ -104,13 +104,12 @@ impl Steps {
         })
     }
 
-    /// Whether vertices lie in one layer of voxels after the other: where the surface was drawn at a quarter of the way they do in
+    /// Whether vertices lie in a layer of voxels and in the next. Where the surface was drawn at a quarter of the way they do so in
     /// every other one of these steps, at a sixth in every third.
-    fn holds_layers(&self, is_odd: bool) -> bool {
+    fn holds_neighbours(&self, is_odd: bool) -> bool {
         let layers = self.numbers.iter().filter(|&n| (n % 2 != 0) == is_odd);
-        let layers: Vec<i64> = layers.copied().collect();
-        let next = layers.windows(2).filter(|pair| pair[1] - pair[0] == 2);
-        2 * next.count() >= layers.len() - layers.len().min(1)
+        let next = layers.clone().skip(1);
+        layers.zip(next).any(|(layer, next)| next - layer == 2)
     }
 
     fn is_odd(&self, point: &Point3<f64>) -> bool {

@@ -16,16 +16,23 @@ pub struct VoxelLattice {
 }
 
 impl VoxelLattice {
+    /// Where points lie, counted in voxels along the axes of the image. `None` if voxels have no volume.
+    pub(crate) fn places(&self, points: &[Point3<f64>]) -> Option<Vec<Point3<f64>>> {
+        let inverse = self.steps.try_inverse()?;
+        let place = |point: &Point3<f64>| Point3::from(inverse * (point - self.first));
+        Some(points.iter().map(place).collect())
+    }
+
     /// The axis along which each of some points lies half-way between two voxels; `None` of those that do along none.
     pub(crate) fn axes(&self, points: &[Point3<f64>]) -> Vec<Option<usize>> {
-        let Some(inverse) = self.steps.try_inverse() else {
+        let Some(places) = self.places(points) else {
             return vec![None; points.len()];
         };
-        let axis = |point: &Point3<f64>| {
-            let (axis, off) = between(&(inverse * (point - self.first)));
+        let axis = |place: &Point3<f64>| {
+            let (axis, off) = between(&place.coords);
             (off < HALF_WAY).then_some(axis)
         };
-        points.iter().map(axis).collect()
+        places.iter().map(axis).collect()
     }
 
     /// The volume of the voxels within a closed surface between voxels, of which these are the vertices: exact, where the
@@ -33,14 +40,10 @@ impl VoxelLattice {
     ///
     /// Along each row of voxels the surface is entered and left in turn, at vertices that lie between two of the row.
     pub(crate) fn volume(&self, vertices: &[Point3<f64>]) -> f64 {
-        let Some(inverse) = self.steps.try_inverse() else {
-            return 0.0;
-        };
-        let places = vertices
-            .iter()
-            .map(|vertex| inverse * (vertex - self.first));
+        let places = self.places(vertices).unwrap_or_default();
         let mut crossings: Vec<[i64; 3]> = places
-            .filter(|place| between(place).0 == 0)
+            .iter()
+            .filter(|place| between(&place.coords).0 == 0)
             .map(|place| {
                 [
                     place.z.round() as i64,
