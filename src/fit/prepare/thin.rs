@@ -14,7 +14,7 @@ use nalgebra::{Matrix3, Point3, Rotation3};
 /// Clouds up to this size are used whole.
 pub(crate) const WHOLE_CLOUD: usize = 16_384;
 
-/// So many points of a bin, the representative and those near it, may be strays that are near each other by chance.
+/// So many points of a bin, the representative and those near it, may be strays: an island of them.
 const FEW: usize = LARGEST;
 
 /// A representative of each bin that holds a point, and the points that stand apart from theirs.
@@ -58,13 +58,14 @@ pub(super) fn thin(
         let (_, &mut ([.., median], index), _) =
             keyed.select_nth_unstable_by(middle, |a, b| order(&a.0, &b.0));
         let is_near = |([.., r], _): &&(Sample, u32)| (r - median).abs() <= apart * median;
-        let (near, strays): (Vec<_>, Vec<_>) = keyed.iter().partition(is_near);
-        let indices = |some: Vec<(Sample, u32)>| some.into_iter().map(|(_, index)| index);
-        thinned.strays.extend(indices(strays));
-        thinned.representatives.push(index);
+        let strays = keyed.iter().filter(|member| !is_near(member));
+        thinned.strays.extend(strays.map(|&(_, index)| index));
+        let near = keyed.iter().filter(is_near).map(|&(_, index)| index);
+        let near: Vec<u32> = near.take(FEW + 1).collect();
         let is_few = near.len() <= FEW;
-        let few = is_few.then(|| indices(near).collect());
-        thinned.may_be_strays.push(few.unwrap_or_default());
+        thinned.representatives.push(index);
+        let few = if is_few { near } else { Vec::new() };
+        thinned.may_be_strays.push(few);
     }
     thinned.strays.sort_unstable();
     thinned

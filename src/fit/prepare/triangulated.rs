@@ -149,9 +149,10 @@ fn by_representatives<'a>(
         kept = Cow::Owned(without(&kept, found.apart));
         found = Representatives::new(&kept, map)?;
     }
+    let is_peeled = kept.len() < given.len();
     kept = lacking(kept, found.strays);
     let sure = kept.len();
-    if sure < given.len() {
+    if is_peeled {
         let tips = neighbouring(&given, &kept);
         kept.to_mut().extend(tips);
         let awn = in_one_direction(&given, &kept, &middle(&kept));
