@@ -137,6 +137,16 @@ mod tests {
         let spike = |n: &Vector3<f64>| 1.0 + 2.0 * (-(n.angle(&Vector3::z()) / 0.2).powi(2)).exp();
         let radii: Vec<f64> = directions.iter().map(spike).collect();
         assert_eq!(islands(&directions, &radii), [0_usize; 0]);
+        let neighbours = Neighbours::new(&directions);
+        let mut radii = vec![1.0; directions.len()];
+        for (&at, out) in neighbours
+            .nearest(&directions[700], 2)
+            .iter()
+            .zip([2.4, 2.0])
+        {
+            radii[at] = out;
+        }
+        assert_eq!(islands(&directions, &radii), [0_usize; 0]);
         let places = Sampling::Fibonacci.directions(200, 0).unwrap();
         let needle = places
             .iter()
