@@ -174,6 +174,7 @@ fn table(scan: &BenchScan) -> Table {
     let mut table = Table::new();
     table.load_style(NOTHING).set_header([
         "family",
+        "tolerance",
         "segments",
         "degree",
         "coefficients",
@@ -202,17 +203,20 @@ fn table(scan: &BenchScan) -> Table {
                 .chain([least_for.join(", ")]),
         );
     }
-    for column in table.column_iter_mut().skip(1).take(11) {
+    for column in table.column_iter_mut().skip(1).take(12) {
         column.set_cell_alignment(CellAlignment::Right);
     }
     table
 }
 
-fn cells(row: &BenchRow) -> [String; 12] {
+fn cells(row: &BenchRow) -> [String; 13] {
     let share =
         |share: Option<f64>| share.map_or("-".into(), |share| format!("{:.3} %", 100.0 * share));
     [
         row.family.name().into(),
+        row.tolerance.map_or("-".into(), |share| {
+            format!("{} %", (1e4 * share).round() / 100.0)
+        }),
         row.segments.to_string(),
         row.degree.map_or("-".into(), |degree| degree.to_string()),
         row.coefficients.to_string(),

@@ -6,50 +6,26 @@
 
 use super::context::Context;
 use super::error::FitError;
+use super::followed::{
+    Missed, does_not_see, held_out_over_fitted, hidden_share, hides_much, is_hiding, missed,
+    normal_distances,
+};
 use super::options::{FitOptions, Kind, Seams};
 use super::outcome::{Fitted, KindChoice, Rival};
 use super::position::MOST_COEFFICIENTS;
 use super::positioned::positioned;
 use super::prepare::PreparedScan;
 use super::rod::rod;
-use super::scatter::{FAR, scatter};
 use super::warning::FitWarning;
-use crate::measure::{Deviation, feet};
-use crate::model::{Grain, StarSurface, Surface};
 use crate::scan::Scan;
-use crate::sphere::{Symmetry, cube_grid};
-use nalgebra::{Point3, Vector3};
+use crate::sphere::Symmetry;
 use std::sync::OnceLock;
-
-/// Cosine of the angle between a direction and the normal there below which a radius is steep, and ...
-const STEEP: f64 = 0.2;
-
-/// ... the share of directions in which it may be.
-const STEEP_SHARE: f64 = 0.005;
-
-/// Cells along a cube's edge of the directions looked at.
-const LOOKED_AT: usize = 24;
-
-/// What a radius does not see is far from it in few places: the mean of all distances is then less than this share of
-/// their RMS. Of noise it is .80 (Geary 1935).
-const LONG_TAILS: f64 = 0.74;
-
-/// So many times larger than their scatter their noise is something else. Of bodies with noise it is 1.5 at most, of a
-/// blackberry whose bumps are taken for noise 2.1.
-const NOISY: f64 = 1.8;
 
 /// A radius that hides area so counts as so many times farther off ...
 const HIDING: f64 = 2.0;
 
-/// ... if what it hides is more than this share of the area. Of stones of which it hid .01 and .05 % its area was within .2 %, that
-/// of positions .5 and .7 % too small.
-const HIDDEN_SHARE: f64 = 0.002;
-
 /// Share of the points that a radius may have left out as dust, if it sees all else.
 const MOST_DUST: f64 = 0.03;
-
-/// Most vertices of a scan whose distances from a radius are compared with those from a position.
-const MOST_COMPARED: usize = 4000;
 
 /// Fits a grain to a scan, of the kind that the options ask for or that suits it.
 ///
@@ -66,15 +42,19 @@ pub fn fit_scan(
         fitted.map_err(|error| not_alike(error, options.symmetry))
     };
     match options.kind {
-        Kind::Star => star(),
+        Kind::Star => star().map(|star| {
+            let missed = missed_by(&star, scan, options);
+            star.missing(missed, scan)
+        }),
         Kind::Position => positioned(scan, options, context, KindChoice::Asked, &|_| true),
         Kind::Auto if scan.scatter > 0.0 && is_of_any_kind(options) => {
             match positioned(scan, options, context, KindChoice::Voxels, &|_| true) {
                 Err(FitError::Cancelled) => Err(FitError::Cancelled),
-                Err(position) => star().map_err(|radius| match radius {
-                    FitError::Cancelled => FitError::Cancelled,
-                    radius => neither(radius, position),
-                }),
+                Err(position) => match star() {
+                    Err(FitError::Cancelled) => Err(FitError::Cancelled),
+                    Err(radius) => Err(neither(radius, position)),
+                    Ok(star) => Ok(for_want_of_positions(star, position).without_errors(None)),
+                },
                 found => found,
             }
         }
@@ -91,16 +71,37 @@ pub fn fit_scan(
                     found => found,
                 },
             },
-            Ok(fitted)
-                if is_of_any_kind(options)
-                    && (does_not_see(&fitted)
-                        || is_unbounded(options)
-                            && (is_far(&fitted) || is_rougher(&fitted, options))) =>
-            {
-                compared(scan, fitted, options, context)
-            }
-            found => found,
+            Ok(star) => followed(scan, star, options, context),
         },
+    }
+}
+
+/// A radius, or positions if they follow the scan better.
+fn followed(
+    scan: &Scan,
+    star: Fitted,
+    options: &FitOptions,
+    context: &Context<'_>,
+) -> Result<Fitted, FitError> {
+    let missed = missed_by(&star, scan, options);
+    let may_be_better = does_not_see(&star)
+        || is_unbounded(options) && !is_outnumbered(&star) && (is_far(&star) || missed.is_some());
+    match is_of_any_kind(options) && may_be_better {
+        true => compared(scan, star, missed, options, context),
+        false => Ok(star.missing(missed, scan)),
+    }
+}
+
+/// How a radius that could have been of any kind does not follow the scan.
+fn missed_by(star: &Fitted, scan: &Scan, options: &FitOptions) -> Option<Missed> {
+    is_of_any_kind(options).then(|| missed(star, scan, options))?
+}
+
+/// A radius that is kept because no positions can be fitted.
+fn for_want_of_positions(star: Fitted, error: FitError) -> Fitted {
+    Fitted {
+        kind: KindChoice::NoPositions(error.into()),
+        ..star
     }
 }
 
@@ -155,37 +156,10 @@ fn unseen(error: &FitError, options: &FitOptions) -> Option<KindChoice> {
     }
 }
 
-/// The share of the area that a radius hides.
-fn hidden_share(fitted: &Fitted) -> f64 {
-    let hidden = fitted.warnings.iter().find_map(|warning| match warning {
-        FitWarning::NotStarShaped { share } => Some(*share),
-        _ => None,
-    });
-    hidden.unwrap_or(0.0)
-}
-
-/// Whether a radius hides some area, or ends above its limit, with no more coefficients than positions may have.
+/// Whether a radius hides some area, or ends above its limit.
 fn is_far(fitted: &Fitted) -> bool {
     let is_beyond = |warning: &FitWarning| matches!(warning, FitWarning::LimitNotMet { .. });
-    let warns = hidden_share(fitted) > 0.0 || fitted.warnings.iter().any(is_beyond);
-    warns && !is_outnumbered(fitted)
-}
-
-/// Whether a radius hides much of the area, or is steep.
-fn does_not_see(fitted: &Fitted) -> bool {
-    if hidden_share(fitted) > HIDDEN_SHARE {
-        return true;
-    }
-    let Some(star) = fitted.grain.star() else {
-        return false;
-    };
-    let (directions, _) = cube_grid(LOOKED_AT);
-    let is_steep = |n: &&Vector3<f64>| {
-        let (radius, gradient) = star.radius_and_gradient(n);
-        radius < STEEP * radius.hypot(gradient.norm())
-    };
-    let steep = directions.iter().filter(is_steep).count();
-    steep as f64 > STEEP_SHARE * directions.len() as f64
+    hidden_share(fitted) > 0.0 || fitted.warnings.iter().any(is_beyond)
 }
 
 /// Whether a radius has more coefficients than positions may have: they are then farther off, unless it does not see all.
@@ -193,37 +167,11 @@ fn is_outnumbered(fitted: &Fitted) -> bool {
     fitted.grain.coefficient_count() > MOST_COEFFICIENTS
 }
 
-/// Whether a radius does not follow a body that is smooth among neighbours: held-out points are much farther from it than
-/// from the surfaces through their neighbours, or what they scatter by is much less than the noise that is told.
-fn is_rougher(star: &Fitted, options: &FitOptions) -> bool {
-    let is_far = |rms: f64, limit: f64| rms * held_out_over_fitted(star) > FAR * limit;
-    let good = options.tolerance.length(star.mean_radius);
-    if is_outnumbered(star) || !is_far(star.residuals.rms, good) {
-        return false;
-    }
-    let estimate = star.posterior.as_ref();
-    let Some(points) = estimate.and_then(|estimate| estimate.points()) else {
-        return false;
-    };
-    let Some(scatter) = scatter(&points) else {
-        return false;
-    };
-    // So far faces lie within a smooth surface through their corners.
-    let sag = star.reference.bulge / star.reference.area;
-    let limit = scatter.max(sag).max(good);
-    let is_noisy = star.search.noise.is_some_and(|noise| noise > NOISY * limit);
-    if is_noisy || !is_far(star.residuals.rms, limit) {
-        return is_noisy;
-    }
-    let frame = star.grain.frame();
-    let points: Vec<_> = points.iter().map(|point| frame.to_scan(point)).collect();
-    is_far(normal_distances(&star.grain, &points).rms(), limit)
-}
-
 /// The better of a radius and of positions; the radius where no positions can be fitted.
 fn compared(
     scan: &Scan,
     mut star: Fitted,
+    missed: Option<Missed>,
     options: &FitOptions,
     context: &Context<'_>,
 ) -> Result<Fitted, FitError> {
@@ -234,8 +182,7 @@ fn compared(
         coefficients: star.grain.coefficient_count(),
         rms: distances.rms() * held_out_over_fitted(&star),
     };
-    let is_hiding = hidden_share(&star) > HIDDEN_SHARE
-        && distances.mean_absolute < LONG_TAILS * distances.rms();
+    let is_hiding = is_hiding(&star, &distances);
     let times = if is_hiding { HIDING } else { 1.0 };
     let weighed = Rival {
         rms: times * own.rms,
@@ -251,17 +198,22 @@ fn compared(
     };
     let mut fitted = match positioned(scan, options, context, KindChoice::Asked, &is_worth) {
         Err(FitError::Cancelled) => return Err(FitError::Cancelled),
-        Err(_) => {
+        Err(error) => {
             if let Some(forecast) = outdone.into_inner() {
                 let kept = own;
                 star.kind = KindChoice::Outdoes { kept, forecast };
+                return Ok(star.missing(missed, scan));
             }
-            return Ok(star);
+            let star = for_want_of_positions(star, error);
+            return Ok(match is_hiding || missed.is_some() {
+                true => star.without_errors(missed),
+                false => star,
+            });
         }
         Ok(fitted) => fitted,
     };
     if is_of_dust(&fitted, &star, scan) {
-        return Ok(star);
+        return Ok(star.missing(missed, scan));
     }
     let kept = Rival {
         coefficients: fitted.grain.coefficient_count(),
@@ -278,7 +230,7 @@ fn is_of_dust(positions: &Fitted, star: &Fitted, scan: &Scan) -> bool {
     let all = scan.points().len();
     let left_out = all.saturating_sub(star.points) as f64 / all as f64;
     positions.warnings.iter().any(is_far)
-        && hidden_share(star) <= HIDDEN_SHARE
+        && !hides_much(star)
         && left_out > 0.0
         && left_out <= MOST_DUST
 }
@@ -293,56 +245,11 @@ impl Rival {
     }
 }
 
-/// How many times farther points are from a fitted radius that are held out, by the radial distances of both; with the
-/// mean of their leverages, for on a steep flank, where single points decide the radius, they do not decide the distance.
-fn held_out_over_fitted(star: &Fitted) -> f64 {
-    let choice = star.search.choice();
-    let held_out = match (&star.posterior, choice.estimate_rms) {
-        (Some(estimate), Some(rms)) => Some(rms.hypot(estimate.held_out_by_mean())),
-        _ => choice.heldout_rms,
-    };
-    let times = held_out.map_or(1.0, |rms| rms / star.residuals.rms);
-    if times.is_finite() {
-        times.max(1.0)
-    } else {
-        1.0
-    }
-}
-
-/// Distances of points from a surface, along its normals.
-fn normal_distances(grain: &Grain, points: &[Point3<f64>]) -> Deviation {
-    let every = points.len().div_ceil(MOST_COMPARED).max(1);
-    let some: Vec<_> = points.iter().step_by(every).copied().collect();
-    let feet = feet(grain, &some);
-    Deviation::of(feet.iter().map(|foot| (foot.distance, 1.0)))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::shapes::{Body, SynthOptions, synthesize};
-
-    /// Whether a fit of the maize of such a degree is rougher than its points, which have so much noise.
-    fn is_rough(degree: usize, noise: f64, told: Option<f64>) -> bool {
-        let options = SynthOptions::clean(Body::Maize)
-            .with_points(1538)
-            .with_noise(noise);
-        let scan = Scan::from_points(synthesize(&options).unwrap().points);
-        let own = FitOptions::default().with_segments(1).with_degree(degree);
-        let prepared = PreparedScan::new(&scan, Symmetry::NONE).unwrap();
-        let mut fitted = prepared.fit(&own, &Context::default()).unwrap();
-        if let Some(told) = told {
-            fitted.search.noise = Some(told * fitted.mean_radius);
-        }
-        is_rougher(&fitted, &FitOptions::default())
-    }
-
-    #[test]
-    fn a_radius_that_does_not_follow_smooth_points_is_rougher_than_these() {
-        assert!(is_rough(4, 0.0, None));
-        assert!(!is_rough(20, 0.0, None));
-        assert!(!is_rough(12, 0.02, None));
-    }
+    use nalgebra::Point3;
 
     /// Points of a maize and five that stand alone.
     fn dusty() -> Scan {
@@ -376,11 +283,5 @@ mod tests {
             .warnings
             .push(FitWarning::NotStarShaped { share: 0.01 });
         assert!(!is_of_dust(&positions, &hiding, &scan));
-    }
-
-    #[test]
-    fn noise_that_neighbours_do_not_have_is_none() {
-        assert!(is_rough(12, 0.02, Some(0.08)));
-        assert!(!is_rough(12, 0.02, Some(0.025)));
     }
 }

@@ -20,6 +20,7 @@ mod error;
 mod estimate;
 mod estimated;
 mod figures;
+mod followed;
 mod gaps;
 mod hole;
 mod kind;

@@ -1,6 +1,7 @@
 //! What a fit gives.
 
 use super::candidate::Search;
+use super::error::FitError;
 use super::estimate::{Estimate, RadiusError};
 use super::figures::Figures;
 use super::local_cells;
@@ -53,7 +54,7 @@ pub struct Fitted {
 }
 
 /// Why a grain is of its kind.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum KindChoice {
     /// A radius follows the scan.
@@ -83,6 +84,8 @@ pub enum KindChoice {
         /// The coefficients of the positions, and the least distance that they come to.
         forecast: Rival,
     },
+    /// A radius, for no positions can be fitted.
+    NoPositions(Box<FitError>),
 }
 
 /// A surface that was compared with another one.

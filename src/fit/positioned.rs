@@ -6,6 +6,7 @@ use super::error::FitError;
 use super::options::{FEWEST_CELLS, FitOptions, Seams};
 use super::outcome::{Fitted, KindChoice, Residuals, Rival};
 use super::position::{Distance, PositionFit, fit_position_if};
+use super::prepare::ReferenceKind;
 use super::scatter::scatter;
 use super::sound;
 use super::warning::FitWarning;
@@ -44,12 +45,21 @@ pub(super) fn positioned(
         heldout_rms: Some(fit.held_out.rms),
         ..Candidate::unfitted(degree, cells, grain.coefficient_count())
     };
-    let errors = match are_few(&fit, grain.coefficient_count()) {
-        true => Err(NoInterval::FewPoints),
-        false => fit.errors,
+    let residuals = Residuals {
+        rms: fit.distance.rms,
+        max: fit.distance.max,
+    };
+    // Far points that no face joins to others may be strays.
+    let may_be_stray = fit.reference.kind == ReferenceKind::Crust;
+    let not_followed = sound::not_followed(&residuals, radius, false).filter(|_| !may_be_stray);
+    let errors = match not_followed {
+        _ if are_few(&fit, grain.coefficient_count()) => Err(NoInterval::FewPoints),
+        Some(_) => Err(NoInterval::NotFollowed),
+        None => fit.errors,
     };
     let mut warnings = fit.warnings;
     warnings.extend(far_from_neighbours(scan, &fit.held_out, fit.tolerance));
+    warnings.extend(not_followed);
     if fit.turned_over > 0 {
         warnings.push(FitWarning::TurnedOver {
             samples: fit.turned_over,
@@ -70,10 +80,7 @@ pub(super) fn positioned(
         reference: fit.reference,
         points: fit.samples,
         mean_radius: radius,
-        residuals: Residuals {
-            rms: fit.distance.rms,
-            max: fit.distance.max,
-        },
+        residuals,
         asymmetry: None,
         estimate: None,
         whole: None,

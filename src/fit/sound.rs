@@ -2,7 +2,7 @@
 
 use super::error::FitError;
 use super::options::FitOptions;
-use super::outcome::Fitted;
+use super::outcome::{Fitted, Residuals};
 use super::warning::FitWarning;
 use crate::measure::grain_properties;
 use crate::model::{Grain, InvalidGrain};
@@ -80,13 +80,11 @@ pub(super) fn check(
             return Err(FitError::FarBeyondPoints { times });
         }
     }
-    let largest = fitted.residuals.max;
-    let mut warnings = Vec::new();
-    let sticks_out = largest > NOT_FOLLOWED * fitted.mean_radius && largest > BEYOND_NOISE * rms;
-    if !is_rod && !is_asked_for && sticks_out {
-        let share = largest / fitted.mean_radius;
-        warnings.push(FitWarning::NotFollowed { largest, share });
-    }
+    let far = not_followed(&fitted.residuals, fitted.mean_radius, true);
+    let mut warnings: Vec<FitWarning> = far
+        .filter(|_| !is_rod && !is_asked_for)
+        .into_iter()
+        .collect();
     let Some(star) = fitted.grain.star() else {
         return Ok(warnings);
     };
@@ -108,6 +106,22 @@ pub(super) fn check(
             size: fitted.mean_radius,
         }),
     }
+}
+
+/// How far the farthest point is from a surface, if something sticks out there.
+pub(super) fn not_followed(
+    residuals: &Residuals,
+    radius: f64,
+    is_along_ray: bool,
+) -> Option<FitWarning> {
+    let (largest, share) = (residuals.max, residuals.max / radius);
+    (share > NOT_FOLLOWED && largest > BEYOND_NOISE * residuals.rms).then_some(
+        FitWarning::NotFollowed {
+            largest,
+            share,
+            is_along_ray,
+        },
+    )
 }
 
 /// Refuses positions that are not the body: with a volume far beyond that of closed faces, or through a crust that points which
@@ -163,7 +177,14 @@ mod tests {
             check(&fitted, &options, is_rod).unwrap()
         };
         assert_eq!(told(0.4, 0.03, false), []);
-        let [FitWarning::NotFollowed { largest, share }] = told(0.6, 0.03, false)[..] else {
+        let [
+            FitWarning::NotFollowed {
+                largest,
+                share,
+                is_along_ray: true,
+            },
+        ] = told(0.6, 0.03, false)[..]
+        else {
             panic!("not told");
         };
         assert!(largest == 0.6 && (share - 0.3).abs() < 1e-9);

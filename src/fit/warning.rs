@@ -102,10 +102,12 @@ pub enum FitWarning {
     },
     /// Some point is far from the surface.
     NotFollowed {
-        /// Largest distance along a ray, in the scan's unit.
+        /// Largest distance, in the scan's unit.
         largest: f64,
         /// The same as a share of the mean radius.
         share: f64,
+        /// Whether it is taken along the ray from the grain's centre, or else along a normal of the surface.
+        is_along_ray: bool,
     },
     /// Part of the surface faces away from the best centre and is smoothed over.
     NotStarShaped {

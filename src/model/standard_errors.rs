@@ -93,6 +93,8 @@ pub enum NoInterval {
     Contradicted,
     /// The surface turns over or crosses itself.
     Crossing,
+    /// The surface does not follow the scan everywhere.
+    NotFollowed,
     /// The model is fitted to the points themselves, not to an estimate.
     NotEstimated,
     /// The surface is not the one that the errors in its file were those of.

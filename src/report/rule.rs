@@ -129,6 +129,9 @@ pub(super) fn kind_rule(fitted: &Fitted, unit: Option<Unit>) -> Option<String> {
             short(forecast.rms),
             labels.length()
         )),
+        KindChoice::NoPositions(error) => {
+            Some(format!("for positions were tried in vain: {error}"))
+        }
         _ => None,
     }
 }

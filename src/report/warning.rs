@@ -141,12 +141,12 @@ impl FitWarning {
             Self::Outliers { outliers: 1 } => {
                 write!(
                     f,
-                    "1 point stands alone, far from the surface, and was left out."
+                    "1 point lies far off the surface, where few others do, and was left out."
                 )
             }
             Self::Outliers { outliers } => write!(
                 f,
-                "{outliers} points stand alone, far from the surface, and were left out."
+                "{outliers} points lie far off the surface, where few others do, and were left out."
             ),
             Self::OneSided { points } => write!(
                 f,
@@ -184,13 +184,25 @@ impl FitWarning {
                 sides(&of_points),
                 unit = labels.length()
             ),
-            Self::NotFollowed { largest, share } => write!(
+            Self::NotFollowed {
+                largest,
+                share,
+                is_along_ray,
+            } => write!(
                 f,
-                "Along its ray a point is {}{} from the surface, {:.0} % of the mean radius. Few points lie there where the grain is steep, or \
-                 something sticks out of it, such as a stalk or what held it: take that out of the scan if it is not the grain's.",
+                "{} {}{} from the surface, {:.0} % of the mean radius. {}omething sticks out of the grain, such as a stalk or what held \
+                 it: take that out of the scan if it is not the grain's.",
+                match is_along_ray {
+                    true => "Along its ray a point is",
+                    false => "A point is",
+                },
                 short(largest),
                 labels.length(),
-                100.0 * share
+                100.0 * share,
+                match is_along_ray {
+                    true => "Few points lie there where the grain is steep, or s",
+                    false => "The surface does not reach so far, and s",
+                },
             ),
             Self::NotStarShaped { share } => write!(
                 f,
@@ -298,6 +310,7 @@ impl fmt::Display for NoInterval {
                 "the polyhedron through the points contradicts the figures"
             ),
             Self::Crossing => write!(f, "the surface crosses itself or turns over"),
+            Self::NotFollowed => write!(f, "the surface does not follow the scan everywhere"),
             Self::NotEstimated => write!(f, "the model is fitted to the points themselves"),
             Self::Edited => write!(
                 f,

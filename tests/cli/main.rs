@@ -10,6 +10,7 @@ mod contact;
 mod errors;
 mod export_dem;
 mod fit;
+mod followed;
 #[cfg(unix)]
 mod forbidden;
 mod harmonics;

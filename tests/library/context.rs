@@ -199,7 +199,7 @@ fn warnings_are_data_and_sentences() {
     assert_eq!(found.warnings, [FitWarning::Outliers { outliers: 1 }]);
     assert_eq!(found.points, most - 1);
     let sentence = found.warnings[0].to_string();
-    assert!(sentence.starts_with("1 point stands alone"), "{sentence}");
+    assert!(sentence.starts_with("1 point lies far off"), "{sentence}");
 
     let options = FitOptions::default()
         .with_max_segments(6)

@@ -7,11 +7,11 @@ use std::path::PathBuf;
 
 /// Measure run time against error over many settings
 ///
-/// Families, on one thread: whole-surface fits of degree 1 to 20; 1 x 1 to 16 x 16 independent segments
-/// of degree 0 to 6; 6 to 150 blended cells of degree 1 to 5; and adaptive cells within 1 % to 0.02 % of
-/// the mean radius, of degree 3 or less and of any degree. Seconds are the processor's, the least of three runs or
-/// more, of preparing the scan and fitting it; bench.csv has a column for each. Printed are the settings with the least
-/// held-out RMS for their coefficients, their seconds or the nanoseconds of one evaluation.
+/// Families, on one thread: whole-surface fits of degree 1 to 20 and 1 x 1 to 16 x 16 segments of degree 0 to 6, both fitted to the
+/// points (fit --seams none); 6 to 150 blended cells of degree 1 to 5; adaptive cells (fit) and the estimate itself (fit --segments 1),
+/// within tolerances of 1 % to 0.02 % of the mean radius; and one superquadric of 5, 8 or 12 numbers. Seconds are the processor's, the
+/// least of three runs or more, of preparing the scan and fitting it; bench.csv has a column for each. Printed are the settings with
+/// the least held-out RMS for their coefficients, their seconds or the nanoseconds of one evaluation.
 #[derive(Args)]
 #[command(mut_args(|arg| match arg.get_id().as_str() {
     "label" | "format" | "max_bytes" => arg.requires("scans"),

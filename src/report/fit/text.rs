@@ -137,12 +137,11 @@ impl FitReport {
             )?;
         }
         if let Some(estimate) = &self.estimate {
-            writeln!(
-                f,
-                "estimate      degree {}, known to {}",
-                estimate.degree,
-                self.of_radius(estimate.deviation)
-            )?;
+            write!(f, "estimate      degree {}", estimate.degree)?;
+            match self.standard_errors {
+                Some(_) => writeln!(f, ", known to {}", self.of_radius(estimate.deviation))?,
+                None => writeln!(f)?,
+            }
         }
         if let Some(rms) = self.estimate_rms {
             let rms = self.of_radius(rms);
