@@ -5,7 +5,8 @@ use super::console::Console;
 use super::streams::put_json;
 use super::{inputs, outputs};
 use crate::bench::{
-    self, BenchReport, BenchRow, BenchScan, Cost, Subject, find_rivals, plot, synthetic, write_csv,
+    self, BenchReport, BenchRow, BenchScan, Cost, Family, Subject, find_rivals, plot, synthetic,
+    write_csv,
 };
 use crate::export::write_atomically;
 use crate::fit::PreparedScan;
@@ -214,9 +215,11 @@ fn cells(row: &BenchRow) -> [String; 13] {
         |share: Option<f64>| share.map_or("-".into(), |share| format!("{:.3} %", 100.0 * share));
     [
         row.family.name().into(),
-        row.tolerance.map_or("-".into(), |share| {
-            format!("{} %", (1e4 * share).round() / 100.0)
-        }),
+        match (row.tolerance, row.family) {
+            (Some(share), _) => format!("{} %", (1e4 * share).round() / 100.0),
+            (None, Family::Adaptive) => "auto".into(),
+            (None, _) => "-".into(),
+        },
         row.segments.to_string(),
         row.degree.map_or("-".into(), |degree| degree.to_string()),
         row.coefficients.to_string(),
