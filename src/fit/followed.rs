@@ -194,9 +194,11 @@ pub(super) fn normal_distances(grain: &Grain, points: &[Point3<f64>]) -> Deviati
 mod tests {
     use super::*;
     use crate::fit::context::Context;
+    use crate::fit::outcome::KindChoice;
     use crate::fit::prepare::PreparedScan;
-    use crate::shapes::{Body, SynthOptions, synthesize};
+    use crate::shapes::{Body, Sampling, SynthOptions, synthesize};
     use crate::sphere::Symmetry;
+    use std::f64::consts::TAU;
 
     /// How a fit of the maize of such a degree misses its points, which have so much noise, and whether it keeps its errors.
     fn misses(degree: usize, noise: f64, told: Option<f64>) -> [bool; 2] {
@@ -237,5 +239,34 @@ mod tests {
     fn noise_that_neighbours_do_not_have_is_none() {
         assert!(is_missed(12, 0.02, Some(0.08)));
         assert!(!is_missed(12, 0.02, Some(0.025)));
+    }
+
+    /// A ball with a handle, a rod of radius .05.
+    fn cup() -> Scan {
+        let ball = Sampling::Fibonacci.directions(6000, 0).unwrap();
+        let handle = (0..300).map(|i| {
+            let (sin, cos) = (TAU * f64::from(i) / 300.0).sin_cos();
+            let (height, out) = (0.618 * TAU * f64::from(i)).sin_cos();
+            let r = 0.5 + 0.05 * out;
+            Vector3::new(1.0 + r * cos, r * sin, 0.05 * height)
+        });
+        let outside = handle.filter(|place| place.norm() > 1.0);
+        let all = ball.into_iter().chain(outside);
+        Scan::from_points(all.map(Point3::from).collect())
+    }
+
+    #[test]
+    fn a_handle_that_is_missed_takes_the_errors() {
+        let (scan, options) = (cup(), FitOptions::default());
+        let star = PreparedScan::new(&scan, Symmetry::NONE).unwrap();
+        let star = star.fit(&options, &Context::default()).unwrap();
+        assert!(star.errors.is_none() && star.search.noise.is_some());
+        let found = missed(&star, &scan, &options);
+        let without = star.missing(found, &scan);
+        assert_eq!(without.errors, Some(Err(NoInterval::NotFollowed)));
+        assert_eq!(without.search.noise, None);
+        let fitted = crate::fit::fit(&scan, &options).unwrap();
+        assert!(matches!(fitted.kind, KindChoice::NoPositions(_)));
+        assert_eq!(fitted.errors, Some(Err(NoInterval::NotFollowed)));
     }
 }
