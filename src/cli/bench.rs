@@ -10,7 +10,7 @@ use crate::bench::{
 };
 use crate::export::write_atomically;
 use crate::fit::PreparedScan;
-use crate::report::{escaped, percent};
+use crate::report::{escaped, percent, round};
 use crate::sphere::Symmetry;
 use anyhow::{Context, Result, bail};
 use comfy_table::{CellAlignment, Table, presets::NOTHING};
@@ -216,7 +216,7 @@ fn cells(row: &BenchRow) -> [String; 13] {
     [
         row.family.name().into(),
         match (row.tolerance, row.family) {
-            (Some(share), _) => format!("{} %", (1e4 * share).round() / 100.0),
+            (Some(share), _) => format!("{} %", round(100.0 * share)),
             (None, Family::Adaptive) => "auto".into(),
             (None, _) => "-".into(),
         },

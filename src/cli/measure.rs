@@ -74,7 +74,8 @@ fn measure_scan(
     if WORTH_A_WORD.contains(&roughness) {
         warnings.push(format!(
             "The points are rough: the area is {} larger than it is where each point is moved half-way to the mean of its \
-             neighbours. Of noise, or where a ray from the centre meets the surface more than once, all of that and more is false: fit the scan, and measure the model.",
+             neighbours. Of noise, or where a ray from the centre meets the surface more than once, all of that and more is \
+             false: fit the scan, and measure the model.",
             percent(roughness)
         ));
     }

@@ -45,19 +45,10 @@ const MOST_NEAR: usize = 20_000;
 /// and stalks it is .20 to .43, of stones .67 and more, of kernels with what is left of their awns .43 and more.
 const IN_FEW_PLACES: f64 = 0.35;
 
-/// How a radius does not follow its scan.
-#[derive(Clone, Copy)]
-pub(super) struct Missed {
-    /// How far points are from it, in the scan's unit.
-    rms: f64,
-    /// How far they scatter.
-    scatter: f64,
-}
-
 impl Fitted {
     /// The same of a radius that does not follow its scan. If it does not in few places, what it misses there is no noise and no
     /// texture, and no error tells of it.
-    pub(super) fn missing(self, missed: Option<Missed>, scan: &Scan) -> Self {
+    pub(super) fn missing(self, missed: Option<FitWarning>, scan: &Scan) -> Self {
         match missed {
             Some(missed) if is_in_few_places(&self, scan) => self.without_errors(Some(missed)),
             _ => self,
@@ -66,13 +57,11 @@ impl Fitted {
 
     /// The same of a surface that does not follow its scan, as far as is known in this way: without errors and noise, but for those of
     /// what holes hide.
-    pub(super) fn without_errors(mut self, missed: Option<Missed>) -> Self {
+    pub(super) fn without_errors(mut self, missed: Option<FitWarning>) -> Self {
         if self.grain.unseen().is_some() {
             return self;
         }
-        let far =
-            missed.map(|Missed { rms, scatter }| FitWarning::FarFromNeighbours { rms, scatter });
-        self.warnings.extend(far);
+        self.warnings.extend(missed);
         self.errors = Some(Err(NoInterval::NotFollowed));
         self.search.noise = None;
         self.edged = None;
@@ -121,8 +110,9 @@ pub(super) fn does_not_see(fitted: &Fitted) -> bool {
 
 /// How a radius does not follow a body that is smooth among neighbours: held-out points are much farther from it than
 /// from the surfaces through their neighbours, or what they scatter by is much less than the noise that is told.
-pub(super) fn missed(star: &Fitted, scan: &Scan, options: &FitOptions) -> Option<Missed> {
-    let off = |rms: f64| rms * held_out_over_fitted(star);
+pub(super) fn missed(star: &Fitted, scan: &Scan, options: &FitOptions) -> Option<FitWarning> {
+    let times = held_out_over_fitted(star);
+    let off = |rms: f64| rms * times;
     let good = options.tolerance.length(star.mean_radius);
     if off(star.residuals.rms) <= FAR * good {
         return None;
@@ -132,7 +122,7 @@ pub(super) fn missed(star: &Fitted, scan: &Scan, options: &FitOptions) -> Option
     let sag = star.reference.bulge / star.reference.area;
     let scatter = scatter(&places)?.max(sag).max(good);
     if let Some(rms) = star.search.noise.filter(|rms| *rms > NOISY * scatter) {
-        return Some(Missed { rms, scatter });
+        return Some(FitWarning::FarFromNeighbours { rms, scatter });
     }
     if off(star.residuals.rms) <= FAR * scatter {
         return None;
@@ -140,7 +130,7 @@ pub(super) fn missed(star: &Fitted, scan: &Scan, options: &FitOptions) -> Option
     let frame = star.grain.frame();
     let points: Vec<_> = places.iter().map(|place| frame.to_scan(place)).collect();
     let rms = off(normal_distances(&star.grain, &points).rms());
-    (rms > FAR * scatter).then_some(Missed { rms, scatter })
+    (rms > FAR * scatter).then_some(FitWarning::FarFromNeighbours { rms, scatter })
 }
 
 /// The points that a radius rests on, in the grain's own frame; where patches stand for them, some of the scan's, if any is farther off
@@ -194,7 +184,7 @@ pub(super) fn normal_distances(grain: &Grain, points: &[Point3<f64>]) -> Deviati
 mod tests {
     use super::*;
     use crate::fit::context::Context;
-    use crate::fit::outcome::KindChoice;
+    use crate::fit::kind_choice::KindChoice;
     use crate::fit::prepare::PreparedScan;
     use crate::shapes::{Body, Sampling, SynthOptions, synthesize};
     use crate::sphere::Symmetry;

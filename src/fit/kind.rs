@@ -7,11 +7,12 @@
 use super::context::Context;
 use super::error::FitError;
 use super::followed::{
-    Missed, does_not_see, held_out_over_fitted, hidden_share, hides_much, is_hiding, missed,
+    does_not_see, held_out_over_fitted, hidden_share, hides_much, is_hiding, missed,
     normal_distances,
 };
+use super::kind_choice::{KindChoice, Rival};
 use super::options::{FitOptions, Kind, Seams};
-use super::outcome::{Fitted, KindChoice, Rival};
+use super::outcome::Fitted;
 use super::position::MOST_COEFFICIENTS;
 use super::positioned::positioned;
 use super::prepare::PreparedScan;
@@ -84,16 +85,17 @@ fn followed(
     context: &Context<'_>,
 ) -> Result<Fitted, FitError> {
     let missed = missed_by(&star, scan, options);
-    let may_be_better = does_not_see(&star)
-        || is_unbounded(options) && !is_outnumbered(&star) && (is_far(&star) || missed.is_some());
-    match is_of_any_kind(options) && may_be_better {
+    let is_worse = || is_far(&star) || missed.is_some();
+    let may_be_better = is_of_any_kind(options)
+        && (does_not_see(&star) || is_unbounded(options) && !is_outnumbered(&star) && is_worse());
+    match may_be_better {
         true => compared(scan, star, missed, options, context),
         false => Ok(star.missing(missed, scan)),
     }
 }
 
 /// How a radius that could have been of any kind does not follow the scan.
-fn missed_by(star: &Fitted, scan: &Scan, options: &FitOptions) -> Option<Missed> {
+fn missed_by(star: &Fitted, scan: &Scan, options: &FitOptions) -> Option<FitWarning> {
     is_of_any_kind(options).then(|| missed(star, scan, options))?
 }
 
@@ -171,7 +173,7 @@ fn is_outnumbered(fitted: &Fitted) -> bool {
 fn compared(
     scan: &Scan,
     mut star: Fitted,
-    missed: Option<Missed>,
+    missed: Option<FitWarning>,
     options: &FitOptions,
     context: &Context<'_>,
 ) -> Result<Fitted, FitError> {

@@ -24,6 +24,7 @@ mod followed;
 mod gaps;
 mod hole;
 mod kind;
+mod kind_choice;
 mod linear;
 mod local_cells;
 mod mirrored;
@@ -54,12 +55,13 @@ pub use context::{Context, Stage};
 pub use error::FitError;
 pub use estimate::RadiusError;
 pub use kind::fit_scan;
+pub use kind_choice::{KindChoice, Rival};
 pub use mirrored::{DirectedSample, MirroredFitError, fit_mirrored};
 pub use options::{
     FitOptions, Kind, MAX_CELLS, MAX_COEFFICIENTS, MAX_DEGREE, MAX_PARTS, MAX_WHOLE_DEGREE, Seams,
     Tolerance,
 };
-pub use outcome::{EstimateSummary, Fitted, KindChoice, Residuals, Rival};
+pub use outcome::{EstimateSummary, Fitted, Residuals};
 pub use position::{Distance, PositionFit, fit_position, map::MapError};
 #[cfg(feature = "cli")]
 pub(crate) use prepare::whole_or_largest;

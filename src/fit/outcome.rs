@@ -1,9 +1,9 @@
 //! What a fit gives.
 
 use super::candidate::Search;
-use super::error::FitError;
 use super::estimate::{Estimate, RadiusError};
 use super::figures::Figures;
+use super::kind_choice::KindChoice;
 use super::local_cells;
 use super::prepare::{Reference, ReferenceKind};
 use super::samples::Samples;
@@ -51,50 +51,6 @@ pub struct Fitted {
     pub(crate) edged: Option<Vec<Point3<f64>>>,
     /// Standard errors of a surface that has no estimate of its radius.
     pub(crate) errors: Option<Result<StandardErrors, NoInterval>>,
-}
-
-/// Why a grain is of its kind.
-#[derive(Debug, Clone, PartialEq)]
-#[non_exhaustive]
-pub enum KindChoice {
-    /// A radius follows the scan.
-    Star,
-    /// It was asked for.
-    Asked,
-    /// A radius would hide too large a share of the area.
-    Hidden {
-        /// The share.
-        share: f64,
-    },
-    /// No radius follows the points.
-    NoRadius,
-    /// The scan is of voxels, whose steps a radius would follow.
-    Voxels,
-    /// The position of points is better than a radius, which was fitted too.
-    Compared {
-        /// The position.
-        kept: Rival,
-        /// The radius.
-        rival: Rival,
-    },
-    /// A radius, for the position of points cannot be better.
-    Outdoes {
-        /// The radius.
-        kept: Rival,
-        /// The coefficients of the positions, and the least distance that they come to.
-        forecast: Rival,
-    },
-    /// A radius, for no positions can be fitted.
-    NoPositions(Box<FitError>),
-}
-
-/// A surface that was compared with another one.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Rival {
-    /// Coefficients.
-    pub coefficients: usize,
-    /// Root mean square of the distances of points that were held out, along the normals, in the scan's unit.
-    pub rms: f64,
 }
 
 /// What an estimate says of itself. Lengths are in the scan's unit.

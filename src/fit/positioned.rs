@@ -3,8 +3,9 @@
 use super::candidate::{Candidate, Search, Work};
 use super::context::Context;
 use super::error::FitError;
+use super::kind_choice::{KindChoice, Rival};
 use super::options::{FEWEST_CELLS, FitOptions, Seams};
-use super::outcome::{Fitted, KindChoice, Residuals, Rival};
+use super::outcome::{Fitted, Residuals};
 use super::position::{Distance, PositionFit, fit_position_if};
 use super::prepare::ReferenceKind;
 use super::scatter::scatter;

@@ -49,6 +49,8 @@ pub use measure::{
 };
 #[cfg(feature = "cli")]
 pub(crate) use measure::{Withheld, by_reason};
+#[cfg(feature = "cli")]
+pub(crate) use number::round;
 pub use number::{percent, short};
 pub use placed::{PlacedReport, PlacedTouch};
 pub use regions::{GapRecord, NormalLaw, RegionRecord, RegionsReport};

@@ -52,7 +52,7 @@ pub(super) fn triples<const N: usize>(rows: [[f64; 3]; N]) -> [String; N] {
 }
 
 /// Without the last digits of a product: 0.3 and not 0.30000000000000004.
-pub(super) fn round(value: f64) -> f64 {
+pub(crate) fn round(value: f64) -> f64 {
     (value * 1e9).round() / 1e9
 }
 

@@ -188,22 +188,26 @@ impl FitWarning {
                 largest,
                 share,
                 is_along_ray,
-            } => write!(
-                f,
-                "{} {}{} from the surface, {:.0} % of the mean radius. {}omething sticks out of the grain, such as a stalk or what held \
-                 it: take that out of the scan if it is not the grain's.",
-                match is_along_ray {
-                    true => "Along its ray a point is",
-                    false => "A point is",
-                },
-                short(largest),
-                labels.length(),
-                100.0 * share,
-                match is_along_ray {
-                    true => "Few points lie there where the grain is steep, or s",
-                    false => "The surface does not reach so far, and s",
-                },
-            ),
+            } => {
+                let (off, reason) = match is_along_ray {
+                    true => (
+                        "Along its ray a point is",
+                        "Few points lie there where the grain is steep, or something",
+                    ),
+                    false => (
+                        "A point is",
+                        "The surface does not reach so far, and something",
+                    ),
+                };
+                write!(
+                    f,
+                    "{off} {}{} from the surface, {:.0} % of the mean radius. {reason} sticks out of the grain, such as a stalk or \
+                     what held it: take that out of the scan if it is not the grain's.",
+                    short(largest),
+                    labels.length(),
+                    100.0 * share
+                )
+            }
             Self::NotStarShaped { share } => write!(
                 f,
                 "The surface is not quite star-shaped: {:.2} % of its area faces away from the best \

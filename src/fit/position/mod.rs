@@ -23,8 +23,8 @@ mod voxels;
 
 use super::context::Context;
 use super::error::FitError;
+use super::kind_choice::Rival;
 use super::options::FitOptions;
-use super::outcome::Rival;
 use super::prepare::Reference;
 use super::samples::Samples;
 use super::warning::FitWarning;
