@@ -10,10 +10,10 @@ use crate::contact::{
 };
 use crate::export::{Detail, MeshFormat};
 use crate::measure::{grain_properties, solid_properties};
-use crate::model::{Frame, Grain, Surface};
+use crate::model::{Frame, Grain, SuperquadricGrain, Surface};
 use crate::report::{GapRecord, HertzLaw, NormalLaw, PlacedReport, RegionsReport, Unit, Withheld};
 use anyhow::{Context, Result, anyhow, bail};
-use nalgebra::{Isometry3, Translation3};
+use nalgebra::{Isometry3, Point3, Translation3};
 use std::path::Path;
 
 /// Cells along each edge of the cube of directions of a mesh of both bodies.
@@ -38,10 +38,14 @@ pub(super) fn run(args: &ContactArgs, pose: &PoseArg, console: Console) -> Resul
         _ => None,
     };
     let is_hidden = grains.iter().any(|grain| grain.hidden_share() > 0.0);
-    let doubts = doubts(&grains, &names);
-    if (law.is_none() || hertz.is_some() && is_hidden)
-        && let Some(mut report) = of_unions(&grains, &names, args.unit, pose, hertz)
-    {
+    let mut doubts = doubts(&grains, &names);
+    let is_deep = is_deep(&grains, pose);
+    let is_by_proof = match &law {
+        None => !is_deep || is_hidden,
+        Some(_) => hertz.is_some() && is_hidden,
+    };
+    if is_by_proof && let Some(mut report) = of_unions(&grains, &names, args.unit, pose, hertz) {
+        doubts.extend(is_deep.then(|| DEEP.into()));
         let touches = report.touches.iter();
         let frames = touches.map(|touch| frame(touch.point, touch.normal));
         draw(args, &grains, pose, &frames.collect::<Vec<_>>())?;
@@ -116,6 +120,32 @@ fn draw(
     };
     let format = MeshFormat::of(path).unwrap_or(MeshFormat::Ply);
     outputs::write(path, |file| format.write_detailed(&mesh, &detail, file))
+}
+
+/// What to know of unions that lie deep in each other.
+const DEEP: &str = "The middle of a part of one body lies in the other: the overlap is that along the line through the midway point, and \
+     another way out may be shorter.";
+
+/// Whether the middle of a part of one union lies in the other.
+fn is_deep(grains: &[Grain; 2], pose: &PoseArg) -> bool {
+    let [Some(one), Some(two)] = grains.each_ref().map(Grain::superquadric) else {
+        return false;
+    };
+    let pose = moved(pose);
+    let middles = |grain: &SuperquadricGrain| {
+        let parts = grain.body().parts().iter();
+        let middles = parts.map(|part| grain.frame().to_scan(&part.frame.centre.coords));
+        middles.collect::<Vec<_>>()
+    };
+    let holds = |grain: &SuperquadricGrain, point: &Point3<f64>| {
+        grain.body().gauge(&grain.frame().to_local(point)) < 1.0
+    };
+    middles(two)
+        .iter()
+        .any(|middle| holds(one, &(pose * middle)))
+        || middles(one)
+            .iter()
+            .any(|middle| holds(two, &pose.inverse_transform_point(middle)))
 }
 
 /// The touches of two unions of superquadrics, if they are that.

@@ -1,7 +1,7 @@
 //! What `grainform contact` tells.
 
 use super::escape::escaped;
-use super::number::{short, triple, with_error};
+use super::number::{PLACED_TO, place, short, with_error};
 use super::unit::Unit;
 use crate::contact::{
     ContactError, Correction, Curved, KnownContact, RelativeCurvature, Touch, reach,
@@ -23,9 +23,10 @@ pub struct ContactReport {
     /// The other body; absent where it is a plane.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub second: Option<TouchRecord>,
-    /// The larger relative curvature A, in one over the unit.
+    /// A, the larger of the coefficients of the gap A x² + B y² between the surfaces, in one over the unit: half of its larger
+    /// curvature.
     pub larger_curvature: f64,
-    /// The smaller relative curvature B.
+    /// B, the smaller of them.
     pub smaller_curvature: f64,
     /// Effective radius 1 / (2 sqrt(A B)).
     pub effective_radius: f64,
@@ -259,7 +260,10 @@ impl ContactReport {
 impl TouchRecord {
     fn write(&self, f: &mut fmt::Formatter<'_>, unit: Unit) -> fmt::Result {
         writeln!(f, "body          {}", escaped(&self.input))?;
-        write!(f, "touched at    {} {unit}", triple(self.point))?;
+        let least = self.principal_curvatures.map(|k| 1.0 / k.abs());
+        let shown = PLACED_TO * least[0].min(least[1]);
+        let point = place(self.point, self.point_error.unwrap_or(shown));
+        write!(f, "touched at    {point} {unit}")?;
         if let Some(error) = self.point_error {
             write!(f, ", ± {} along the normal", significant(error, 2))?;
         }

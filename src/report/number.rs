@@ -40,6 +40,23 @@ pub(super) fn triple(components: [f64; 3]) -> String {
     row
 }
 
+/// Share of a length of their own to which places are told that have no errors.
+pub(super) const PLACED_TO: f64 = 1e-3;
+
+/// The components of a place, to the second digit of a length that counts, for a scan may lie far from its origin.
+pub(super) fn place(components: [f64; 3], length: f64) -> String {
+    let last = length.log10().floor() - 1.0;
+    let digits = |x: f64| {
+        let needed = x.abs().log10().floor() - last + 1.0;
+        (needed as i32).clamp(6, 15)
+    };
+    let shown = |x: f64| {
+        let is_shown = x.abs() >= 10_f64.powf(last);
+        significant(if is_shown { x } else { 0.0 }, digits(x))
+    };
+    components.map(shown).join("  ")
+}
+
 /// The rows of a tensor; what is nothing but rounding beside its largest component as zero, so that one that is symmetric stays so.
 pub(super) fn triples<const N: usize>(rows: [[f64; 3]; N]) -> [String; N] {
     let components = rows.as_flattened().iter();
@@ -65,6 +82,15 @@ pub fn percent(share: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn places_are_told_as_far_as_a_length_counts_however_far_they_lie_from_the_origin() {
+        assert_eq!(
+            place([1_000_002.405_343_2, -3e-9, 0.25], 2.2e-5),
+            "1000002.405343  0  0.250000"
+        );
+        assert_eq!(place([1.5, 2e-7, -30.0], 0.1), "1.50000  0  -30.0000");
+    }
 
     #[test]
     fn six_digits_are_kept_at_any_size() {

@@ -2,7 +2,7 @@
 
 use super::escape::escaped;
 use super::hertz::{HertzLaw, Overlap};
-use super::number::{short, triple};
+use super::number::{PLACED_TO, place, short, triple};
 use super::unit::{Labels, Unit};
 use crate::contact::UnionContact;
 use crate::digits::plural;
@@ -106,7 +106,8 @@ impl fmt::Display for PlacedReport {
             count => write!(f, "at {}", plural(count, "place"))?,
         }
         for touch in &self.touches {
-            write!(f, "\ntouched at    {}{length}", triple(touch.point))?;
+            let point = place(touch.point, PLACED_TO * touch.overlap);
+            write!(f, "\ntouched at    {point}{length}")?;
             write!(f, "\n  normal      {}", triple(touch.normal))?;
             write!(f, "\n  overlap     {}{length}", short(touch.overlap))?;
             if let Some(force) = touch.normal_force_n {

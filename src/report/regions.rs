@@ -3,12 +3,14 @@
 use super::contact::beyond_hertz;
 use super::escape::escaped;
 use super::hertz::{Force, HertzLaw, Overlap};
-use super::number::{triple, with_error};
+use super::number::{PLACED_TO, place, triple, with_error};
 use super::placed::NO_ERRORS;
 use super::unit::{Labels, Unit};
 use crate::contact::{ContactPlace, ContactRegion, ContactRegions, VolumeLaw, told_depth};
 use crate::digits::plural;
+use nalgebra::Vector3;
 use serde::Serialize;
+use std::collections::BTreeSet;
 use std::fmt;
 
 /// By which law a normal force is told.
@@ -58,6 +60,8 @@ pub struct RegionRecord {
     pub normal: [f64; 3],
     /// How far they overlap between their deepest points, along the line that is normal to both surfaces there.
     pub depth: f64,
+    /// These points, of the first body and of the second; `null` where the region has none.
+    pub deepest_points: Option<[[f64; 3]; 2]>,
     /// Its standard error; `null`, as those of the others, where a surface does not tell its own or the region has no
     /// deepest points.
     pub depth_error: Option<f64>,
@@ -122,6 +126,9 @@ impl RegionsReport {
                 point: region.point.coords.into(),
                 normal: region.normal.into(),
                 depth: region.depth,
+                deepest_points: region
+                    .deepest
+                    .map(|pair| pair.map(|point| point.coords.into())),
                 depth_error: region.depth_error(),
                 volume: region.volume,
                 volume_error: region.volume_error,
@@ -141,6 +148,9 @@ impl RegionsReport {
             .iter()
             .any(|region| region.curvatures.is_none());
         warnings.extend(of_points.then(|| DEPTH_OF_POINTS.into()));
+        // What holds of several regions is said once.
+        let mut said = BTreeSet::new();
+        warnings.retain(|warning| said.insert(warning.clone()));
         Self {
             first,
             second,
@@ -156,11 +166,14 @@ impl RegionsReport {
     }
 }
 
+/// Cosine of the angle from which on directions are told apart: one degree.
+const SAME_DIRECTION: f64 = 0.999_847_695_156_391_2;
+
 /// Why a region has neither curvatures nor what follows from them.
 const NO_POINTS: &str = "in a region no two points were found whose line is normal to both surfaces, or flat sides lie on each other there";
 
 const DEPTH_OF_POINTS: &str = "Where no two points were found whose line is normal to both surfaces the depth is how far a point of one body \
-     in the other is from that one's surface at most, to some percent: bodies that lie deep in each other part after more than that.";
+     in the other is from that one's surface at most, to some ten percent: bodies that lie deep in each other part after more than that.";
 
 /// Share by which the force of the shared volume may differ from that of Hertz before it is told.
 const AS_HERTZ: f64 = 0.05;
@@ -222,11 +235,26 @@ impl NormalLaw {
 }
 
 impl RegionRecord {
+    /// The direction from the second deepest point to the first, if it is not that of the normal.
+    fn slanting(&self) -> Option<Vector3<f64>> {
+        let [first, second] = self.deepest_points?.map(Vector3::from);
+        let along = (first - second).normalize();
+        (along.dot(&Vector3::from(self.normal)) < SAME_DIRECTION).then_some(along)
+    }
+
     fn write(&self, f: &mut fmt::Formatter<'_>, labels: &Labels) -> fmt::Result {
-        writeln!(f, "touched at    {}{}", triple(self.point), labels.length())?;
+        let point = place(
+            self.point,
+            self.depth_error.unwrap_or(PLACED_TO * self.depth),
+        );
+        writeln!(f, "touched at    {point}{}", labels.length())?;
         writeln!(f, "  normal      {}", triple(self.normal))?;
         let depth = with_error(self.depth, self.depth_error);
-        writeln!(f, "  depth       {depth}{}", labels.length())?;
+        write!(f, "  depth       {depth}{}", labels.length())?;
+        if let Some(along) = self.slanting() {
+            write!(f, ", along {}", triple(along.into()))?;
+        }
+        writeln!(f)?;
         let volume = with_error(self.volume, self.volume_standard_error);
         writeln!(
             f,
@@ -244,7 +272,8 @@ impl RegionRecord {
 
 impl GapRecord {
     fn write(&self, f: &mut fmt::Formatter<'_>, labels: &Labels) -> fmt::Result {
-        writeln!(f, "may touch at  {}{}", triple(self.point), labels.length())?;
+        let point = place(self.point, self.gap_error);
+        writeln!(f, "may touch at  {point}{}", labels.length())?;
         writeln!(f, "  normal      {}", triple(self.normal))?;
         let gap = with_error(self.gap, Some(self.gap_error));
         writeln!(f, "  gap         {gap}{}", labels.length())

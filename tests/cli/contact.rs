@@ -352,6 +352,19 @@ fn an_edge_without_an_angle_has_no_force_by_hertz_and_beside_it_a_warning() {
     assert!(aside["regions"][0]["normal_force_n"].is_number(), "{aside}");
 }
 
+/// Of superquadrics as of other models, one wholly in the other has no contact.
+#[test]
+fn superquadrics_that_lie_in_each_other_are_not_said_to_touch() {
+    let folder = superquadric("3,2,1", "2,2");
+    let words = |pose| ["contact", "m.json", "m.json", "--pose-b", pose];
+    let same = grainform(&folder, &words("0,0,0,1,0,0,0"));
+    assert_eq!(same.status.code(), Some(2));
+    let deep = succeed(&folder, &words("1.2,0,0,1,0,0,0"));
+    assert!(deep.contains("depth"), "{deep}");
+    let shallow = succeed(&folder, &words("5.9,0,0,1,0,0,0"));
+    assert!(shallow.contains("overlap"), "{shallow}");
+}
+
 /// On its axis a fitted ellipsoid, whose exponents are 2 but for rounding, is as curved as beside it.
 #[test]
 fn ellipsoids_that_were_fitted_are_curved_on_their_axes() {

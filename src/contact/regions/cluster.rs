@@ -69,6 +69,9 @@ impl Found {
                 .map_or(self.distance, DeepestPair::depth),
             curvatures: self.deepest.map(|pair| pair.curvatures),
             errors: self.deepest.and_then(|pair| pair.errors),
+            deepest: self
+                .deepest
+                .map(|pair| pair.points.map(|point| centre + point.coords)),
             point: centre + middle,
             normal: sums.area.normalize(),
             volume: sums.volume,

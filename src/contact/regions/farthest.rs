@@ -1,7 +1,9 @@
 //! Where two surfaces are farthest in each other, by the triangles round what they share.
 //!
 //! Surfaces with bumps have many pairs of points whose line is normal to both. The depth is the largest distance of a point
-//! of one in the other from that, so pairs are looked for from the corners that have it.
+//! of one in the other from that, so pairs are looked for from the corners that have it. Where bodies lie deep in each other
+//! a point may be farther from the one opposite it than from another side: there the pair is the one between the ends of
+//! what they share.
 
 use super::clip::Crossing;
 use super::deepest::{DeepestPair, Placed};
@@ -25,6 +27,9 @@ const FAR: f64 = 0.85;
 const SLACK: f64 = 8.0;
 const LEAST_SLACK: f64 = 0.02;
 
+/// The depth of a pair between the ends of what is shared may exceed the distance of the corners there by so large a share.
+const OF_ENDS: f64 = 0.1;
+
 /// The places where two surfaces are farthest in each other.
 pub(super) struct Farthest {
     /// Of any corner of one in the other.
@@ -33,6 +38,8 @@ pub(super) struct Farthest {
     slack: f64,
     /// That of the farthest first.
     places: Vec<Place>,
+    /// Corners of each surface in the other body, with their directions.
+    inside: [Vec<(Point3<f64>, Vector3<f64>)>; 2],
 }
 
 /// A corner of one surface in the other, and the corner of that which is nearest to it.
@@ -52,9 +59,11 @@ impl Farthest {
     ) -> Self {
         let sides = [0, 1].map(|side| Side::new(&patches[side], &triangles[side], &placed[side]));
         let mut places = Vec::new();
+        let mut inside = [Vec::new(), Vec::new()];
         for side in 0..2 {
             let is_inside = |corner: &&Corner| crossing.inside[side][corner.number as usize];
             for corner in sides[side].corners.iter().filter(is_inside) {
+                inside[side].push((corner.point, corner.direction));
                 let Some(nearest) = sides[1 - side].nearest(&corner.point) else {
                     continue;
                 };
@@ -75,6 +84,7 @@ impl Farthest {
             distance: places.first().map_or(0.0, |place| place.distance),
             slack: (SLACK / places.len() as f64).max(LEAST_SLACK),
             places: apart(places),
+            inside,
         }
     }
 
@@ -98,7 +108,25 @@ impl Farthest {
                 .filter(DeepestPair::parts);
             deepest = pair.or(deepest);
         }
-        deepest
+        deepest.or_else(|| self.between_ends(bodies, area))
+    }
+
+    /// The pair between the ends of what is shared, along its own normal.
+    fn between_ends(&self, bodies: &[Placed<'_>; 2], area: &Vector3<f64>) -> Option<DeepestPair> {
+        let ends = |along: &Vector3<f64>| {
+            let end = |side: usize, along: Vector3<f64>| {
+                let height = |corner: &&(Point3<f64>, Vector3<f64>)| along.dot(&corner.0.coords);
+                let corners = self.inside[side].iter();
+                corners.max_by(|one, other| height(one).total_cmp(&height(other)))
+            };
+            Some([end(0, *along)?, end(1, -along)?])
+        };
+        let starts = ends(area)?.map(|(_, direction)| *direction);
+        let pair = DeepestPair::settled(bodies, starts).filter(DeepestPair::parts)?;
+        let [(first, _), (second, _)] = ends(&pair.normal)?;
+        let distance = (first - second).dot(&pair.normal);
+        let is_between = (1.0 - LEAST_SLACK..1.0 + OF_ENDS).contains(&(pair.depth() / distance));
+        (is_between && pair.normal.dot(area) > 0.0).then_some(pair)
     }
 }
 

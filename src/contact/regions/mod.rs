@@ -86,7 +86,7 @@ pub struct ContactRegion {
     /// The unit normal, from the first body to the second: that along which what they share grows fastest.
     pub normal: Vector3<f64>,
     /// How far they overlap: that of the deepest of the pairs of points whose line is normal to both surfaces, and from
-    /// which these part in all directions. Where none is as deep as the triangles tell, as where a point of one surface is
+    /// which these part in all directions: [`Self::deepest`]. Where none is as deep as the triangles tell, as where a point of one surface is
     /// as far from two places of the other, it is the largest distance that these tell, to some percent.
     pub depth: f64,
     /// The volume they share.
@@ -99,6 +99,9 @@ pub struct ContactRegion {
     /// Integral of (x - `point`) x n over that surface, n its outward unit normal: how fast the volume grows as the first
     /// body turns round `point`.
     pub moment: Vector3<f64>,
+    /// The two points of the depth, on the first surface and on the second; none where these were not found. The line
+    /// between them need not be along `normal`.
+    pub deepest: Option<[Point3<f64>; 2]>,
     /// Curvature of both surfaces at the two points of the depth; none where these were not found.
     pub curvatures: Option<[Curvature; 2]>,
     /// Standard errors of both surfaces there, where both tell them.

@@ -361,3 +361,22 @@ fn of_many_pairs_of_points_the_deepest_is_told_whichever_body_is_the_first() {
     }
     assert!(told >= 5, "{told}");
 }
+
+/// Where balls lie deep in each other a point of one is nearer to the side of the other than to the end that it faces.
+#[test]
+fn balls_deep_in_each_other_are_as_deep_as_their_ends_are_apart() {
+    let ball = ball(1.0);
+    let ball = Radial(&ball);
+    let body = ContactBody::new(&ball);
+    for distance in [1.0, 0.7, 0.5, 0.2] {
+        let pose = Isometry3::translation(0.0, 0.0, distance);
+        let found = contact_regions(&body, &body, &pose).unwrap();
+        let [region] = &found.regions[..] else {
+            panic!("{found:?}")
+        };
+        assert_relative_eq!(region.depth, 2.0 - distance, max_relative = 1e-9);
+        let [first, second] = region.deepest.unwrap();
+        assert_relative_eq!(first, Point3::new(0.0, 0.0, 1.0), epsilon = 1e-9);
+        assert_relative_eq!(second.z, distance - 1.0, epsilon = 1e-9);
+    }
+}

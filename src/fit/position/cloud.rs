@@ -199,6 +199,11 @@ impl<'a> Cloud<'a> {
         self.mesh.vertices.len()
     }
 
+    /// Where the vertices are on the sphere.
+    pub(super) fn vertex_directions(&self) -> &[Vector3<f64>] {
+        &self.directions[..self.vertices()]
+    }
+
     fn images(&self, triangle: usize) -> [Vector3<f64>; 3] {
         self.mesh.triangles[triangle].map(|corner| self.directions[corner as usize])
     }

@@ -2,6 +2,7 @@
 //! equal volume has the radius 1.
 
 use super::cloud::Cloud;
+use super::map::Coarse;
 use super::voxels::Voxels;
 use crate::fit::crust::{surface_of_points, without_alone};
 use crate::fit::error::FitError;
@@ -102,6 +103,18 @@ impl LocalFaces {
         cloud.semi_axes = self.semi_axes;
         cloud.voxels = self.steps.as_ref().and_then(Voxels::new);
         cloud
+    }
+
+    /// The same of some of the vertices.
+    pub(super) fn coarse_cloud<'a>(&self, coarse: &'a Coarse) -> Cloud<'a> {
+        let mut cloud = Cloud::new(&coarse.mesh, coarse.places.clone());
+        cloud.semi_axes = self.semi_axes;
+        cloud
+    }
+
+    /// Whether the faces are only near the points that are fitted.
+    pub(super) fn are_of_points(&self) -> bool {
+        self.points.is_some()
     }
 
     /// A place in the scan's frame and unit.

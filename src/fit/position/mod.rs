@@ -13,6 +13,7 @@ mod foot;
 mod functionals;
 mod functions;
 mod least_squares;
+mod levels;
 mod local_faces;
 pub(crate) mod map;
 mod on_mesh;
@@ -30,8 +31,8 @@ use super::samples::Samples;
 use super::warning::FitWarning;
 use crate::model::{Frame, NoInterval, Position, StandardErrors};
 use crate::scan::Scan;
+use levels::{Found, Levels};
 use local_faces::LocalFaces;
-use map::spherical_map;
 use nalgebra::Point3;
 use search::search;
 
@@ -118,15 +119,20 @@ pub(super) fn fit_position_if(
     let radius = local.radius;
     let tolerance = options.tolerance.length(radius);
     let limit = tolerance.max(OVER_SCATTER * scan.scatter);
-    let mut cloud = local.cloud(spherical_map(&local.mesh, context)?);
     let is_worth = |coefficients: usize, rms: f64| {
         is_worth(Rival {
             coefficients,
             rms: rms * radius,
         })
     };
-    let found = context.run(|| search(&mut cloud, options, limit / radius, &is_worth, context))?;
-    let fitted = found.ok_or(FitError::NoEstimate)?;
+    let mut levels = Levels::new(&local, context)?;
+    let found = context.run(|| search(&mut levels, options, limit / radius, &is_worth, context))?;
+    let Found {
+        fitted,
+        scanned,
+        points,
+        normals,
+    } = found.ok_or(FitError::NoEstimate)?;
     let distance = |found: cloud::Distances| Distance {
         rms: found.rms * radius,
         max: found.max * radius,
@@ -138,7 +144,7 @@ pub(super) fn fit_position_if(
         surface: fitted.surface.times(radius),
         reference: local.reference,
         radius,
-        samples: cloud.scanned(),
+        samples: scanned,
         distance: distance(fitted.distances),
         held_out: distance(fitted.held_out),
         roughness: fitted.roughness,
@@ -148,8 +154,8 @@ pub(super) fn fit_position_if(
         crossings,
         errors: fitted.errors.map(|errors| errors.times(radius)),
         fitted_to: Samples {
-            points: cloud.points.iter().map(|p| local.to_scan(p)).collect(),
-            normals: cloud.normals.iter().map(|n| local.frame.axes * n).collect(),
+            points: points.iter().map(|p| local.to_scan(p)).collect(),
+            normals: normals.iter().map(|n| local.frame.axes * n).collect(),
         },
         warnings: local.warnings,
     })

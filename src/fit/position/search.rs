@@ -3,12 +3,16 @@
 
 use super::cloud::Cloud;
 use super::functions::Functions;
+use super::levels::{Found, IsWorth, Levels, home, restart};
 use super::rounds::{Fitted, Problem, Used};
 use crate::fit::context::{Cancelled, Context, Stage};
+use crate::fit::error::FitError;
 use crate::fit::options::FitOptions;
 use crate::sphere::{CubeCell, MAX_FACE_PARTS};
-use nalgebra::Vector3;
-use std::f64::consts::PI;
+
+/// Vertices by which expansions of the whole sphere are tried, and cells are split: some ten per function.
+const FEW: usize = 3000;
+const MORE: usize = 12_000;
 
 /// Degrees of expansions of the whole sphere that are tried first: an ellipsoid, and up to as many functions as an
 /// evaluation of cells touches.
@@ -19,10 +23,6 @@ const OF_ELLIPSOIDS: usize = 4;
 
 /// Degree of cells where none is asked for.
 const DEGREE: usize = 3;
-
-/// Samples per function: places inside large triangles are added until there are as many. With three, surfaces bulge
-/// between the 1538 points of a kernel by up to 11 % of the radius.
-const SAMPLES_PER_FUNCTION: f64 = 8.0;
 
 /// Points of the scan per function.
 const POINTS_PER_FUNCTION: f64 = 3.0;
@@ -60,58 +60,66 @@ const FAR: f64 = 10.0;
 const ROUGHNESS: f64 = 1e-7;
 const ACROSS: f64 = 0.3;
 
-/// Fits what the options ask for to samples of a body of about radius 1, within a `limit` of held-out distance.
-/// `None` if the samples do not determine a surface, or if none `is_worth` more work, by the number of its coefficients
-/// and the least distance that it may come to.
+/// Fits what the options ask for to a body of about radius 1, within a `limit` of held-out distance. `None` if its
+/// samples do not determine a surface, or if none `is_worth` more work, by the number of its coefficients and the least distance
+/// that it may come to.
+///
+/// # Errors
+/// As [`Levels::level`].
 pub(super) fn search(
-    cloud: &mut Cloud<'_>,
+    levels: &mut Levels<'_>,
     options: &FitOptions,
     limit: f64,
-    is_worth: &(dyn Fn(usize, f64) -> bool + Sync),
+    is_worth: IsWorth<'_>,
     context: &Context<'_>,
-) -> Result<Option<Fitted>, Cancelled> {
-    let run = |functions: &Functions, cloud: &mut Cloud<'_>| {
-        let is_worth = |rms: f64| is_worth(3 * functions.count(), rms);
-        Problem::new(functions).run(cloud, &is_worth, context)
-    };
-    match options.segments.or(options.is_without_cells().then_some(1)) {
+) -> Result<Option<Found>, FitError> {
+    let by_few = levels.level(FEW, context)?;
+    let mut few = levels.cloud(&by_few);
+    let asked = options.segments.or(options.is_without_cells().then_some(1));
+    match asked {
         Some(1) => {
             let bound = options.max_degree.unwrap_or(usize::MAX);
             let degree = options.degree.unwrap_or(WHOLE_DEGREES[2].min(bound));
             let functions = Functions::whole(degree);
-            settle(&functions, cloud);
-            return run(&functions, cloud);
+            settle(&functions, &mut few);
+            return levels.fit(&by_few, &mut few, &functions, is_worth, context);
         }
-        Some(segments) => {
-            let parts = (segments / 6).isqrt() as u16;
-            let functions = on_cells(CubeCell::uniform(parts), options);
-            restart(cloud, &functions);
-            return run(&functions, cloud);
-        }
-        None => {}
-    }
-    for degree in whole_degrees(options) {
-        context.check()?;
-        let functions = Functions::whole(degree);
-        let Some(held_out) = settle(&functions, cloud) else {
-            break;
-        };
-        if held_out > FAR * limit {
-            break;
-        }
-        if held_out <= GAIN_OF_ROUNDS * limit
-            && let Some(fitted) = run(&functions, cloud)?
-            && is_enough(&fitted, limit)
-        {
-            return Ok(Some(fitted));
+        Some(_) => {}
+        None => {
+            for degree in whole_degrees(options) {
+                context.check()?;
+                let functions = Functions::whole(degree);
+                let Some(held_out) = settle(&functions, &mut few) else {
+                    break;
+                };
+                let held_out = held_out / by_few.most_standing_out();
+                if held_out > FAR * limit {
+                    break;
+                }
+                if held_out <= GAIN_OF_ROUNDS * limit
+                    && let Some(found) =
+                        levels.fit(&by_few, &mut few, &functions, is_worth, context)?
+                    && is_enough(&found.fitted, limit)
+                {
+                    return Ok(Some(found));
+                }
+            }
         }
     }
-    let (functions, held_out) = split(cloud, options, limit, context)?;
-    if !is_worth(3 * functions.count(), held_out / MOST_GAIN_OF_ROUNDS) {
-        return Ok(None);
-    }
-    restart(cloud, &functions);
-    run(&functions, cloud)
+    let by_more = levels.level(MORE, context)?;
+    let mut more = levels.cloud(&by_more);
+    let functions = match asked {
+        Some(segments) => on_cells(CubeCell::uniform((segments / 6).isqrt() as u16), options),
+        None => {
+            let (functions, held_out) = split(&mut more, options, limit, context)?;
+            if !is_worth(3 * functions.count(), held_out / MOST_GAIN_OF_ROUNDS) {
+                return Ok(None);
+            }
+            functions
+        }
+    };
+    restart(&mut more, &functions);
+    levels.fit(&by_more, &mut more, &functions, is_worth, context)
 }
 
 /// Degrees of expansions of the whole sphere that the options leave.
@@ -187,30 +195,6 @@ fn try_once(functions: &Functions, cloud: &mut Cloud<'_>) -> Option<Once> {
         held_out: held_out.rms,
         errors,
     })
-}
-
-/// Starts from the map, with enough samples in every cell.
-fn restart(cloud: &mut Cloud<'_>, functions: &Functions) {
-    let per_function =
-        |solid_angle: f64| solid_angle / (SAMPLES_PER_FUNCTION * functions.per_cell() as f64);
-    match functions.cover() {
-        None => cloud.restart(|_| per_function(4.0 * PI)),
-        Some(cover) => {
-            let areas: Vec<f64> = cover.cells().iter().map(CubeCell::solid_angle).collect();
-            cloud.restart(|n| per_function(areas[home(functions, n)]));
-        }
-    }
-}
-
-/// The cell that counts most in a direction.
-fn home(functions: &Functions, n: &Vector3<f64>) -> usize {
-    let Some(cover) = functions.cover() else {
-        return 0;
-    };
-    let mut shares = Vec::new();
-    cover.shares(n, &mut shares);
-    let most = shares.iter().max_by(|one, other| one.1.total_cmp(&other.1));
-    most.map_or(0, |&(cell, _)| cell.into())
 }
 
 /// Splits cells until held-out samples are met well enough, or hardly any better, or there are too many. Cells of one

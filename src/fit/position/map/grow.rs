@@ -34,62 +34,84 @@ const SWEEPS_BEFORE_RETRY: usize = 5;
 /// Vertices put back between looks at the cancel flag.
 const PATIENCE: usize = 1024;
 
-/// How many sweeps over all vertices.
-pub(super) struct Sweeps {
-    /// Each time the mesh has grown.
-    pub(super) on_the_way: usize,
-    pub(super) at_the_end: usize,
-}
+/// Sweeps over all vertices, at most: each time the mesh has grown, and at the end.
+const SWEEPS_ON_THE_WAY: usize = 5;
+const SWEEPS_AT_THE_END: usize = 20;
 
 /// A mesh on the sphere that grows.
-struct Growing<'a> {
-    half_edges: &'a mut HalfEdges,
-    points: &'a [Vector3<f64>],
-    places: Vec<Vector3<f64>>,
+#[derive(Clone)]
+pub(super) struct Growing {
+    pub(super) half_edges: HalfEdges,
+    pub(super) points: Vec<Vector3<f64>>,
+    /// Of the vertices that are on the sphere.
+    pub(super) places: Vec<Vector3<f64>>,
+    pub(super) living: Vec<u32>,
+    /// The half-edges along which the others went; the last are put back first.
+    removed: Vec<u32>,
     rests: Vec<Rest>,
     /// From areas of rest triangles to those on the sphere.
     scale: f64,
     least_square: f64,
-    living: Vec<u32>,
     star: Star,
 }
 
-/// Places of all vertices on the unit sphere. What is left of the mesh is a tetrahedron; `removed` tells how it came
-/// to that.
-pub(super) fn grow(
-    half_edges: &mut HalfEdges,
-    points: &[Vector3<f64>],
-    removed: &[u32],
-    sweeps: &Sweeps,
-    context: &Context<'_>,
-) -> Result<Vec<Vector3<f64>>, MapError> {
-    let mut growing = Growing::new(half_edges, points, removed);
-    let mut next_sweep = 2 * growing.living.len();
-    for (done, &h) in removed.iter().rev().enumerate() {
-        if done % PATIENCE == 0 {
+impl Growing {
+    /// Puts vertices back until there are so many, and moves all of them as far as it is worth.
+    ///
+    /// # Errors
+    /// [`MapError`] if numbers tell of no place for one, or if the work is cancelled.
+    pub(super) fn grow(&mut self, vertices: usize, context: &Context<'_>) -> Result<(), MapError> {
+        if self.removed.is_empty() {
+            return Ok(());
+        }
+        let mut next_sweep = 2 * self.living.len();
+        while let Some(h) = self.next(vertices) {
+            if self.removed.len().is_multiple_of(PATIENCE) {
+                context.check()?;
+            }
+            let v = self.put_back(h)?;
+            self.relax_neighbours(v);
+            if self.living.len() >= next_sweep {
+                self.rescale();
+                self.sweep(SWEEPS_ON_THE_WAY);
+                next_sweep = (GROWTH * self.living.len() as f64).ceil() as usize;
+            }
+        }
+        self.rescale();
+        for _ in 0..SWEEPS_AT_THE_END {
             context.check()?;
+            if self.sweep(1) < STILL {
+                break;
+            }
         }
-        growing.put_back(h)?;
-        if growing.living.len() >= next_sweep {
-            growing.rescale();
-            growing.sweep(sweeps.on_the_way);
-            next_sweep = (GROWTH * growing.living.len() as f64).ceil() as usize;
-        }
+        Ok(())
     }
-    growing.rescale();
-    for _ in 0..sweeps.at_the_end {
-        context.check()?;
-        if growing.sweep(1) < STILL {
-            break;
-        }
-    }
-    Ok(growing.places)
-}
 
-impl<'a> Growing<'a> {
-    fn new(half_edges: &'a mut HalfEdges, points: &'a [Vector3<f64>], removed: &[u32]) -> Self {
+    /// Puts the others back, each where it is best, and leaves these where they are.
+    ///
+    /// # Errors
+    /// As [`Self::grow`].
+    pub(super) fn fill(&mut self, context: &Context<'_>) -> Result<(), MapError> {
+        self.rescale();
+        while let Some(h) = self.next(usize::MAX) {
+            if self.removed.len().is_multiple_of(PATIENCE) {
+                context.check()?;
+            }
+            self.put_back(h)?;
+        }
+        Ok(())
+    }
+
+    /// The half-edge of the vertex to put back next, if there are fewer than so many.
+    fn next(&mut self, vertices: usize) -> Option<u32> {
+        let is_short = self.living.len() < vertices;
+        is_short.then(|| self.removed.pop())?
+    }
+
+    /// Of a mesh of which a tetrahedron is left; `removed` tells how it came to that.
+    pub(super) fn new(half_edges: HalfEdges, points: Vec<Vector3<f64>>, removed: Vec<u32>) -> Self {
         let mut is_living = vec![true; points.len()];
-        for &h in removed {
+        for &h in &removed {
             is_living[half_edges.origin(h) as usize] = false;
         }
         let living: Vec<u32> = (0..points.len() as u32)
@@ -99,14 +121,14 @@ impl<'a> Growing<'a> {
         let first = living[0];
         // Half-edges round a vertex run clockwise, seen from outside.
         let ring = half_edges.around(first).map(|h| half_edges.target(h));
-        let corners = std::iter::once(first).chain(ring);
+        let corners: Vec<u32> = std::iter::once(first).chain(ring).collect();
         let tetrahedron = [
             [1.0, 1.0, 1.0],
             [1.0, -1.0, -1.0],
             [-1.0, -1.0, 1.0],
             [-1.0, 1.0, -1.0],
         ];
-        for (corner, place) in corners.zip(tetrahedron) {
+        for (corner, place) in corners.into_iter().zip(tetrahedron) {
             places[corner as usize] = Vector3::from(place).normalize();
         }
         let mut growing = Self {
@@ -117,6 +139,7 @@ impl<'a> Growing<'a> {
             scale: 1.0,
             least_square: LEAST_SQUARE,
             living,
+            removed,
             star: Star::default(),
         };
         growing.rescale();
@@ -157,8 +180,8 @@ impl<'a> Growing<'a> {
         rest.area
     }
 
-    /// Puts the origin of a collapsed half-edge back, and moves it and its neighbours.
-    fn put_back(&mut self, h: u32) -> Result<(), MapError> {
+    /// Puts the origin of a collapsed half-edge back, and moves it.
+    fn put_back(&mut self, h: u32) -> Result<u32, MapError> {
         let v = self.half_edges.origin(h);
         let mut centre = self.split(h);
         for _ in 0..RETRIES {
@@ -173,17 +196,20 @@ impl<'a> Growing<'a> {
         }
         self.places[v as usize] = centre.ok_or(MapError::NoKernel { vertex: v })?;
         self.living.push(v);
-        let ring: Vec<u32> = self.half_edges.around(v).collect();
         for _ in 0..FIRST_STEPS {
             self.relax(v);
         }
+        Ok(v)
+    }
+
+    fn relax_neighbours(&mut self, v: u32) {
+        let ring: Vec<u32> = self.half_edges.around(v).collect();
         for &own in ring.iter().take(NEIGHBOURS_MOVED) {
             let neighbour = self.half_edges.target(own);
             if self.half_edges.valence(neighbour) <= LARGE_RING {
                 self.relax(neighbour);
             }
         }
-        Ok(())
     }
 
     /// Undoes a collapse, and finds a place for the vertex that comes back.
@@ -199,9 +225,8 @@ impl<'a> Growing<'a> {
     }
 
     fn take_star(&mut self, v: u32) {
-        let (half_edges, places) = (&*self.half_edges, &self.places);
         self.star
-            .take(v, half_edges, places, &self.rests, self.scale);
+            .take(v, &self.half_edges, &self.places, &self.rests, self.scale);
     }
 
     /// Moves a vertex by a step; tells by how much, in distances to its nearest neighbour.

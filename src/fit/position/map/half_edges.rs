@@ -10,6 +10,7 @@ use crate::disjoint_sets::DisjointSets;
 use crate::mesh::{Mesh, MeshDefect};
 
 /// The connectivity.
+#[derive(Clone)]
 pub(super) struct HalfEdges {
     /// The vertex from which each half-edge runs.
     origin: Vec<u32>,

@@ -19,17 +19,11 @@ use super::on_sphere::spherical_area;
 use crate::fit::context::Context;
 use crate::mesh::Mesh;
 use crate::predicates::orient3d;
-use grow::{Sweeps, grow};
+use grow::Growing;
 use half_edges::HalfEdges;
 use nalgebra::{Matrix3, Point3, Vector3};
 use simplify::simplify;
 use std::f64::consts::PI;
-
-/// What lessens the distortion as far as it is worth.
-const THOROUGH: Sweeps = Sweeps {
-    on_the_way: 5,
-    at_the_end: 20,
-};
 
 /// Least area of the faces round a vertex when a map is turned, for a mesh of diameter 1: so that faces of no area have
 /// a centroid.
@@ -39,23 +33,106 @@ const LEAST_SHARE: f64 = 1e-12;
 /// triangle turns over it is a whole number.
 const DEGREE_ERROR: f64 = 1e-6;
 
-/// A unit vector for every vertex of a mesh: a map of its triangles onto the sphere that is one to one and keeps their
-/// orientation. It is turned so that the vector at a point is the point's own direction as nearly as can be.
-///
-/// # Errors
-/// [`MapError`] if the mesh is not one closed surface of the topology of a sphere, if numbers do not resolve its faces,
-/// or if the work is cancelled.
-pub(crate) fn spherical_map(
-    mesh: &Mesh,
-    context: &Context<'_>,
-) -> Result<Vec<Vector3<f64>>, MapError> {
-    let mut half_edges = HalfEdges::new(mesh)?;
-    let points = scaled(&mesh.vertices).ok_or(MapError::NoBody)?;
-    let removed = simplify(&mut half_edges, &points, context)?;
-    let mut places = grow(&mut half_edges, &points, &removed, &THOROUGH, context)?;
-    turn(&mut places, mesh, &points);
-    certify(mesh, &places)?;
-    Ok(places)
+/// A closed mesh that is mapped to the sphere, one to one and not turned over: a few of its vertices first, if so desired.
+pub(crate) struct SphericalMap {
+    growing: Growing,
+    triangles: Vec<[u32; 3]>,
+}
+
+/// A mesh of some vertices of another, which lies about it, and their places on the sphere.
+pub(super) struct Coarse {
+    pub(super) mesh: Mesh,
+    pub(super) places: Vec<Vector3<f64>>,
+}
+
+impl SphericalMap {
+    /// # Errors
+    /// [`MapError`] if the mesh is not one closed surface of the topology of a sphere, or if the work is cancelled.
+    pub(crate) fn new(mesh: &Mesh, context: &Context<'_>) -> Result<Self, MapError> {
+        let mut half_edges = HalfEdges::new(mesh)?;
+        let points = scaled(&mesh.vertices).ok_or(MapError::NoBody)?;
+        let removed = simplify(&mut half_edges, &points, context)?;
+        Ok(Self {
+            growing: Growing::new(half_edges, points, removed),
+            triangles: mesh.triangles.clone(),
+        })
+    }
+
+    /// A unit vector for every vertex. They are turned so that the vector at a point is the point's own direction as nearly as
+    /// can be.
+    ///
+    /// # Errors
+    /// [`MapError`] if numbers do not resolve the faces, or if the work is cancelled.
+    pub(crate) fn whole(&mut self, context: &Context<'_>) -> Result<Vec<Vector3<f64>>, MapError> {
+        self.growing.grow(usize::MAX, context)?;
+        let mut places = self.growing.places.clone();
+        turn(&mut places, &self.triangles, &self.growing.points);
+        certify(&self.triangles, &places)?;
+        Ok(places)
+    }
+
+    /// The same of so many vertices, those without which the mesh would differ most.
+    ///
+    /// # Errors
+    /// As [`Self::whole`].
+    pub(super) fn coarse(
+        &mut self,
+        mesh: &Mesh,
+        vertices: usize,
+        context: &Context<'_>,
+    ) -> Result<Coarse, MapError> {
+        self.growing.grow(vertices, context)?;
+        let Growing {
+            living,
+            places,
+            points,
+            half_edges,
+            ..
+        } = &self.growing;
+        let mut number = vec![0; points.len()];
+        for (own, &v) in (0..).zip(living) {
+            number[v as usize] = own;
+        }
+        let around = living.iter().flat_map(|&v| half_edges.around(v));
+        let triangles = around.filter(|h| h.is_multiple_of(3)).map(|h| {
+            half_edges
+                .corners(h / 3)
+                .map(|corner| number[corner as usize])
+        });
+        let of_living = |all: &[Vector3<f64>]| -> Vec<Vector3<f64>> {
+            living.iter().map(|&v| all[v as usize]).collect()
+        };
+        let triangles: Vec<[u32; 3]> = triangles.collect();
+        let mut places = of_living(places);
+        turn(&mut places, &triangles, &of_living(points));
+        certify(&triangles, &places)?;
+        let vertices = living.iter().map(|&v| mesh.vertices[v as usize]).collect();
+        Ok(Coarse {
+            mesh: Mesh {
+                vertices,
+                triangles,
+            },
+            places,
+        })
+    }
+
+    /// A unit vector for every vertex, of which those of the [coarse mesh](Self::coarse) are given.
+    ///
+    /// # Errors
+    /// As [`Self::whole`].
+    pub(super) fn between(
+        &self,
+        places: &[Vector3<f64>],
+        context: &Context<'_>,
+    ) -> Result<Vec<Vector3<f64>>, MapError> {
+        let mut growing = self.growing.clone();
+        for (&v, place) in self.growing.living.iter().zip(places) {
+            growing.places[v as usize] = *place;
+        }
+        growing.fill(context)?;
+        certify(&self.triangles, &growing.places)?;
+        Ok(growing.places)
+    }
 }
 
 /// The vertices of a mesh, moved and scaled to a box whose diagonal is 1.
@@ -79,9 +156,9 @@ fn scaled(vertices: &[Point3<f64>]) -> Option<Vec<Vector3<f64>>> {
 
 /// Turns places to the points they belong to: the mean over the surface of their scalar products, with points taken
 /// from their centroid, becomes largest (Procrustes).
-fn turn(places: &mut [Vector3<f64>], mesh: &Mesh, points: &[Vector3<f64>]) {
+fn turn(places: &mut [Vector3<f64>], triangles: &[[u32; 3]], points: &[Vector3<f64>]) {
     let mut shares = vec![LEAST_SHARE; points.len()];
-    for corners in &mesh.triangles {
+    for corners in triangles {
         let [a, b, c] = corners.map(|corner| points[corner as usize]);
         let area = (b - a).cross(&(c - a)).norm();
         for &corner in corners {
@@ -106,9 +183,9 @@ fn turn(places: &mut [Vector3<f64>], mesh: &Mesh, points: &[Vector3<f64>]) {
 }
 
 /// Checks that no triangle turns over, and that together they cover the sphere once.
-fn certify(mesh: &Mesh, places: &[Vector3<f64>]) -> Result<(), MapError> {
+fn certify(triangles: &[[u32; 3]], places: &[Vector3<f64>]) -> Result<(), MapError> {
     let (mut flips, mut solid_angle) = (0, 0.0);
-    for corners in &mesh.triangles {
+    for corners in triangles {
         let [a, b, c] = corners.map(|corner| places[corner as usize]);
         if !is_upright([a, b, c]) {
             flips += 1;

@@ -15,12 +15,13 @@ const HALVINGS: usize = 10;
 const FLAT: f64 = 1e-12;
 
 /// The star of a vertex, filled again for each.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(super) struct Star {
     sides: Vec<Side>,
 }
 
 /// The edge across from the vertex in one of its triangles: from `from` to `to`, seen from outside counter-clockwise.
+#[derive(Clone)]
 struct Side {
     from: Vector3<f64>,
     to: Vector3<f64>,

@@ -1,11 +1,17 @@
 use super::*;
+use crate::measure::mesh_properties;
 use crate::mesh::MeshDefect;
 use crate::sphere::cube_grid;
 use std::f64::consts::TAU;
 
-/// Asserts that a mesh has a map; [`spherical_map`] certifies what it gives.
+fn mapped(mesh: &Mesh) -> Result<Vec<Vector3<f64>>, MapError> {
+    let context = Context::default();
+    SphericalMap::new(mesh, &context)?.whole(&context)
+}
+
+/// Asserts that a mesh has a map; [`SphericalMap`] certifies what it gives.
 fn assert_mapped(name: &str, mesh: &Mesh) -> Vec<Vector3<f64>> {
-    let found = spherical_map(mesh, &Context::default());
+    let found = mapped(mesh);
     let places = found.unwrap_or_else(|error| panic!("{name}: {error}"));
     assert_eq!(places.len(), mesh.vertices.len());
     assert!(places.iter().all(|n| (n.norm() - 1.0).abs() < 1e-12));
@@ -13,7 +19,7 @@ fn assert_mapped(name: &str, mesh: &Mesh) -> Vec<Vector3<f64>> {
 }
 
 fn refusal(mesh: &Mesh) -> MapError {
-    spherical_map(mesh, &Context::default()).expect_err("no map")
+    mapped(mesh).expect_err("no map")
 }
 
 /// A ball of 1538 vertices, each moved.
@@ -223,4 +229,25 @@ fn collapses_are_undone_to_the_last_half_edge() {
     for v in 0..1538 {
         assert_eq!(half_edges.around(v).count(), half_edges.valence(v));
     }
+}
+
+#[test]
+fn some_vertices_are_mapped_first_and_the_others_between_them() {
+    let spindle = moved(|_, n| n.component_mul(&Vector3::new(1.0, 1.0, 5.0)));
+    let context = Context::default();
+    let mut map = SphericalMap::new(&spindle, &context).unwrap();
+    let coarse = map.coarse(&spindle, 300, &context).unwrap();
+    assert_eq!(coarse.mesh.vertices.len(), 300);
+    let properties = [&coarse.mesh, &spindle].map(|mesh| mesh_properties(mesh).unwrap());
+    assert!(properties[0].volume > 0.95 * properties[1].volume);
+    let turned = |n: &Vector3<f64>| Vector3::new(n.y, n.z, n.x);
+    let given: Vec<_> = coarse.places.iter().map(turned).collect();
+    let places = map.between(&given, &context).unwrap();
+    let at = |point: &Point3<f64>| spindle.vertices.iter().position(|vertex| vertex == point);
+    for (point, place) in coarse.mesh.vertices.iter().zip(&given) {
+        assert_eq!(places[at(point).unwrap()], *place);
+    }
+    let finer = map.coarse(&spindle, 600, &context).unwrap();
+    assert_eq!(finer.mesh.vertices.len(), 600);
+    assert_eq!(map.whole(&context).unwrap().len(), 1538);
 }
