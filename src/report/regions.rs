@@ -60,11 +60,11 @@ pub struct RegionRecord {
     pub normal: [f64; 3],
     /// How far they overlap between their deepest points, along the line that is normal to both surfaces there.
     pub depth: f64,
-    /// These points, of the first body and of the second; `null` where the region has none.
-    pub deepest_points: Option<[[f64; 3]; 2]>,
     /// Its standard error; `null`, as those of the others, where a surface does not tell its own or the region has no
     /// deepest points.
     pub depth_error: Option<f64>,
+    /// The deepest points, of the first body and of the second; `null` where the region has none.
+    pub deepest_points: Option<[[f64; 3]; 2]>,
     /// The volume they share.
     pub volume: f64,
     /// By how much its integration may be off.
@@ -126,10 +126,10 @@ impl RegionsReport {
                 point: region.point.coords.into(),
                 normal: region.normal.into(),
                 depth: region.depth,
+                depth_error: region.depth_error(),
                 deepest_points: region
                     .deepest
                     .map(|pair| pair.map(|point| point.coords.into())),
-                depth_error: region.depth_error(),
                 volume: region.volume,
                 volume_error: region.volume_error,
                 volume_standard_error: region.volume_standard_error(),

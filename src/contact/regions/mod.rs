@@ -86,8 +86,9 @@ pub struct ContactRegion {
     /// The unit normal, from the first body to the second: that along which what they share grows fastest.
     pub normal: Vector3<f64>,
     /// How far they overlap: that of the deepest of the pairs of points whose line is normal to both surfaces, and from
-    /// which these part in all directions: [`Self::deepest`]. Where none is as deep as the triangles tell, as where a point of one surface is
-    /// as far from two places of the other, it is the largest distance that these tell, to some percent.
+    /// which these part in all directions: [`Self::deepest`]. Where none is as deep as the triangles tell, as where a point
+    /// of one surface is as far from two places of the other, it is the largest distance that these tell, to some ten
+    /// percent.
     pub depth: f64,
     /// The volume they share.
     pub volume: f64,

@@ -25,12 +25,12 @@ pub(super) type IsWorth<'a> = &'a (dyn Fn(usize, f64) -> bool + Sync);
 /// The faces of a scan, with few of their vertices or with all.
 pub(super) struct Levels<'a> {
     local: &'a LocalFaces,
-    map: SphericalMap,
+    map: SphericalMap<'a>,
 }
 
 /// Some of the vertices, and the mesh of them, or all; with places on the sphere.
 pub(super) enum Level {
-    Some(Coarse),
+    Part(Coarse),
     All(Vec<Vector3<f64>>),
 }
 
@@ -38,7 +38,7 @@ impl Level {
     /// How many times nearer all vertices may be than those of this level.
     pub(super) fn most_standing_out(&self) -> f64 {
         match self {
-            Self::Some(_) => MOST_STANDING_OUT,
+            Self::Part(_) => MOST_STANDING_OUT,
             Self::All(_) => 1.0,
         }
     }
@@ -72,7 +72,7 @@ impl<'a> Levels<'a> {
     ) -> Result<Level, MapError> {
         Ok(
             match self.local.mesh.vertices.len() > 2 * vertices && !self.local.are_of_points() {
-                true => Level::Some(self.map.coarse(&self.local.mesh, vertices, context)?),
+                true => Level::Part(self.map.coarse(vertices, context)?),
                 false => Level::All(self.map.whole(context)?),
             },
         )
@@ -84,7 +84,7 @@ impl<'a> Levels<'a> {
         'a: 'b,
     {
         match level {
-            Level::Some(coarse) => self.local.coarse_cloud(coarse),
+            Level::Part(coarse) => self.local.coarse_cloud(coarse),
             Level::All(places) => self.local.cloud(places.clone()),
         }
     }

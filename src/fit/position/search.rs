@@ -3,7 +3,7 @@
 
 use super::cloud::Cloud;
 use super::functions::Functions;
-use super::levels::{Found, IsWorth, Levels, home, restart};
+use super::levels::{Found, IsWorth, Level, Levels, home, restart};
 use super::rounds::{Fitted, Problem, Used};
 use crate::fit::context::{Cancelled, Context, Stage};
 use crate::fit::error::FitError;
@@ -73,7 +73,8 @@ pub(super) fn search(
     is_worth: IsWorth<'_>,
     context: &Context<'_>,
 ) -> Result<Option<Found>, FitError> {
-    let by_few = levels.level(FEW, context)?;
+    let (by_few, by_more);
+    by_few = levels.level(FEW, context)?;
     let mut few = levels.cloud(&by_few);
     let asked = options.segments.or(options.is_without_cells().then_some(1));
     match asked {
@@ -106,20 +107,25 @@ pub(super) fn search(
             }
         }
     }
-    let by_more = levels.level(MORE, context)?;
-    let mut more = levels.cloud(&by_more);
+    let (level, mut cloud) = match by_few {
+        Level::All(_) => (&by_few, few),
+        Level::Part(_) => {
+            by_more = levels.level(MORE, context)?;
+            (&by_more, levels.cloud(&by_more))
+        }
+    };
     let functions = match asked {
         Some(segments) => on_cells(CubeCell::uniform((segments / 6).isqrt() as u16), options),
         None => {
-            let (functions, held_out) = split(&mut more, options, limit, context)?;
+            let (functions, held_out) = split(&mut cloud, options, limit, context)?;
             if !is_worth(3 * functions.count(), held_out / MOST_GAIN_OF_ROUNDS) {
                 return Ok(None);
             }
             functions
         }
     };
-    restart(&mut more, &functions);
-    levels.fit(&by_more, &mut more, &functions, is_worth, context)
+    restart(&mut cloud, &functions);
+    levels.fit(level, &mut cloud, &functions, is_worth, context)
 }
 
 /// Degrees of expansions of the whole sphere that the options leave.

@@ -1,3 +1,5 @@
+mod levels;
+
 use super::cloud::Cloud;
 use super::functions::Functions;
 use super::map::MapError;
@@ -391,19 +393,4 @@ fn what_is_no_single_closed_surface_is_refused() {
     open.triangles.truncate(500);
     let open = Scan::from_mesh(open).unwrap();
     assert_eq!(refusal(&open), FitError::NoFaces);
-}
-
-/// Of so many vertices functions are chosen by fewer, and fitted to all.
-#[test]
-fn dense_faces_are_fitted_as_well_as_others() {
-    let errors = [30, 36].map(|resolution| {
-        let dense = mesh(resolution, banana);
-        let fit = fitted(&dense, &FitOptions::default());
-        assert_relative_eq!(fit.fitted_to.points[2], dense.vertices[2], epsilon = 1e-12);
-        assert!(fit.samples >= dense.vertices.len());
-        assert!(fit.held_out.rms <= fit.limit, "{:?}", fit.held_out);
-        let grain = PositionGrain::new(fit.frame, fit.surface).unwrap();
-        grain_properties(&grain).properties.volume / BANANA_VOLUME - 1.0
-    });
-    assert!(errors.iter().all(|off| off.abs() < 2e-3), "{errors:?}");
 }

@@ -4,7 +4,7 @@ use super::error::MapError;
 use super::half_edges::HalfEdges;
 use super::rest::Rest;
 use super::star::Star;
-use crate::fit::context::Context;
+use crate::fit::context::{Cancelled, Context};
 use nalgebra::Vector3;
 use std::f64::consts::PI;
 
@@ -65,10 +65,7 @@ impl Growing {
             return Ok(());
         }
         let mut next_sweep = 2 * self.living.len();
-        while let Some(h) = self.next(vertices) {
-            if self.removed.len().is_multiple_of(PATIENCE) {
-                context.check()?;
-            }
+        while let Some(h) = self.next(vertices, context)? {
             let v = self.put_back(h)?;
             self.relax_neighbours(v);
             if self.living.len() >= next_sweep {
@@ -93,19 +90,19 @@ impl Growing {
     /// As [`Self::grow`].
     pub(super) fn fill(&mut self, context: &Context<'_>) -> Result<(), MapError> {
         self.rescale();
-        while let Some(h) = self.next(usize::MAX) {
-            if self.removed.len().is_multiple_of(PATIENCE) {
-                context.check()?;
-            }
+        while let Some(h) = self.next(usize::MAX, context)? {
             self.put_back(h)?;
         }
         Ok(())
     }
 
     /// The half-edge of the vertex to put back next, if there are fewer than so many.
-    fn next(&mut self, vertices: usize) -> Option<u32> {
+    fn next(&mut self, vertices: usize, context: &Context<'_>) -> Result<Option<u32>, Cancelled> {
+        if self.removed.len().is_multiple_of(PATIENCE) {
+            context.check()?;
+        }
         let is_short = self.living.len() < vertices;
-        is_short.then(|| self.removed.pop())?
+        Ok(is_short.then(|| self.removed.pop()).flatten())
     }
 
     /// Of a mesh of which a tetrahedron is left; `removed` tells how it came to that.

@@ -34,9 +34,9 @@ const LEAST_SHARE: f64 = 1e-12;
 const DEGREE_ERROR: f64 = 1e-6;
 
 /// A closed mesh that is mapped to the sphere, one to one and not turned over: a few of its vertices first, if so desired.
-pub(crate) struct SphericalMap {
+pub(crate) struct SphericalMap<'a> {
+    mesh: &'a Mesh,
     growing: Growing,
-    triangles: Vec<[u32; 3]>,
 }
 
 /// A mesh of some vertices of another, which lies about it, and their places on the sphere.
@@ -45,16 +45,16 @@ pub(super) struct Coarse {
     pub(super) places: Vec<Vector3<f64>>,
 }
 
-impl SphericalMap {
+impl<'a> SphericalMap<'a> {
     /// # Errors
     /// [`MapError`] if the mesh is not one closed surface of the topology of a sphere, or if the work is cancelled.
-    pub(crate) fn new(mesh: &Mesh, context: &Context<'_>) -> Result<Self, MapError> {
+    pub(crate) fn new(mesh: &'a Mesh, context: &Context<'_>) -> Result<Self, MapError> {
         let mut half_edges = HalfEdges::new(mesh)?;
         let points = scaled(&mesh.vertices).ok_or(MapError::NoBody)?;
         let removed = simplify(&mut half_edges, &points, context)?;
         Ok(Self {
+            mesh,
             growing: Growing::new(half_edges, points, removed),
-            triangles: mesh.triangles.clone(),
         })
     }
 
@@ -66,8 +66,8 @@ impl SphericalMap {
     pub(crate) fn whole(&mut self, context: &Context<'_>) -> Result<Vec<Vector3<f64>>, MapError> {
         self.growing.grow(usize::MAX, context)?;
         let mut places = self.growing.places.clone();
-        turn(&mut places, &self.triangles, &self.growing.points);
-        certify(&self.triangles, &places)?;
+        turn(&mut places, &self.mesh.triangles, &self.growing.points);
+        certify(&self.mesh.triangles, &places)?;
         Ok(places)
     }
 
@@ -77,7 +77,6 @@ impl SphericalMap {
     /// As [`Self::whole`].
     pub(super) fn coarse(
         &mut self,
-        mesh: &Mesh,
         vertices: usize,
         context: &Context<'_>,
     ) -> Result<Coarse, MapError> {
@@ -106,10 +105,10 @@ impl SphericalMap {
         let mut places = of_living(places);
         turn(&mut places, &triangles, &of_living(points));
         certify(&triangles, &places)?;
-        let vertices = living.iter().map(|&v| mesh.vertices[v as usize]).collect();
+        let vertices = living.iter().map(|&v| self.mesh.vertices[v as usize]);
         Ok(Coarse {
             mesh: Mesh {
-                vertices,
+                vertices: vertices.collect(),
                 triangles,
             },
             places,
@@ -130,7 +129,7 @@ impl SphericalMap {
             growing.places[v as usize] = *place;
         }
         growing.fill(context)?;
-        certify(&self.triangles, &growing.places)?;
+        certify(&self.mesh.triangles, &growing.places)?;
         Ok(growing.places)
     }
 }

@@ -236,7 +236,7 @@ fn some_vertices_are_mapped_first_and_the_others_between_them() {
     let spindle = moved(|_, n| n.component_mul(&Vector3::new(1.0, 1.0, 5.0)));
     let context = Context::default();
     let mut map = SphericalMap::new(&spindle, &context).unwrap();
-    let coarse = map.coarse(&spindle, 300, &context).unwrap();
+    let coarse = map.coarse(300, &context).unwrap();
     assert_eq!(coarse.mesh.vertices.len(), 300);
     let properties = [&coarse.mesh, &spindle].map(|mesh| mesh_properties(mesh).unwrap());
     assert!(properties[0].volume > 0.95 * properties[1].volume);
@@ -247,7 +247,7 @@ fn some_vertices_are_mapped_first_and_the_others_between_them() {
     for (point, place) in coarse.mesh.vertices.iter().zip(&given) {
         assert_eq!(places[at(point).unwrap()], *place);
     }
-    let finer = map.coarse(&spindle, 600, &context).unwrap();
+    let finer = map.coarse(600, &context).unwrap();
     assert_eq!(finer.mesh.vertices.len(), 600);
     assert_eq!(map.whole(&context).unwrap().len(), 1538);
 }
