@@ -26,6 +26,10 @@ const GOOD_ENOUGH: f64 = 1.0 / 3.0;
 /// The same where what is left of the points is no noise but detail: it adds 3 %.
 const GOOD_ENOUGH_OF_DETAIL: f64 = 1.0 / 4.0;
 
+/// Cells that are so many times farther off than the limit give way to one expansion that is within it and has no more
+/// coefficients.
+const FAR: f64 = 2.0;
+
 /// What the estimate is made to.
 struct Aim {
     /// The error that was asked for.
@@ -116,6 +120,14 @@ pub(super) fn estimated(
         }
     };
     let mut search = search(&estimate, &aim, cut.as_ref());
+    let is_outdone = cut.as_ref().is_some_and(|cut| {
+        let fewer = coefficient_count(aim.degree) <= cut.rounds[cut.chosen].coefficients;
+        options.is_unbounded() && fewer && cut.rms > FAR * aim.limit
+    });
+    let cut = cut.filter(|_| !is_outdone);
+    if is_outdone {
+        search.chosen = 0;
+    }
     let not_met = cut
         .as_ref()
         .filter(|cut| options.segments.is_none() && !cut.met);

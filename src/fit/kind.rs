@@ -87,7 +87,7 @@ fn followed(
     let missed = missed_by(&star, scan, options);
     let is_worse = || is_far(&star) || missed.is_some();
     let may_be_better = is_of_any_kind(options)
-        && (does_not_see(&star) || is_unbounded(options) && !is_outnumbered(&star) && is_worse());
+        && (does_not_see(&star) || options.is_unbounded() && !is_outnumbered(&star) && is_worse());
     match may_be_better {
         true => compared(scan, star, missed, options, context),
         false => Ok(star.missing(missed, scan)),
@@ -131,15 +131,6 @@ fn neither(radius: FitError, position: FitError) -> FitError {
 /// Whether nothing was asked for that only a radius has.
 fn is_of_any_kind(options: &FitOptions) -> bool {
     options.seams == Seams::Blended && options.symmetry == Symmetry::NONE
-}
-
-/// Whether nothing was asked for that bounds the search of a radius, which may then be far from points that it sees.
-fn is_unbounded(options: &FitOptions) -> bool {
-    let usual = FitOptions::default();
-    options.max_degree == usual.max_degree
-        && options.max_segments == usual.max_segments
-        && options.degree.is_none()
-        && options.segments.is_none()
 }
 
 /// Why positions may be fitted where no radius can.

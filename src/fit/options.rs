@@ -291,6 +291,15 @@ impl FitOptions {
         self.max_segments.unwrap_or(self.seams.most_segments())
     }
 
+    /// Whether nothing was asked for that bounds the search of a radius, which may then be far from points that it sees.
+    pub(super) fn is_unbounded(&self) -> bool {
+        let usual = Self::default();
+        self.max_degree == usual.max_degree
+            && self.max_segments == usual.max_segments
+            && self.degree.is_none()
+            && self.segments.is_none()
+    }
+
     /// Whether fewer segments are allowed than there are cells at least, so that the whole sphere is one.
     pub(super) fn is_without_cells(&self) -> bool {
         self.segments.is_none() && self.most_segments() < FEWEST_CELLS

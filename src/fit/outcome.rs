@@ -240,7 +240,8 @@ impl Fitted {
     }
 
     /// The grain with its [standard errors](Self::standard_errors) and [those of its surface from place to
-    /// place](crate::model::LocalErrors), which a file of it keeps, or why there are none.
+    /// place](crate::model::LocalErrors), which a file of it keeps, or why there are none. Nor are there any from place to place
+    /// where the scan has a hole, over which they are those of a guess.
     pub fn grain_with_errors(&self) -> Grain {
         let survey = self.survey();
         let off = survey
@@ -255,10 +256,13 @@ impl Fitted {
             let samples = Samples::on_surface(self.edged.as_ref()?, &self.grain);
             Some(samples.local_errors(&self.grain))
         };
-        let squares = of_estimate().or_else(of_samples).or_else(of_points);
+        let told = self.standard_errors(&survey);
+        let is_guessed = matches!(told, Err(NoInterval::Hole { .. }));
+        let squares = || of_estimate().or_else(of_samples).or_else(of_points);
+        let squares = (!is_guessed).then(squares).flatten();
         let errors = squares.and_then(|squares| local_cells::errors(&squares, off, &self.grain));
         let grain = self.grain.clone().with_local_errors(errors);
-        grain.with_standard_errors(self.standard_errors(&survey))
+        grain.with_standard_errors(told)
     }
 
     /// Standard deviations of the radius in directions of the scan's frame (vectors of any length but zero), in the scan's

@@ -60,8 +60,12 @@ pub(super) fn rule(fitted: &Fitted, options: &FitOptions, unit: Option<Unit>) ->
                 "the lowest degree that leaves out no more than {} of the estimate",
                 length(search.limit)
             ),
-            _ if choice.segments == 1 => {
-                format!("the lowest degree within {limit} of the estimate")
+            covers if choice.segments == 1 => {
+                let no_cover = match covers {
+                    0 => "",
+                    _ => ", which no cover of fewer coefficients comes near",
+                };
+                format!("the lowest degree within {limit} of the estimate{no_cover}")
             }
             1 => format!("the only cover tried, within {limit} of the estimate"),
             covers => format!(

@@ -77,7 +77,8 @@ fn share_in_all_directions(estimate: &Estimate, residuals: &[f64]) -> f64 {
             let plain_ray = n.component_div(&cloud.stretch);
             let plain_normal = normal.component_mul(&cloud.stretch);
             let cosine = plain_ray.dot(&plain_normal) / (plain_ray.norm() * plain_normal.norm());
-            let square = weight * residual.powi(2) * plain_ray.norm_squared();
+            let count = weight / cloud.along_normal(n).powi(2);
+            let square = count * residual.powi(2) * plain_ray.norm_squared();
             [cosine.powi(-2) - 1.0, square]
         })
         .collect();

@@ -20,17 +20,25 @@ pub(crate) struct Cloud {
     pub(crate) directions: Vec<Vector3<f64>>,
     /// Radii in the stretched space, in units of `mean`.
     pub(crate) radii: Vec<f64>,
-    /// How many points each stands for, in units of the mean of that number.
+    /// Semi-axes of an ellipsoid that the grain is like, in units of their geometric mean.
+    pub(crate) semi_axes: Vector3<f64>,
+    /// How many points each stands for, in units of the mean of that number, times the square of [f](Self::along_normal): noise
+    /// is the same along the normals of a surface, so that of stretched radii is 1 / f times that.
     pub(crate) weights: Vec<f64>,
     /// Mean radius in the stretched space, in the scan's unit.
     pub(crate) mean: f64,
-    /// sum of log(|T n_i| / mean): minus the logarithm of the density that the map takes from the likelihood.
+    /// sum of log(f |T n_i| / mean): minus the logarithm of the density that map and weights take from the likelihood.
     pub(crate) compression: f64,
 }
 
 impl Cloud {
     /// The samples (in the grain's own frame) after a map; `counts` says how many points each stands for.
-    pub(crate) fn new(samples: &[Sample], counts: Option<&[f64]>, stretch: Vector3<f64>) -> Self {
+    pub(crate) fn new(
+        samples: &[Sample],
+        counts: Option<&[f64]>,
+        stretch: Vector3<f64>,
+        semi_axes: Vector3<f64>,
+    ) -> Self {
         let (directions, mut radii): (Vec<_>, Vec<_>) =
             Self::mapped(samples, stretch, 1.0).into_iter().unzip();
         let mut weights = counts.map_or_else(|| vec![1.0; samples.len()], <[f64]>::to_vec);
@@ -39,13 +47,16 @@ impl Cloud {
         let weighted = radii.iter().zip(&weights).map(|(r, w)| r * w);
         let mean = weighted.sum::<f64>() / samples.len() as f64;
         radii.iter_mut().for_each(|r| *r /= mean);
+        let mut compression = 0.0;
+        for (i, weight) in weights.iter_mut().enumerate() {
+            let f = along_normal(&directions[i], &stretch, &semi_axes);
+            *weight *= f * f;
+            compression += (f * radii[i] / samples[i][3]).ln();
+        }
         Self {
             stretch,
-            compression: samples
-                .iter()
-                .zip(&radii)
-                .map(|(sample, radius)| (radius / sample[3]).ln())
-                .sum(),
+            semi_axes,
+            compression,
             directions,
             radii,
             weights,
@@ -78,6 +89,21 @@ impl Cloud {
         self.radii.len()
     }
 
+    /// f = N.T^-1 n': by how much the surface of the ellipsoid moves along its normal N where the stretched radius in the
+    /// direction n' moves by one.
+    pub(super) fn along_normal(&self, n: &Vector3<f64>) -> f64 {
+        along_normal(n, &self.stretch, &self.semi_axes)
+    }
+
+    /// Errors of the stretched radii of samples, along the normals.
+    pub(super) fn along_normals(&self, samples: &[Sample], errors: &[f64]) -> Vec<f64> {
+        let mapped = Self::mapped(samples, self.stretch, self.mean).into_iter();
+        mapped
+            .zip(errors)
+            .map(|((n, _), e)| e * self.along_normal(&n))
+            .collect()
+    }
+
     /// Weighted sum of the squares of an error per point.
     pub(super) fn squares(&self, errors: impl IntoIterator<Item = f64>) -> f64 {
         let weighted = errors.into_iter().zip(&self.weights);
@@ -89,7 +115,7 @@ impl Cloud {
         self.squares(errors) / self.len() as f64
     }
 
-    /// Errors per point in units of that of one of mean weight: means of many points have smaller ones.
+    /// Errors along the normals per point, as of one that stands for the mean number: means of many points have smaller ones.
     pub(super) fn of_mean_weight(&self, errors: &[f64]) -> Vec<f64> {
         let weighted = errors.iter().zip(&self.weights);
         weighted.map(|(e, w)| e * w.sqrt()).collect()
@@ -135,4 +161,10 @@ impl Cloud {
             ..*self
         }
     }
+}
+
+fn along_normal(n: &Vector3<f64>, stretch: &Vector3<f64>, semi_axes: &Vector3<f64>) -> f64 {
+    let plain = n.component_div(stretch);
+    let normal = plain.component_div(&semi_axes.component_mul(semi_axes));
+    normal.normalize().dot(&plain)
 }

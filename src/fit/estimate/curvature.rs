@@ -46,6 +46,10 @@ const FLOOR: f64 = 1e-5;
 /// Parts of a cube's edge in cells that bumps are wider than: each holds four of those of [`LocalErrors`].
 const WIDE_PARTS: u16 = LocalErrors::PARTS / 2;
 
+/// Cosine of the angle to a principal axis up to which a body may end there: where it ends is then told no better than by the
+/// errors of its dimensions, of which what is missing is a part though it may be chance.
+const NEAR_END: f64 = 0.96;
+
 impl Estimate {
     /// Squares of the errors of a grain that stands for the estimate, in the [directions] of cells; none where edges hide
     /// them.
@@ -117,15 +121,23 @@ impl Estimate {
     fn unexpected(&self, posterior: &Posterior<'_>) -> Vec<[f64; 2]> {
         let tips = Tips::new(self, posterior);
         let in_cell = |cell: &CubeCell| {
-            let (missing, widest) = tips.missing_and_widest(&cell.middle());
-            let missing = Some(missing)
-                .filter(Missing::is_no_chance)
-                .unwrap_or_default();
-            let height = missing.height.powi(2);
+            let middle = cell.middle();
+            let (missing, widest) = tips.missing_and_widest(&middle);
+            let is_no_chance = missing.is_no_chance();
+            let told = match is_no_chance || middle.amax() > NEAR_END {
+                true => missing,
+                false => Missing::default(),
+            };
+            // What may be chance does not tell how sharp it is.
+            let sharpness = match is_no_chance {
+                true => missing.sharpness,
+                false => widest.sharpness,
+            };
+            let height = told.height.powi(2);
             let chance = widest.variance;
             [
-                height + missing.variance + chance,
-                height * missing.sharpness.powi(2) + chance * widest.sharpness.powi(2),
+                height + told.variance + chance,
+                height * sharpness.powi(2) + chance * widest.sharpness.powi(2),
             ]
         };
         let cells = CubeCell::uniform(WIDE_PARTS);

@@ -145,7 +145,12 @@ impl Degrees {
         self.rounds += 1;
         self.outliers += left_out;
         self.cloud = match &self.patches {
-            Some(patches) => Cloud::new(&patches.means, Some(&patches.counts), self.cloud.stretch),
+            Some(patches) => Cloud::new(
+                &patches.means,
+                Some(&patches.counts),
+                self.cloud.stretch,
+                self.cloud.semi_axes,
+            ),
             None => self.cloud.without(&alone),
         };
         if let Some((degree, fit)) = self.lower.take() {

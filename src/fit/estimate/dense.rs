@@ -261,7 +261,7 @@ mod tests {
         let bumps = |n: &Vector3<f64>| 3.0 + 0.2 * (4.0 * n.x + 1.0).sin() * (5.0 * n.y).cos();
         let directions = fibonacci(count);
         let points = samples(&directions, bumps, noise);
-        let cloud = Cloud::new(&points, None, Vector3::repeat(1.0));
+        let cloud = Cloud::new(&points, None, Vector3::repeat(1.0), Vector3::repeat(1.0));
         let posterior = Posterior::new(&cloud, 12, true);
         let spectrum = Spectrum::with_amplitude([-4.0, 0.9, 1.2, noise.ln()]);
         let given = posterior.given(&spectrum);

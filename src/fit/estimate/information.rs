@@ -102,7 +102,7 @@ mod tests {
                 ]
             })
             .collect();
-        let cloud = Cloud::new(&samples, None, Vector3::repeat(1.0));
+        let cloud = Cloud::new(&samples, None, Vector3::repeat(1.0), Vector3::repeat(1.0));
         let posterior = Posterior::new(&cloud, degree, true);
         let cost = |spectrum: &Spectrum| {
             let given = posterior.given(spectrum);

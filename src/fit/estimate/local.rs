@@ -70,9 +70,14 @@ impl Estimate {
         known
             .into_iter()
             .zip(differences)
-            .map(|(local, difference)| RadiusError {
-                surface: difference.hypot(local.scatter(local.variance)),
-                point: difference.hypot(local.scatter(local.variance + noise)),
+            .zip(directions)
+            .map(|((local, difference), n)| {
+                let n = self.stretched(n).normalize();
+                let of_point = noise / self.cloud.along_normal(&n).powi(2);
+                RadiusError {
+                    surface: difference.hypot(local.scatter(local.variance)),
+                    point: difference.hypot(local.scatter(local.variance + of_point)),
+                }
             })
             .collect()
     }

@@ -79,7 +79,7 @@ pub(super) fn rounder(
     };
     let maps_of = |samples: &[Sample]| -> Vec<Mapped> {
         let maps = strengths.par_iter().map(|&strength| {
-            let cloud = Cloud::new(samples, counts, stretch(strength));
+            let cloud = Cloud::new(samples, counts, stretch(strength), axes / mean);
             let every = cloud.len().div_ceil(COMPARED_POINTS);
             let part = (compared < first).then(|| cloud.every(every));
             let part = part.as_ref().unwrap_or(&cloud);

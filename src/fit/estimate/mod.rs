@@ -2,9 +2,9 @@
 //!
 //! 1. A linear map along the grain's axes makes it rounder: of three strengths the one under which the points are
 //!    most likely is taken.
-//! 2. Coefficients have a prior variance per degree, a power law; its parameters and the noise are those
-//!    under which the points are most likely. No degree has to be chosen: it is high enough when the last
-//!    degrees carry nothing.
+//! 2. Coefficients have a prior variance per degree, a power law, and noise is the same along the normals of an
+//!    ellipsoid that is like the grain; the parameters of both are those under which the points are most likely.
+//!    No degree has to be chosen: it is high enough when the last degrees carry nothing.
 //! 3. Points that stand alone are left out, and those that lie off the surface to one side, and the estimate is made again.
 //! 4. Clouds of more than 30 000 points, and uneven ones of more than 3000, are reduced to patch means, with one correction.
 //!
@@ -162,7 +162,7 @@ fn by_degrees(
 /// Adds the patch means of the residuals, and solves again.
 fn correct(cloud: &mut Cloud, patches: &Patches, fit: &mut SpectrumFit) -> Dense {
     let residuals = fit.residuals(patches.places(), cloud);
-    let within = patches.spread_of(&residuals);
+    let within = patches.spread_of(&cloud.along_normals(patches.places(), &residuals));
     let residuals = patches.means_of(&residuals);
     let posterior = Posterior::with(cloud, Arc::clone(&fit.sums));
     cloud.radii = posterior.radii(&fit.coefficients);

@@ -53,11 +53,11 @@ pub(super) fn one_sided(samples: &[Sample], estimate: &Estimate) -> Vec<usize> {
         let mapped = Cloud::mapped(samples, cloud.stretch, cloud.mean);
         let (directions, radii): (Vec<_>, Vec<f64>) = mapped.into_iter().unzip();
         let fitted = estimate.stretched_radii(&directions);
-        let residuals = radii
-            .iter()
-            .zip(fitted)
-            .map(|(r, own)| r - own / cloud.mean);
-        (directions, residuals.collect())
+        let residuals = radii.iter().zip(fitted).zip(&directions);
+        let residuals =
+            residuals.map(|((r, own), n)| (r - own / cloud.mean) * cloud.along_normal(n));
+        let residuals = residuals.collect();
+        (directions, residuals)
     };
     let step = samples.len().div_ceil(LOOKED_AT);
     let some: Vec<Sample> = samples.iter().step_by(step).copied().collect();

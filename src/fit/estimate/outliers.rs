@@ -39,9 +39,11 @@ const UNEXPECTED: f64 = 5.0;
 pub(super) fn alone(posterior: &Posterior<'_>, fit: &SpectrumFit) -> Vec<usize> {
     // Errors of predictions from all other points, were the points spread evenly.
     let spare = spare(&fit.unlearnt, posterior.cloud.len() as f64);
-    let mut errors = posterior.residuals(&fit.coefficients);
-    errors.iter_mut().for_each(|e| *e /= spare);
-    outliers(&posterior.cloud.directions, &errors)
+    let cloud = posterior.cloud;
+    let residuals = posterior.residuals(&fit.coefficients).into_iter();
+    let errors = residuals.zip(&cloud.directions);
+    let errors = errors.map(|(e, n)| e / spare * cloud.along_normal(n));
+    outliers(&cloud.directions, &errors.collect::<Vec<_>>())
 }
 
 /// Of the samples that an estimate has left out, one round after the other, the positions of those that are strays, ascending;
@@ -61,7 +63,10 @@ pub(super) fn strays(samples: &[Sample], estimate: &Estimate) -> Option<Vec<usiz
     let posterior = estimate.posterior();
     let variances = estimate.given(&posterior).directional_variances(&at);
     let noise = estimate.spectrum.noise().powi(2);
-    let expected = variances.iter().map(|v| cloud.mean * (v + noise).sqrt());
+    let expected = variances.iter().zip(&at).map(|(v, n)| {
+        let of_point = noise / cloud.along_normal(n).powi(2);
+        cloud.mean * (v + of_point).sqrt()
+    });
     let neighbours = Neighbours::new(&directions);
     let keeps_company = |at: usize| {
         let near = neighbours.nearest(&directions[at], NEIGHBOURS + 1);

@@ -11,7 +11,7 @@ use super::newton::{Newton, Next, Place};
 use super::outcome::{learnt, variance};
 use super::posterior::{Conditioned, Posterior, Solved};
 use super::spectrum::{HIGHEST, PARAMETERS, Spectrum};
-use super::stopping::{HARD, MOST_FACTORED_DEGREE, ROUGHLY_SETTLED, SETTLED};
+use super::stopping::{GUESSED, HARD, MOST_FACTORED_DEGREE, ROUGHLY_SETTLED, SETTLED};
 use super::sums::Sums;
 use crate::fit::prepare::Sample;
 use crate::sphere::ScatteredHarmonics;
@@ -233,8 +233,9 @@ impl<'a> Look<'a> {
         if !posterior.is_factored() {
             posterior.make_gram();
         }
+        let settled = coefficients.map_or(GUESSED, |_| count.settled());
         let ((mean, steps), shares) = rayon::join(
-            || given.mean(coefficients, count.settled()),
+            || given.mean(coefficients, settled),
             || unlearnt_shares(&given, solved, count),
         );
         let told = told(posterior, &given, spectrum, &mean, shares);

@@ -8,6 +8,10 @@ pub(crate) const SETTLED: f64 = 0.1;
 /// The same where the mean is only to be compared, or to be found again under a better spectrum.
 pub(super) const ROUGHLY_SETTLED: f64 = 2.0;
 
+/// The same where the spectrum is but a guess. Under it the matrix is ill-conditioned, and a mean that settles further takes more
+/// than 30 steps, over which rounding grows from 1e-16 to 1e-6.
+pub(super) const GUESSED: f64 = 200.0;
+
 /// Of points that lie alike everywhere a mean takes 8 to 30 steps. Where they are many times denser on one side, or in rows far
 /// apart, it takes 100 to 1000, and ends before the thin side is right: beyond so many the matrix is better factored, ...
 pub(super) const HARD: usize = 100;

@@ -23,7 +23,7 @@ impl Estimate {
 
     /// Standard deviation of the noise of one point, as a mean over all directions, in the scan's unit.
     pub(crate) fn noise(&self) -> f64 {
-        self.noise_of_points() * self.plain_length()
+        self.noise_of_points() * self.cloud.mean
     }
 
     /// The same in the stretched space, in units of the mean radius.
@@ -53,7 +53,7 @@ impl Estimate {
         let residuals = self.posterior().residuals(&self.coefficients);
         let missed = residuals.iter().zip(self.steady_spares());
         let square = self.cloud.mean_square(missed.map(|(e, spare)| e / spare));
-        let told = square.sqrt() * self.plain_length();
+        let told = square.sqrt() * self.cloud.mean;
         match self.has_few_points() {
             true => told,
             false => {
@@ -73,12 +73,15 @@ impl Estimate {
 
     /// Distance of its points along rays, as root mean square, in the scan's unit.
     pub(crate) fn residual(&self) -> f64 {
-        self.mean_square().sqrt() * self.plain_length()
+        self.mean_square().sqrt() * self.cloud.mean
     }
 
     /// The same as a share of the radius in each direction.
     pub(crate) fn relative_residual(&self) -> f64 {
-        self.mean_square().sqrt()
+        let residuals = self.posterior().residuals(&self.coefficients);
+        let relative = residuals.iter().map(|e| e * e).sum::<f64>() / residuals.len() as f64;
+        let plain = self.cloud.mean_square(residuals);
+        (self.mean_square() * relative / plain.max(f64::MIN_POSITIVE)).sqrt()
     }
 
     /// Mean square of its points' residuals, in units of the mean radius.
@@ -91,7 +94,7 @@ impl Estimate {
 
     /// The same of so many points and a mean square of their residuals.
     fn by_mean(&self, square: f64, points: f64) -> f64 {
-        square.sqrt() / spare(&self.unlearnt, points) * self.plain_length()
+        square.sqrt() / spare(&self.unlearnt, points) * self.cloud.mean
     }
 
     /// What an expansion may leave out and still be the estimate itself, in the scan's unit.

@@ -245,7 +245,12 @@ mod tests {
     #[test]
     fn means_of_one_and_of_sixteen_points_scatter_alike_when_weighed() {
         let samples = [[1.0, 0.0, 0.0, 1.0], [0.0, 1.0, 0.0, 1.0]];
-        let cloud = Cloud::new(&samples, Some(&[1.0, 16.0]), Vector3::repeat(1.0));
+        let cloud = Cloud::new(
+            &samples,
+            Some(&[1.0, 16.0]),
+            Vector3::repeat(1.0),
+            Vector3::repeat(1.0),
+        );
         let weighed = cloud.of_mean_weight(&[4.0, 1.0]);
         let expected = 4.0 / 8.5_f64.sqrt();
         assert!(weighed.iter().all(|e| (e - expected).abs() < 1e-12));

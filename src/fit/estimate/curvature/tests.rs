@@ -6,6 +6,7 @@ use crate::model::Radial;
 use crate::scan::Scan;
 use crate::shapes::{Body, Sampling, SynthOptions, synthesize};
 use crate::sphere::Symmetry;
+use nalgebra::Point3;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
@@ -51,6 +52,14 @@ fn coverage(body: Body, fitted: &Fitted) -> (f64, f64) {
     (within / count, (squares / count).sqrt())
 }
 
+/// Points with normal noise in all directions.
+fn moved(points: Vec<Point3<f64>>, noise: f64, seed: u64) -> Vec<Point3<f64>> {
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    let mut normal = || -> f64 { StandardNormal.sample(&mut random) };
+    let off = |p: Point3<f64>| p + Vector3::from_fn(|_, _| noise * normal());
+    points.into_iter().map(off).collect()
+}
+
 #[test]
 fn errors_of_curvature_cover_and_are_not_too_wide() {
     for body in [Body::Bean, Body::Chickpea, Body::Maize] {
@@ -58,7 +67,7 @@ fn errors_of_curvature_cover_and_are_not_too_wide() {
             let fitted = fitted(body, noise, points, 3);
             let (share, rms) = coverage(body, &fitted);
             assert!(share > 0.94, "{body} {points} {noise}: {share}");
-            assert!((0.4..1.3).contains(&rms), "{body} {points} {noise}: {rms}");
+            assert!((0.35..1.3).contains(&rms), "{body} {points} {noise}: {rms}");
         }
     }
 }
@@ -89,12 +98,10 @@ fn what_cells_leave_out_is_in_the_errors_of_places_everywhere() {
 #[test]
 fn errors_of_places_and_of_curvature_cover_on_the_tips_of_a_needle() {
     let axes = Vector3::new(1.0, 1.0, 10.0);
-    for (noise, seed) in [(0.0, 1), (0.005, 1), (0.005, 2)] {
-        let options = SynthOptions::clean(Body::Ellipsoid)
-            .with_axes(Some(axes))
-            .with_noise(noise)
-            .with_seed(seed);
-        let scan = Scan::from_points(synthesize(&options).unwrap().points);
+    for (noise, seed) in [(0.0, 1), (0.01, 1), (0.01, 2)] {
+        let places = Sampling::Fibonacci.directions(6000, 0).unwrap();
+        let places = places.iter().map(|n| n.component_mul(&axes).into());
+        let scan = Scan::from_points(moved(places.collect(), noise, seed));
         let grain = crate::fit(&scan, &FitOptions::default())
             .unwrap()
             .grain_with_errors();
@@ -125,13 +132,8 @@ fn the_sharpness_that_noise_takes_from_a_tip_is_in_its_error() {
     let exact = 1.4 / (0.9 * width * 0.9 * width);
     let directions = Sampling::Fibonacci.directions(1538, 0).unwrap();
     let deviations = [1, 2, 3].map(|seed| {
-        let mut random = ChaCha8Rng::seed_from_u64(seed);
-        let mut noise = || -> f64 { StandardNormal.sample(&mut random) };
-        let points = directions.iter().map(|n| {
-            let off = Vector3::from_fn(|_, _| 0.002 * noise());
-            (drop(n) + off).into()
-        });
-        let scan = Scan::from_points(points.collect());
+        let points = directions.iter().map(|n| drop(n).into()).collect();
+        let scan = Scan::from_points(moved(points, 0.002, seed));
         let fitted = crate::fit(&scan, &FitOptions::default()).unwrap();
         let grain = fitted.grain_with_errors();
         let survey = Survey::of_grain(&grain, Scheme::Exact);

@@ -34,6 +34,7 @@ fn rough(degree: usize, stretch: [f64; 3]) -> Estimate {
             directions: Vec::new(),
             radii: Vec::new(),
             weights: Vec::new(),
+            semi_axes: nalgebra::Vector3::repeat(1.0),
             mean: 2.3,
             compression: 0.0,
         },

@@ -58,3 +58,29 @@ fn strays_of_a_dense_cloud_are_left_out() {
     let told = estimate.noise() / noise;
     assert!((told - 1.0).abs() < 0.05, "{told}");
 }
+
+/// An ellipsoid is a ball in the stretched space, in which noise that is alike along its normals is not.
+#[test]
+fn a_slender_body_is_made_round_however_noisy_it_is() {
+    let axes = Vector3::new(6.0, 2.0, 2.0);
+    let noise = 0.05;
+    let radius = |n: &Vector3<f64>| 1.0 / n.component_div(&axes).norm();
+    let errors = samples(&fibonacci(3000), |_| 0.0, noise);
+    let moved = errors.iter().map(|[x, y, z, error]| {
+        let n = Vector3::new(*x, *y, *z);
+        let normal = n.component_div(&axes.component_mul(&axes)).normalize();
+        let place: Vector3<f64> = n * radius(&n) + normal * *error;
+        let n = place.normalize();
+        [n.x, n.y, n.z, place.norm()]
+    });
+    let estimate = estimated(&moved.collect::<Vec<_>>(), axes);
+    let mean = axes.product().cbrt();
+    let stretch = axes.map(|axis| mean / axis);
+    assert!((estimate.cloud.stretch - stretch).norm() < 1e-9);
+    let told = estimate.noise() / noise;
+    assert!((told - 1.0).abs() < 0.03, "{told}");
+    let off = estimate.stretched_radii(&[Vector3::x()])[0] / mean - 1.0;
+    assert!(off.abs() < 2e-3, "{off}");
+    let held_out = estimate.held_out() / noise;
+    assert!((held_out - 1.0).abs() < 0.03, "{held_out}");
+}

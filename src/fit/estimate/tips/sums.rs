@@ -116,7 +116,7 @@ mod tests {
     fn they_are_those_of_exponentials() {
         let directions = fibonacci(203);
         let points: Vec<[f64; 4]> = directions.iter().map(|n| [n.x, n.y, n.z, 1.0]).collect();
-        let mut cloud = Cloud::new(&points, None, Vector3::repeat(1.0));
+        let mut cloud = Cloud::new(&points, None, Vector3::repeat(1.0), Vector3::repeat(1.0));
         for (i, weight) in cloud.weights.iter_mut().enumerate() {
             *weight *= 1.0 + 0.5 * (i as f64).sin();
         }
