@@ -34,7 +34,8 @@ impl Engine {
     pub fn remarks(self, deck: &Deck) -> Vec<String> {
         match self {
             Self::Lammps => lammps::remarks(deck),
-            Self::Yade | Self::Liggghts | Self::MercuryDpm => Vec::new(),
+            Self::Liggghts => liggghts::remarks(deck),
+            Self::Yade | Self::MercuryDpm => Vec::new(),
         }
     }
 }

@@ -4,6 +4,7 @@ use super::deck::{Deck, GRAVITY};
 use super::file::{InputFile, row};
 use super::kind::Kind;
 use super::readme::runs;
+use super::superellipsoid::{Superellipsoid, raised, superellipsoids};
 use crate::measure::Ball;
 use std::fmt::Write;
 
@@ -15,6 +16,15 @@ const SEEDS: [u32; 3] = [15_485_863, 15_485_867, 32_452_843];
 
 /// Steps between two looks at the kinetic energy.
 const LOOK: usize = 1000;
+
+/// What bodies of one superquadric are called.
+const CALLED: &str = "superquadrics";
+
+/// What the grains lose as superquadrics, in sentences.
+pub(super) fn remarks(deck: &Deck) -> Vec<String> {
+    let bodies = superellipsoids(deck).unwrap_or_default();
+    raised(deck, &bodies, CALLED)
+}
 
 pub(super) fn files(deck: &Deck) -> Vec<InputFile<'_>> {
     let spheres = |kind: &Kind| {
@@ -33,9 +43,16 @@ pub(super) fn files(deck: &Deck) -> Vec<InputFile<'_>> {
         "NAME.spheres holds the spheres of a kind, in.settle the run; LIGGGHTS places the grains itself, and finds the \
          centre of a grain from its spheres by chance points (ntry).",
     );
-    if let Some(script) = superquadrics(deck) {
-        files.push(InputFile::new("in.superquadrics", script));
+    if let Some(bodies) = superellipsoids(deck) {
+        files.push(InputFile::new(
+            "in.superquadrics",
+            superquadrics(deck, &bodies),
+        ));
         told += " in.superquadrics is the same with superquadrics, for a build with atom_style superquadric.";
+        for remark in raised(deck, &bodies, CALLED) {
+            told += " ";
+            told += &remark;
+        }
     }
     files.push(runs(deck, "LIGGGHTS 3", "`liggghts -in in.settle`", &told));
     files
@@ -72,33 +89,30 @@ fn multispheres(deck: &Deck) -> String {
     )
 }
 
-/// Where every kind is one superquadric of equal octants.
-fn superquadrics(deck: &Deck) -> Option<String> {
+fn superquadrics(deck: &Deck, bodies: &[Superellipsoid]) -> String {
     let mut templates = String::new();
-    for (index, kind) in deck.kinds.iter().enumerate() {
-        let shape = kind.superquadric?;
-        let [a, b, c] = shape.semi_axes().map(|sides| sides[0]);
+    for (index, body) in bodies.iter().enumerate() {
         let _ = writeln!(
             templates,
             "fix kind{index} all particletemplate/superquadric {} atom_type 1 volume_limit {:e} density constant {:e} \
              shape constant {} blockiness constant {}",
             SEEDS[0],
-            LEAST_VOLUME * kind.mass / deck.material.density,
-            deck.material.density,
-            row([a, b, c]),
-            row([shape.n1()[0], shape.n2()[0][0]]),
+            LEAST_VOLUME * deck.kinds[index].mass / deck.material.density,
+            body.density,
+            row(body.semi_axes),
+            row(body.exponents),
         );
     }
     let model = "model hertz tangential history surface superquadric";
     let energy = "compute moving all ke\ncompute turning all erotate/superquadric\n";
-    Some(script(
+    script(
         deck,
         "superquadric",
         &templates,
         model,
         "fix move all nve/superquadric integration_scheme 1",
         energy,
-    ))
+    )
 }
 
 fn script(

@@ -14,6 +14,7 @@ mod liggghts;
 mod material;
 mod mercury;
 mod readme;
+mod superellipsoid;
 #[cfg(test)]
 mod tests;
 mod yade;

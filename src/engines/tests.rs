@@ -195,6 +195,25 @@ fn yade_liggghts_and_mercury_are_given_the_same_grain() {
     assert_eq!(yade, spheres);
 }
 
+/// LIGGGHTS refuses exponents below two.
+#[test]
+fn superquadrics_of_liggghts_have_exponents_of_two_at_least_and_the_mass_of_the_grain() {
+    let mut deck = deck();
+    let shape = |n1| crate::model::Superquadric::single([3e-3, 2e-3, 1e-3], n1, 3.0).unwrap();
+    deck.kinds[0].superquadric = Some(shape(1.4));
+    let script = written(Engine::Liggghts, &deck, "in.superquadrics");
+    let (_, told) = script.split_once("density constant ").unwrap();
+    let told = numbers(told.lines().next().unwrap());
+    assert_eq!(told[1..], [3e-3, 2e-3, 1e-3, 2.0, 3.0]);
+    let volume = crate::measure::superquadric_properties(&shape(2.0))
+        .properties
+        .volume;
+    assert_relative_eq!(told[0] * volume, deck.kinds[0].mass, max_relative = 1e-9);
+    let remark = "a_grain below 2 are raised to 2 for superquadrics";
+    assert!(Engine::Liggghts.remarks(&deck)[0].contains(remark));
+    assert!(written(Engine::Liggghts, &deck, "README").contains(remark));
+}
+
 #[test]
 fn grains_begin_apart_and_inside() {
     let deck = deck();

@@ -1,8 +1,8 @@
 //! The data file: grains, and the five bodies that hold them.
 
-use super::body::Superellipsoid;
 use crate::engines::deck::{Deck, Placed};
 use crate::engines::file::row;
+use crate::engines::superellipsoid::Superellipsoid;
 use nalgebra::{UnitQuaternion, Vector3};
 use std::io::{self, Write};
 

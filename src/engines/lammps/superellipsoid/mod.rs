@@ -4,7 +4,6 @@
 //! `granular/superellipsoid`, and its examples. No wall of that version holds superellipsoids, and so walls are bodies
 //! that do not move.
 
-mod body;
 mod data;
 mod law;
 mod script;
@@ -13,14 +12,13 @@ mod tests;
 
 use crate::engines::deck::Deck;
 use crate::engines::file::InputFile;
-use crate::engines::kind::Kind;
-use body::Superellipsoid;
+use crate::engines::superellipsoid::{Superellipsoid, raised, superellipsoids};
 use data::data;
 use script::script;
 use std::iter::once;
 
-/// Least share of the volume that is told.
-const LEAST_TOLD: f64 = 5e-5;
+/// What the bodies are called.
+const CALLED: &str = "superellipsoids";
 
 /// The data file and the script, and what the README says of them; none unless [`bodies`] are.
 pub(super) fn files(deck: &Deck) -> Option<([InputFile<'_>; 2], String)> {
@@ -39,34 +37,20 @@ fn told(deck: &Deck, bodies: &[Superellipsoid]) -> String {
     let told = "`lmp -in in.superellipsoids` is for LAMMPS of 30 March 2026 or later with ASPHERE, written after its manual \
                 and not run here: the same grains as superellipsoids (data.superellipsoids) between walls that are five \
                 more which do not move; the last of frames is where the grains lie.";
-    let sentences: Vec<String> = once(told.into()).chain(raised(deck, bodies)).collect();
+    let sentences: Vec<String> = once(told.into())
+        .chain(raised(deck, bodies, CALLED))
+        .collect();
     sentences.join(" ")
 }
 
 /// What the grains lose as superellipsoids, in sentences.
 pub(in crate::engines) fn remarks(deck: &Deck) -> Vec<String> {
     let bodies = bodies(deck).unwrap_or_default();
-    raised(deck, &bodies).collect()
-}
-
-/// Whose exponents are raised, in sentences.
-fn raised(deck: &Deck, bodies: &[Superellipsoid]) -> impl Iterator<Item = String> {
-    let told = |(kind, body): (&Kind, &Superellipsoid)| {
-        (body.swelling >= LEAST_TOLD).then(|| {
-            format!(
-                "Exponents of {} below 2 are raised to 2 for superellipsoids: {:.2} % more volume, the same mass, the inertia \
-                 of that shape.",
-                kind.name,
-                100.0 * body.swelling
-            )
-        })
-    };
-    deck.kinds.iter().zip(bodies).filter_map(told)
+    raised(deck, &bodies, CALLED)
 }
 
 /// The kinds, where each is one superquadric of equal octants and the walls are flat.
 fn bodies(deck: &Deck) -> Option<Vec<Superellipsoid>> {
     let is_flat = deck.cylinder.is_none();
-    let bodies = || deck.kinds.iter().map(Superellipsoid::of).collect();
-    is_flat.then(bodies).flatten()
+    is_flat.then(|| superellipsoids(deck)).flatten()
 }

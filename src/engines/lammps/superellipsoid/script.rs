@@ -1,9 +1,9 @@
 //! The script that LAMMPS runs.
 
-use super::body::Superellipsoid;
 use super::law::{Law, Partner};
 use crate::engines::deck::{Deck, GRAVITY};
 use crate::engines::lammps::rest::{LOOKS, rest};
+use crate::engines::superellipsoid::Superellipsoid;
 use crate::measure::equivalent_radius;
 
 /// Steps in the time of the shortest contact.

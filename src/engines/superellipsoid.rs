@@ -1,14 +1,18 @@
-//! A grain as LAMMPS takes superellipsoids.
+//! Grains as engines take superquadrics, which LAMMPS calls superellipsoids: with exponents of two at least.
 
-use crate::engines::kind::Kind;
+use super::deck::Deck;
+use super::kind::Kind;
 use crate::measure::superquadric_properties;
 use crate::model::Superquadric;
 use nalgebra::{Rotation3, UnitQuaternion};
 
-/// Exponents below this are refused by LAMMPS.
+/// Exponents below this are refused by LAMMPS and by LIGGGHTS.
 const LEAST_EXPONENT: f64 = 2.0;
 
-/// A body as a superellipsoid of LAMMPS, whose exponents are two at least.
+/// Least share of the volume that is told.
+const LEAST_TOLD: f64 = 5e-5;
+
+/// A body of the mass of a grain, whose exponents are two at least.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Superellipsoid {
     /// Along its own axes, in metres.
@@ -41,4 +45,24 @@ impl Superellipsoid {
             swelling: raised.volume / own.volume - 1.0,
         })
     }
+}
+
+/// The kinds, where each is one superquadric of equal octants.
+pub(super) fn superellipsoids(deck: &Deck) -> Option<Vec<Superellipsoid>> {
+    deck.kinds.iter().map(Superellipsoid::of).collect()
+}
+
+/// Whose exponents are raised, in sentences, for bodies that the engine calls so.
+pub(super) fn raised(deck: &Deck, bodies: &[Superellipsoid], called: &str) -> Vec<String> {
+    let told = |(kind, body): (&Kind, &Superellipsoid)| {
+        (body.swelling >= LEAST_TOLD).then(|| {
+            format!(
+                "Exponents of {} below 2 are raised to 2 for {called}: {:.2} % more volume, the same mass, the inertia of that \
+                 shape.",
+                kind.name,
+                100.0 * body.swelling
+            )
+        })
+    };
+    deck.kinds.iter().zip(bodies).filter_map(told).collect()
 }
