@@ -95,6 +95,11 @@ impl Cloud {
         along_normal(n, &self.stretch, &self.semi_axes)
     }
 
+    /// Variance of the stretched radius of a point in the direction n' whose variance along the normal is given.
+    pub(super) fn of_radius(&self, n: &Vector3<f64>, variance: f64) -> f64 {
+        variance / self.along_normal(n).powi(2)
+    }
+
     /// Errors of the stretched radii of samples, along the normals.
     pub(super) fn along_normals(&self, samples: &[Sample], errors: &[f64]) -> Vec<f64> {
         let mapped = Self::mapped(samples, self.stretch, self.mean).into_iter();

@@ -73,7 +73,7 @@ impl Estimate {
             .zip(directions)
             .map(|((local, difference), n)| {
                 let n = self.stretched(n).normalize();
-                let of_point = noise / self.cloud.along_normal(&n).powi(2);
+                let of_point = self.cloud.of_radius(&n, noise);
                 RadiusError {
                     surface: difference.hypot(local.scatter(local.variance)),
                     point: difference.hypot(local.scatter(local.variance + of_point)),

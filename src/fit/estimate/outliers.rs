@@ -63,10 +63,8 @@ pub(super) fn strays(samples: &[Sample], estimate: &Estimate) -> Option<Vec<usiz
     let posterior = estimate.posterior();
     let variances = estimate.given(&posterior).directional_variances(&at);
     let noise = estimate.spectrum.noise().powi(2);
-    let expected = variances.iter().zip(&at).map(|(v, n)| {
-        let of_point = noise / cloud.along_normal(n).powi(2);
-        cloud.mean * (v + of_point).sqrt()
-    });
+    let expected = variances.iter().zip(&at);
+    let expected = expected.map(|(v, n)| cloud.mean * (v + cloud.of_radius(n, noise)).sqrt());
     let neighbours = Neighbours::new(&directions);
     let keeps_company = |at: usize| {
         let near = neighbours.nearest(&directions[at], NEIGHBOURS + 1);

@@ -21,7 +21,7 @@ impl Estimate {
         Stretch::new(self.cloud.stretch).expect("the axes of a solid are finite and positive")
     }
 
-    /// Standard deviation of the noise of one point, as a mean over all directions, in the scan's unit.
+    /// Standard deviation of the noise of one point along the normals, in the scan's unit.
     pub(crate) fn noise(&self) -> f64 {
         self.noise_of_points() * self.cloud.mean
     }
@@ -71,17 +71,19 @@ impl Estimate {
         self.by_mean(self.mean_square(), points)
     }
 
-    /// Distance of its points along rays, as root mean square, in the scan's unit.
+    /// Distance of its points along the normals, as root mean square, in the scan's unit.
     pub(crate) fn residual(&self) -> f64 {
         self.mean_square().sqrt() * self.cloud.mean
     }
 
-    /// The same as a share of the radius in each direction.
+    /// The same along the rays, as a share of the radius in each direction; of patches in the ratio of the points' to theirs.
     pub(crate) fn relative_residual(&self) -> f64 {
         let residuals = self.posterior().residuals(&self.coefficients);
         let relative = residuals.iter().map(|e| e * e).sum::<f64>() / residuals.len() as f64;
-        let plain = self.cloud.mean_square(residuals);
-        (self.mean_square() * relative / plain.max(f64::MIN_POSITIVE)).sqrt()
+        let ratio = self.dense.as_ref().map_or(1.0, |dense| {
+            dense.residuals / self.cloud.mean_square(residuals).max(f64::MIN_POSITIVE)
+        });
+        (relative * ratio).sqrt()
     }
 
     /// Mean square of its points' residuals, in units of the mean radius.
