@@ -118,12 +118,7 @@ impl Gaps {
             true => "all measures".into(),
             false => list(&names),
         };
-        let why = group.reasons.values().max_by_key(|(count, _)| *count);
-        let why = why.map(|(_, example)| match group.reasons.len() {
-            1 => format!(" ({example})"),
-            _ => format!(" (most often: {example})"),
-        });
-        format!("{lack} {names}{}", why.unwrap_or_default())
+        format!("{lack} {names}{}", group.why())
     }
 
     /// What the columns of a group are called: those of a measure by its name, where they are all there.
@@ -149,6 +144,20 @@ impl Gaps {
 }
 
 impl Group {
+    /// Why they lack their columns, in brackets: the commonest reason.
+    fn why(&self) -> String {
+        let mut reasons: Vec<_> = self.reasons.values().collect();
+        reasons.sort_by_key(|(count, _)| std::cmp::Reverse(*count));
+        match reasons.as_slice() {
+            [] => String::new(),
+            [(_, only)] => format!(" ({only})"),
+            [(first, example), (second, _), ..] if first > second => {
+                format!(" (most often: {example})")
+            }
+            [(_, example), ..] => format!(" (such as: {example})"),
+        }
+    }
+
     /// The same after a grain of which not all columns are known: those that are known, and the others by the reason why.
     fn parted(
         self,
@@ -279,6 +288,10 @@ mod tests {
         let expected = "3 lack area (most often: rough); 2 lack form.flatness (flat)";
         let found = found.unwrap();
         assert!(found.contains(expected), "{found}");
+        let one: [(&[&str], &[&str]); 2] =
+            [(&["area"], &["area: steps"]), (&["area"], &["area: rough"])];
+        let found = told(&one).unwrap();
+        assert!(found.contains("all lack area (such as: rough)"), "{found}");
         let all: (&[&str], &[&str]) = (&NAMES, &["area, volume, form: why"]);
         let found = told(&[all, all]).unwrap();
         let expected = "Of 2 grains of a all lack area, volume and form (why).";

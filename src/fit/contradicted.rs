@@ -140,7 +140,7 @@ mod tests {
     /// The fit of a closed mesh, had its faces so many times the area and the volume.
     #[test]
     fn faces_contradict_what_no_error_explains_unless_noise_made_them_larger() {
-        let mesh = Mesh::radial(8, |n| 1.0 + 0.2 * n.z);
+        let mesh = Mesh::radial(12, |n| 1.0 + 0.2 * n.z);
         let mut fitted = fit(&Scan::from_mesh(mesh).unwrap(), &FitOptions::default()).unwrap();
         assert_eq!(fitted.grain.contradicted(), None);
         let own = fitted.reference;

@@ -111,18 +111,22 @@ impl Truth {
     }
 }
 
-/// The row of a table of truths that is of each scan, by its path, or by its file where no other is called so.
+/// The row of a table of truths that is of each scan, by its path, or by the name of its file: where no other file is called so, and
+/// of rows with the path of no scan.
 fn found(
     truth: &Path,
     rows: &[StringRecord],
     paths: &[String],
 ) -> Result<Vec<Option<usize>>, LotError> {
+    let all: HashSet<&str> = paths.iter().map(String::as_str).collect();
     let mut by_path: HashMap<&str, Vec<usize>> = HashMap::new();
     let mut by_name: HashMap<&OsStr, Vec<usize>> = HashMap::new();
     for (at, row) in rows.iter().enumerate() {
         let text = row.get(0).unwrap_or_default();
-        by_path.entry(text).or_default().push(at);
-        by_name.entry(file_name(text)).or_default().push(at);
+        match all.contains(text) {
+            true => by_path.entry(text).or_default().push(at),
+            false => by_name.entry(file_name(text)).or_default().push(at),
+        }
     }
     let mut scans: HashMap<&OsStr, usize> = HashMap::new();
     for input in paths {

@@ -216,7 +216,8 @@ impl FitWarning {
             ),
             Self::TurnedOver { samples } => write!(
                 f,
-                "The surface is turned over at {}: its area, volume and curvature are off there.",
+                "The surface is turned over at {}, as beside a sharp rim: nothing tells by how much its area, volume and \
+                 curvature are off.",
                 plural(samples, "sample")
             ),
             Self::Unproved { found } => write!(

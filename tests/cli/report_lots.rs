@@ -49,6 +49,8 @@ fn a_truth_is_told_by_path_where_names_are_there_twice() {
     assert_eq!(told(by_path), (Some(0), String::new()));
     let page = fs::read_to_string(folder.path().join("r.html")).unwrap();
     assert!(page.contains("[[\"a/one.ply\",\"2.4\"],[\"b/one.ply\",\"3.4\"]]"));
+    let of_one = "file,area\na/one.ply,2.4\n";
+    assert_eq!(told(of_one), (Some(0), String::new()));
 }
 
 #[test]

@@ -26,28 +26,42 @@ pub(crate) struct Evidence {
     pub(crate) residuals: f64,
 }
 
-/// Means and standard deviations of the logarithms of A, nu, l0 and s over grains of many kinds, which are all that is known of a
-/// grain of few points.
+/// Means and standard deviations of the logarithms of A, nu, l0 and s over grains of many kinds.
 const HYPERPRIOR: [[f64; 2]; 4] = [[-1.897, 1.0], [0.875, 0.25], [1.0986, 0.5], [-5.298, 2.0]];
 
-/// With so few points the likelihood alone is too sure of itself: of 50 points, 95 % intervals of the
-/// volume cover 35 % with it and 90 % with the hyperprior.
+/// That is all that is known of a grain of so few points, of which the likelihood alone is too sure of itself: of 50 points, 95 %
+/// intervals of the volume cover 35 % with it and 90 % with the hyperprior.
 const FEW_POINTS: f64 = 100.0;
 
-/// Negative logarithm of the hyperprior and its gradient: zero unless the points are few.
+/// Of more points the standard deviations are so many times as large: they tell size and noise themselves, and a law that holds
+/// for many grains may not hold for one. But where a stretched body is a ball but for noise, they leave nu and l0 open: of chance
+/// some of these balls had white spectra up to degree 20, and curvatures known three times worse than those of others.
+const OF_MANY_POINTS: [f64; 4] = [f64::INFINITY, 2.0, 2.0, f64::INFINITY];
+
+/// Means of the logarithms of A, nu, l0 and s, and their precisions.
+fn expected(points: f64) -> [[f64; 2]; 4] {
+    let wider = match points <= FEW_POINTS {
+        true => [1.0; 4],
+        false => OF_MANY_POINTS,
+    };
+    std::array::from_fn(|at| {
+        let [mean, sd] = HYPERPRIOR[at];
+        [mean, (sd * wider[at]).powi(-2)]
+    })
+}
+
+/// Negative logarithm of the hyperprior and its gradient.
 pub(crate) fn hyperprior(points: f64, spectrum: &Spectrum) -> (f64, [f64; PARAMETERS]) {
+    let (amplitude, by) = spectrum.amplitude();
+    let [_, exponent, knee, noise, _] = spectrum.logarithms;
+    let logarithms = [amplitude, exponent, knee, noise].into_iter().enumerate();
     let (mut value, mut gradient) = (0.0, [0.0; PARAMETERS]);
-    if points <= FEW_POINTS {
-        let (amplitude, by) = spectrum.amplitude();
-        let [_, exponent, knee, noise, _] = spectrum.logarithms;
-        let logarithms = [amplitude, exponent, knee, noise].into_iter().enumerate();
-        for ((at, logarithm), [mean, sd]) in logarithms.zip(HYPERPRIOR) {
-            let z = (logarithm - mean) / sd;
-            value += 0.5 * z * z;
-            match at {
-                0 => (0..PARAMETERS).for_each(|i| gradient[i] += by[i] * z / sd),
-                _ => gradient[at] += z / sd,
-            }
+    for ((at, logarithm), [mean, precision]) in logarithms.zip(expected(points)) {
+        let off = logarithm - mean;
+        value += 0.5 * precision * off * off;
+        match at {
+            0 => (0..PARAMETERS).for_each(|i| gradient[i] += by[i] * precision * off),
+            _ => gradient[at] += precision * off,
         }
     }
     (value, gradient)
@@ -55,14 +69,10 @@ pub(crate) fn hyperprior(points: f64, spectrum: &Spectrum) -> (f64, [f64; PARAME
 
 /// Second derivatives of the negative logarithm of the hyperprior.
 pub(super) fn hyperprior_curvature(points: f64, spectrum: &Spectrum) -> Matrix5<f64> {
-    if points > FEW_POINTS {
-        return Matrix5::zeros();
-    }
-    let precisions = HYPERPRIOR.map(|[_, sd]| 1.0 / (sd * sd));
     let by_amplitude = Vector5::from(spectrum.amplitude().1);
-    let [_, exponent, knee, noise] = precisions;
+    let [amplitude, exponent, knee, noise] = expected(points).map(|[_, precision]| precision);
     let own = Vector5::new(0.0, exponent, knee, noise, 0.0);
-    by_amplitude * by_amplitude.transpose() * precisions[0] + Matrix5::from_diagonal(&own)
+    by_amplitude * by_amplitude.transpose() * amplitude + Matrix5::from_diagonal(&own)
 }
 
 /// The symmetric part of a matrix, with eigenvalues made positive.
@@ -274,8 +284,11 @@ mod tests {
         let settle = |at: Spectrum| (0..5).fold(at, |at, _| evidence.most_likely(&at).0);
         let smooth = settle(Spectrum::start());
         let at = settle(evidence.textured(&smooth).unwrap());
-        for (have, want) in at.logarithms.iter().zip(truth.logarithms) {
-            assert!((have - want).abs() < 0.01, "{at:?}");
+        // The hyperprior draws the shape off, along the valley of nearly equal spectra.
+        let off_at_most = [0.5, 0.2, 0.4, 0.001, 0.03];
+        let pairs = at.logarithms.iter().zip(truth.logarithms);
+        for ((have, want), off_at_most) in pairs.zip(off_at_most) {
+            assert!((have - want).abs() < off_at_most, "{at:?} {truth:?}");
         }
     }
 }

@@ -38,6 +38,7 @@ mod posterior;
 mod rims;
 mod spectrum;
 mod spectrum_fit;
+mod spectrum_search;
 mod stopping;
 mod sums;
 mod surface;

@@ -7,7 +7,7 @@
 //! A step fails that does not lower the cost; where no cost is known, one after which the gradient points back more steeply.
 
 use super::spectrum::Spectrum;
-use super::spectrum::{BOUNDS, STEPS};
+use super::spectrum::{BOUNDS, PARAMETERS, STEPS};
 use nalgebra::{Matrix5, Vector5};
 
 /// Proposals are trusted as long as they bring this share of what they promise.
@@ -15,6 +15,9 @@ const KEPT: f64 = 0.5;
 
 /// Steps that move no logarithm by more than this end the search too.
 const SETTLED: f64 = 0.003;
+
+/// Rounding of steps.
+const ROUNDING: f64 = 1e-9;
 
 /// A spectrum with what is known of the likelihood there.
 #[derive(Debug, Clone, Copy)]
@@ -119,13 +122,9 @@ impl Newton {
         let mut matrix = place.information.unwrap_or_else(|| self.learnt(place));
         let mut right = place.gradient;
         place.spectrum.hold(&BOUNDS, &mut right, &mut matrix);
-        let step = matrix
-            .cholesky()
-            .map_or_else(Vector5::zeros, |factor| -factor.solve(&right));
-        let too_far = step.iter().zip(STEPS).map(|(step, most)| step.abs() / most);
-        let shorter = self.share / too_far.fold(1.0, f64::max);
+        let step = self.share * within_reach(matrix, right);
         place.spectrum.moved_to(std::array::from_fn(|i| {
-            (at[i] + shorter * step[i]).clamp(BOUNDS[i][0], BOUNDS[i][1])
+            (at[i] + step[i]).clamp(BOUNDS[i][0], BOUNDS[i][1])
         }))
     }
 
@@ -149,6 +148,30 @@ impl Newton {
         }
         curvature
     }
+}
+
+/// The Newton step in which no logarithm moves farther than one step may: the one that would go too far by most is moved as far
+/// as it may, and the step is made of the others. (A step that is shorter as a whole hardly moves the noise, where
+/// knee and slope are open.)
+fn within_reach(mut matrix: Matrix5<f64>, mut gradient: Vector5<f64>) -> Vector5<f64> {
+    let mut step = Vector5::zeros();
+    for _ in 0..PARAMETERS {
+        step = matrix
+            .cholesky()
+            .map_or_else(Vector5::zeros, |factor| -factor.solve(&gradient));
+        let shares = step.iter().zip(STEPS).map(|(step, most)| step.abs() / most);
+        let farthest = shares.enumerate().max_by(|a, b| a.1.total_cmp(&b.1));
+        let Some((at, share)) = farthest.filter(|(_, share)| *share > 1.0 + ROUNDING) else {
+            break;
+        };
+        let moved = step[at] / share;
+        gradient += matrix.column(at) * moved;
+        matrix.fill_row(at, 0.0);
+        matrix.fill_column(at, 0.0);
+        matrix[(at, at)] = 1.0;
+        gradient[at] = -moved;
+    }
+    step
 }
 
 /// By how much the cost fell from one place to the next; where it is not known, by the gradients at both.
@@ -215,6 +238,22 @@ mod tests {
             }
         }
         unreachable!("searches end")
+    }
+
+    #[test]
+    fn an_open_valley_does_not_shorten_the_step_of_what_is_told() {
+        let mut curvature = Matrix5::from_diagonal(&Vector5::new(4.0, 1e-3, 1e-3, 3000.0, 1.0));
+        (curvature[(1, 3)], curvature[(3, 1)]) = (0.5, 0.5);
+        let gradient = Vector5::new(0.4, -1.0, 1.0, -300.0, 0.0);
+        let step = within_reach(curvature, gradient);
+        let expected = [
+            -0.1,
+            STEPS[1],
+            -STEPS[2],
+            (300.0 - 0.5 * STEPS[1]) / 3000.0,
+            0.0,
+        ];
+        assert!((step - Vector5::from(expected)).amax() < 1e-12, "{step}");
     }
 
     #[test]

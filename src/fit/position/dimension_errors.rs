@@ -58,8 +58,9 @@ impl Lengths<'_> {
         for end in &self.functionals.ends[axis] {
             higher += self.higher(end);
             squares += ends.square(end);
-            let hidden = self.hidden.map(|hidden| hidden.square(end, self.told));
-            squares += hidden.unwrap_or(0.0);
+            if let Some(hidden) = self.hidden {
+                squares += hidden.square(end, self.told) + ends.cut_off(end);
+            }
         }
         let least = self.functions.cover().map_or(FLOOR, |_| FLOOR_OF_CELLS);
         squares + higher * higher + (least * length).powi(2)

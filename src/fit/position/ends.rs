@@ -1,12 +1,13 @@
 //! What the points of a scan tell of the ends of its lengths that errors of coefficients do not.
 //!
 //! At a sharp edge a smooth surface swings over, most between points, and stays below a crease. So the squared error of an end
-//! grows by three squares, each as far as it is more than chance:
+//! grows by squares, each as far as it is more than chance:
 //!
 //! - how far the highest foot of a point lies below the end: what is higher no point has seen;
 //! - how far the highest point lies below where noise about the feet would lift it: along a flat side there are
 //!   many, and of a surface that swings over they know nothing;
-//! - the mean distance of the points nearest to the end, which is zero where the surface follows them.
+//! - the mean distance of the points nearest to the end, which is zero where the surface follows them;
+//! - of voxels, how far the highest point lies above the end: what is sharper than they are is cut off.
 
 use super::cloud::Cloud;
 use super::functionals::End;
@@ -26,6 +27,9 @@ const HALVINGS: usize = 16;
 
 /// The chance that a number is lower than its mean by more than a standard deviation.
 const ONE_LOWER: f64 = 0.16;
+
+/// Standard deviations by which points between voxels lie beside a smooth body at most.
+const OF_NOISE: f64 = 2.0;
 
 /// A point of a scan.
 struct Seen<'a> {
@@ -79,6 +83,15 @@ impl<'a> Ends<'a> {
         let foot = feet.iter().copied().fold(f64::INFINITY, f64::min);
         let point = points.fold(f64::INFINITY, f64::min);
         foot.max(0.0).powi(2) + self.too_low(&feet, point) + self.missed(end)
+    }
+
+    /// Square of how much higher than an end the highest point is, as far as it is no noise: of voxels, which lie beside the
+    /// grain by less than a step.
+    pub(super) fn cut_off(&self, end: &End) -> f64 {
+        let points = self.seen.iter();
+        let above = points.map(|seen| (seen.point - end.point).dot(&end.along));
+        let most = above.fold(0.0, f64::max);
+        (most.powi(2) - (OF_NOISE * self.rms).powi(2)).max(0.0)
     }
 
     /// Square of how much lower the highest point is than noise about the feet would lift it. `feet` and `point` are below
@@ -164,8 +177,7 @@ mod tests {
             }
         }
 
-        /// The root of the square that is told of an end at this height.
-        fn told(&self, height: f64) -> f64 {
+        fn ends(&self) -> Ends<'_> {
             let seen = self
                 .points
                 .iter()
@@ -175,14 +187,33 @@ mod tests {
                     foot,
                     distance: point.z - foot.z,
                 });
-            let ends = Ends::of(seen.collect(), NOISE);
+            Ends::of(seen.collect(), NOISE)
+        }
+
+        /// The root of the square that is told of an end at this height.
+        fn told(&self, height: f64) -> f64 {
             let end = End {
                 figure: 0,
                 point: Vector3::new(0.0, 0.0, height),
                 along: Vector3::z(),
             };
-            ends.square(&end).sqrt()
+            self.ends().square(&end).sqrt()
         }
+    }
+
+    #[test]
+    fn what_is_above_an_end_by_more_than_voxels_explain_was_cut_off() {
+        let mut flat = Flat::new(7, 0.0, |_, _| 0.0);
+        let end = End {
+            figure: 0,
+            point: Vector3::zeros(),
+            along: Vector3::z(),
+        };
+        flat.points[820].z = OF_NOISE * NOISE;
+        assert_eq!(flat.ends().cut_off(&end), 0.0);
+        flat.points[820].z = 5.0 * NOISE;
+        let told = flat.ends().cut_off(&end).sqrt() / NOISE;
+        assert!((told - 21.0_f64.sqrt()).abs() < 1e-9, "{told}");
     }
 
     /// The root of the mean square that is told with fifty draws of noise.

@@ -54,15 +54,20 @@ struct Place {
 /// Nodes of the quadrature per side of a cell, which is right to five figures.
 const NODES: usize = 8;
 
-/// The changes of area, volume and moments for a move along the normal, per area.
-pub(super) fn by_move(n: &Vector3<f64>, at: &PositionDerivatives) -> SVector<f64, INTEGRALS> {
+/// The curvature of a surface in the direction n.
+pub(super) fn curvature(n: &Vector3<f64>, at: &PositionDerivatives) -> Curvature {
     let jet = SurfaceJet {
         place: at.point,
         slopes: at.tangents,
         bends: at.hessians,
     };
+    Curvature::new(n, &jet)
+}
+
+/// The changes of area, volume and moments for a move along the normal, per area.
+pub(super) fn by_move(n: &Vector3<f64>, at: &PositionDerivatives) -> SVector<f64, INTEGRALS> {
     list(&Moments {
-        area: 2.0 * Curvature::new(n, &jet).mean(),
+        area: 2.0 * curvature(n, at).mean(),
         volume: 1.0,
         first: at.point,
         second: at.point * at.point.transpose(),

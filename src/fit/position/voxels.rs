@@ -10,17 +10,20 @@
 //! ```
 //!
 //! A flat side along a layer of voxels has no curvature: all of it may lie anywhere between two layers, so that of a disc of
-//! six layers the volume is known to 7 %, and its edges are rounded. How much of a side is flat is told by the area A(d) that is within d layers of its
+//! six layers the volume is known to 7 %, and its edges are rounded, as [all](rounded) are. How much of a side is flat is told by the area A(d) that is within d layers of its
 //! highest place: where the side is curved A grows with d, of one that is flat it is reached at once. What 2 A(1/2) is more than
 //! A(1) is taken to be flat, and moves as a whole, with a standard deviation of a twelfth of a layer's square.
 
-use super::functionals::{End, by_move};
+mod rounded;
+
+use super::functionals::{End, by_move, curvature};
 use super::functions::Functions;
 use crate::fit::figures::INTEGRALS;
 use crate::model::{Position, area_normal};
 use crate::sphere::{CubeCell, GaussLegendre};
 use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
 use rayon::prelude::*;
+use rounded::lacking;
 use std::f64::consts::PI;
 
 /// Waves are summed up to so many times the shortest along the widest step.
@@ -38,6 +41,8 @@ pub(super) struct Voxels {
     layers: Vec<Vector3<f64>>,
     /// The variance of the volume of the voxels of a smooth body, over the body's area.
     miscount: f64,
+    /// The side of a cube as large as a voxel.
+    width: f64,
 }
 
 impl Voxels {
@@ -72,6 +77,7 @@ impl Voxels {
                 .map(|numbers| dual * numbers.map(f64::from))
                 .collect(),
             miscount: sum / (8.0 * PI.powi(3)),
+            width: steps.determinant().abs().cbrt(),
         })
     }
 
@@ -82,9 +88,12 @@ impl Voxels {
             let nodes = cell.rectangle().nodes(&rule).into_iter();
             let places = nodes.map(|(n, solid_angle)| {
                 let at = surface.derivatives(&n);
+                let area = area_normal(&n, &at.tangents) * solid_angle;
+                let [larger, _] = curvature(&n, &at).principal;
                 Place {
                     point: at.point,
-                    area: area_normal(&n, &at.tangents) * solid_angle,
+                    area,
+                    lacking: lacking(larger * self.width) * area.norm(),
                     changes: by_move(&n, &at),
                 }
             });
@@ -97,6 +106,7 @@ impl Voxels {
             flats: sides.filter_map(|layer| Flat::of(layer, &places)).collect(),
             miscount: self.miscount,
             area,
+            rounded: places.iter().map(|place| place.lacking).sum(),
         }
     }
 }
@@ -106,6 +116,8 @@ struct Place {
     point: Vector3<f64>,
     /// Of the surface about it, along the normal.
     area: Vector3<f64>,
+    /// Area that it may lack.
+    lacking: f64,
     /// Of the figures, per area and move along the normal.
     changes: SVector<f64, INTEGRALS>,
 }
@@ -172,6 +184,8 @@ pub(super) struct Hidden {
     flats: Vec<Flat>,
     miscount: f64,
     area: f64,
+    /// Area that edges may lack.
+    rounded: f64,
 }
 
 impl Hidden {
@@ -182,10 +196,10 @@ impl Hidden {
         squares.sum()
     }
 
-    /// By how much the area is less if edges that flat sides share are rounded, as voxels round them: by a layer.
+    /// By how much the area is less if edges are [rounded], or those that flat sides share by a layer.
     pub(super) fn edges(&self) -> f64 {
         let outlines = self.flats.iter().map(|flat| flat.changes[0].abs());
-        0.5 * ROUNDED * outlines.sum::<f64>()
+        self.rounded.max(0.5 * ROUNDED * outlines.sum::<f64>())
     }
 
     /// Standard deviation of the height of a surface without flat sides, on average over all of it.

@@ -88,6 +88,7 @@ fn a_flat_side_moves_as_a_whole() {
     let place = |x: f64, z: f64, area: Vector3<f64>, bend: f64| Place {
         point: Vector3::new(x, 0.0, z),
         area,
+        lacking: 0.0,
         changes: list_of(bend),
     };
     let mut places: Vec<Place> = (0..100)
@@ -105,6 +106,7 @@ fn a_flat_side_moves_as_a_whole() {
         flats: vec![flat],
         miscount: 0.0,
         area: 1000.0,
+        rounded: 0.0,
     };
     assert_relative_eq!(hidden.covariance()[(1, 1)], 50.0 * 50.0 / 12.0);
     assert_relative_eq!(hidden.edges(), 0.5 * ROUNDED * outline);
