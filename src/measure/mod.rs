@@ -9,6 +9,7 @@ mod convexity;
 mod corners;
 mod crossings;
 mod curvature;
+mod curvature_kind;
 mod curvature_statistics;
 mod deviation;
 mod elements;

@@ -8,7 +8,8 @@ use super::chance::{Part, error_of_mean};
 use super::known::KnownPlace;
 use super::{Survey, SurveyError};
 use crate::measure::Distribution;
-use crate::measure::curvature_statistics::{End, Kind, is_convex};
+use crate::measure::curvature_kind::{End, Kind};
+use crate::measure::curvature_statistics::is_convex;
 use std::f64::consts::SQRT_2;
 
 /// Share of itself by which the total curvature of a grain may be off by quadrature.
@@ -35,7 +36,7 @@ pub struct CurvatureErrors {
 
 impl Survey<'_> {
     /// Standard errors of the [curvature](Self::curvature). Of means, deviations and the share: what bends is expected to add, for it does
-    /// not cancel, and chance, of patches of the surface that have nothing to do with each other; of the mean of H and K no more
+    /// not cancel, what the nodes of deviations miss, and chance, of patches of the surface that have nothing to do with each other; of the mean of H and K no more
     /// than what moves them, which is the surface itself. Of the least and largest values: that of the place where they are, by how much
     /// they are more than the surface turns there, and how much farther another place may be. `None` where the grain tells no
     /// errors.
@@ -66,7 +67,8 @@ impl Survey<'_> {
         let of = |kind: Kind| {
             let own = told[kind as usize];
             let variance = own.standard_deviation.powi(2);
-            let of_variance = mean_by(&|k| (kind.of(k) - own.mean).powi(2));
+            let of_variance = mean_by(&|k| (kind.of(k) - own.mean).powi(2))
+                .hypot(found.missed_variance(kind, own.mean));
             let end = |end: End| self.end_error(kind, end, places);
             let per = kind.per(length);
             Ok::<_, SurveyError>(Distribution {

@@ -3,13 +3,17 @@
 use super::known::KnownPlace;
 use super::{Survey, SurveyError};
 use crate::measure::Curvature;
-use crate::measure::curvature_statistics::{End, Kind};
+use crate::measure::curvature_kind::{End, Kind};
 use crate::measure::followed::unfollowed;
+use nalgebra::Vector3;
 use std::f64::consts::{LN_2, SQRT_2};
 
 /// Of all places the one is told where what it bends and what it is off by add up: its error over that of any place, as fits of particles
 /// whose truth is known ask for.
 const SELECTED: f64 = 1.5;
+
+/// The places near by: as many as a cell of errors holds.
+const NEAR: usize = 4;
 
 /// Standard errors from where it is told to which a place is looked at, and by how many halvings of the distance it is found how far the
 /// farthest is beyond it.
@@ -39,10 +43,33 @@ impl Survey<'_> {
             off: off(place.principal, place.off.curvature),
             patches: place.area / place.patch,
         });
-        Ok((SELECTED * off(principal, own))
+        let times = SELECTED.max(sharper(&surface.place(&n), &principal, places));
+        Ok((times * off(principal, own))
             .max(expected_beyond(rivals))
             .hypot(ripple))
     }
+}
+
+/// How many times as sharply the surface is curved where it has a place as at the places near by whose errors are known: in a dimple
+/// between them it is off by as much more.
+fn sharper(place: &Vector3<f64>, principal: &[f64; 2], places: &[KnownPlace]) -> f64 {
+    let away = |known: &KnownPlace| (known.place - place).norm_squared();
+    let mut near: Vec<(f64, f64)> = places
+        .iter()
+        .map(|known| (away(known), square(&known.principal)))
+        .collect();
+    let count = NEAR.min(near.len());
+    if count == 0 {
+        return 1.0;
+    }
+    near.select_nth_unstable_by(count - 1, |one, other| one.0.total_cmp(&other.0));
+    let of_near: f64 = near[..count].iter().map(|(_, square)| square).sum();
+    let times = (square(principal) * count as f64 / of_near).sqrt();
+    if times.is_finite() { times } else { 1.0 }
+}
+
+fn square([larger, smaller]: &[f64; 2]) -> f64 {
+    larger * larger + smaller * smaller
 }
 
 /// A place where a curvature may be beyond the value that is told.
@@ -84,6 +111,7 @@ mod tests {
     use super::super::testing::bent_egg;
     use super::*;
     use crate::measure::{CurvatureErrors, Scheme};
+    use crate::model::LocalError;
     use approx::assert_relative_eq;
 
     #[test]
@@ -104,6 +132,26 @@ mod tests {
         // One of some hundred patches is bent by more than two standard errors.
         let wide = told(1e-3, 0.5);
         assert!((1.0..2.0).contains(&wide.larger.largest), "{wide:?}");
+    }
+
+    #[test]
+    fn a_dimple_between_places_is_off_by_as_much_more_as_it_is_sharper() {
+        let known = |x: f64, principal| KnownPlace {
+            place: Vector3::new(x, 0.0, 0.0),
+            normal: Vector3::z(),
+            principal,
+            area: 1.0,
+            off: LocalError::default(),
+            patch: 1.0,
+        };
+        let beside = [-2.0, -1.0, 1.0, 2.0].map(|x| known(x, [3.0, -1.0]));
+        let places = [&beside[..], &[known(9.0, [500.0, 0.0])]].concat();
+        let at = |principal| sharper(&Vector3::zeros(), &principal, &places);
+        assert_relative_eq!(at([3.0, -1.0]), 1.0);
+        assert_relative_eq!(at([-60.0, -20.0]), 20.0);
+        assert_eq!(sharper(&Vector3::zeros(), &[1.0, 1.0], &[]), 1.0);
+        let flat = [known(0.0, [0.0, 0.0])];
+        assert_eq!(sharper(&Vector3::zeros(), &[0.0, 0.0], &flat), 1.0);
     }
 
     #[test]
