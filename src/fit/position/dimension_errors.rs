@@ -59,7 +59,8 @@ impl Lengths<'_> {
             higher += self.higher(end);
             squares += ends.square(end);
             if let Some(hidden) = self.hidden {
-                squares += hidden.square(end, self.told) + ends.cut_off(end);
+                squares +=
+                    hidden.square(end, self.told) + ends.cut_off(end, [hidden.width(), length]);
             }
         }
         let least = self.functions.cover().map_or(FLOOR, |_| FLOOR_OF_CELLS);

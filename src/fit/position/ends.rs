@@ -7,10 +7,11 @@
 //! - how far the highest point lies below where noise about the feet would lift it: along a flat side there are
 //!   many, and of a surface that swings over they know nothing;
 //! - the mean distance of the points nearest to the end, which is zero where the surface follows them;
-//! - of voxels, how far the highest point lies above the end: what is sharper than they are is cut off.
+//! - of voxels, how far the highest point lies above the end, or the end of a [tip](super::taper) that they cut off.
 
 use super::cloud::Cloud;
 use super::functionals::End;
+use super::taper::beyond;
 use crate::fit::neighbours::Neighbours;
 use nalgebra::Vector3;
 use std::f64::consts::SQRT_2;
@@ -85,13 +86,15 @@ impl<'a> Ends<'a> {
         foot.max(0.0).powi(2) + self.too_low(&feet, point) + self.missed(end)
     }
 
-    /// Square of how much higher than an end the highest point is, as far as it is no noise: of voxels, which lie beside the
-    /// grain by less than a step.
-    pub(super) fn cut_off(&self, end: &End) -> f64 {
-        let points = self.seen.iter();
-        let above = points.map(|seen| (seen.point - end.point).dot(&end.along));
-        let most = above.fold(0.0, f64::max);
-        (most.powi(2) - (OF_NOISE * self.rms).powi(2)).max(0.0)
+    /// Square of how much farther than an end a body of such a length may reach, seen between voxels of this width: to the highest point,
+    /// as far as that is no noise, or where a [tip](beyond) ends.
+    pub(super) fn cut_off(&self, end: &End, [width, length]: [f64; 2]) -> f64 {
+        let points = || self.seen.iter().map(|seen| *seen.point);
+        let height = end.point.dot(&end.along);
+        let highest = points().map(|point| point.dot(&end.along) - height);
+        let above = highest.fold(0.0, f64::max).powi(2) - (OF_NOISE * self.rms).powi(2);
+        let tip = beyond(points(), height, &end.along, [width, length]);
+        above.max(tip * tip)
     }
 
     /// Square of how much lower the highest point is than noise about the feet would lift it. `feet` and `point` are below
@@ -210,9 +213,9 @@ mod tests {
             along: Vector3::z(),
         };
         flat.points[820].z = OF_NOISE * NOISE;
-        assert_eq!(flat.ends().cut_off(&end), 0.0);
+        assert_eq!(flat.ends().cut_off(&end, [NOISE, 1.0]), 0.0);
         flat.points[820].z = 5.0 * NOISE;
-        let told = flat.ends().cut_off(&end).sqrt() / NOISE;
+        let told = flat.ends().cut_off(&end, [NOISE, 1.0]).sqrt() / NOISE;
         assert!((told - 21.0_f64.sqrt()).abs() < 1e-9, "{told}");
     }
 

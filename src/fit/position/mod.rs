@@ -20,6 +20,7 @@ mod on_mesh;
 mod on_sphere;
 mod rounds;
 mod search;
+mod taper;
 mod voxels;
 
 use super::context::Context;

@@ -107,6 +107,7 @@ impl Voxels {
             miscount: self.miscount,
             area,
             rounded: places.iter().map(|place| place.lacking).sum(),
+            width: self.width,
         }
     }
 }
@@ -186,6 +187,7 @@ pub(super) struct Hidden {
     area: f64,
     /// Area that edges may lack.
     rounded: f64,
+    width: f64,
 }
 
 impl Hidden {
@@ -200,6 +202,11 @@ impl Hidden {
     pub(super) fn edges(&self) -> f64 {
         let outlines = self.flats.iter().map(|flat| flat.changes[0].abs());
         self.rounded.max(0.5 * ROUNDED * outlines.sum::<f64>())
+    }
+
+    /// The side of a cube as large as a voxel.
+    pub(super) fn width(&self) -> f64 {
+        self.width
     }
 
     /// Standard deviation of the height of a surface without flat sides, on average over all of it.

@@ -287,6 +287,20 @@ fn errors_of_area_and_volume_hold_these() {
 }
 
 #[test]
+fn errors_of_exact_points_are_those_of_rounding() {
+    let shape = Superquadric::single([30.0, 25.0, 20.0], 5.0, 2.2).unwrap();
+    let points = points_on(&shape, 2000, &mut ChaCha8Rng::seed_from_u64(0));
+    let exact: Vec<Point3<f64>> = points.into_iter().map(Point3::from).collect();
+    let found = fitted(&exact, Form::Single);
+    let errors = found.solid_errors.unwrap();
+    let [told, truth] = [&found.shape, &shape].map(volume);
+    assert!((told - truth).abs() < 2.0 * errors.volume, "{errors:?}");
+    assert!(errors.volume < 1e-12 * truth, "{errors:?}");
+    let [axis, _] = found.errors.semi_axes[0];
+    assert!(axis.unwrap() > 1e-15 * 30.0);
+}
+
+#[test]
 fn more_numbers_are_never_farther_from_the_points() {
     for seed in 0..8 {
         let random = &mut ChaCha8Rng::seed_from_u64(seed);

@@ -107,6 +107,7 @@ fn a_flat_side_moves_as_a_whole() {
         miscount: 0.0,
         area: 1000.0,
         rounded: 0.0,
+        width: 1.0,
     };
     assert_relative_eq!(hidden.covariance()[(1, 1)], 50.0 * 50.0 / 12.0);
     assert_relative_eq!(hidden.edges(), 0.5 * ROUNDED * outline);
