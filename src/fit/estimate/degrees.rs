@@ -72,7 +72,7 @@ impl Degrees {
         let compared = fit.sums.degree();
         let mut degree = first;
         if is_small(cloud.len()) {
-            if fit.is_enough() {
+            if fit.is_enough() && !fit.leaves_waves(&cloud, first) {
                 degree = compared;
             }
             fit.spectrum = fit.spectrum.raised(compared, degree);

@@ -117,16 +117,89 @@ impl Evidence {
         if self.points <= FEW_POINTS {
             return None;
         }
-        let mut textured = smooth.with_some_texture();
+        let textured = self.settled(smooth.with_some_texture());
+        let is_worth = self.value(&textured).0 < self.value(smooth).0 - WORTH;
+        (is_worth && textured.texture_shows()).then_some(textured)
+    }
+
+    /// The same spectrum with [waves](Spectrum::waves) of a degree that it takes for noise, where that has clearly more power, and far
+    /// more than those beside it; `None` where there is none. Rims have many such degrees, every other one. Few points cannot tell.
+    pub(crate) fn with_waves(&self, spectrum: &Spectrum) -> Option<Spectrum> {
+        if self.points <= FEW_POINTS {
+            return None;
+        }
+        let noise = spectrum.noise().powi(2);
+        let variances = spectrum.variances(self.degrees.len() - 1);
+        // Per degree the power of a coefficient, and what noise makes of it.
+        let excess = |l: usize| {
+            let [count, power] = *self.degrees.get(l)?;
+            let of_noise = noise / count;
+            let own = power / (2 * l + 1) as f64 - variances[l] - of_noise;
+            Some((own, of_noise))
+        };
+        let is_wave = |l: usize| {
+            let (own, of_noise) = excess(l)?;
+            let by_chance = MORE_THAN_CHANCE * (2.0 / (2 * l + 1) as f64).sqrt();
+            let is_clear = own > by_chance * (variances[l] + of_noise);
+            let beside = (l - BESIDE..=l + BESIDE).filter(|&other| other != l);
+            let most = beside
+                .filter_map(excess)
+                .map(|(own, _)| own)
+                .fold(0.0, f64::max);
+            (variances[l] < of_noise && is_clear && own > ALONE * most).then_some(own)
+        };
+        let mut waves = spectrum.waves;
+        let degrees = waves.iter_mut().enumerate().take(variances.len());
+        for (l, wave) in degrees.skip(LOWEST_WAVE) {
+            *wave += is_wave(l).unwrap_or(0.0);
+        }
+        (waves != spectrum.waves).then(|| spectrum.with_waves(waves))
+    }
+
+    /// A spectrum that is flat up to some degree, if it makes the points clearly likelier than this one: a law as of other grains
+    /// takes waves of many degrees for noise.
+    pub(crate) fn banded(&self, smooth: &Spectrum) -> Option<Spectrum> {
+        if self.points <= FEW_POINTS {
+            return None;
+        }
+        let most = self.value(smooth).0 - WORTH_A_BAND;
+        let found = EDGES.iter().filter_map(|&edge| {
+            let found = self.settled(smooth.flat_up_to(edge, self.excess(smooth, edge)?));
+            Some((self.value(&found).0, found))
+        });
+        let likely = found.filter(|(value, _)| *value < most);
+        let best = likely.min_by(|one, other| one.0.total_cmp(&other.0));
+        best.map(|(_, spectrum)| spectrum)
+    }
+
+    /// By how much coefficients of the degrees up to one, but for the lowest, vary more than noise makes them; `None` if they do not.
+    fn excess(&self, spectrum: &Spectrum, to: usize) -> Option<f64> {
+        let noise = spectrum.noise().powi(2);
+        let (mut excess, mut orders) = (0.0, 0.0);
+        for (l, &[count, power]) in self
+            .degrees
+            .iter()
+            .enumerate()
+            .take(to + 1)
+            .skip(LOWEST_WAVE)
+        {
+            orders += (2 * l + 1) as f64;
+            excess += power - (2 * l + 1) as f64 * noise / count;
+        }
+        (excess > 0.0).then(|| excess / orders)
+    }
+
+    /// The spectrum of least F that steps from a start reach.
+    fn settled(&self, start: Spectrum) -> Spectrum {
+        let mut at = start;
         for _ in 0..MOST_STEPS {
-            let (next, gain) = self.most_likely(&textured);
-            textured = next;
+            let (next, gain) = self.most_likely(&at);
+            at = next;
             if gain < WORTH {
                 break;
             }
         }
-        let is_worth = self.value(&textured).0 < self.value(smooth).0 - WORTH;
-        (is_worth && textured.texture_shows()).then_some(textured)
+        at
     }
 
     /// The spectrum of least F that one step may reach, and by how much F is lower there: damped Newton steps
@@ -211,6 +284,20 @@ impl Step {
 
 /// Texture is kept where it lowers F by this, as of a spectrum twenty times likelier.
 const WORTH: f64 = 3.0;
+
+/// Standard deviations by which the power of a degree is more than chance.
+pub(crate) const MORE_THAN_CHANCE: f64 = 6.0;
+
+/// Degrees on either side of one with waves that have none, and so many times less power beyond noise.
+const BESIDE: usize = 2;
+const ALONE: f64 = 4.0;
+
+/// Lower degrees any law suits.
+const LOWEST_WAVE: usize = 5;
+
+/// A band is looked for where it lowers F by this, up to each of these degrees.
+const WORTH_A_BAND: f64 = 10.0;
+const EDGES: [usize; 3] = [12, 20, 30];
 
 /// Steps to the least F at most; ten are usual.
 const MOST_STEPS: usize = 60;

@@ -7,7 +7,7 @@
 //! A step fails that does not lower the cost; where no cost is known, one after which the gradient points back more steeply.
 
 use super::spectrum::Spectrum;
-use super::spectrum::{BOUNDS, PARAMETERS, STEPS};
+use super::spectrum::{BOUNDS, NOISE, PARAMETERS, STEPS};
 use nalgebra::{Matrix5, Vector5};
 
 /// Proposals are trusted as long as they bring this share of what they promise.
@@ -15,6 +15,9 @@ const KEPT: f64 = 0.5;
 
 /// Steps that move no logarithm by more than this end the search too.
 const SETTLED: f64 = 0.003;
+
+/// Farthest that a step may raise the logarithm of the noise: where that is too low, little is known of it.
+const LARGEST_RISE: f64 = 0.3;
 
 /// Rounding of steps.
 const ROUNDING: f64 = 1e-9;
@@ -159,7 +162,11 @@ fn within_reach(mut matrix: Matrix5<f64>, mut gradient: Vector5<f64>) -> Vector5
         step = matrix
             .cholesky()
             .map_or_else(Vector5::zeros, |factor| -factor.solve(&gradient));
-        let shares = step.iter().zip(STEPS).map(|(step, most)| step.abs() / most);
+        let most = |at: usize| match at == NOISE && step[at] > 0.0 {
+            true => LARGEST_RISE,
+            false => STEPS[at],
+        };
+        let shares = (0..PARAMETERS).map(|at| step[at].abs() / most(at));
         let farthest = shares.enumerate().max_by(|a, b| a.1.total_cmp(&b.1));
         let Some((at, share)) = farthest.filter(|(_, share)| *share > 1.0 + ROUNDING) else {
             break;

@@ -3,13 +3,14 @@
 //! Coefficients of degree l, in units of the mean radius, are normal with variance
 //!
 //! ```text
-//! v_l = A (1 + (l / l0)^2)^-nu + B (l / 24)^-3.5
+//! v_l = A (1 + (l / l0)^2)^-nu + B (l / 24)^-3.5 + w_l
 //! ```
 //!
 //! The first term is the shape's: flat up to the knee l0, then falling with the slope -2 nu. The second is that of the
 //! surface's texture, which falls more slowly: rough natural surfaces are nearly self-affine, with spectra that fall by
 //! powers of 3 to 4 (Hurst exponents of .5 to 1). Of one term alone it was taken for noise, where the shape is smooth.
-//! Powers of 3, 3.5 and 4 suit hidden points of kernels alike.
+//! Powers of 3, 3.5 and 4 suit hidden points of kernels alike. w_l is that of waves of one width, as ribs are: zero but for degrees that
+//! the first two take for noise, and which have clearly more power than noise has.
 //!
 //! Degrees 0, 1 and 2 (size, place and proportions) are free: proportions are taken by the stretch, which is found from
 //! the same points, so that what is left of degree 2 in the stretched space says nothing of what may be left. (With a variance
@@ -32,6 +33,8 @@ pub(crate) struct Spectrum {
     pub(crate) logarithms: [f64; PARAMETERS],
     /// The tilt t.
     pub(crate) tilt: f64,
+    /// Variance of each degree beside that of shape and texture: of ribs, and of waves of one width, which no law tells.
+    pub(crate) waves: [f64; HIGHEST + 1],
 }
 
 /// The logarithms of a spectrum.
@@ -103,6 +106,7 @@ impl Spectrum {
         let even = |pivot: f64| Self {
             logarithms: [pivot, exponent, knee, noise, NO_TEXTURE],
             tilt: 0.0,
+            waves: [0.0; HIGHEST + 1],
         };
         even(amplitude - even(0.0).fall().at(PIVOT)[0])
     }
@@ -118,6 +122,24 @@ impl Spectrum {
         let degrees = PIVOT + 1..=HIGHEST;
         let sum: f64 = degrees.map(|l| (2 * l + 1) as f64 * self.texture(l)).sum();
         sum > 4.0 * std::f64::consts::PI * self.noise().powi(2)
+    }
+
+    /// With variances of about this size up to a degree, where they have fallen to a half, as steeply as the bounds allow.
+    pub(crate) fn flat_up_to(&self, edge: usize, variance: f64) -> Self {
+        let [[_, most], _, [_, knee], ..] = BOUNDS;
+        let knee = knee.exp();
+        // (1 + (l / l0)^2)^-nu is about a half where nu (l / l0)^2 is log 2.
+        let exponent = std::f64::consts::LN_2 * (knee / edge as f64).powi(2);
+        let [fall, _] = Fall { exponent, knee }.at(PIVOT);
+        let pivot = (variance.ln() - fall).min(most);
+        let mut logarithms = self.logarithms;
+        logarithms[..3].copy_from_slice(&[pivot, exponent.ln(), knee.ln()]);
+        self.moved_to(logarithms)
+    }
+
+    /// With these waves.
+    pub(crate) fn with_waves(&self, waves: [f64; HIGHEST + 1]) -> Self {
+        Self { waves, ..*self }
     }
 
     /// With as much texture as a search starts with.
@@ -248,6 +270,7 @@ impl Spectrum {
         let (amplitude, [_, at_pivot, knee_at_pivot, ..]) = self.amplitude();
         let fall = self.fall();
         let texture = self.logarithms[TEXTURE].exp();
+        let waves = self.waves;
         (0..=degree).map(move |l| {
             if let Some(&variance) = FREE.get(l) {
                 return Term {
@@ -257,7 +280,8 @@ impl Spectrum {
             }
             let [own, by_knee] = fall.at(l);
             let shape = (amplitude - own).exp();
-            let variance = shape + texture * texture_fall(TEXTURE_PIVOT, l);
+            let texture = texture * texture_fall(TEXTURE_PIVOT, l);
+            let variance = shape + texture + waves.get(l).unwrap_or(&0.0);
             let share = shape / variance;
             Term {
                 variance,
@@ -266,7 +290,7 @@ impl Spectrum {
                     share * (at_pivot - own),
                     share * (knee_at_pivot - by_knee),
                     0.0,
-                    1.0 - share,
+                    texture / variance,
                 ],
             }
         })

@@ -2,6 +2,7 @@
 
 use super::cloud::Cloud;
 use super::dense::Factor;
+use super::likelihood::MORE_THAN_CHANCE;
 use super::outcome::{learnt, variance};
 use super::posterior::Posterior;
 use super::spectrum::{HIGHEST, Spectrum};
@@ -73,6 +74,24 @@ impl SpectrumFit {
         harmonics.synthesis(&self.coefficients, &mut fitted);
         let pairs = measured.iter().zip(fitted);
         pairs.map(|(measured, fitted)| measured - fitted).collect()
+    }
+
+    /// Whether residuals hold more of some degree above its own, up to one, than chance puts there of residuals that have nothing
+    /// to do with each other: (2l + 1) / 4 pi of the sum of their weighted squares.
+    pub(crate) fn leaves_waves(&self, cloud: &Cloud, to: usize) -> bool {
+        let own = self.sums.degree();
+        let residuals =
+            Posterior::with(cloud, Arc::new(Sums::new(own))).residuals(&self.coefficients);
+        let weighted = residuals.iter().zip(&cloud.weights).map(|(e, w)| e * w);
+        let weighted: Vec<f64> = weighted.collect();
+        let squares: f64 = weighted.iter().map(|x| x * x).sum();
+        let sums = Posterior::with(cloud, Arc::new(Sums::new(to))).adjoint(&weighted);
+        (own + 1..=to).any(|l| {
+            let orders = (2 * l + 1) as f64;
+            let power: f64 = sums[l * l..(l + 1) * (l + 1)].iter().map(|x| x * x).sum();
+            let expected = orders / (4.0 * PI) * squares;
+            power > expected * (1.0 + MORE_THAN_CHANCE * (2.0 / orders).sqrt())
+        })
     }
 
     /// Whether the prior expects nothing to speak of beyond its degree.

@@ -93,15 +93,23 @@ pub(crate) fn fit_spectrum(
         };
         match next {
             Next::Here => {
-                let textured = smooth.is_none().then(|| look.textured()).flatten();
-                if counted == count && textured.is_none() {
+                let wavy = look.told.evidence.with_waves(&look.place.spectrum);
+                if let Some(wavy) = wavy.filter(|_| round < MOST_ROUNDS) {
+                    spectrum = wavy;
+                    newton = None;
+                    solved = look.told.solved.take();
+                    coefficients = Some(look.mean);
+                    continue;
+                }
+                let other = smooth.is_none().then(|| look.other()).flatten();
+                if counted == count && other.is_none() {
                     let likelier = smooth.filter(|smooth| look.is_worse(smooth, 0.0));
                     return likelier.unwrap_or(look).fit();
                 }
                 counted = count;
                 newton = None;
-                if let Some(textured) = textured {
-                    spectrum = textured;
+                if let Some(other) = other {
+                    spectrum = other;
                     solved = look.told.solved.take();
                     coefficients = Some(look.mean.clone());
                     smooth = Some(look);
@@ -194,13 +202,16 @@ impl<'a> Look<'a> {
         self.steps > HARD && may_be_factored && !posterior.is_factored()
     }
 
-    /// A spectrum with texture that is clearly likelier, where this one has none.
-    fn textured(&self) -> Option<Spectrum> {
-        let spectrum = &self.place.spectrum;
-        match spectrum.is_smooth() {
-            true => self.told.evidence.textured(spectrum),
-            false => None,
+    /// A spectrum with texture, or with a band, that is clearly likelier, where this one has no texture.
+    fn other(&self) -> Option<Spectrum> {
+        let (spectrum, evidence) = (&self.place.spectrum, &self.told.evidence);
+        if !spectrum.is_smooth() {
+            return None;
         }
+        let found = [evidence.textured(spectrum), evidence.banded(spectrum)];
+        let value = |spectrum: &Spectrum| evidence.value(spectrum).0;
+        let found = found.into_iter().flatten();
+        found.min_by(|one, other| value(one).total_cmp(&value(other)))
     }
 
     /// Whether the points are less likely by more than this, as far as both likelihoods are exact.

@@ -10,9 +10,10 @@
 //! ```
 //!
 //! A flat side along a layer of voxels has no curvature: all of it may lie anywhere between two layers, so that of a disc of
-//! six layers the volume is known to 7 %, and its edges are rounded, as [all](rounded) are. How much of a side is flat is told by the area A(d) that is within d layers of its
-//! highest place: where the side is curved A grows with d, of one that is flat it is reached at once. What 2 A(1/2) is more than
-//! A(1) is taken to be flat, and moves as a whole, with a standard deviation of a twelfth of a layer's square.
+//! six layers the volume is known to 7 %, and its edges are rounded, as [all](rounded) are. How much of a side is flat is told by
+//! the area A(d) that is within d layers of its highest place: where the side is curved A grows with d, of one that is flat it is
+//! reached at once. What 2 A(1/2) is more than A(1) is taken to be flat, and moves as a whole, with a standard deviation of a twelfth
+//! of a layer's square.
 
 mod rounded;
 

@@ -1,5 +1,6 @@
-use super::super::trial::{estimated, fibonacci};
+use super::super::trial::{estimated, fibonacci, samples};
 use crate::fit::prepare::Sample;
+use crate::sphere::{HarmonicBasis, coefficient_count};
 use nalgebra::Vector3;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
@@ -31,4 +32,32 @@ fn the_noise_of_balls_is_noise_and_what_is_known_of_them_no_matter_of_chance() {
         most = most.max(found.deviation());
     }
     assert!(most < 2.0 * least, "{least} {most}");
+}
+
+/// Waves of one degree, of a hundredth of the radius as RMS, in noise of so much.
+fn wavy(degree: usize, points: usize, noise: f64) -> Vec<Sample> {
+    let basis = HarmonicBasis::new(degree);
+    let axial = degree * degree + degree;
+    let radius = |n: &Vector3<f64>| {
+        let mut values = vec![0.0; coefficient_count(degree)];
+        basis.evaluate(n, &mut values);
+        3.0 + 0.03 * (4.0 * std::f64::consts::PI).sqrt() * values[axial]
+    };
+    samples(&fibonacci(points), radius, noise)
+}
+
+#[test]
+fn waves_of_one_width_are_no_noise() {
+    for (degree, noise) in [(18, 0.03), (25, 0.03), (18, 0.06)] {
+        let found = estimated(&wavy(degree, 3000, noise), Vector3::repeat(3.0));
+        let ratio = found.noise() / noise;
+        assert!((ratio - 1.0).abs() < 0.1, "{degree}: {ratio}");
+    }
+    // Beyond the degree at which maps are compared.
+    let found = estimated(&wavy(30, 3000, 0.0), Vector3::repeat(3.0));
+    assert!(
+        found.degree > 30 && found.noise() < 1e-4,
+        "{}",
+        found.noise()
+    );
 }

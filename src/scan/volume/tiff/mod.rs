@@ -7,7 +7,7 @@ use super::samples::{Kind, Order, Samples};
 use super::{Volume, VolumeError};
 use description::{Description, Spacing};
 use nalgebra::{Matrix3, Point3, Vector3};
-use std::io::Cursor;
+use std::io::{Cursor, ErrorKind};
 use tiff::decoder::ifd::Value;
 use tiff::decoder::{Decoder, Limits};
 use tiff::tags::{PhotometricInterpretation, Tag};
@@ -114,6 +114,15 @@ impl Room {
                 return VolumeError::TooLarge { limit: self.limit };
             }
             TiffError::LimitsExceeded => "it promises more than its bytes can hold".into(),
+            TiffError::IoError(error) if error.kind() == ErrorKind::UnexpectedEof => {
+                "it ends before all of them are told; save it again".into()
+            }
+            TiffError::FormatError(error) => format!("it is damaged ({error}); save it again"),
+            TiffError::UnsupportedError(error) => {
+                format!(
+                    "they are stored in a way that is not read here ({error}); save them unpacked"
+                )
+            }
             other => other.to_string(),
         };
         VolumeError::Voxels {

@@ -244,3 +244,29 @@ fn large_files_are_read_and_the_limit_is_named() {
         assert_eq!(parse(&bytes, limit), Err(VolumeError::TooLarge { limit }));
     }
 }
+
+#[test]
+fn damaged_files_are_told_in_plain_words() {
+    let slices = slices(5);
+    let whole = described(&slices, "").bytes();
+    let told = |bytes: &[u8]| parse(bytes, 1 << 20).unwrap_err().to_string();
+    let part = told(&whole[..whole.len() / 2]);
+    assert!(
+        part.contains("it ends before all of them are told"),
+        "{part}"
+    );
+    let of_tag = |tag: u16, value: u16| {
+        let entry = [tag.to_le_bytes(), 3_u16.to_le_bytes()].concat();
+        let at = whole.windows(4).position(|bytes| bytes == entry).unwrap();
+        let mut changed = whole.clone();
+        changed[at + 8..at + 10].copy_from_slice(&value.to_le_bytes());
+        told(&changed)
+    };
+    let unknown = of_tag(262, 999);
+    assert!(
+        unknown.contains("they are stored in a way that is not read here"),
+        "{unknown}"
+    );
+    let packed = of_tag(259, 7);
+    assert!(!packed.contains("unsupported error"), "{packed}");
+}
