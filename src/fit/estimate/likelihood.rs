@@ -128,38 +128,45 @@ impl Evidence {
         if self.points <= FEW_POINTS {
             return None;
         }
-        let noise = spectrum.noise().powi(2);
-        let variances = spectrum.variances(self.degrees.len() - 1);
-        // Per degree the power of a coefficient, and what noise makes of it.
-        let excess = |l: usize| {
-            let [count, power] = *self.degrees.get(l)?;
-            let of_noise = noise / count;
-            let own = power / (2 * l + 1) as f64 - variances[l] - of_noise;
-            Some((own, of_noise))
-        };
-        let is_wave = |l: usize| {
-            let (own, of_noise) = excess(l)?;
-            let by_chance = MORE_THAN_CHANCE * (2.0 / (2 * l + 1) as f64).sqrt();
-            let is_clear = own > by_chance * (variances[l] + of_noise);
-            let beside = (l - BESIDE..=l + BESIDE).filter(|&other| other != l);
-            let most = beside
-                .filter_map(excess)
-                .map(|(own, _)| own)
-                .fold(0.0, f64::max);
-            (variances[l] < of_noise && is_clear && own > ALONE * most).then_some(own)
-        };
+        let beyond = self.beyond(spectrum);
         let mut waves = spectrum.waves;
-        let degrees = waves.iter_mut().enumerate().take(variances.len());
-        for (l, wave) in degrees.skip(LOWEST_WAVE) {
-            *wave += is_wave(l).unwrap_or(0.0);
+        for (l, &(own, is_clear)) in beyond.iter().enumerate().skip(LOWEST_WAVE) {
+            let beside = beyond
+                .iter()
+                .enumerate()
+                .skip(l - BESIDE)
+                .take(2 * BESIDE + 1);
+            let others = beside.filter(|(other, _)| *other != l);
+            let most = others.map(|(_, (power, _))| *power).fold(0.0, f64::max);
+            if is_clear && own > ALONE * most {
+                waves[l] += own;
+            }
         }
         (waves != spectrum.waves).then(|| spectrum.with_waves(waves))
+    }
+
+    /// Per degree, the power of a coefficient beyond noise and what a spectrum expects; and whether that is clear, of a degree that
+    /// the spectrum takes for noise.
+    fn beyond(&self, spectrum: &Spectrum) -> Vec<(f64, bool)> {
+        let noise = spectrum.noise().powi(2);
+        let variances = spectrum.variances(self.degrees.len() - 1);
+        let degrees = self.degrees.iter().zip(variances).enumerate();
+        degrees
+            .map(|(l, (&[count, power], variance))| {
+                let orders = (2 * l + 1) as f64;
+                let expected = variance + noise / count;
+                let own = power / orders - expected;
+                let by_chance = MORE_THAN_CHANCE * (2.0 / orders).sqrt() * expected;
+                (own, variance < noise / count && own > by_chance)
+            })
+            .collect()
     }
 
     /// A spectrum that is flat up to some degree, if it makes the points clearly likelier than this one: a law as of other grains
     /// takes waves of many degrees for noise.
     pub(crate) fn banded(&self, smooth: &Spectrum) -> Option<Spectrum> {
-        if self.points <= FEW_POINTS {
+        let mut beyond = self.beyond(smooth).into_iter().skip(LOWEST_WAVE);
+        if self.points <= FEW_POINTS || !beyond.any(|(_, is_clear)| is_clear) {
             return None;
         }
         let most = self.value(smooth).0 - WORTH_A_BAND;
