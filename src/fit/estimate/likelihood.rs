@@ -156,8 +156,8 @@ impl Evidence {
                 let orders = (2 * l + 1) as f64;
                 let expected = variance + noise / count;
                 let own = power / orders - expected;
-                let by_chance = MORE_THAN_CHANCE * (2.0 / orders).sqrt() * expected;
-                (own, variance < noise / count && own > by_chance)
+                let is_clear = own > largest_by_chance(orders) * expected;
+                (own, variance < noise / count && is_clear)
             })
             .collect()
     }
@@ -293,7 +293,12 @@ impl Step {
 const WORTH: f64 = 3.0;
 
 /// Standard deviations by which the power of a degree is more than chance.
-pub(crate) const MORE_THAN_CHANCE: f64 = 6.0;
+const MORE_THAN_CHANCE: f64 = 6.0;
+
+/// By what share the power of a degree of so many orders is larger than expected by chance, at most.
+pub(crate) fn largest_by_chance(orders: f64) -> f64 {
+    MORE_THAN_CHANCE * (2.0 / orders).sqrt()
+}
 
 /// Degrees on either side of one with waves that have none, and so many times less power beyond noise.
 const BESIDE: usize = 2;

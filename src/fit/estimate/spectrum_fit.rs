@@ -2,13 +2,13 @@
 
 use super::cloud::Cloud;
 use super::dense::Factor;
-use super::likelihood::MORE_THAN_CHANCE;
+use super::likelihood::largest_by_chance;
 use super::outcome::{learnt, variance};
 use super::posterior::Posterior;
 use super::spectrum::{HIGHEST, Spectrum};
 use super::sums::Sums;
 use crate::fit::prepare::Sample;
-use crate::sphere::ScatteredHarmonics;
+use crate::sphere::{ScatteredHarmonics, coefficient_count};
 use std::f64::consts::PI;
 use std::sync::Arc;
 
@@ -80,17 +80,18 @@ impl SpectrumFit {
     /// to do with each other: (2l + 1) / 4 pi of the sum of their weighted squares.
     pub(crate) fn leaves_waves(&self, cloud: &Cloud, to: usize) -> bool {
         let own = self.sums.degree();
-        let residuals =
-            Posterior::with(cloud, Arc::new(Sums::new(own))).residuals(&self.coefficients);
-        let weighted = residuals.iter().zip(&cloud.weights).map(|(e, w)| e * w);
-        let weighted: Vec<f64> = weighted.collect();
+        let mut coefficients = self.coefficients.clone();
+        coefficients.resize(coefficient_count(to), 0.0);
+        let posterior = Posterior::with(cloud, Arc::new(Sums::new(to)));
+        let residuals = posterior.residuals(&coefficients).into_iter();
+        let weighted: Vec<f64> = residuals.zip(&cloud.weights).map(|(e, w)| e * w).collect();
         let squares: f64 = weighted.iter().map(|x| x * x).sum();
-        let sums = Posterior::with(cloud, Arc::new(Sums::new(to))).adjoint(&weighted);
+        let sums = posterior.adjoint(&weighted);
         (own + 1..=to).any(|l| {
             let orders = (2 * l + 1) as f64;
             let power: f64 = sums[l * l..(l + 1) * (l + 1)].iter().map(|x| x * x).sum();
             let expected = orders / (4.0 * PI) * squares;
-            power > expected * (1.0 + MORE_THAN_CHANCE * (2.0 / orders).sqrt())
+            power > expected * (1.0 + largest_by_chance(orders))
         })
     }
 

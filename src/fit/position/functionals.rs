@@ -66,8 +66,16 @@ pub(super) fn curvature(n: &Vector3<f64>, at: &PositionDerivatives) -> Curvature
 
 /// The changes of area, volume and moments for a move along the normal, per area.
 pub(super) fn by_move(n: &Vector3<f64>, at: &PositionDerivatives) -> SVector<f64, INTEGRALS> {
+    by_move_of(&curvature(n, at), at)
+}
+
+/// The same where the curvature is known.
+pub(super) fn by_move_of(
+    curvature: &Curvature,
+    at: &PositionDerivatives,
+) -> SVector<f64, INTEGRALS> {
     list(&Moments {
-        area: 2.0 * curvature(n, at).mean(),
+        area: 2.0 * curvature.mean(),
         volume: 1.0,
         first: at.point,
         second: at.point * at.point.transpose(),

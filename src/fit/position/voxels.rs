@@ -17,7 +17,7 @@
 
 mod rounded;
 
-use super::functionals::{End, by_move, curvature};
+use super::functionals::{End, by_move_of, curvature};
 use super::functions::Functions;
 use crate::fit::figures::INTEGRALS;
 use crate::model::{Position, area_normal};
@@ -90,12 +90,13 @@ impl Voxels {
             let places = nodes.map(|(n, solid_angle)| {
                 let at = surface.derivatives(&n);
                 let area = area_normal(&n, &at.tangents) * solid_angle;
-                let [larger, _] = curvature(&n, &at).principal;
+                let curvature = curvature(&n, &at);
+                let [larger, _] = curvature.principal;
                 Place {
                     point: at.point,
                     area,
                     lacking: lacking(larger * self.width) * area.norm(),
-                    changes: by_move(&n, &at),
+                    changes: by_move_of(&curvature, &at),
                 }
             });
             places.collect::<Vec<_>>()
