@@ -82,6 +82,12 @@ pub(crate) fn lower_quartile(values: &mut [f64]) -> Option<f64> {
     (!values.is_empty()).then(|| *values.select_nth_unstable_by(at, f64::total_cmp).1)
 }
 
+/// The value that a quarter of them are above.
+pub(crate) fn upper_quartile(values: &mut [f64]) -> Option<f64> {
+    let at = 3 * values.len() / 4;
+    (!values.is_empty()).then(|| *values.select_nth_unstable_by(at, f64::total_cmp).1)
+}
+
 /// Of values that are not negative the one of which those that are less have half of the sum: many small ones hardly move it.
 pub(crate) fn middle_of_sum(mut values: Vec<f64>) -> Option<f64> {
     values.sort_unstable_by(f64::total_cmp);

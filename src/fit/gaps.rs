@@ -50,12 +50,12 @@ pub(crate) fn largest_caps(directions: &[Vector3<f64>], most: usize) -> Vec<(f64
                 .all(|(half_angle, middle)| n.angle(middle) > *half_angle)
         };
         let starts = starts.iter().copied().filter(is_elsewhere).take(BEST);
-        let found = starts.map(|(_, n)| {
-            let (n, largest) = compass(n, FIRST_STEP, LEAST_STEP, clearance);
-            (largest, n)
+        // Along a slit the search leads back to the cap that is known.
+        let found = starts.map(|start| {
+            let (n, largest) = compass(start.1, FIRST_STEP, LEAST_STEP, clearance);
+            Some((largest, n)).filter(is_elsewhere).unwrap_or(start)
         });
-        let larger = |a: (f64, Vector3<f64>), b: (f64, Vector3<f64>)| if b.0 > a.0 { b } else { a };
-        match found.reduce(larger).filter(is_elsewhere) {
+        match found.max_by(|a, b| a.0.total_cmp(&b.0)) {
             Some(cap) => caps.push(cap),
             None => break,
         }

@@ -6,7 +6,7 @@
 //! - half of the excess of a largest value, by the variance at the end itself, for a scan may be thinner there;
 //! - the mean square of what is [missing](super::tips) at the ends, as far as the points tell it: the prior is the same
 //!   everywhere, and takes the last of a beak or a tip for noise;
-//! - what the largest [hole](super::hole) may hide;
+//! - what the largest [holes](super::hole) may hide, at the end itself or where the body may reach farther;
 //! - a share of what the surface has above the highest point, which the prior alone has drawn: of clean grains with a point of
 //!   half the points' spacing it is some 5 % wrong;
 //! - where residuals are no noise, by how much the points near the ends are missed when they are
@@ -93,7 +93,7 @@ pub(super) fn dimensions(
             missing += at.height * end.by_radius;
             chance += at.variance * end.by_radius * end.by_radius;
             squares += (OF_UNSEEN * end.unseen(&estimate.cloud)).powi(2);
-            squares += (holes.hidden(&end.direction).0 * end.by_radius).powi(2);
+            squares += end.hidden(holes).powi(2);
             if let Some(points) = left_out {
                 let missed = points.near(&end.direction) * end.by_radius * end.by_radius;
                 squares += missed.max(end.exceeded(points).powi(2));

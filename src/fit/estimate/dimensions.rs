@@ -16,6 +16,7 @@
 use super::cloud::Cloud;
 use super::left_out::LeftOut;
 use super::outcome::Estimate;
+use crate::fit::hole::Holes;
 use crate::measure::support_near;
 use crate::model::{Radial, StarSurface, Whole};
 use crate::vectorize::{LANES, blocks, vectorize};
@@ -161,6 +162,14 @@ impl End {
     /// The axis, in the stretched space.
     fn towards(&self) -> Vector3<f64> {
         self.direction * self.along + self.tilt
+    }
+
+    /// By how much the extent is uncertain for what holes may hide.
+    pub(super) fn hidden(&self, holes: &Holes) -> f64 {
+        let towards = self.towards();
+        let beyond = holes.beyond(&towards, self.point.dot(&towards));
+        let own = holes.hidden(&self.direction).0 * self.by_radius;
+        own.max(self.by_radius / self.along * beyond)
     }
 
     /// By how much the body may reach farther, where what is left of the points is no noise.
