@@ -293,7 +293,12 @@ impl fmt::Display for Contradicted {
 impl fmt::Display for NoInterval {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
-            Self::Hole { half_angle } => Unseen::Hole { half_angle }.fmt(f),
+            Self::Hole { half_angle } => write!(
+                f,
+                "a hole takes {:.0} degrees to each side of its middle, as seen on the grain stretched to a ball, and what the surface \
+                 does there is a guess",
+                half_angle.to_degrees()
+            ),
             Self::Unresolved { .. } => write!(
                 f,
                 "the points do not tell whether the body has edges: they stand off as those beside edges or dust do, or they are too \

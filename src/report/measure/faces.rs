@@ -54,7 +54,7 @@ impl FacesRecord {
         let filled = self.filled.map(|filled| {
             format!(
                 "Small holes were closed: {} with {}; the area holds {}{} for their fill, and lengths, volume \
-                 and moments lack what the grain has beyond it.",
+                 and moments are those of the body that it closes, which may be less than the grain.",
                 filled.holes,
                 plural(filled.edges, "edge"),
                 short(filled.area),
