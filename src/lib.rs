@@ -35,6 +35,7 @@ mod disjoint_sets;
 mod elliptic;
 pub mod engines;
 pub mod export;
+mod farthest;
 pub mod fit;
 pub mod measure;
 pub mod mesh;

@@ -30,7 +30,7 @@ use super::{MeshIntegralError, mesh_properties};
 use crate::Mesh;
 use crate::sphere::cube_grid;
 pub(super) use beside::boxes_beside;
-use extreme_points::{Candidate, ExtremePoints};
+use extreme_points::{Candidate, ExtremePoints, HullPoints};
 use nalgebra::{Matrix3, Vector3};
 
 mod beside;
@@ -99,7 +99,8 @@ pub(super) fn least_boxes(hull: &Mesh) -> Result<LeastBoxes, MeshIntegralError> 
         *vertex = frame.tr_mul(&vertex.coords).into();
     }
     let grid = |n| cube_grid(n).0.into_iter().filter(is_in_half);
-    let mut few = ExtremePoints::new(&unit.vertices, grid(EXTREMES));
+    let points = HullPoints::new(&unit.vertices);
+    let mut few = ExtremePoints::new(&points, grid(EXTREMES));
     let is_small = unit.triangles.len() <= SMALL_TRIANGLES;
     let mut tried: Vec<Candidate> = grid(if is_small { SMALL_GRID } else { GRID })
         .chain((0..3).map(|axis| Vector3::ith(axis, 1.0)))
@@ -146,7 +147,7 @@ pub(super) fn least_boxes(hull: &Mesh) -> Result<LeastBoxes, MeshIntegralError> 
             if is_settled && is_refined {
                 break;
             }
-            few.add(&unit.vertices, near_axes(&best.axes).into_iter());
+            few.add(&points, near_axes(&best.axes).into_iter());
             let Some(grown) = few.least_box(&best.axes.column(2).into_owned()) else {
                 break;
             };

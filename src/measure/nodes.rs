@@ -15,16 +15,20 @@ use std::f64::consts::{FRAC_PI_2, PI};
 /// Nodes at which the surface is evaluated together.
 const CHUNK: usize = 1024;
 
-/// How far the total curvature of four quarters may be from that of their piece: the error of the quarters is a small part
-/// of it.
-const SETTLED: f64 = 3e-5 * 4.0 * PI;
+/// How far the total curvature of four quarters may be from that of their piece, as a share of 4 pi: the error of the quarters is a
+/// small part of it. Of many pieces, whose errors have nothing to do with each other, ten times as much does where all of 4 pi is
+/// found.
+const SETTLED: f64 = 3e-5;
+const OF_MANY: f64 = 10.0 * SETTLED;
+const MANY: usize = 64;
 
 /// Gauss nodes per side of an octant that is cut so often, where rings do not do.
 const OCTANT_ORDER: usize = 12;
 const OCTANT_CUTS: usize = 1;
 
-/// Share of the 4 pi of a closed surface that may be missing on rings of nodes.
-const CLOSED: f64 = 5e-5;
+/// Share of the 4 pi of a closed surface that may be missing on rings of nodes, and on pieces.
+const MISSED_ON_RINGS: f64 = 5e-5;
+const MISSED_ON_PIECES: f64 = 2e-4;
 
 /// Nodes of pieces that are cut a second time and more: on creases the total never settles.
 const MAX_NODES: usize = 60_000;
@@ -49,16 +53,16 @@ pub(super) fn curved_nodes(surface: &(impl Surface + ?Sized)) -> Vec<CurvedNode>
         Parts::Sphere { degree } => {
             let nodes: Vec<Node> = ring_nodes(rings(degree)).flatten().collect();
             let found = curved(surface, &nodes);
-            match (total(&found) / (4.0 * PI) - 1.0).abs() > CLOSED {
-                true => cut(surface, Piece::octants().into(), OCTANT_CUTS, OCTANT_ORDER),
-                false => found,
+            match missed(&found) <= MISSED_ON_RINGS {
+                true => found,
+                false => on_pieces(surface, &Piece::octants(), OCTANT_CUTS, OCTANT_ORDER),
             }
         }
         Parts::Pieces {
             pieces,
             orders,
             cuts,
-        } => cut(surface, pieces, cuts, orders[0]),
+        } => on_pieces(surface, &pieces, cuts, orders[0]),
     }
 }
 
@@ -92,11 +96,26 @@ fn rings(degree: usize) -> usize {
 }
 
 /// The nodes of a Gauss rule on pieces that are cut in four so often, and from there on as often as it takes.
+fn on_pieces(
+    surface: &(impl Surface + ?Sized),
+    pieces: &[Piece],
+    cuts: usize,
+    order: usize,
+) -> Vec<CurvedNode> {
+    let until = |settled: f64| cut(surface, pieces.to_vec(), cuts, order, settled * 4.0 * PI);
+    let of_many = (pieces.len() >= MANY).then(|| until(OF_MANY));
+    of_many
+        .filter(|found| missed(found) <= MISSED_ON_PIECES)
+        .unwrap_or_else(|| until(SETTLED))
+}
+
+/// The same, until four quarters tell the total curvature of their piece but for so much.
 fn cut(
     surface: &(impl Surface + ?Sized),
     mut pieces: Vec<Piece>,
     cuts: usize,
     order: usize,
+    settled_at: f64,
 ) -> Vec<CurvedNode> {
     let rule = GaussLegendre::new(order);
     let per_piece = order * order;
@@ -119,7 +138,7 @@ fn cut(
         for (((whole, parts), finer), nodes) in families.zip(found.chunks(4 * per_piece)) {
             let difference = (parts.iter().sum::<f64>() - whole).abs();
             let cost = 16 * per_piece;
-            if difference > SETTLED && spent + cost <= MAX_NODES {
+            if difference > settled_at && spent + cost <= MAX_NODES {
                 spent += cost;
                 next.extend_from_slice(finer);
                 next_totals.extend_from_slice(parts);
@@ -149,6 +168,11 @@ pub(super) fn curved(surface: &(impl Surface + ?Sized), nodes: &[Node]) -> Vec<C
         })
     };
     nodes.par_chunks(CHUNK).flat_map_iter(of_chunk).collect()
+}
+
+/// The share of the total curvature of a closed surface that is not found.
+fn missed(nodes: &[CurvedNode]) -> f64 {
+    (total(nodes) / (4.0 * PI) - 1.0).abs()
 }
 
 /// The integral of K over what the nodes stand for.

@@ -16,10 +16,10 @@
 use super::cloud::Cloud;
 use super::left_out::LeftOut;
 use super::outcome::Estimate;
+use crate::farthest::Farthest;
 use crate::fit::hole::Holes;
 use crate::measure::support_near;
 use crate::model::{Radial, StarSurface, Whole};
-use crate::vectorize::{LANES, blocks, vectorize};
 use nalgebra::{Matrix3, Vector3};
 
 /// An extent.
@@ -53,46 +53,8 @@ pub(super) struct Reach {
     surface: Whole,
     stretch: Vector3<f64>,
     mean: f64,
-    starts: Starts,
-}
-
-/// Points in the stretched space, close enough to find the highest of several summits.
-struct Starts {
-    directions: Vec<Vector3<f64>>,
-    /// Component by component.
-    points: [Vec<[f64; LANES]>; 3],
-}
-
-impl Starts {
-    /// From directions and radii.
-    fn new(rays: &[(Vector3<f64>, f64)]) -> Self {
-        let component = |axis: usize| blocks(rays.iter().map(|(n, r)| r * n[axis]));
-        Self {
-            directions: rays.iter().map(|(n, _)| *n).collect(),
-            points: [0, 1, 2].map(component),
-        }
-    }
-
-    /// The direction of the farthest point.
-    fn farthest(&self, towards: &Vector3<f64>) -> Option<Vector3<f64>> {
-        let (mut highest, mut at) = ([f64::NEG_INFINITY; LANES], [0; LANES]);
-        vectorize(
-            #[inline(always)]
-            || {
-                let [x, y, z] = &self.points;
-                for (block, ((x, y), z)) in x.iter().zip(y).zip(z).enumerate() {
-                    for i in 0..LANES {
-                        let height = x[i] * towards.x + y[i] * towards.y + z[i] * towards.z;
-                        if height > highest[i] {
-                            (highest[i], at[i]) = (height, block);
-                        }
-                    }
-                }
-            },
-        );
-        let lane = (0..LANES).max_by(|&i, &j| highest[i].total_cmp(&highest[j]))?;
-        self.directions.get(at[lane] * LANES + lane).copied()
-    }
+    /// Directions in the stretched space, close enough to find the highest of several summits, and the points there.
+    starts: (Vec<Vector3<f64>>, Farthest),
 }
 
 impl Reach {
@@ -102,7 +64,10 @@ impl Reach {
             surface: Whole::new(estimate.coefficients.clone()).ok()?,
             stretch: estimate.cloud.stretch,
             mean: estimate.cloud.mean,
-            starts: Starts::new(starts),
+            starts: (
+                starts.iter().map(|(n, _)| *n).collect(),
+                Farthest::new(starts.iter().map(|(n, r)| n * *r)),
+            ),
         })
     }
 
@@ -124,8 +89,9 @@ impl Reach {
 
     /// The end along `towards`; heights are multiplied by `scale`.
     fn end(&self, towards: &Vector3<f64>, scale: f64) -> End {
-        let start = self.starts.farthest(towards).unwrap_or(*towards);
-        let found = support_near(&Radial(&self.surface), towards, &start);
+        let (directions, points) = &self.starts;
+        let start = points.along(towards).map_or(towards, |at| &directions[at]);
+        let found = support_near(&Radial(&self.surface), towards, start);
         let n = found.direction;
         let along = n.dot(towards);
         // Height f = r c, c = n.u: Hess f = c Hess r + grad r (grad c)' + grad c (grad r)' - c r P.

@@ -1,6 +1,6 @@
 //! Boxes that lie a little otherwise than the least one and are hardly larger: of the true surface one of them may be the least.
 
-use super::extreme_points::{Candidate, ExtremePoints};
+use super::extreme_points::{Candidate, ExtremePoints, HullPoints};
 use super::{EXTREMES, is_in_half};
 use crate::Mesh;
 use crate::measure::OrientedBox;
@@ -40,13 +40,14 @@ pub(in crate::measure) fn boxes_beside(
         Matrix3::from_columns(&turned)
     });
     let of_faces = axes.iter().flat_map(|axes| near(axes, COARSE));
-    let of_faces = ExtremePoints::new(&hull.vertices, of_faces.step_by(2));
+    let points = HullPoints::new(&hull.vertices);
+    let of_faces = ExtremePoints::new(&points, of_faces.step_by(2));
     let grid = cube_grid(EXTREMES).0;
     let mut beside = Vec::new();
     for axes in &axes {
         let mut few = of_faces.clone();
         let round = grid.iter().filter(|n| is_in_half(n) && is_across(n, axes));
-        few.add(&hull.vertices, round.copied());
+        few.add(&points, round.copied());
         for step in [COARSE, FINE] {
             let boxes: Vec<_> = near(axes, step).map(|n| few.least_box(&n)).collect();
             if step == FINE {

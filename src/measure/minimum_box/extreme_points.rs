@@ -1,5 +1,6 @@
 //! A few points of a hull that stand for it, and the least boxes round them.
 
+use crate::farthest::Farthest;
 use crate::measure::convex_polygon::ConvexPolygon;
 use nalgebra::{Matrix3, Point3, Vector2, Vector3};
 
@@ -10,6 +11,19 @@ pub(super) struct Candidate {
     pub(super) axes: Matrix3<f64>,
 }
 
+/// The points of a hull.
+pub(super) struct HullPoints<'a> {
+    points: &'a [Point3<f64>],
+    farthest: Farthest,
+}
+
+impl<'a> HullPoints<'a> {
+    pub(super) fn new(points: &'a [Point3<f64>]) -> Self {
+        let farthest = Farthest::new(points.iter().map(|point| point.coords));
+        Self { points, farthest }
+    }
+}
+
 /// A few points of a hull, which stand for it.
 #[derive(Clone)]
 pub(super) struct ExtremePoints {
@@ -17,33 +31,23 @@ pub(super) struct ExtremePoints {
 }
 
 impl ExtremePoints {
-    pub(super) fn new(
-        points: &[Point3<f64>],
-        directions: impl Iterator<Item = Vector3<f64>>,
-    ) -> Self {
+    /// Of these points, those that are extreme in the given directions and their opposites.
+    pub(super) fn new(of: &HullPoints<'_>, directions: impl Iterator<Item = Vector3<f64>>) -> Self {
         let mut few = Self { points: Vec::new() };
-        few.add(points, directions);
+        few.add(of, directions);
         few
     }
 
-    /// Adds the points that are extreme in the given directions and their opposites.
+    /// Adds such points.
     pub(super) fn add(
         &mut self,
-        points: &[Point3<f64>],
+        of: &HullPoints<'_>,
         directions: impl Iterator<Item = Vector3<f64>>,
     ) {
         for direction in directions {
-            let (mut low, mut high) = ((f64::MAX, 0), (f64::MIN, 0));
-            for (index, point) in points.iter().enumerate() {
-                let place = direction.dot(&point.coords);
-                if place < low.0 {
-                    low = (place, index);
-                }
-                if place > high.0 {
-                    high = (place, index);
-                }
-            }
-            self.points.extend([points[low.1], points[high.1]]);
+            let ends = [direction, -direction].map(|towards| of.farthest.along(&towards));
+            self.points
+                .extend(ends.into_iter().flatten().map(|at| of.points[at]));
         }
         let key = |p: &Point3<f64>| [p.x, p.y, p.z].map(f64::to_bits);
         self.points.sort_unstable_by_key(key);
