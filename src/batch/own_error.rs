@@ -6,8 +6,14 @@ const LEAST: f64 = 1e-4;
 /// How the names of measures begin that are shares of something else, and are zero of many bodies.
 const SHARES: [&str; 2] = ["spectrum.", "curvature.gauss_bonnet_error"];
 
+/// To how much of 1 the share that is convex is computed, and its name.
+const CONVEX: (&str, f64) = ("curvature.convex_share", 4e-3);
+
 /// How well a figure of a measure, or a mean of some, is computed: to that share of it, or of 1 where it is a share itself.
 pub(super) fn computed_to(measure: &str, value: f64) -> f64 {
+    if measure == CONVEX.0 {
+        return CONVEX.1;
+    }
     let is_share = SHARES.iter().any(|share| measure.starts_with(share));
     let whole = if is_share { 1.0 } else { value.abs() };
     LEAST * whole
@@ -27,6 +33,7 @@ mod tests {
         assert_eq!(own_error("area", -2.0, None), 2e-4);
         assert_eq!(own_error("area", -2.0, Some(1e-9)), 2e-4);
         assert_eq!(own_error("area", -2.0, Some(0.1)), 0.1);
+        assert_eq!(own_error("curvature.convex_share", 0.7, None), 4e-3);
         assert_eq!(own_error("spectrum.relative_amplitude_3", 0.02, None), 1e-4);
     }
 }

@@ -284,7 +284,7 @@ pub enum FitError {
     },
     /// Points without faces do not tell what their surface is.
     #[error(
-        "{:.1} % of the points, or of the surface found between them, lie off one another: walls are thinner than four \
+        "{:.1} % of the points, or of the surface found between them, lie off one another: walls are thinner than three \
          spacings of the points, or a part was not seen; scan it more densely, or mesh the points",
         100.0 * share
     )]

@@ -3,6 +3,7 @@
 //! Any file may be hostile. No reader trusts a count before the bytes behind it were seen, none
 //! panics, and each error says what was wrong, where, and what to do.
 
+mod apart;
 pub(crate) mod check;
 mod close_gaps;
 mod drawn;
@@ -29,6 +30,7 @@ use crate::digits::significant;
 use crate::mesh::Mesh;
 use nalgebra::Point3;
 
+pub(crate) use apart::apart;
 pub(crate) use drawn::{by_coordinates, drawn, indices_drawn};
 pub use error::{ParseError, Place, ReadError};
 use format::Format;

@@ -57,7 +57,7 @@ pub(crate) struct Edge<'a> {
     pub(crate) forward: usize,
     pub(crate) backward: usize,
     /// Numbers of the sides of triangles that lie along it, in order: three to a triangle.
-    sides: &'a [usize],
+    pub(super) sides: &'a [usize],
 }
 
 impl Edge<'_> {

@@ -12,7 +12,7 @@ mod traces;
 use super::SelfCrossing;
 use crate::digits::plural;
 use crate::mesh::{Mesh, parts};
-use crate::scan::{Scan, each_edge};
+use crate::scan::{Scan, apart, each_edge};
 use bodies::arrange;
 pub use fill::Fill;
 use fill::fill;
@@ -93,7 +93,7 @@ pub(crate) fn share_of_area(share: f64) -> String {
 /// The bodies that the faces of a scan enclose; `None` of points without faces.
 pub fn scanned_body(scan: &Scan) -> Option<ScannedBody> {
     scan.topology.as_ref()?;
-    let mesh = scan.welded();
+    let mesh = apart(scan.welded());
     if mesh.triangles.is_empty() {
         return None;
     }

@@ -20,6 +20,7 @@ pub use labels::split_labels;
 pub(crate) use one_body::{are_two_grains, has_neck, voxels_have_neck};
 pub use plane::Plane;
 
+use super::apart::apart;
 use super::drawn::by_coordinates;
 use super::{ParseError, Scan, VolumeError, VoxelBody};
 use bodies::bodies;
@@ -121,7 +122,7 @@ fn split_at(scan: &Scan, necks: Necks) -> Result<Split, ParseError> {
 }
 
 fn split_faces(scan: &Scan) -> Split {
-    let bodies = bodies(&scan.welded()).into_iter();
+    let bodies = bodies(&apart(scan.welded())).into_iter();
     let bodies = bodies.map(|body| scan.part(body));
     let sorted = by_size(bodies, 0.0, area);
     Split {

@@ -15,6 +15,9 @@ use std::f64::consts::SQRT_2;
 /// Share of itself by which the total curvature of a grain may be off by quadrature.
 const OF_TOTAL: f64 = 5e-4;
 
+/// The same of the convex share, for nodes may lie in rows along its border; of bodies that are all convex nothing is.
+const OF_SHARE: f64 = 4e-3;
+
 /// Share of the error of its curvature by which all of a surface may be off alike.
 const ALIKE: f64 = 0.25;
 
@@ -92,6 +95,8 @@ impl Survey<'_> {
             places.iter().filter(bent).map(|place| place.area).sum()
         };
         let [more, less] = [ALIKE, -ALIKE].map(|alike| (convex(alike) - convex(0.0)).abs() / whole);
+        let share = found.convex_share();
+        let of_nodes = OF_SHARE * (4.0 * share * (1.0 - share)).max(0.0).sqrt();
         Ok(Some(CurvatureErrors {
             mean: of(Kind::Mean)?,
             gaussian: of(Kind::Gaussian)?,
@@ -99,7 +104,8 @@ impl Survey<'_> {
             smaller: of(Kind::Smaller)?,
             convex_share: mean_by(&|k| f64::from(is_convex(k[1], whole)))
                 .max(more)
-                .max(less),
+                .max(less)
+                .hypot(of_nodes),
         }))
     }
 }

@@ -82,15 +82,17 @@ impl Survey<'_> {
     /// As [`Self::ellipsoid`].
     pub fn ellipsoid_errors(&self) -> Result<Option<Vector3<f64>>, SurveyError> {
         let semi_axes = self.ellipsoid()?.semi_axes;
-        let moments = self.principal()?.moments;
-        let volume = self.volume()?;
-        Ok(self.standard_errors().ok().map(|errors| {
-            let (all, off) = (moments.sum(), errors.moments.sum());
-            semi_axes.zip_map(&moments, |semi_axis, moment| {
-                let square = off / (all - 2.0 * moment) + errors.volume / volume;
-                0.5 * semi_axis * square
-            })
-        }))
+        // Where there are none, moments may be beyond the range of numbers.
+        let Ok(errors) = self.standard_errors() else {
+            return Ok(None);
+        };
+        let (moments, volume) = (self.principal()?.moments, self.volume()?);
+        let (all, off) = (moments.sum(), errors.moments.sum());
+        let of_axis = |semi_axis: f64, moment: f64| {
+            let square = off / (all - 2.0 * moment) + errors.volume / volume;
+            0.5 * semi_axis * square
+        };
+        Ok(Some(semi_axes.zip_map(&moments, of_axis)))
     }
 
     /// Standard errors, at most, of [how much of its hull the body fills](Self::convexity): as the surface may be off, all of it alike
