@@ -2,6 +2,7 @@
 
 use super::neighbours::Neighbours;
 use crate::sphere::{compass, cube_grid};
+use crate::spread::{median, upper_quartile};
 use nalgebra::Vector3;
 
 /// Cells along an edge of the cube whose directions are tried first: 6 degrees apart.
@@ -66,15 +67,63 @@ pub(crate) fn largest_caps(directions: &[Vector3<f64>], most: usize) -> Vec<(f64
 /// Half-angle, in radians, of a cap of which random directions leave one empty with a few percent: with the share
 /// (ln n + 5) / n of the sphere.
 pub(crate) fn random_gap(points: usize) -> f64 {
+    gap(points, 1.0)
+}
+
+/// The same of directions that are spread more evenly, and leave so much less of the sphere.
+pub(crate) fn gap(points: usize, less: f64) -> f64 {
     let n = (points as f64).max(1.0);
-    let share = ((n.ln() + 5.0) / n).min(1.0);
+    let share = (less * logarithm(n) / n).min(1.0);
     (1.0 - 2.0 * share).acos()
+}
+
+fn logarithm(n: f64) -> f64 {
+    n.ln() + 5.0
+}
+
+/// How much less of the sphere the largest gap of directions is expected to take than that of random ones, at most 1.
+///
+/// Of n random directions the share of those places round which a cap of the share s of the sphere is empty is exp(-n s). It is
+/// taken to be exp(-(n s / a)^k), with k and a by the half and by the quarter of places that lie farthest from all directions;
+/// of a lattice k is about 2.
+pub(crate) fn evenness(directions: &[Vector3<f64>]) -> f64 {
+    let neighbours = Neighbours::new(directions);
+    let share = |n: &Vector3<f64>| {
+        let nearest = neighbours.nearest(n, 1);
+        nearest
+            .first()
+            .map_or(1.0, |&i| 0.5 * (1.0 - n.dot(&directions[i])))
+    };
+    let mut shares: Vec<f64> = cube_grid(START).0.iter().map(share).collect();
+    let n = directions.len() as f64;
+    let (half, quarter) = (2.0_f64.ln(), 4.0_f64.ln());
+    let Some((at_half, at_quarter)) = median(&mut shares).zip(upper_quartile(&mut shares)) else {
+        return 1.0;
+    };
+    let power = ((quarter / half).ln() / (at_quarter / at_half).ln()).max(1.0);
+    let largest = n * at_quarter * (logarithm(n) / quarter).powf(1.0 / power);
+    (largest / logarithm(n)).min(1.0)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::shapes::Sampling;
+
+    #[test]
+    fn even_directions_leave_smaller_gaps_than_random_ones() {
+        for points in [300, 3000] {
+            let less = |sampling: Sampling| evenness(&sampling.directions(points, 2).unwrap());
+            assert!(less(Sampling::Random) > 0.8, "{}", less(Sampling::Random));
+            let even = Sampling::Fibonacci.directions(points, 0).unwrap();
+            let expected = gap(points, evenness(&even));
+            let largest = largest_gap(&even);
+            assert!(
+                (1.05..1.7).contains(&(expected / largest)),
+                "{expected} {largest}"
+            );
+        }
+    }
 
     #[test]
     fn a_cap_that_is_cut_out_is_found() {

@@ -16,7 +16,7 @@
 //! Measured on clouds of eight smooth bodies whose tips were cut off, a hole of some ten degrees: area, volume and moments were
 //! up to 14 standard errors off. Of an almond whose pointed tip is missing over 9 degrees the length was so by 7, before the cone.
 
-use super::gaps::{largest_caps, random_gap};
+use super::gaps::{evenness, gap, largest_caps};
 use crate::sphere::tangents;
 use crate::spread::{median, upper_quartile};
 use nalgebra::Vector3;
@@ -68,8 +68,9 @@ impl Holes {
         mut place: impl FnMut(&Vector3<f64>) -> Vector3<f64>,
     ) -> Self {
         let caps = largest_caps(directions, MOST);
+        let less = evenness(directions);
         let is_no_chance = |(half_angle, middle): &(f64, Vector3<f64>)| {
-            *half_angle > chance(directions, middle, *half_angle)
+            *half_angle > chance(directions, middle, *half_angle, less)
         };
         let largest = caps.first().map_or(0.0, |(half_angle, _)| *half_angle);
         let caps = caps.into_iter().filter(is_no_chance);
@@ -145,14 +146,14 @@ impl Hole {
     }
 }
 
-/// The half-angle of gaps that points as dense as those round a hole leave by chance.
-fn chance(directions: &[Vector3<f64>], middle: &Vector3<f64>, half_angle: f64) -> f64 {
+/// The half-angle of gaps that points as dense as those round a hole leave by chance, `less` of the sphere than random ones.
+fn chance(directions: &[Vector3<f64>], middle: &Vector3<f64>, half_angle: f64, less: f64) -> f64 {
     let outer = (ROUND_HOLE * half_angle).min(PI);
     let rim = outer.cos();
     let beside = directions.iter().filter(|n| n.dot(middle) > rim).count();
     // As shares of the sphere.
     let ring = 0.5 * (half_angle.cos() - rim);
-    random_gap((beside as f64 / ring) as usize)
+    gap((beside as f64 / ring) as usize, less)
 }
 
 /// The places of a surface in a ring of directions about the middle, counter-clockwise as seen from outside.
