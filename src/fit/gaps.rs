@@ -2,8 +2,8 @@
 
 use super::neighbours::Neighbours;
 use crate::sphere::{compass, cube_grid};
-use crate::spread::{median, upper_quartile};
 use nalgebra::Vector3;
+use std::f64::consts::PI;
 
 /// Cells along an edge of the cube whose directions are tried first: 6 degrees apart.
 const START: usize = 16;
@@ -24,44 +24,76 @@ pub(crate) fn largest_gap(directions: &[Vector3<f64>]) -> f64 {
 
 /// Half-angle and middle of the largest cap without any of these unit vectors.
 pub(crate) fn largest_cap(directions: &[Vector3<f64>]) -> (f64, Vector3<f64>) {
-    let cap = largest_caps(directions, 1).pop();
+    let cap = Gaps::new(directions).largest(1).pop();
     cap.unwrap_or((0.0, Vector3::z()))
 }
 
-/// The same of that cap, of the largest one elsewhere, and so on, so many at most.
-pub(crate) fn largest_caps(directions: &[Vector3<f64>], most: usize) -> Vec<(f64, Vector3<f64>)> {
-    let neighbours = Neighbours::new(directions);
-    let clearance = |n: &Vector3<f64>| {
-        let nearest = neighbours.nearest(n, 1);
-        let nearest = nearest.first().map(|&i| directions[i]);
-        nearest.map_or(std::f64::consts::PI, |m| {
-            n.cross(&m).norm().atan2(n.dot(&m))
-        })
-    };
-    let mut starts: Vec<(f64, Vector3<f64>)> = cube_grid(START)
-        .0
-        .into_iter()
-        .map(|n| (clearance(&n), n))
-        .collect();
-    starts.sort_by(|a, b| b.0.total_cmp(&a.0));
-    let mut caps: Vec<(f64, Vector3<f64>)> = Vec::new();
-    for _ in 0..most {
-        let is_elsewhere = |(_, n): &(f64, Vector3<f64>)| {
-            caps.iter()
-                .all(|(half_angle, middle)| n.angle(middle) > *half_angle)
+/// How far places all over the sphere are from the nearest of some unit vectors.
+pub(crate) struct Gaps<'a> {
+    directions: &'a [Vector3<f64>],
+    neighbours: Neighbours,
+    /// Angles, the largest first, and the places.
+    clearances: Vec<(f64, Vector3<f64>)>,
+}
+
+impl<'a> Gaps<'a> {
+    pub(crate) fn new(directions: &'a [Vector3<f64>]) -> Self {
+        let mut gaps = Self {
+            directions,
+            neighbours: Neighbours::new(directions),
+            clearances: Vec::new(),
         };
-        let starts = starts.iter().copied().filter(is_elsewhere).take(BEST);
-        // Along a slit the search leads back to the cap that is known.
-        let found = starts.map(|start| {
-            let (n, largest) = compass(start.1, FIRST_STEP, LEAST_STEP, clearance);
-            Some((largest, n)).filter(is_elsewhere).unwrap_or(start)
-        });
-        match found.max_by(|a, b| a.0.total_cmp(&b.0)) {
-            Some(cap) => caps.push(cap),
-            None => break,
-        }
+        let places = cube_grid(START).0.into_iter();
+        gaps.clearances = places.map(|n| (gaps.clearance(&n), n)).collect();
+        gaps.clearances.sort_by(|a, b| b.0.total_cmp(&a.0));
+        gaps
     }
-    caps
+
+    /// The angle from a place to the nearest direction.
+    fn clearance(&self, n: &Vector3<f64>) -> f64 {
+        let nearest = self.neighbours.nearest(n, 1);
+        let nearest = nearest.first().map(|&i| self.directions[i]);
+        nearest.map_or(PI, |m| n.cross(&m).norm().atan2(n.dot(&m)))
+    }
+
+    /// Half-angle and middle of the largest cap without a direction, of the largest one elsewhere, and so on, so many at most.
+    pub(crate) fn largest(&self, most: usize) -> Vec<(f64, Vector3<f64>)> {
+        let mut caps: Vec<(f64, Vector3<f64>)> = Vec::new();
+        for _ in 0..most {
+            let is_elsewhere = |(_, n): &(f64, Vector3<f64>)| {
+                caps.iter()
+                    .all(|(half_angle, middle)| n.angle(middle) > *half_angle)
+            };
+            let starts = self.clearances.iter().copied().filter(is_elsewhere);
+            // Along a slit the search leads back to the cap that is known.
+            let found = starts.take(BEST).map(|start| {
+                let (n, largest) = compass(start.1, FIRST_STEP, LEAST_STEP, |n| self.clearance(n));
+                Some((largest, n)).filter(is_elsewhere).unwrap_or(start)
+            });
+            match found.max_by(|a, b| a.0.total_cmp(&b.0)) {
+                Some(cap) => caps.push(cap),
+                None => break,
+            }
+        }
+        caps
+    }
+
+    /// How much less of the sphere the largest gap is expected to take than that of random directions, at most 1.
+    ///
+    /// Of n random directions the share of those places round which a cap of the share s of the sphere is empty is exp(-n s). It is
+    /// taken to be exp(-(n s / a)^k), with k and a by the half and by the quarter of places that lie farthest from all directions;
+    /// of a lattice k is about 2.
+    pub(crate) fn evenness(&self) -> f64 {
+        let n = self.directions.len() as f64;
+        let share_at = |part: usize| {
+            let clearance = self.clearances[self.clearances.len() / part].0;
+            (0.5 * clearance).sin().powi(2)
+        };
+        let (half, quarter) = (2.0_f64.ln(), 4.0_f64.ln());
+        let power = ((quarter / half).ln() / (share_at(4) / share_at(2)).ln()).max(1.0);
+        let largest = n * share_at(4) * (logarithm(n) / quarter).powf(1.0 / power);
+        (largest / logarithm(n)).min(1.0)
+    }
 }
 
 /// Half-angle, in radians, of a cap of which random directions leave one empty with a few percent: with the share
@@ -81,30 +113,6 @@ fn logarithm(n: f64) -> f64 {
     n.ln() + 5.0
 }
 
-/// How much less of the sphere the largest gap of directions is expected to take than that of random ones, at most 1.
-///
-/// Of n random directions the share of those places round which a cap of the share s of the sphere is empty is exp(-n s). It is
-/// taken to be exp(-(n s / a)^k), with k and a by the half and by the quarter of places that lie farthest from all directions;
-/// of a lattice k is about 2.
-pub(crate) fn evenness(directions: &[Vector3<f64>]) -> f64 {
-    let neighbours = Neighbours::new(directions);
-    let share = |n: &Vector3<f64>| {
-        let nearest = neighbours.nearest(n, 1);
-        nearest
-            .first()
-            .map_or(1.0, |&i| 0.5 * (1.0 - n.dot(&directions[i])))
-    };
-    let mut shares: Vec<f64> = cube_grid(START).0.iter().map(share).collect();
-    let n = directions.len() as f64;
-    let (half, quarter) = (2.0_f64.ln(), 4.0_f64.ln());
-    let Some((at_half, at_quarter)) = median(&mut shares).zip(upper_quartile(&mut shares)) else {
-        return 1.0;
-    };
-    let power = ((quarter / half).ln() / (at_quarter / at_half).ln()).max(1.0);
-    let largest = n * at_quarter * (logarithm(n) / quarter).powf(1.0 / power);
-    (largest / logarithm(n)).min(1.0)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -113,10 +121,11 @@ mod tests {
     #[test]
     fn even_directions_leave_smaller_gaps_than_random_ones() {
         for points in [300, 3000] {
-            let less = |sampling: Sampling| evenness(&sampling.directions(points, 2).unwrap());
+            let less =
+                |sampling: Sampling| Gaps::new(&sampling.directions(points, 2).unwrap()).evenness();
             assert!(less(Sampling::Random) > 0.8, "{}", less(Sampling::Random));
             let even = Sampling::Fibonacci.directions(points, 0).unwrap();
-            let expected = gap(points, evenness(&even));
+            let expected = gap(points, Gaps::new(&even).evenness());
             let largest = largest_gap(&even);
             assert!(
                 (1.05..1.7).contains(&(expected / largest)),
@@ -145,7 +154,7 @@ mod tests {
         let mut directions = Sampling::Fibonacci.directions(20_000, 0).unwrap();
         let [at, opposite] = [20.0_f64, 15.0].map(|degrees| degrees.to_radians().cos());
         directions.retain(|n| n.dot(&axis) < at && n.dot(&axis) > -opposite);
-        let caps = largest_caps(&directions, 2);
+        let caps = Gaps::new(&directions).largest(2);
         for ((half_angle, middle), (degrees, towards)) in
             caps.iter().zip([(20.0, axis), (15.0, -axis)])
         {
@@ -157,8 +166,8 @@ mod tests {
 
     #[test]
     fn few_directions_leave_known_gaps() {
-        assert_eq!(largest_gap(&[]), std::f64::consts::PI);
-        assert!((largest_gap(&[Vector3::x()]) - std::f64::consts::PI).abs() < 1e-2);
+        assert_eq!(largest_gap(&[]), PI);
+        assert!((largest_gap(&[Vector3::x()]) - PI).abs() < 1e-2);
         let octahedron: Vec<_> = [1.0, -1.0]
             .into_iter()
             .flat_map(|sign| (0..3).map(move |axis| Vector3::ith(axis, sign)))

@@ -16,11 +16,12 @@
 //! Measured on clouds of eight smooth bodies whose tips were cut off, a hole of some ten degrees: area, volume and moments were
 //! up to 14 standard errors off. Of an almond whose pointed tip is missing over 9 degrees the length was so by 7, before the cone.
 
-use super::gaps::{evenness, gap, largest_caps};
+use super::gaps::{Gaps, gap};
 use crate::sphere::tangents;
 use crate::spread::{median, upper_quartile};
 use nalgebra::Vector3;
 use std::f64::consts::{PI, TAU};
+use std::iter;
 
 /// Of what may be missing, or too much.
 const SHARE: f64 = 0.5;
@@ -32,8 +33,8 @@ const ABOUT_RIM: [f64; 2] = [1.05, 1.25];
 /// Points round a hole are looked at within so many times its half-angle.
 const ROUND_HOLE: f64 = 2.0;
 
-/// Rings in a hole on which the surface may reach far, over its half-angle.
-const IN_HOLE: [f64; 3] = [0.0, 0.35, 0.7];
+/// Rings in a hole on which the surface may reach far, as the middle may, over its half-angle.
+const IN_HOLE: [f64; 2] = [0.35, 0.7];
 
 /// Lines of the cone.
 const LINES: u32 = 16;
@@ -67,8 +68,8 @@ impl Holes {
         directions: &[Vector3<f64>],
         mut place: impl FnMut(&Vector3<f64>) -> Vector3<f64>,
     ) -> Self {
-        let caps = largest_caps(directions, MOST);
-        let less = evenness(directions);
+        let gaps = Gaps::new(directions);
+        let (caps, less) = (gaps.largest(MOST), gaps.evenness());
         let is_no_chance = |(half_angle, middle): &(f64, Vector3<f64>)| {
             *half_angle > chance(directions, middle, *half_angle, less)
         };
@@ -118,11 +119,12 @@ impl Hole {
         // Beside a corner lines from some sides meet the axis far above those from others.
         let tips = rim.tips(&inner, &outer).map(missing);
         let most = upper_quartile(&mut tips.collect::<Vec<_>>()).unwrap_or(0.0);
-        let farthest = IN_HOLE.into_iter().flat_map(|share| {
+        let on_rings = IN_HOLE.into_iter().flat_map(|share| {
             let raised = most * (1.0 - share * share);
             let ring = directions(&middle, share * half_angle);
             ring.map(move |n| (n, raised))
         });
+        let farthest = iter::once((middle, most)).chain(on_rings);
         let farthest = farthest.map(|(n, raised)| place(&n) + n * raised).collect();
         Self {
             middle,
