@@ -309,6 +309,10 @@ mod tests {
             (0.6..1.4).contains(&(beyond / missing)),
             "{beyond} {missing}"
         );
+        // Aslant the corner may lie beside the middle.
+        let aslant = Vector3::new(0.0, 20_f64.to_radians().sin(), 20_f64.to_radians().cos());
+        let middle = SHARE * hole(&holes).farthest[0].dot(&aslant);
+        assert!(holes.beyond(&aslant, 0.0) > 1.005 * middle, "{middle}");
         assert_eq!(holes.beyond(&-corner, 3.0_f64.sqrt()), 0.0);
         assert_eq!(Holes::default().beyond(&corner, 0.0), 0.0);
     }
