@@ -15,7 +15,14 @@ fn every_mutant_is_of_a_piece_that_its_file_holds_once() {
         } else if !line.is_empty() && !line.starts_with('#') {
             let (rest, after) = line.rsplit_once("]]").expect(line);
             let (before, rest) = rest.rsplit_once("[[").expect(line);
-            let (expression, _) = rest.rsplit_once(" => ").expect(line);
+            let (expression, mutated) = rest.rsplit_once(" => ").expect(line);
+            // Each is the branch of an `if`.
+            for side in [expression, mutated] {
+                let is_rest =
+                    side.starts_with(['.', '+', '>', '<', '=']) || side.starts_with("&& ");
+                let is_rest = is_rest || side.starts_with("- ");
+                assert!(!side.is_empty() && !is_rest, "{file}: {line}");
+            }
             let piece = format!("{before}{expression}{after}");
             assert_eq!(text.matches(&piece).count(), 1, "{file}: {piece}");
             count += 1;
