@@ -65,8 +65,12 @@ pub(crate) fn principal(matrix: &Matrix3<f64>) -> Option<(Vector3<f64>, Matrix3<
 
 /// The median, the upper one of two.
 pub(crate) fn median(values: &mut [f64]) -> Option<f64> {
-    let middle = values.len() / 2;
-    (!values.is_empty()).then(|| *values.select_nth_unstable_by(middle, f64::total_cmp).1)
+    in_order(values, values.len() / 2)
+}
+
+/// The value before which so many of them come.
+fn in_order(values: &mut [f64], at: usize) -> Option<f64> {
+    (!values.is_empty()).then(|| *values.select_nth_unstable_by(at, f64::total_cmp).1)
 }
 
 /// The root of the mean of the squares; zero of none.
@@ -78,14 +82,12 @@ pub(crate) fn root_mean_square(values: impl IntoIterator<Item = f64>) -> f64 {
 
 /// The value that a quarter of them are below.
 pub(crate) fn lower_quartile(values: &mut [f64]) -> Option<f64> {
-    let at = values.len() / 4;
-    (!values.is_empty()).then(|| *values.select_nth_unstable_by(at, f64::total_cmp).1)
+    in_order(values, values.len() / 4)
 }
 
 /// The value that a quarter of them are above.
 pub(crate) fn upper_quartile(values: &mut [f64]) -> Option<f64> {
-    let at = 3 * values.len() / 4;
-    (!values.is_empty()).then(|| *values.select_nth_unstable_by(at, f64::total_cmp).1)
+    in_order(values, 3 * values.len() / 4)
 }
 
 /// Of values that are not negative the one of which those that are less have half of the sum: many small ones hardly move it.

@@ -3,20 +3,18 @@
 /// Share of a figure that nothing is told below: as well as most are known, see `docs/measures.md`.
 const LEAST: f64 = 1e-4;
 
-/// How the names of measures begin that are shares of something else, and are zero of many bodies.
-const SHARES: [&str; 2] = ["spectrum.", "curvature.gauss_bonnet_error"];
-
-/// To how much of 1 the share that is convex is computed, and its name.
-const CONVEX: (&str, f64) = ("curvature.convex_share", 4e-3);
+/// How the names of measures begin that are shares of something else, and are zero of many bodies, and to how much of 1 they are
+/// known.
+const SHARES: [(&str, f64); 3] = [
+    ("spectrum.", LEAST),
+    ("curvature.gauss_bonnet_error", LEAST),
+    ("curvature.convex_share", 4e-3),
+];
 
 /// How well a figure of a measure, or a mean of some, is computed: to that share of it, or of 1 where it is a share itself.
 pub(super) fn computed_to(measure: &str, value: f64) -> f64 {
-    if measure == CONVEX.0 {
-        return CONVEX.1;
-    }
-    let is_share = SHARES.iter().any(|share| measure.starts_with(share));
-    let whole = if is_share { 1.0 } else { value.abs() };
-    LEAST * whole
+    let share = SHARES.iter().find(|(name, _)| measure.starts_with(name));
+    share.map_or(LEAST * value.abs(), |(_, known)| *known)
 }
 
 /// How far a figure may be off: by the standard error that is told of it, and no less than it is computed to.

@@ -115,10 +115,11 @@ impl Hole {
         let bulge = rim.radius * (0.5 * half_angle).tan();
         // A tip as far off as the hole is wide: steeper cones may not close at all.
         let missing = |tip: f64| (tip - end).min(rim.radius);
-        let cone = rim.tip_of_cone(&inner, &outer).map_or(0.0, missing);
+        let mut tips = rim.tips(&inner, &outer);
+        let cone = median(&mut tips).filter(|tip| tip.is_finite());
+        let cone = cone.map_or(0.0, missing);
         // Beside a corner lines from some sides meet the axis far above those from others.
-        let tips = rim.tips(&inner, &outer).map(missing);
-        let most = upper_quartile(&mut tips.collect::<Vec<_>>()).unwrap_or(0.0);
+        let most = upper_quartile(&mut tips).map_or(0.0, missing);
         let on_rings = IN_HOLE.into_iter().flat_map(|share| {
             let raised = most * (1.0 - share * share);
             let ring = directions(&middle, share * half_angle);
@@ -212,21 +213,17 @@ impl Rim {
         self.normal.cross(&(place - self.centre)).norm()
     }
 
-    /// The height at which lines from an outer ring through this one meet above the middle: the median. `None` where they do not.
-    fn tip_of_cone(&self, inner: &[Vector3<f64>], outer: &[Vector3<f64>]) -> Option<f64> {
-        median(&mut self.tips(inner, outer).collect::<Vec<_>>()).filter(|tip| tip.is_finite())
-    }
-
-    /// Where each of them does; infinite where it does not.
-    fn tips(&self, inner: &[Vector3<f64>], outer: &[Vector3<f64>]) -> impl Iterator<Item = f64> {
-        inner.iter().zip(outer).map(|(inner, outer)| {
+    /// The heights at which lines from an outer ring through this one meet the axis; infinite where they do not.
+    fn tips(&self, inner: &[Vector3<f64>], outer: &[Vector3<f64>]) -> Vec<f64> {
+        let tips = inner.iter().zip(outer).map(|(inner, outer)| {
             let (near, far) = (self.off_axis(inner), self.off_axis(outer));
             let (high, low) = (self.height(inner), self.height(outer));
             match far > near {
                 true => high + near * (high - low) / (far - near),
                 false => f64::INFINITY,
             }
-        })
+        });
+        tips.collect()
     }
 }
 

@@ -222,7 +222,8 @@ impl ContactReport {
         match share {
             None => warnings.push(
                 "how certain the curvature is there is not known, so the force has no standard error: superquadrics, fits \
-                 with --seams none or --symmetry, scans with a hole, models of older versions, edited models and rounded edges have none"
+                 with --seams none or --symmetry, scans with a hole, models of older versions, edited models and \
+                 rounded edges have none"
                     .into(),
             ),
             Some(share) if share > UNCERTAIN => warnings.push(format!(

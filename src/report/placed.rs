@@ -12,8 +12,8 @@ use std::fmt;
 
 /// Why figures of placed bodies have no standard errors whose surfaces do not tell theirs.
 pub(super) const NO_ERRORS: &str = "No standard errors: of superquadrics, of fits with --seams none or --symmetry, of scans with a \
-     hole, of models of older versions and of edited ones it is not known how far the surface is off from place to place, and depths are small \
-     beside the grains.";
+     hole, of models of older versions and of edited ones it is not known how far the surface is off from place to \
+     place, and depths are small beside the grains.";
 
 /// All touches of two bodies, the deepest first; lengths are in the unit of their scans.
 #[derive(Debug, Clone, PartialEq, Serialize)]

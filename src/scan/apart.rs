@@ -4,7 +4,7 @@
 //! two triangles each is joined to the one behind which the body ends first, turning from it into the body; what is wound so that
 //! there are no such pairs stays together.
 
-use super::topology::{Edge, each_edge};
+use super::topology::{Edge, after, each_edge};
 use crate::disjoint_sets::DisjointSets;
 use crate::mesh::Mesh;
 use nalgebra::Point3;
@@ -25,13 +25,8 @@ pub(crate) fn apart(mesh: Mesh) -> Mesh {
     } = mesh;
     let mut fans = DisjointSets::new(3 * triangles.len());
     each_edge(vertices.len(), &triangles, |edge| {
-        let is_balanced = edge.forward == edge.backward;
-        let pairs = match is_balanced && (2..=MOST_PAIRS).contains(&edge.forward) {
-            true => pairs(&edge, &vertices, triangles.as_flattened()),
-            false => edge.sides.windows(2).map(|two| [two[0], two[1]]).collect(),
-        };
         let corners = triangles.as_flattened();
-        for pair in pairs {
+        let mut join = |pair: [usize; 2]| {
             for end in edge.ends {
                 let [one, other] = pair.map(|side| match corners[side] == end {
                     true => side,
@@ -39,6 +34,11 @@ pub(crate) fn apart(mesh: Mesh) -> Mesh {
                 });
                 fans.join(one as u32, other as u32);
             }
+        };
+        let is_balanced = edge.forward == edge.backward;
+        match is_balanced && (2..=MOST_PAIRS).contains(&edge.forward) {
+            true => pairs(&edge, &vertices, corners).into_iter().for_each(join),
+            false => edge.sides.windows(2).for_each(|two| join([two[0], two[1]])),
         }
     });
     let mut first_fans = vec![None; vertices.len()];
@@ -57,11 +57,6 @@ pub(crate) fn apart(mesh: Mesh) -> Mesh {
         vertices,
         triangles,
     }
-}
-
-/// The corner that a side ends in.
-fn after(side: usize) -> usize {
-    if side % 3 == 2 { side - 2 } else { side + 1 }
 }
 
 /// The sides along an edge, one of each sense, with the least angles between their triangles within the body.

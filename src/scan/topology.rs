@@ -75,13 +75,15 @@ impl Edge<'_> {
     }
 }
 
+/// The corner that a side of a triangle ends in, of the one it begins in.
+pub(super) fn after(side: usize) -> usize {
+    if side % 3 == 2 { side - 2 } else { side + 1 }
+}
+
 /// Visits every edge once: sides of triangles are sorted into one bucket per lower end, then within it.
 pub(crate) fn each_edge(points: usize, triangles: &[[u32; 3]], mut visit: impl FnMut(Edge<'_>)) {
     let corners = triangles.as_flattened();
-    let ends_of = |side: usize| {
-        let after = if side % 3 == 2 { side - 2 } else { side + 1 };
-        (corners[side], corners[after])
-    };
+    let ends_of = |side: usize| (corners[side], corners[after(side)]);
     let low = |side: usize| {
         let (from, to) = ends_of(side);
         from.min(to) as usize

@@ -11,9 +11,9 @@ use std::path::PathBuf;
 #[derive(Args)]
 pub(in crate::cli) struct SynthArgs {
     /// bean, chickpea or maize; a shape: sphere, ellipsoid, cylinder, bicone, octahedron, cuboid or cube; a
-    /// superquadric, or poly, whose octants differ with six --axes; what no centre sees whole: banana, cup, mushroom, hook or random,
-    /// another one for every seed, as a mesh or, with --points, as points; or tray: grains on a plane, one in ten
-    /// touching another, with dust
+    /// superquadric, or poly, whose octants differ with six --axes; what no centre sees whole: banana, cup, mushroom,
+    /// hook or random, another one for every seed, as a mesh or, with --points, as points; or tray: grains on a plane,
+    /// one in ten touching another, with dust
     pub(in crate::cli) body: Subject,
 
     /// Number of grains on a tray [default: 100]
