@@ -54,8 +54,8 @@ pub struct BenchScan {
     pub hidden: usize,
     /// Standard deviation of the radial noise, as a share of the mean radius; `None` if unknown.
     pub noise: Option<f64>,
-    /// What area and volume are compared with: "truth" (the closed form), "faces" (the scan's own)
-    /// or "directions" (the polyhedron through the points, which is itself off).
+    /// What area and volume are compared with: "truth" (the closed form), or the polyhedron of the scan, which is itself off:
+    /// "faces", "voxels", "directions" or "crust".
     pub reference: &'static str,
     /// Settings left out: more coefficients than half of the points.
     pub skipped: usize,

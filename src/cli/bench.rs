@@ -10,7 +10,7 @@ use crate::bench::{
 };
 use crate::export::write_atomically;
 use crate::fit::PreparedScan;
-use crate::report::{escaped, percent, round};
+use crate::report::{described_reference, escaped, percent, round};
 use crate::sphere::Symmetry;
 use anyhow::{Context, Result, bail};
 use comfy_table::{CellAlignment, Table, presets::NOTHING};
@@ -122,8 +122,7 @@ fn write_files(folder: &Path, report: &BenchReport, stems: &[String]) -> Result<
 fn heading(scan: &BenchScan) -> String {
     let reference = match scan.reference {
         "truth" => "the closed form",
-        "faces" => "the scan's own faces",
-        _ => "the points, triangulated by direction",
+        kind => described_reference(kind),
     };
     let hidden = match scan.hidden {
         0 => String::new(),

@@ -122,7 +122,7 @@ pub(super) fn least_boxes(hull: &Mesh) -> Result<LeastBoxes, MeshIntegralError> 
             starts.push(candidate);
         }
     }
-    let principal = box_along(&unit.vertices, &Matrix3::identity());
+    let principal = points.box_along(&Matrix3::identity());
     let mut least = (principal.volume(), Matrix3::identity());
     let mut others = Vec::with_capacity(starts.len());
     for start in starts {
@@ -139,7 +139,7 @@ pub(super) fn least_boxes(hull: &Mesh) -> Result<LeastBoxes, MeshIntegralError> 
             if best.volume >= least.0 * (1.0 + slack) {
                 break;
             }
-            let volume = box_along(&unit.vertices, &best.axes).volume();
+            let volume = points.box_along(&best.axes).volume();
             if volume < least.0 {
                 least = (volume, best.axes);
             }
@@ -164,7 +164,7 @@ pub(super) fn least_boxes(hull: &Mesh) -> Result<LeastBoxes, MeshIntegralError> 
             break;
         };
         let best = few.refine(start, NEARBY, LAST_RESTARTS, last);
-        let volume = box_along(&unit.vertices, &best.axes).volume();
+        let volume = points.box_along(&best.axes).volume();
         if volume < least.0 {
             least = (volume, best.axes);
         }

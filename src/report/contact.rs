@@ -116,7 +116,7 @@ pub(super) fn beside_hertz(
     let deep = beyond_hertz(what, indentation / relative.smaller_radius(), CURVED);
     let wide = (share > SMALL).then(|| {
         format!(
-            "the contact reaches {:.0} % as far as the smaller body; Hertz's theory is for a contact that is small beside it",
+            "The contact reaches {:.0} % as far as the smaller body; Hertz's theory is for a contact that is small beside it.",
             100.0 * share
         )
     });
@@ -137,8 +137,8 @@ pub(super) fn beside_middle(times: f64) -> Result<Option<String>, ContactError> 
     }
     Ok(((times - 1.0).abs() > UNCERTAIN).then(|| {
         format!(
-            "the surfaces are not curved over the whole contact as in its middle: by how the gap opens over all of it the force is about \
-             {times:.2} times as large"
+            "The surfaces are not curved over the whole contact as in its middle: by how the gap opens over all of it the force is about \
+             {times:.2} times as large."
         )
     }))
 }
@@ -147,7 +147,7 @@ pub(super) fn beside_middle(times: f64) -> Result<Option<String>, ContactError> 
 pub(super) fn beyond_hertz(depth: &str, share: f64, radius: &str) -> Option<String> {
     (share > HERTZIAN).then(|| {
         format!(
-            "{depth} is {:.0} % of the {radius}; Hertz's theory is for less than {:.0} %",
+            "{depth} is {:.0} % of the {radius}; Hertz's theory is for less than {:.0} %.",
             100.0 * share,
             100.0 * HERTZIAN
         )
@@ -212,7 +212,7 @@ impl ContactReport {
             .map_or(first.reach, |other| first.reach.min(other.reach));
         let indentation = indentation_m / metres;
         warnings.extend(beside_hertz(
-            "the indentation",
+            "The indentation",
             relative,
             indentation,
             body,
@@ -221,13 +221,13 @@ impl ContactReport {
         warnings.extend(beside_middle(times)?);
         match share {
             None => warnings.push(
-                "how certain the curvature is there is not known, so the force has no standard error: superquadrics, fits \
+                "How certain the curvature is there is not known, so the force has no standard error: superquadrics, fits \
                  with --seams none or --symmetry, scans with a hole, models of older versions, edited models and \
-                 rounded edges have none"
+                 rounded edges have none."
                     .into(),
             ),
             Some(share) if share > UNCERTAIN => warnings.push(format!(
-                "the curvature is so uncertain there that the force is known to {:.0} % only; fit {}",
+                "The curvature is so uncertain there that the force is known to {:.0} % only; fit {}.",
                 100.0 * share,
                 match first.is_whole && second.as_ref().is_none_or(|other| other.is_whole) {
                     true => "a finer scan",

@@ -43,13 +43,13 @@ impl HertzLaw {
             .and_then(|()| KnownContact::at(overlap.curvatures, overlap.errors))
             .and_then(|known| {
                 let mut beside =
-                    beside_hertz("the depth", known.relative(), overlap.depth, self.body)?;
+                    beside_hertz("The depth", known.relative(), overlap.depth, self.body)?;
                 beside.extend(beside_middle((overlap.times)(&known)?)?);
                 Ok((known, beside))
             });
         match known {
             Ok((known, beside)) => {
-                warnings.extend(beside.iter().map(|told| sentence(told)));
+                warnings.extend(beside);
                 let metres = self.metres_per_unit;
                 let force_n = known.relative().normal_force_n(
                     metres,
@@ -68,10 +68,4 @@ impl HertzLaw {
             }
         }
     }
-}
-
-/// With a capital letter and a full stop.
-fn sentence(told: &str) -> String {
-    let (first, rest) = told.split_at(1);
-    format!("{}{rest}.", first.to_uppercase())
 }

@@ -28,8 +28,8 @@ pub struct PlacedReport {
     pub unit: Option<Unit>,
     /// Where they touch; nothing if they are apart.
     pub touches: Vec<PlacedTouch>,
-    /// Why these figures have no standard errors.
-    pub no_standard_errors: &'static str,
+    /// Why these figures have no standard errors; `null` where there are none.
+    pub no_standard_errors: Option<&'static str>,
     /// What to know of these figures.
     pub warnings: Vec<String>,
 }
@@ -85,12 +85,13 @@ impl PlacedReport {
                 normal_force_n: force.map(|force| force.force_n),
             }
         });
+        let touches: Vec<PlacedTouch> = touches.collect();
         Self {
             first,
             second,
             unit,
-            touches: touches.collect(),
-            no_standard_errors: NO_ERRORS,
+            no_standard_errors: (!touches.is_empty()).then_some(NO_ERRORS),
+            touches,
             warnings,
         }
     }
@@ -115,9 +116,9 @@ impl fmt::Display for PlacedReport {
                 write!(f, "\n  force       {} N", short(force))?;
             }
         }
-        match self.touches.as_slice() {
-            [] => Ok(()),
-            _ => write!(f, "\n{}", self.no_standard_errors),
+        match self.no_standard_errors {
+            Some(reason) => write!(f, "\n{reason}"),
+            None => Ok(()),
         }
     }
 }

@@ -208,7 +208,7 @@ impl NormalLaw {
                 }
                 let share = region.depth / law.effective_radius();
                 let radius = "effective radius of the bodies' volumes";
-                warnings.extend(beyond_hertz("The depth", share, radius).map(|told| told + "."));
+                warnings.extend(beyond_hertz("The depth", share, radius));
                 warnings.extend(law.times_hertz(region).and_then(beside_hertz));
                 let force_n = law.force_n(region).norm();
                 let share = VolumeLaw::force_share(region);

@@ -28,8 +28,8 @@ pub struct SearchReport {
     /// The error that was good enough: the difference from the estimate, or the held-out RMS of independent
     /// segments and mirrored fits.
     pub limit: f64,
-    /// Standard deviation of what the estimate does not follow of one point: noise, and edges that it does not resolve; `null`
-    /// without an estimate.
+    /// Standard deviation of what the estimate does not follow of one point: noise, and edges that it does not resolve; without
+    /// an estimate of the noise as the candidates tell it; `null` where it is not known.
     pub noise: Option<f64>,
     /// Mean radius over all directions.
     pub mean_radius: f64,

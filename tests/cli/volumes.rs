@@ -2,6 +2,7 @@
 
 use super::{errors, folder, grainform, json, names, number, piped, succeed};
 use std::cell::Cell;
+use std::f64::consts::TAU;
 use std::io::Write;
 use std::path::Path;
 
@@ -363,6 +364,32 @@ fn a_label_with_a_tunnel_is_refused_for_its_handle() {
     });
     let refused = errors(&grainform(&folder, &["fit", "ct.nrrd"]));
     assert!(refused.contains("has 1 handle"), "{refused}");
+}
+
+/// Faces between the voxels of a long body that is turned lie in rows, and on the sphere some of them were all but flat.
+#[test]
+fn long_grains_of_voxels_are_fitted_by_positions_however_they_lie() {
+    let folder = folder();
+    for axis in [[1.0, 2.0, 3.0], [3.0, 4.0, 1.0], [6.0, 1.0, 2.0]] {
+        let size = f64::hypot(axis[0], axis[1]).hypot(axis[2]);
+        image(&folder.path().join("rice.nrrd"), [125; 3], |place| {
+            let off = [0, 1, 2].map(|i| place[i] - [62.3, 61.6, 62.1][i]);
+            let along = (0..3).map(|i| off[i] * axis[i] / size).sum::<f64>();
+            let across = off.iter().map(|x| x * x).sum::<f64>() - along * along;
+            (along / 60.0).powi(2) + across / 225.0 < 1.0
+        });
+        let report = json(&folder, &["fit", "rice.nrrd"]);
+        assert_eq!(report["surface"], "position", "{axis:?}");
+        // A prolate spheroid of semi-axes a and c with sin t = e has the area 2 pi a (a + c t / e).
+        let eccentricity = (1.0_f64 - 1.0 / 16.0).sqrt();
+        let area = TAU * 15.0 * (15.0 + 60.0 * eccentricity.asin() / eccentricity);
+        let off = number(&report, "area") - area;
+        let error = number(&report["standard_errors"], "area");
+        assert!(
+            off.abs() < 2.0 * error && error < 5e-3 * area,
+            "{axis:?}: {off} {error}"
+        );
+    }
 }
 
 #[test]

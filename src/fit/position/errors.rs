@@ -19,7 +19,8 @@
 //! - of points without faces what a [hole](crate::fit::hole) between them may hide;
 //! - what is [not resolved](Solved::unresolved): a part of it is taken to have the same sign everywhere;
 //! - of the area what second order brings: ripples of noise that the surface has, and of the grain that it has not, and
-//!   [texture](crate::fit::close_pairs) between the points;
+//!   texture between the points, as [pairs](crate::fit::close_pairs) that lie close together tell it, or as far as the
+//!   surface carries [detail](super::finest) as fine as points resolve: then what it leaves of them may be more of it;
 //!
 //! Those of lengths are [elsewhere](super::dimension_errors).
 //!
@@ -28,6 +29,7 @@
 use super::cloud::{Cloud, HELD_OUT};
 use super::dimension_errors::{FLOOR, Lengths};
 use super::ends::Ends;
+use super::finest;
 use super::functionals::{FIGURES, FigureVector, Functionals, by_move};
 use super::functions::{Functions, Rows};
 use super::least_squares::values;
@@ -65,6 +67,9 @@ const ONE_SIDED: f64 = 0.15;
 const STEEPER_NOISE: f64 = 3.0;
 const STEEPER_REST: f64 = 2.0;
 
+/// Share of the squared wavenumber of as many functions as points that these resolve well.
+const RESOLVED: f64 = 0.5;
+
 impl Solved<'_> {
     /// The standard errors of a surface's figures.
     pub(super) fn errors(&self) -> Result<StandardErrors, NoInterval> {
@@ -93,7 +98,8 @@ impl Solved<'_> {
         let one_sided = (ONE_SIDED * unresolved).hypot(miscounted);
         of_mass += self.left(&jacobian, &distances, one_sided);
         of_mass[(0, 0)] += self.ripples(unresolved).iter().map(|x| x * x).sum::<f64>();
-        of_mass[(0, 0)] += (0.5 * best.area * self.texture(&feet)).powi(2);
+        let texture = self.texture(&feet).max(self.hidden(&feet, best.area));
+        of_mass[(0, 0)] += (0.5 * best.area * texture).powi(2);
         let errors = unlist(&of_mass.diagonal());
         let axes = &functionals.principal.axes;
         let inertia = of_mass.fixed_view::<6, 6>(INERTIA, INERTIA);
@@ -279,6 +285,20 @@ impl Solved<'_> {
         let off = points.map(|at| (feet[at], self.cloud.points[at] - feet[at]));
         let (feet, off): (Vec<_>, Vec<_>) = off.unzip();
         close_pairs::slopes(&feet, &off)
+    }
+
+    /// The same of points without faces, if texture goes on below what they resolve as the surface carries it there, as far as it
+    /// may pass for noise. Of points on a lattice no close pairs tell.
+    fn hidden(&self, feet: &[Vector3<f64>], area: f64) -> f64 {
+        let cloud = self.cloud;
+        if !cloud.is_of_points {
+            return 0.0;
+        }
+        let points = (0..feet.len()).filter(|&at| cloud.is_point(at));
+        let at: (Vec<_>, Vec<_>) = points.map(|at| (feet[at], cloud.normals[at])).unzip();
+        let density = at.0.len() as f64 / area;
+        let carried = finest::mean_square(&at.0, &at.1);
+        carried.min(self.rms[1].powi(2)) * RESOLVED * 4.0 * PI * density
     }
 
     /// By what the area is larger for the ripples of noise, and smaller for those of the grain. A band of functions on an

@@ -13,11 +13,11 @@ use super::functions::Functions;
 use super::least_squares::{add_adjoint, no_sums};
 use crate::fit::figures::{INTEGRALS, list};
 use crate::fit::turn::TURNS;
-use crate::measure::{Curvature, Moments, PrincipalInertia, support};
+use crate::measure::{Curvature, Moments, PrincipalInertia, grain_properties, support};
 use crate::model::{Frame, Position, PositionDerivatives, PositionGrain, SurfaceJet, area_normal};
 use crate::sphere::GaussLegendre;
 use faer::Mat;
-use nalgebra::{Point3, SVector, Vector3};
+use nalgebra::{SVector, Vector3};
 use std::f64::consts::PI;
 
 /// Area, volume and moments, and then how far the surface reaches along both sides of the principal axes.
@@ -51,7 +51,7 @@ struct Place {
     changes: FigureVector,
 }
 
-/// Nodes of the quadrature per side of a cell, which is right to five figures.
+/// Nodes of the quadrature per side of a cell, which is right to five figures, or of bodies with arms to three.
 const NODES: usize = 8;
 
 /// The curvature of a surface in the direction n.
@@ -105,8 +105,9 @@ impl Functionals {
                 changes,
             });
         }
-        let principal = moments.about_centroid(&Point3::origin()).principal()?;
         let grain = PositionGrain::new(Frame::SCAN, surface.clone()).ok()?;
+        // Axes of nearly equal moments are turned by less than the quadrature above is right to.
+        let principal = grain_properties(&grain).properties.principal()?;
         let mut end = |axis: usize, side: usize| {
             let along = principal.axes.column(axis) * [1.0, -1.0][side];
             let found = support(&grain, &along);

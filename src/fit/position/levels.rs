@@ -112,7 +112,13 @@ impl<'a> Levels<'a> {
         if problem.run(cloud, &may_be_worth, context)?.is_none() {
             return Ok(None);
         }
-        let places = self.map.between(cloud.vertex_directions(), context)?;
+        let places = match self.map.between(cloud.vertex_directions(), context) {
+            // Faces that became all but flat when directions moved leave no place for what is between them.
+            Err(MapError::NoKernel { .. } | MapError::NotOneToOne { .. }) => {
+                self.map.clone().whole(context)?
+            }
+            places => places?,
+        };
         let mut all = self.local.cloud(places);
         restart(&mut all, functions);
         let fitted = problem.run(&mut all, &is_worth, context)?;

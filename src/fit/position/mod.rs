@@ -9,6 +9,7 @@ mod cloud;
 mod dimension_errors;
 mod ends;
 mod errors;
+mod finest;
 mod foot;
 mod functionals;
 mod functions;

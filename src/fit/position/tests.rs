@@ -9,12 +9,12 @@ use crate::measure::mesh_properties;
 use crate::measure::{grain_properties, support};
 use crate::mesh::Mesh;
 use crate::model::PositionGrain;
-use crate::shapes::{Curled, CurledOptions, synthesize_curled};
+use crate::shapes::{Curled, CurledOptions, Sampling, synthesize_curled};
 use crate::sphere::{CubeCell, GaussLegendre, coefficient_count, cube_grid, harmonics};
 use approx::assert_relative_eq;
 use nalgebra::{Rotation3, Vector3};
 use std::f64::consts::FRAC_PI_2;
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 
 /// A mesh over the directions of a cube with so many cells per edge.
 fn mesh(resolution: usize, point: impl Fn(&Vector3<f64>) -> Vector3<f64>) -> Mesh {
@@ -327,6 +327,86 @@ fn errors_of_lengths_hold_rims_and_the_longest_of_three() {
         squares += ((longest - 2.0) / errors.x).powi(2) / 4.0;
     }
     assert!(squares.sqrt() < 1.4, "{}", squares.sqrt());
+}
+
+/// Of three arms at 120 degrees two moments are equal, so that length and width may be any of the extents between.
+#[test]
+fn lengths_along_axes_of_equal_moments_are_known_to_their_range() {
+    let arm = |n: &Vector3<f64>, turn: f64| {
+        let (sin, cos) = turn.sin_cos();
+        1.3 * (8.0 * (n.x * cos + n.y * sin - 1.0)).exp()
+    };
+    let radius = |n: &Vector3<f64>| {
+        let arms = [0.3, 0.3 + 2.0 * PI / 3.0, 0.3 + 4.0 * PI / 3.0];
+        0.4 + arms.map(|turn| arm(n, turn)).iter().sum::<f64>()
+    };
+    let tripod = mesh(24, |n| n * radius(n));
+    let extent = |turn: f64| {
+        let along = Vector3::new(turn.cos(), turn.sin(), 0.0);
+        let heights = || tripod.vertices.iter().map(|place| place.coords.dot(&along));
+        heights().fold(0.0, f64::max) - heights().fold(0.0, f64::min)
+    };
+    let extents = [0.3, 0.3 + PI / 6.0].map(extent);
+    let range = (extents[0] - extents[1]).abs();
+    let errors = fitted(&tripod, &FitOptions::default())
+        .errors
+        .unwrap()
+        .dimensions;
+    assert!(
+        range > 0.2 && errors.x > 0.3 * range && errors.y > 0.3 * range,
+        "{errors} {range}"
+    );
+    assert!(errors.z < 0.02, "{errors}");
+}
+
+/// Of even points no two lie close together, and texture that is finer than their spacing passes for noise.
+#[test]
+fn areas_hold_texture_between_even_points() {
+    let waves = Sampling::Fibonacci.directions(120, 0).unwrap();
+    let mut squares = 0.0;
+    for seed in 0..3 {
+        let mut waves: Vec<_> = waves
+            .iter()
+            .enumerate()
+            .map(|(at, along)| {
+                let number = 4.0 * 15.0_f64.powf(((at * 7919 + seed) % 120) as f64 / 119.0);
+                (
+                    along * number,
+                    TAU * (at as f64 * 0.754_877_666).fract(),
+                    number.powf(-1.25),
+                )
+            })
+            .collect();
+        let power: f64 = waves.iter().map(|(.., size)| 0.5 * size * size).sum();
+        waves
+            .iter_mut()
+            .for_each(|(.., size)| *size *= 0.01 / power.sqrt());
+        let phase =
+            |n: &Vector3<f64>, (number, phase, _): &(Vector3<f64>, f64, f64)| number.dot(n) + phase;
+        let radius = |n: &Vector3<f64>| {
+            1.0 + waves
+                .iter()
+                .map(|wave| wave.2 * phase(n, wave).cos())
+                .sum::<f64>()
+        };
+        let area = |n: &Vector3<f64>| {
+            let slope: Vector3<f64> = waves
+                .iter()
+                .map(|wave| wave.0 * (-wave.2 * phase(n, wave).sin()))
+                .sum();
+            radius(n) * radius(n).hypot((slope - n * n.dot(&slope)).norm())
+        };
+        let all = Sampling::Fibonacci.directions(40_000, 0).unwrap();
+        let area = 4.0 * PI * all.iter().map(area).sum::<f64>() / all.len() as f64;
+        let points = Sampling::Fibonacci.directions(1500, 0).unwrap().into_iter();
+        let scan = Scan::from_points(points.map(|n| Point3::from(n * radius(&n))).collect());
+        let fit = fit_position(&scan, &FitOptions::default(), &Context::default()).unwrap();
+        let error = fit.errors.unwrap().area;
+        let grain = PositionGrain::new(fit.frame, fit.surface).unwrap();
+        let off = grain_properties(&grain).properties.area - area;
+        squares += (off / error).powi(2) / 3.0;
+    }
+    assert!(squares.sqrt() < 1.5, "{}", squares.sqrt());
 }
 
 /// A surface with the coordinates of a function of degree 3 or less.

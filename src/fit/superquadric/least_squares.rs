@@ -12,9 +12,11 @@ use nalgebra::{Cholesky, DVector, Vector3};
 const WIDE: f64 = 0.5;
 const NARROW: f64 = 0.03;
 
-/// And where those astray are left out, in standard deviations; no less than this in mean radii, of points without noise.
+/// And where those astray are left out, in standard deviations.
 const NEAR: f64 = 2.5;
-const LEAST_NEAR: f64 = 1e-9;
+
+/// What exact points may be off a body for rounding, in mean radii.
+pub(super) const ROUNDING: f64 = 1e-9;
 
 /// The damping to begin with, and beyond which no step helps.
 const DAMPING: [f64; 2] = [1e-3, 1e12];
@@ -55,7 +57,7 @@ pub(super) fn weighed(bodies: &[Body], points: &[Vector3<f64>], like: &Weighing)
             scale: match like.loss.reach {
                 Reach::Wide => WIDE,
                 Reach::Narrow => NARROW,
-                Reach::Near => (NEAR * deviation).max(LEAST_NEAR),
+                Reach::Near => (NEAR * deviation).max(ROUNDING),
             },
             ..like.loss
         },

@@ -6,6 +6,7 @@
 
 use super::bodies::Body;
 use super::cloud::Cloud;
+use super::least_squares::ROUNDING;
 use super::normal_equations::distances;
 use crate::fit::neighbours::Neighbours;
 use crate::spread::{median, robust_deviation};
@@ -24,7 +25,7 @@ const LEAST_SHARE: f64 = 0.02;
 /// Which points of a cloud are astray, in its order; `None` if next to none are.
 pub(super) fn strays(cloud: &Cloud, bodies: &[Body]) -> Option<Vec<bool>> {
     let off = distances(bodies, &cloud.points);
-    let limit = FAR * robust_deviation(off.iter().copied());
+    let limit = (FAR * robust_deviation(off.iter().copied())).max(ROUNDING);
     let least = LEAST_SHARE * off.len() as f64;
     let far = off.iter().filter(|off| off.abs() > limit).count();
     if (far as f64) < least {
@@ -54,10 +55,23 @@ pub(super) fn strays(cloud: &Cloud, bodies: &[Body]) -> Option<Vec<bool>> {
 mod tests {
     use super::super::form::Form;
     use super::super::search::best;
+    use super::super::single::fit_superquadric;
     use super::*;
     use crate::fit::Context;
+    use crate::model::{StarSurface, Superquadric};
     use crate::shapes::Sampling;
     use nalgebra::Point3;
+
+    #[test]
+    fn the_rounding_of_exact_points_is_not_astray() {
+        let block = Superquadric::single([2.0, 2.0, 1.0], 20.0, 20.0).unwrap();
+        let directions = Sampling::Cube.directions(386, 0).unwrap().into_iter();
+        let points: Vec<_> = directions
+            .map(|n| Point3::from(n * block.radius(&n)))
+            .collect();
+        let found = fit_superquadric(&points, None, Form::Single, &Context::default()).unwrap();
+        assert_eq!(found.strays, 0);
+    }
 
     #[test]
     fn points_strewn_about_a_ball_are_astray_and_its_beak_is_not() {

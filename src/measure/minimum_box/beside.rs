@@ -4,7 +4,6 @@ use super::extreme_points::{Candidate, ExtremePoints, HullPoints};
 use super::{EXTREMES, is_in_half};
 use crate::Mesh;
 use crate::measure::OrientedBox;
-use crate::measure::extents::box_along;
 use crate::sphere::cube_grid;
 use nalgebra::{Matrix3, Vector3};
 
@@ -28,11 +27,12 @@ pub(in crate::measure) fn boxes_beside(
     least: &OrientedBox,
     [close, minima]: [f64; 2],
 ) -> Vec<OrientedBox> {
+    let points = HullPoints::new(&hull.vertices);
     // Boxes round a few points are smaller than those round all.
     let whole = |found: &Candidate, larger: f64| {
         let largest = least.volume() * (1.0 + larger);
         let may_be = found.volume <= largest;
-        let whole = may_be.then(|| box_along(&hull.vertices, &found.axes));
+        let whole = may_be.then(|| points.box_along(&found.axes));
         whole.filter(|found| found.volume() <= largest)
     };
     let axes = [0, 1, 2].map(|at| {
@@ -40,7 +40,6 @@ pub(in crate::measure) fn boxes_beside(
         Matrix3::from_columns(&turned)
     });
     let of_faces = axes.iter().flat_map(|axes| near(axes, COARSE));
-    let points = HullPoints::new(&hull.vertices);
     let of_faces = ExtremePoints::new(&points, of_faces.step_by(2));
     let grid = cube_grid(EXTREMES).0;
     let mut beside = Vec::new();

@@ -1,7 +1,9 @@
 //! A few points of a hull that stand for it, and the least boxes round them.
 
 use crate::farthest::Farthest;
+use crate::measure::OrientedBox;
 use crate::measure::convex_polygon::ConvexPolygon;
+use crate::measure::oriented_box::oriented;
 use nalgebra::{Matrix3, Point3, Vector2, Vector3};
 
 /// A box and its volume; the last axis is the direction it was found for.
@@ -21,6 +23,17 @@ impl<'a> HullPoints<'a> {
     pub(super) fn new(points: &'a [Point3<f64>]) -> Self {
         let farthest = Farthest::new(points.iter().map(|point| point.coords));
         Self { points, farthest }
+    }
+
+    /// The smallest box with the given orthonormal axes (columns, in any order) that holds them.
+    pub(super) fn box_along(&self, axes: &Matrix3<f64>) -> OrientedBox {
+        let reach = |towards: Vector3<f64>| match self.farthest.along(&towards) {
+            Some(at) => self.points[at].coords.dot(&towards),
+            None => 0.0,
+        };
+        let axis = |i: usize| axes.column(i).into_owned();
+        let low = Vector3::from_fn(|i, _| -reach(-axis(i)));
+        oriented([low, Vector3::from_fn(|i, _| reach(axis(i)))], axes)
     }
 }
 

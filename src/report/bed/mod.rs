@@ -17,7 +17,7 @@ pub struct BedReport {
     pub unit: Unit,
     /// What the bed is made of.
     pub kinds: Vec<BedKindRecord>,
-    /// What was asked for or, where it was not, assumed.
+    /// What was asked for or, where it was not, assumed; the seed is that of the first bed.
     pub settings: BedSettings,
     /// Whether the faces of a mesh are walls too.
     pub has_mesh: bool,
@@ -90,7 +90,10 @@ impl BedReport {
             diameter_m: 2.0 * kind.radius(),
             mass_kg: kind.mass(),
         });
-        let settings = bed.settings().clone();
+        let settings = BedSettings {
+            seed: runs.first().map_or(bed.settings().seed, |run| run.seed),
+            ..bed.settings().clone()
+        };
         let has_mesh = bed.has_mesh();
         let warnings = runs
             .iter()

@@ -2,6 +2,8 @@
 
 mod text;
 
+pub(crate) use text::described_reference;
+
 use super::estimate::{EstimateRecord, EvaluationRecord};
 use super::measure::{Dimensions, Measure, MeasureReport, NotMeasured, Principal, Withheld};
 use super::rule::{kind_rule, rule};
@@ -123,7 +125,8 @@ pub struct FitReport {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct ReferenceRecord {
-    /// "faces" (the scan's own) or "directions" (triangulated between the points).
+    /// "faces" (the scan's own), "voxels" (those of a segmented volume), "directions" (triangulated between the points) or
+    /// "crust" (through a crust of voxels around them).
     pub kind: &'static str,
     /// Its area.
     pub area: f64,

@@ -13,21 +13,21 @@ use std::fmt;
 /// Share of the mean radius up to which noise is not told from none: no search goes below 3e-6.
 const LEAST_NOISE: f64 = 3.5e-6;
 
-impl ReferenceRecord {
-    /// What it is, in words.
-    fn description(&self) -> &'static str {
-        let is_of = |kind: ReferenceKind| self.kind == kind.name();
-        if is_of(ReferenceKind::Faces) {
-            "the scan's own faces"
-        } else if is_of(ReferenceKind::Voxels) {
-            "the middles between voxels inside and outside, with their steps"
-        } else if is_of(ReferenceKind::Crust) {
-            "the middle of a crust of voxels around the points"
-        } else {
-            "the points, triangulated by direction"
-        }
+/// What a kind of reference is, in words, by its name.
+pub(crate) fn described_reference(kind: &str) -> &'static str {
+    let is_of = |of: ReferenceKind| kind == of.name();
+    if is_of(ReferenceKind::Faces) {
+        "the scan's own faces"
+    } else if is_of(ReferenceKind::Voxels) {
+        "the middles between voxels inside and outside, with their steps"
+    } else if is_of(ReferenceKind::Crust) {
+        "the middle of a crust of voxels around the points"
+    } else {
+        "the points, triangulated by direction"
     }
+}
 
+impl ReferenceRecord {
     /// The line that tells it.
     pub(in crate::report) fn write(
         &self,
@@ -36,7 +36,7 @@ impl ReferenceRecord {
     ) -> fmt::Result {
         let area = format!("{}{}", short(self.area), labels.area());
         let volume = format!("{}{}", short(self.volume), labels.volume());
-        let description = self.description();
+        let description = described_reference(self.kind);
         writeln!(
             f,
             "polyhedron    {description}: area {area}, volume {volume}"

@@ -229,7 +229,9 @@ impl Growing {
     /// Moves a vertex by a step; tells by how much, in distances to its nearest neighbour.
     fn relax(&mut self, v: u32) -> f64 {
         self.take_star(v);
-        let Some(step) = self.star.step(&self.places[v as usize]) else {
+        let place = &self.places[v as usize];
+        let step = self.star.leap(place).or_else(|| self.star.step(place));
+        let Some(step) = step else {
             return 0.0;
         };
         self.places[v as usize] = step.place;

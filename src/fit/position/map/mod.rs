@@ -34,6 +34,7 @@ const LEAST_SHARE: f64 = 1e-12;
 const DEGREE_ERROR: f64 = 1e-6;
 
 /// A closed mesh that is mapped to the sphere, one to one and not turned over: a few of its vertices first, if so desired.
+#[derive(Clone)]
 pub(crate) struct SphericalMap<'a> {
     mesh: &'a Mesh,
     growing: Growing,

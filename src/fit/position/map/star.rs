@@ -11,6 +11,9 @@ const LONGEST_STEP: f64 = 2.0;
 /// Halvings of a step that does not lessen the energy.
 const HALVINGS: usize = 10;
 
+/// Share of its area at which a triangle is all but flat.
+const FLATTENED: f64 = 1e-6;
+
 /// Determinants of the Hessian below this share of its squared trace are no minimum.
 const FLAT: f64 = 1e-12;
 
@@ -82,6 +85,18 @@ impl Star {
             sum += side.area * squared * density(d)[0];
         }
         sum
+    }
+
+    /// To the middle of the kernel, from a place where a triangle is all but flat, or by rounding turned over: from there Newton's
+    /// method takes a hundred steps, or none. `None` of other places, and where the energy is no less there.
+    pub(super) fn leap(&self, place: &Vector3<f64>) -> Option<Step> {
+        let is_flat = |side: &Side| (place - side.from).dot(&side.slope) < FLATTENED;
+        let is_stuck = self.sides.iter().any(is_flat);
+        let centre = is_stuck.then(|| self.kernel_centre(place)).flatten()?;
+        (self.energy(&centre) < self.energy(place)).then_some(Step {
+            place: centre,
+            moved: 1.0,
+        })
     }
 
     /// One step of Newton's method in the tangent plane, halved until the energy falls. `None` if no step lessens it.

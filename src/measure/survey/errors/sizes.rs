@@ -30,6 +30,11 @@ impl Survey<'_> {
     ///
     /// As [`Self::minimum_box`].
     pub fn minimum_box_errors(&self) -> Result<Option<BoxErrors>, SurveyError> {
+        let found = self.box_errors.get_or_init(|| self.found_box_errors());
+        found.clone()
+    }
+
+    fn found_box_errors(&self) -> Result<Option<BoxErrors>, SurveyError> {
         let Some(off) = self.relative_dimension_errors()? else {
             return Ok(None);
         };
