@@ -33,7 +33,6 @@ use super::finest;
 use super::functionals::{FIGURES, FigureVector, Functionals, by_move};
 use super::functions::{Functions, Rows};
 use super::least_squares::values;
-use super::voxels::Hidden;
 use crate::fit::close_pairs;
 use crate::fit::figures::{INERTIA, INTEGRALS, derivatives, form, mass, unlist};
 use crate::fit::hole::Holes;
@@ -94,9 +93,7 @@ impl Solved<'_> {
             of_mass += jacobian * hidden.covariance() * jacobian.transpose();
             of_mass[(0, 0)] += hidden.edges().powi(2);
         }
-        let miscounted = hidden.as_ref().map_or(0.0, Hidden::miscounted);
-        let one_sided = (ONE_SIDED * unresolved).hypot(miscounted);
-        of_mass += self.left(&jacobian, &distances, one_sided);
+        of_mass += self.left(&jacobian, &distances, ONE_SIDED * unresolved);
         of_mass[(0, 0)] += self.ripples(unresolved).iter().map(|x| x * x).sum::<f64>();
         let texture = self.texture(&feet).max(self.hidden(&feet, best.area));
         of_mass[(0, 0)] += (0.5 * best.area * texture).powi(2);

@@ -9,6 +9,9 @@
 //! var e = S / (8 pi^3)  sum over k != 0 of  |k|^-4
 //! ```
 //!
+//! as if heights scattered without regard to each other, everywhere alike: a place counts as the area about it, for as much as normals
+//! turn less there its waves tell more. So do moments, of which the centroid's along the length of a grain is known worst.
+//!
 //! A flat side along a layer of voxels has no curvature: all of it may lie anywhere between two layers, so that of a disc of
 //! six layers the volume is known to 7 %, and its edges are rounded, as [all](rounded) are. How much of a side is flat is told by
 //! the area A(d) that is within d layers of its highest place: where the side is curved A grows with d, of one that is flat it is
@@ -106,6 +109,7 @@ impl Voxels {
         let sides = self.layers.par_iter();
         Hidden {
             flats: sides.filter_map(|layer| Flat::of(layer, &places)).collect(),
+            scatter: places.iter().map(Place::square).sum::<SMatrix<_, _, _>>() * self.miscount,
             miscount: self.miscount,
             area,
             rounded: places.iter().map(|place| place.lacking).sum(),
@@ -123,6 +127,13 @@ struct Place {
     lacking: f64,
     /// Of the figures, per area and move along the normal.
     changes: SVector<f64, INTEGRALS>,
+}
+
+impl Place {
+    /// Squares and products of the changes of the figures by heights of variance one per area.
+    fn square(&self) -> SMatrix<f64, INTEGRALS, INTEGRALS> {
+        self.changes * self.changes.transpose() * self.area.norm()
+    }
 }
 
 /// A flat side along layers of voxels.
@@ -185,6 +196,8 @@ impl Flat {
 /// What voxels hide of a surface.
 pub(super) struct Hidden {
     flats: Vec<Flat>,
+    /// Covariance of the integrals by what is not flat.
+    scatter: SMatrix<f64, INTEGRALS, INTEGRALS>,
     miscount: f64,
     area: f64,
     /// Area that edges may lack.
@@ -193,11 +206,11 @@ pub(super) struct Hidden {
 }
 
 impl Hidden {
-    /// Covariance of area, volume and moments by flat sides.
+    /// Covariance of area, volume and moments.
     pub(super) fn covariance(&self) -> SMatrix<f64, INTEGRALS, INTEGRALS> {
         let flats = self.flats.iter().map(|flat| &flat.changes);
         let squares = flats.map(|changes| changes * changes.transpose() * ANYWHERE);
-        squares.sum()
+        squares.sum::<SMatrix<_, _, _>>() + self.scatter
     }
 
     /// By how much the area is less if edges are [rounded], or those that flat sides share by a layer.
@@ -209,11 +222,6 @@ impl Hidden {
     /// The side of a cube as large as a voxel.
     pub(super) fn width(&self) -> f64 {
         self.width
-    }
-
-    /// Standard deviation of the height of a surface without flat sides, on average over all of it.
-    pub(super) fn miscounted(&self) -> f64 {
-        (self.miscount / self.area).sqrt()
     }
 
     /// Mean square of the move of an end of a length, of a surface of so many functions.
