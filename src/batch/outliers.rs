@@ -56,12 +56,20 @@ pub(super) fn outliers(
             z,
             reason: format!(
                 "its {measure} is {} deviations {} the median",
-                (z.abs() * 10.0).round() / 10.0,
+                times(z.abs()),
                 if z > 0.0 { "above" } else { "below" }
             ),
         })
     };
     (0..values.len()).filter_map(outlier).collect()
+}
+
+/// More than a thousand are no number that tells anything: the others differ by rounding alone.
+fn times(z: f64) -> String {
+    match z < 1e3 {
+        true => ((z * 10.0).round() / 10.0).to_string(),
+        false => "more than 1000".into(),
+    }
 }
 
 /// Standard deviation of values whose distances from their median are given, told by the median of these; where more than half

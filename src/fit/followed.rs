@@ -36,7 +36,7 @@ const MOST_COMPARED: usize = 4000;
 
 /// So many times their RMS the largest residual of noise is at most, of ten million points. Where patches stand for points these are
 /// looked at only beyond it, ...
-const LARGEST_OF_NOISE: f64 = 6.0;
+pub(crate) const LARGEST_OF_NOISE: f64 = 6.0;
 
 /// ... and so many of them: farther apart they scatter more about what is smooth between them.
 const MOST_NEAR: usize = 20_000;

@@ -54,6 +54,7 @@ pub use candidate::{Candidate, Rejection, Search, Work};
 pub use context::{Context, Stage};
 pub use error::FitError;
 pub use estimate::RadiusError;
+pub(crate) use followed::LARGEST_OF_NOISE;
 pub use kind::fit_scan;
 pub use kind_choice::{KindChoice, Rival};
 pub use mirrored::{DirectedSample, MirroredFitError, fit_mirrored};

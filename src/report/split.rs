@@ -158,8 +158,8 @@ fn cut_apart(grains: &[SplitGrainRecord]) -> Option<String> {
         .collect();
     (!told.is_empty()).then(|| {
         format!(
-            "Cut apart at a neck, with its width beside that of the narrower side: {}. A grain that has a waist is cut \
-             too: if one of these was one grain, split again with --uncut.",
+            "Cut apart at a neck, with its width beside that of the narrower side: {}. A grain that has a waist, or \
+             is bent, is cut too: if one of these was one grain, split again with --uncut.",
             told.join(", ")
         )
     })

@@ -130,13 +130,13 @@ impl FitWarning {
             ),
             Self::Strays { strays: 1, points } => write!(
                 f,
-                "1 of {points} points stands apart from its neighbours by more than 10 % of the radius \
-                 and was left out."
+                "1 of {points} points is nearer to the centre or farther from it than its neighbours by more than 10 % of the \
+                 radius, and was left out."
             ),
             Self::Strays { strays, points } => write!(
                 f,
-                "{strays} of {points} points stand apart from their neighbours by more than 10 % of the \
-                 radius and were left out."
+                "{strays} of {points} points are nearer to the centre or farther from it than their neighbours by more than 10 % of \
+                 the radius, and were left out."
             ),
             Self::Outliers { outliers: 1 } => {
                 write!(

@@ -95,7 +95,8 @@ pub struct FitReport {
     /// What an evaluation costs of the expansion of the whole sphere that is as near to the estimate; `null` where the
     /// model has no cells.
     pub whole: Option<EvaluationRecord>,
-    /// Standard deviation of the points' noise; `null` where it was not estimated, or not told apart from edges. Up to some 3e-6 of
+    /// Standard deviation of the points' noise, at most that where the largest residual is more than six times their RMS, for
+    /// part of it is then shape; `null` where it was not estimated, or not told apart from edges. Up to some 3e-6 of
     /// the mean radius it is not told from none: there may be less.
     pub noise: Option<f64>,
     /// The error that was good enough: the difference from the estimate, or the held-out RMS of independent segments and

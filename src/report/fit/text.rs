@@ -2,7 +2,7 @@
 
 use super::{FitReport, ReferenceRecord};
 use crate::digits::plural;
-use crate::fit::ReferenceKind;
+use crate::fit::{LARGEST_OF_NOISE, ReferenceKind};
 use crate::report::escape::escaped;
 use crate::report::measure::by_reason;
 use crate::report::number::{percent, short, with_error};
@@ -71,8 +71,10 @@ impl FitReport {
 
     /// What is said before the noise: it may be none.
     pub(crate) fn noise_bound(&self) -> &'static str {
+        let is_least = |noise: f64| noise <= LEAST_NOISE * self.mean_radius;
+        let is_more = self.max > LARGEST_OF_NOISE * self.rms;
         match self.noise {
-            Some(noise) if noise <= LEAST_NOISE * self.mean_radius => "at most ",
+            Some(noise) if is_more || is_least(noise) => "at most ",
             _ => "",
         }
     }

@@ -19,6 +19,9 @@ const FOLLOWED: f64 = 0.1;
 /// The same of smooth grains at most, among which no broad neck is looked for: of two that touch it is above .028.
 const SMOOTH: f64 = 0.015;
 
+/// Points of a part over those of the largest of its clump, at most, where it is no grain. Of pairs on trays it is .42 and more.
+const SLIVER: f64 = 0.1;
+
 /// Directions from the middle of a grain in which no points lie this near, in radians: of half a ball there are some of 63 degrees.
 const UNSEEN: f64 = 45.0 * PI / 180.0;
 
@@ -54,7 +57,7 @@ pub(super) fn cut(places: &[Point3<f64>], clump: Vec<u32>, distance: f64, necks:
         Necks::Keep => 0,
     };
     let (mut whole, mut waists, mut cuts) = (Vec::new(), Vec::new(), Vec::new());
-    let mut left = vec![clump];
+    let mut left = vec![clump.clone()];
     while let Some(points) = left.pop() {
         let own = of(&points);
         let neck = Neck::find(&own, distance).filter(Neck::is_waist);
@@ -103,10 +106,29 @@ pub(super) fn cut(places: &[Point3<f64>], clump: Vec<u32>, distance: f64, necks:
             }),
         }
     }
+    if !are_likely(&parts) {
+        let uncut = Part {
+            points: clump,
+            may_touch: true,
+        };
+        return Parts {
+            parts: vec![uncut],
+            neck: 0.0,
+        };
+    }
     Parts {
         parts,
         neck: cuts.iter().map(Neck::width).fold(0.0, f64::max),
     }
+}
+
+/// Whether parts may be grains, and not those of one that is bent: its arms end in slivers where they are cut, and look bent
+/// themselves.
+fn are_likely(parts: &[Part]) -> bool {
+    let sizes = || parts.iter().map(|part| part.points.len());
+    let [least, most] = [sizes().min(), sizes().max()].map(Option::unwrap_or_default);
+    let doubtful = parts.iter().filter(|part| part.may_touch).count();
+    parts.len() == 1 || (least as f64 > SLIVER * most as f64 && 2 * doubtful < parts.len())
 }
 
 /// Whether points lie all round their middle: an outline follows half of a bent grain, or of one with a waist, as well as a grain.
