@@ -233,11 +233,11 @@ fn an_uncertain_curvature_asks_for_what_was_not_done() {
     };
     let cells = told("6");
     assert!(
-        cells.ends_with("% only; fit with --segments 1, or a finer scan"),
+        cells.ends_with("% only; fit with --segments 1, or a finer scan."),
         "{cells}"
     );
     let whole = told("1");
-    assert!(whole.ends_with("% only; fit a finer scan"), "{whole}");
+    assert!(whole.ends_with("% only; fit a finer scan."), "{whole}");
 }
 
 #[test]

@@ -347,3 +347,20 @@ fn a_surface_that_ripples_beside_edges_is_told_with_the_sizes_of_its_points() {
     assert!(first(surface) > 4.04, "{told}");
     assert!((first(points) / 4.0 - 1.0).abs() < 0.003, "{told}");
 }
+
+/// Beside the crease of a barley kernel the radius misses more than noise.
+#[test]
+#[cfg_attr(not(shared), ignore = "needs ../shared")]
+fn what_is_left_beside_a_crease_is_no_more_than_a_bound_of_the_noise() {
+    let folder = folder();
+    let kernel = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/../shared/scans/barley_batch/l1_05.ply"
+    );
+    let creased = succeed(&folder, &["fit", kernel, "--surface", "star"]);
+    assert!(creased.contains("\nnoise         at most 0.2"), "{creased}");
+    let scan = "synth bean --points 1500 --noise 0.5% -o bean.ply";
+    succeed(&folder, &scan.split(' ').collect::<Vec<_>>());
+    let smooth = succeed(&folder, &["fit", "bean.ply"]);
+    assert!(smooth.contains("\nnoise         0.0"), "{smooth}");
+}

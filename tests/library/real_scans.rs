@@ -160,7 +160,7 @@ fn odd_clouds_of_the_hostile_folder_end_as_they_should() {
         "{reason}"
     );
     let outliers = try_fit(&made.join("ply_084_outliers_1pct.ply")).expect("a grain");
-    assert!(told(&outliers, "stand apart"));
+    assert!(told(&outliers, "farther from it than their neighbours"));
     let half = try_fit(&made.join("ply_085_half_scan.ply")).expect("half a grain");
     assert!(told(&half, "is a guess"), "{:?}", half.warnings);
     assert!(try_fit(&made.join("ply_078_two_bodies.ply")).is_err());

@@ -4,6 +4,7 @@ use crate::shapes::{
     Body, Origin, Sampling, SynthOptions, SyntheticTray, TrayOptions, synthesize, synthesize_tray,
 };
 use nalgebra::{Rotation3, Vector3};
+use std::f64::consts::TAU;
 
 fn tray() -> SyntheticTray {
     let options = TrayOptions::clean(12).with_noise(0.002);
@@ -293,6 +294,49 @@ fn a_peanut_is_not_cut_in_two_but_told() {
             panic!("{resolution}: {} grains", found.grains.len());
         };
         assert!(grain.may_touch && grain.cut.is_none(), "{resolution}");
+    }
+}
+
+/// A tube of even thickness, bent by an angle, and closed by half balls.
+fn bent_tube([radius, thickness, bend]: [f64; 3], [rings, around]: [u32; 2]) -> Vec<Point3<f64>> {
+    let at = |turn: f64| {
+        let (sin, cos) = turn.sin_cos();
+        [Vector3::new(cos, sin, 0.0), Vector3::new(-sin, cos, 0.0)]
+    };
+    let side = (0..rings).flat_map(|ring| {
+        let [out, _] = at(bend * (f64::from(ring) / f64::from(rings - 1) - 0.5));
+        (0..around).map(move |place| {
+            let shift = 0.5 * f64::from(ring % 2);
+            let (sin, cos) = (TAU * (f64::from(place) + shift) / f64::from(around)).sin_cos();
+            out * (radius + thickness * cos) + Vector3::z() * (thickness * sin)
+        })
+    });
+    let ball = Sampling::Fibonacci.directions((around * around) as usize / 3, 0);
+    let ball = ball.unwrap();
+    let ends = [-1.0, 1.0].into_iter().flat_map(|end| {
+        let [out, along] = at(0.5 * bend * end);
+        let beyond = ball.iter().filter(move |n| n.dot(&along) * end > 0.05);
+        beyond.map(move |n| out * radius + n * thickness)
+    });
+    side.chain(ends).map(Point3::from).collect()
+}
+
+#[test]
+fn a_bent_tube_is_not_cut_to_slivers_but_told() {
+    for (tube, points) in [
+        ([1.2, 0.42, 260.0], [80, 30]),
+        ([1.2, 0.42, 260.0], [60, 24]),
+        ([1.5, 0.5, 250.0], [100, 40]),
+    ] {
+        let [radius, thickness, bend] = tube;
+        let tube = bent_tube([radius, thickness, f64::to_radians(bend)], points);
+        let found = split(&Scan::from_points(tube)).unwrap();
+        assert_eq!(
+            (found.grains.len(), found.cuts()),
+            (1, 0),
+            "{bend} {points:?}"
+        );
+        assert!(found.grains[0].may_touch);
     }
 }
 
