@@ -1,9 +1,9 @@
 //! The finest detail that a surface carries where points resolve it: what a quadric through a place and its nearest neighbours
 //! leaves.
 //!
-//! Of smooth bodies a quadric leaves next to nothing, of texture and creases about what they rise between neighbours. On the faces
-//! of a stone and of creased kernels, points without faces, 750 to 6000 of them, even or random, with noise of 0 to 1 %, made
-//! areas that were up to 5.2 standard errors short; with what such texture hides, 2.8 once, and 1.8 of all others.
+//! Of smooth bodies a quadric leaves next to nothing, of texture and creases about what they rise between neighbours. Of 750 to 6000
+//! points on the faces of a stone and of creased kernels, even or random, with noise of 0 to 1 %, areas were up to 5.2 standard errors
+//! short; with the area that such texture hides 2.8 once, and at most 1.8 of all others.
 
 use crate::fit::neighbours::Neighbours;
 use crate::sphere::tangents;

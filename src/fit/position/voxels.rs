@@ -9,8 +9,9 @@
 //! var e = S / (8 pi^3)  sum over k != 0 of  |k|^-4
 //! ```
 //!
-//! as if heights scattered without regard to each other, everywhere alike: a place counts as the area about it, for as much as normals
-//! turn less there its waves tell more. So do moments, of which the centroid's along the length of a grain is known worst.
+//! This is as if heights were off at random, independent of each other, with the same variance per area everywhere: where the surface is
+//! less curved 1 / K is larger, and so is the area that faces one way. The covariance of all integrals follows from it: each place
+//! adds the squares and products of the changes that it makes. Of moments the ends of a long grain add most.
 //!
 //! A flat side along a layer of voxels has no curvature: all of it may lie anywhere between two layers, so that of a disc of
 //! six layers the volume is known to 7 %, and its edges are rounded, as [all](rounded) are. How much of a side is flat is told by
