@@ -4,7 +4,7 @@ use crate::shapes::{
     Body, Origin, Sampling, SynthOptions, SyntheticTray, TrayOptions, synthesize, synthesize_tray,
 };
 use nalgebra::{Rotation3, Vector3};
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 fn tray() -> SyntheticTray {
     let options = TrayOptions::clean(12).with_noise(0.002);
@@ -311,8 +311,8 @@ fn bent_tube([radius, thickness, bend]: [f64; 3], [rings, around]: [u32; 2]) -> 
             out * (radius + thickness * cos) + Vector3::z() * (thickness * sin)
         })
     });
-    let ball = Sampling::Fibonacci.directions((around * around) as usize / 3, 0);
-    let ball = ball.unwrap();
+    let count = f64::from(around * around) / PI;
+    let ball = Sampling::Fibonacci.directions(count as usize, 0).unwrap();
     let ends = [-1.0, 1.0].into_iter().flat_map(|end| {
         let [out, along] = at(0.5 * bend * end);
         let beyond = ball.iter().filter(move |n| n.dot(&along) * end > 0.05);
