@@ -87,7 +87,7 @@ fn mirrored(
     let grain = prepared.grain(Family::Mirrored(fit.surface));
     let mut fitted = prepared.fitted(grain, fit.search, fit.residuals, fit.points);
     fitted.warnings.extend(rejected(&fitted.search));
-    let share = fit.asymmetry / prepared.mean_radius;
+    let share = fit.asymmetry / fitted.mean_radius;
     if share > LARGEST_ASYMMETRY {
         fitted.warnings.push(FitWarning::Asymmetric { share });
     }

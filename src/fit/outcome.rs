@@ -210,14 +210,13 @@ impl Fitted {
             return errors;
         }
         let figures = self.figures(told, dimensions)?;
-        let posterior = self.posterior.as_ref().ok_or(NoInterval::NotEstimated);
+        let posterior = self.posterior.as_ref().ok_or(NoInterval::NotEstimated)?;
         match self.grain.unseen() {
             Some(unseen) => {
-                let beside =
-                    posterior.and_then(|posterior| posterior.errors_beside_holes(&figures));
+                let beside = posterior.errors_beside_holes(&figures);
                 Ok(unseen.errors(&figures, self.mean_radius, beside.ok()))
             }
-            None => posterior?.errors(&figures),
+            None => posterior.errors(&figures),
         }
     }
 

@@ -9,7 +9,7 @@ use super::outcome::{Fitted, Residuals};
 use super::position::{Distance, PositionFit, fit_position_if};
 use super::prepare::ReferenceKind;
 use super::scatter::scatter;
-use super::sound;
+use super::sound::{self, Off, not_followed};
 use super::warning::FitWarning;
 use crate::model::{Grain, InvalidGrain, NoInterval, PositionGrain, Surface};
 use crate::scan::Scan;
@@ -18,6 +18,9 @@ use crate::scan::Scan;
 /// of bananas, cups, mushrooms and the like nineteen are within 1.4, and one, of which the inner radius is a seventh too large, is
 /// at 2.8.
 const FAR: f64 = 2.0;
+
+/// Numbers of even cells that are tried at last, of voxels whose steps a radius would follow.
+const EVEN_CELLS: [usize; 3] = [24, 6, 1];
 
 /// Fits positions over the sphere, where `is_worth` says so of what they may become.
 pub(super) fn positioned(
@@ -30,13 +33,23 @@ pub(super) fn positioned(
     let mut fit = fit_position_if(scan, options, context, is_worth)?;
     let cells_of = |fit: &PositionFit| fit.surface.coefficients().len();
     let mut grain = checked(&fit);
-    // Fewer cells may not go through themselves.
-    if grain.is_err() && options.segments.is_none() && cells_of(&fit) > FEWEST_CELLS {
+    // Fewer cells may not go through themselves, ...
+    while grain.is_err() && options.segments.is_none() && cells_of(&fit) > FEWEST_CELLS {
         let fewer = FitOptions {
             max_segments: Some((cells_of(&fit) / 2).max(FEWEST_CELLS)),
             ..options.clone()
         };
         fit = fit_position_if(scan, &fewer, context, is_worth)?;
+        grain = checked(&fit);
+    }
+    // ... and of few voxels even ones, or harmonics of the whole sphere, may be smooth where others follow the steps.
+    let is_of_voxels = fit.reference.kind == ReferenceKind::Voxels;
+    for segments in EVEN_CELLS {
+        if grain.is_ok() || options.segments.is_some() || !is_of_voxels {
+            break;
+        }
+        let even = options.clone().with_segments(segments);
+        fit = fit_position_if(scan, &even, context, is_worth)?;
         grain = checked(&fit);
     }
     let (grain, cells) = (grain?, cells_of(&fit));
@@ -52,7 +65,11 @@ pub(super) fn positioned(
     };
     // Far points that no face joins to others may be strays.
     let may_be_stray = fit.reference.kind == ReferenceKind::Crust;
-    let not_followed = sound::not_followed(&residuals, radius, false).filter(|_| !may_be_stray);
+    let off = match fit.reference.kind {
+        ReferenceKind::Voxels => Off::Voxel,
+        _ => Off::Point,
+    };
+    let not_followed = not_followed(&residuals, radius, off).filter(|_| !may_be_stray);
     let errors = match not_followed {
         _ if are_few(&fit, grain.coefficient_count()) => Err(NoInterval::FewPoints),
         Some(_) => Err(NoInterval::NotFollowed),

@@ -24,7 +24,8 @@ const COARSE: f64 = 0.02;
 /// grains with the pin that held them .3 to .8. ...
 const NOT_FOLLOWED: f64 = 0.25;
 
-/// ... Along rays that graze long and steep bodies noise takes points as far, up to 8 times the RMS residual; pins are 12 or more.
+/// ... Along rays that graze long and steep bodies noise takes points as far, up to 8 times the RMS residual, and so do steps between
+/// few voxels; pins are 12 or more.
 const BEYOND_NOISE: f64 = 10.0;
 
 /// A surface holds at most so many times the volume of the polyhedron of its points, which is smaller: of 50 points by
@@ -80,7 +81,7 @@ pub(super) fn check(
             return Err(FitError::FarBeyondPoints { times });
         }
     }
-    let far = not_followed(&fitted.residuals, fitted.mean_radius, true);
+    let far = not_followed(&fitted.residuals, fitted.mean_radius, Off::AlongRay);
     let mut warnings: Vec<FitWarning> = far
         .filter(|_| !is_rod && !is_asked_for)
         .into_iter()
@@ -108,20 +109,25 @@ pub(super) fn check(
     }
 }
 
+/// What a point may be off a surface.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum Off {
+    AlongRay,
+    /// Along the normal.
+    Point,
+    /// Likewise, by the steps between voxels.
+    Voxel,
+}
+
 /// How far the farthest point is from a surface, if something sticks out there.
-pub(super) fn not_followed(
-    residuals: &Residuals,
-    radius: f64,
-    is_along_ray: bool,
-) -> Option<FitWarning> {
+pub(super) fn not_followed(residuals: &Residuals, radius: f64, off: Off) -> Option<FitWarning> {
     let (largest, share) = (residuals.max, residuals.max / radius);
-    (share > NOT_FOLLOWED && largest > BEYOND_NOISE * residuals.rms).then_some(
-        FitWarning::NotFollowed {
-            largest,
-            share,
-            is_along_ray,
-        },
-    )
+    let is_beyond_noise = off == Off::Point || largest > BEYOND_NOISE * residuals.rms;
+    (share > NOT_FOLLOWED && is_beyond_noise).then_some(FitWarning::NotFollowed {
+        largest,
+        share,
+        is_along_ray: off == Off::AlongRay,
+    })
 }
 
 /// Refuses positions that are not the body: with a volume far beyond that of closed faces, or through a crust that points which
@@ -189,7 +195,13 @@ mod tests {
         };
         assert!(largest == 0.6 && (share - 0.3).abs() < 1e-9);
         assert_eq!(told(0.6, 0.03, true), []);
-        // So far does noise take points that rays graze.
+        // So far does noise take points that rays graze, and so do steps, but not along normals.
         assert_eq!(told(0.6, 0.07, false), []);
+        let residuals = Residuals {
+            rms: 0.07,
+            max: 0.6,
+        };
+        assert!(not_followed(&residuals, 2.0, Off::Point).is_some());
+        assert!(not_followed(&residuals, 2.0, Off::Voxel).is_none());
     }
 }

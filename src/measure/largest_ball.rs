@@ -43,6 +43,9 @@ pub(super) struct Obstacles<N, O, I> {
     pub bounds: [Vector3<f64>; 2],
 }
 
+/// Points that are looked up while a ball grows, about: where a surface goes through itself balls grow that are then not inside.
+const OF_GROWTH: usize = 30;
+
 /// A cube, or a square.
 struct Cell {
     centre: Vector3<f64>,
@@ -123,6 +126,7 @@ where
             cell.points.push(point);
             let is_larger = distance > best.radius * (1.0 + GROWN * tolerance);
             if is_larger && (cell.is_inside || !(self.is_outside)(&place)) {
+                *left = left.saturating_sub(OF_GROWTH);
                 self.grow(&place, best);
             }
             cell.tighten(self.is_flat);

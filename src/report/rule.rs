@@ -126,13 +126,19 @@ pub(super) fn kind_rule(fitted: &Fitted, unit: Option<Unit>) -> Option<String> {
                 told(rival)
             ))
         }
-        KindChoice::Outdoes { kept, forecast } => Some(format!(
-            "for it takes {}, where {} of the position of points come no nearer than {}{}",
-            told(kept),
-            plural(forecast.coefficients, "coefficient"),
-            short(forecast.rms),
-            labels.length()
-        )),
+        KindChoice::Outdoes { kept, forecast } => {
+            let nearer = match forecast.rms < kept.rms {
+                true => "may come as near as",
+                false => "come no nearer than",
+            };
+            Some(format!(
+                "for it takes {}, where {} of the position of points {nearer} {}{}",
+                told(kept),
+                plural(forecast.coefficients, "coefficient"),
+                short(forecast.rms),
+                labels.length()
+            ))
+        }
         KindChoice::NoPositions(error) => {
             Some(format!("for positions were tried in vain: {error}"))
         }

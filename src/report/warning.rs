@@ -345,8 +345,8 @@ fn rejected(
     segments: usize,
     is_only: bool,
 ) -> fmt::Result {
-    let advice = "Its area, volume and inertia are as good as their deviations say, but look at the \
-                  mesh before relying on details of the surface.";
+    let advice = "Area, volume and inertia, where they are told, are as good as their deviations say; look at the mesh before \
+                  relying on details of the surface.";
     match reason {
         Rejection::Unsupported { degree } if segments == 1 => write!(
             f,

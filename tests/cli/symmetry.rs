@@ -244,3 +244,15 @@ fn mirrors_of_what_is_not_alike_on_both_sides_are_the_reason() {
     }
     panic!("no mirror was refused");
 }
+
+#[test]
+fn guesses_of_a_mirrored_fit_have_no_standard_errors_either() {
+    let folder = folder();
+    let scan = "synth maize --missing-cap 45 -o maize.ply";
+    succeed(&folder, &scan.split(' ').collect::<Vec<_>>());
+    for (how, are_told) in [("--symmetry=x", false), ("--segments=1", true)] {
+        let report = json(&folder, &["fit", "maize.ply", how, "--extrapolate"]);
+        assert!(report["area"].is_number(), "{how}");
+        assert_eq!(report["standard_errors"].is_object(), are_told, "{how}");
+    }
+}

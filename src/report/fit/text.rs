@@ -72,9 +72,10 @@ impl FitReport {
     /// What is said before the noise: it may be none.
     pub(crate) fn noise_bound(&self) -> &'static str {
         let is_least = |noise: f64| noise <= LEAST_NOISE * self.mean_radius;
-        let is_more = self.max > LARGEST_OF_NOISE * self.rms;
+        // A model with few coefficients leaves more than the noise.
+        let is_more = |noise: f64| self.max > LARGEST_OF_NOISE * self.rms.min(noise);
         match self.noise {
-            Some(noise) if is_more || is_least(noise) => "at most ",
+            Some(noise) if is_more(noise) || is_least(noise) => "at most ",
             _ => "",
         }
     }

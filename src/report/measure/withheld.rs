@@ -100,7 +100,7 @@ impl Withheld {
         let found = Contradicted { area, volume };
         let is_found = area.is_some() || volume.is_some();
         is_found.then(|| {
-            format!("{found}; fit it otherwise (fit --surface position, or another --segments)")
+            format!("{found}; fit it otherwise (fit --surface position, or another --segments, without --symmetry)")
         })
     }
 
