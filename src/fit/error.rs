@@ -240,8 +240,8 @@ pub enum FitError {
     /// The fitted surface goes through itself.
     #[error(
         "the fitted surface goes through itself near ({:.4}, {:.4}, {:.4}), and so it has no volume: look whether the \
-         scan does there, or is thin and has few points; scan it more densely or smooth it, or ask for another number \
-         of cells (--segments 24, 96 or 384)",
+         scan does there, or is thin and has few points; scan it more densely or smooth it, or ask for other numbers \
+         of cells (--segments 24, 96 or 384), of which none may do for spirals and slender arms",
         place.x, place.y, place.z
     )]
     GoesThroughItself {
