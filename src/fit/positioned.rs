@@ -30,27 +30,27 @@ pub(super) fn positioned(
     kind: KindChoice,
     is_worth: &(dyn Fn(Rival) -> bool + Sync),
 ) -> Result<Fitted, FitError> {
-    let mut fit = fit_position_if(scan, options, context, is_worth)?;
+    let fitted = |options: &FitOptions| {
+        let fit = fit_position_if(scan, options, context, is_worth)?;
+        let grain = checked(&fit);
+        Ok::<_, FitError>((fit, grain))
+    };
     let cells_of = |fit: &PositionFit| fit.surface.coefficients().len();
-    let mut grain = checked(&fit);
+    let (mut fit, mut grain) = fitted(options)?;
+    let is_free = options.segments.is_none();
     // Fewer cells may not go through themselves, ...
-    while grain.is_err() && options.segments.is_none() && cells_of(&fit) > FEWEST_CELLS {
-        let fewer = FitOptions {
+    while is_free && grain.is_err() && cells_of(&fit) > FEWEST_CELLS {
+        (fit, grain) = fitted(&FitOptions {
             max_segments: Some((cells_of(&fit) / 2).max(FEWEST_CELLS)),
             ..options.clone()
-        };
-        fit = fit_position_if(scan, &fewer, context, is_worth)?;
-        grain = checked(&fit);
+        })?;
     }
     // ... and of few voxels even ones, or harmonics of the whole sphere, may be smooth where others follow the steps.
     let is_of_voxels = fit.reference.kind == ReferenceKind::Voxels;
     for segments in EVEN_CELLS {
-        if grain.is_ok() || options.segments.is_some() || !is_of_voxels {
-            break;
+        if is_free && is_of_voxels && grain.is_err() {
+            (fit, grain) = fitted(&options.clone().with_segments(segments))?;
         }
-        let even = options.clone().with_segments(segments);
-        fit = fit_position_if(scan, &even, context, is_worth)?;
-        grain = checked(&fit);
     }
     let (grain, cells) = (grain?, cells_of(&fit));
     let (degree, radius) = (fit.surface.degree(), fit.radius);

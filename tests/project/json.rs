@@ -3,12 +3,11 @@
 
 #![cfg(unix)]
 
+use super::{folder, run};
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::fs;
 use std::os::unix::fs::PermissionsExt;
-use std::path::Path;
-use std::process::Command;
 
 const JSON: &str = include_str!("../../docs/json.md");
 const MEASURES: &str = include_str!("../../docs/measures.md");
@@ -103,29 +102,12 @@ const LINES: &[(&str, &[&str])] = &[
     ("bench", &["bench ball.ply --unit mm"]),
 ];
 
-/// Runs the command in a folder, which is in the path; gives its standard output.
-fn run(line: &str, folder: &Path) -> String {
-    let output = Command::new(assert_cmd::cargo::cargo_bin!("grainform"))
-        .args(line.split_whitespace())
-        .current_dir(folder)
-        .env("PATH", format!("{}:/usr/bin:/bin", folder.display()))
-        .output()
-        .expect("the binary is built");
-    let errors = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{line}: {errors}");
-    String::from_utf8(output.stdout).expect("text")
-}
-
-/// A folder with what no line makes: a grain, a mesh with a hole, a ball of voxels, results of two scans, and a LAMMPS that reads
+/// A folder with what no line makes: the grains, a mesh with a hole, a ball of voxels, results of two scans, and a LAMMPS that reads
 /// the files of a bed.
-fn folder() -> tempfile::TempDir {
-    let folder = tempfile::tempdir().expect("a temporary folder");
+fn furnished() -> tempfile::TempDir {
+    let folder = folder();
     let path = |name: &str| folder.path().join(name);
     let write = |name: &str, content: &[u8]| fs::write(path(name), content).expect("a file");
-
-    fs::create_dir(path("grains")).expect("a new folder");
-    let bean = Path::new(env!("CARGO_MANIFEST_DIR")).join("grains/bean.ply");
-    fs::copy(bean, path("grains/bean.ply")).expect("a copy");
 
     run("synth hook -o open.obj", folder.path());
     let mesh = fs::read_to_string(path("open.obj")).expect("a mesh");
@@ -236,7 +218,7 @@ fn each_command_that_prints_json_has_a_section() {
 
 #[test]
 fn what_is_printed_as_json_is_documented_and_no_more() {
-    let folder = folder();
+    let folder = furnished();
     let mut faults = Vec::new();
     for (section, lines) in LINES {
         let mut printed = BTreeSet::new();

@@ -1,7 +1,7 @@
 //! The README keeps its word: its commands run, its summary and its library example are what they say.
 
+use super::{folder, run};
 use std::path::Path;
-use std::process::Command;
 
 const README: &str = include_str!("../../README.md");
 const BEDS: &str = include_str!("../../docs/beds.md");
@@ -24,34 +24,9 @@ fn commands(text: &'static str) -> Vec<&'static str> {
 }
 
 /// Runs a line `grainform ...` in a folder; gives its standard output.
-fn run(line: &str, folder: &Path) -> String {
-    let words = line
-        .strip_prefix("grainform ")
-        .expect("a grainform command");
-    let output = Command::new(assert_cmd::cargo::cargo_bin!("grainform"))
-        .args(words.split_whitespace())
-        .current_dir(folder)
-        .output()
-        .expect("the binary is built");
-    let errors = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{line}: {errors}");
-    String::from_utf8(output.stdout).expect("text")
-}
-
-/// A folder with the grains of the repository.
-fn folder() -> tempfile::TempDir {
-    let folder = tempfile::tempdir().expect("a temporary folder");
-    let grains = folder.path().join("grains");
-    std::fs::create_dir(&grains).expect("a new folder");
-    for entry in Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("grains")
-        .read_dir()
-        .expect("grains")
-    {
-        let path = entry.expect("a file").path();
-        std::fs::copy(&path, grains.join(path.file_name().expect("a name"))).expect("a copy");
-    }
-    folder
+fn run_line(line: &str, folder: &Path) -> String {
+    let words = line.strip_prefix("grainform ");
+    run(words.expect("a grainform command"), folder)
 }
 
 #[test]
@@ -66,7 +41,7 @@ fn every_command_of_the_readme_runs() {
         );
     }
     for line in commands {
-        run(line, folder.path());
+        run_line(line, folder.path());
     }
 }
 
@@ -74,7 +49,7 @@ fn every_command_of_the_readme_runs() {
 fn the_way_from_a_scan_to_a_bed_leads_to_a_folder_for_an_engine() {
     let folder = folder();
     for line in commands(BEDS) {
-        run(line, folder.path());
+        run_line(line, folder.path());
     }
     assert!(folder.path().join("clump.json").is_file());
     for name in ["data.clumps", "bodies.in", "in.settle", "README"] {
@@ -90,7 +65,7 @@ fn the_main_job_of_the_readme_runs() {
         .lines()
         .find_map(|line| line.strip_prefix(start))
         .expect("the main job");
-    run(&format!("grainform {job}"), folder.path());
+    run(job, folder.path());
     assert!(folder.path().join("maize.json").is_file());
     assert!(folder.path().join("maize.stl").is_file());
 }
@@ -106,7 +81,7 @@ fn timeless(summary: &str) -> String {
 
 #[test]
 fn the_summary_of_the_readme_is_what_fit_prints() {
-    let printed = run("grainform fit grains/maize.ply", folder().path());
+    let printed = run("fit grains/maize.ply", folder().path());
     let told = blocks(README, "text").next().expect("a summary");
     assert_eq!(timeless(told), timeless(&printed));
 }

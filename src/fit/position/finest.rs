@@ -6,14 +6,14 @@
 //! short; with the area that such texture hides 2.8 once, and at most 1.8 of all others.
 
 use crate::fit::neighbours::Neighbours;
+use crate::fit::quadric::{NUMBERS, off_quadric};
 use crate::sphere::tangents;
-use nalgebra::{DMatrix, DVector, Vector3};
+use nalgebra::Vector3;
 
 /// The nearest neighbours, with the place itself.
 const NEAREST: usize = 12;
 
-/// Coefficients of a quadric, and neighbours that leave something of it.
-const COEFFICIENTS: usize = 6;
+/// Neighbours that leave something of a quadric.
 const LEAST_NEIGHBOURS: usize = 9;
 
 /// Least cosine between the normals of neighbours: others are on the far side of a thin wall.
@@ -48,14 +48,11 @@ fn left_of(near: &[(Vector3<f64>, Vector3<f64>)]) -> Option<f64> {
     if count < LEAST_NEIGHBOURS || size == 0.0 {
         return None;
     }
-    let terms = DMatrix::from_fn(count, COEFFICIENTS, |row, column| {
-        let [x, y] = [u, v].map(|axis| off[row].dot(&axis) / size);
-        [1.0, x, y, x * x, x * y, y * y][column]
-    });
-    let heights = DVector::from_iterator(count, off.iter().map(|off| off.dot(&normal)));
-    let basis = terms.qr().q();
-    let left = &heights - &basis * (basis.transpose() * &heights);
-    Some(left.norm_squared() / (count - COEFFICIENTS) as f64)
+    let seen = off
+        .iter()
+        .map(|off| [off.dot(&u) / size, off.dot(&v) / size, off.dot(&normal)]);
+    let left = off_quadric(&seen.collect::<Vec<_>>());
+    Some(left.norm_squared() / (count - NUMBERS) as f64)
 }
 
 #[cfg(test)]

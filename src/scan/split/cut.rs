@@ -57,7 +57,7 @@ pub(super) fn cut(places: &[Point3<f64>], clump: Vec<u32>, distance: f64, necks:
         Necks::Keep => 0,
     };
     let (mut whole, mut waists, mut cuts) = (Vec::new(), Vec::new(), Vec::new());
-    let mut left = vec![clump.clone()];
+    let mut left = vec![clump];
     while let Some(points) = left.pop() {
         let own = of(&points);
         let neck = Neck::find(&own, distance).filter(Neck::is_waist);
@@ -107,8 +107,10 @@ pub(super) fn cut(places: &[Point3<f64>], clump: Vec<u32>, distance: f64, necks:
         }
     }
     if !are_likely(&parts) {
+        let mut points: Vec<u32> = parts.into_iter().flat_map(|part| part.points).collect();
+        points.sort_unstable();
         let uncut = Part {
-            points: clump,
+            points,
             may_touch: true,
         };
         return Parts {
