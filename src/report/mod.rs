@@ -39,6 +39,7 @@ pub use curled::CurledReport;
 #[cfg(feature = "cli")]
 pub(crate) use escape::escaped;
 pub use estimate::{EstimateRecord, EvaluationRecord};
+#[cfg(feature = "cli")]
 pub(crate) use fit::described_reference;
 pub use fit::{FitReport, ReferenceRecord, Seconds, Skipped};
 pub use harmonics::{largest_loss, write_harmonics};

@@ -2,6 +2,7 @@
 
 mod text;
 
+#[cfg(feature = "cli")]
 pub(crate) use text::described_reference;
 
 use super::estimate::{EstimateRecord, EvaluationRecord};
