@@ -35,7 +35,7 @@ pub(super) struct Figure {
 }
 
 /// Columns that every table begins with.
-pub(super) const FIRST: [(&str, Kind); 20] = [
+pub(super) const FIRST: [(&str, Kind); 21] = [
     ("path", Kind::Text),
     ("status", Kind::Text),
     ("reason", Kind::Text),
@@ -49,6 +49,7 @@ pub(super) const FIRST: [(&str, Kind); 20] = [
     ("coefficients", Kind::Count),
     ("mean_radius", Kind::Real),
     ("noise", Kind::Real),
+    ("noise_is_bound", Kind::Count),
     ("rms", Kind::Real),
     ("heldout_rms", Kind::Real),
     ("area_error", Kind::Real),

@@ -158,6 +158,7 @@ fn row(fitted: &Fitted, of_scan: &OfScan, settings: &Settings) -> Row {
         coefficients: Some(fit.coefficients as u64),
         mean_radius: Some(fit.mean_radius),
         noise: fit.noise,
+        noise_is_bound: fit.noise.map(|_| fit.noise_is_bound),
         rms: Some(fit.rms),
         heldout_rms: fit.heldout_rms,
         area_error: fit.area_error,

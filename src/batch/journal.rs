@@ -46,6 +46,9 @@ pub(crate) struct Row {
     pub mean_radius: Option<f64>,
     /// Standard deviation of the points' noise.
     pub noise: Option<f64>,
+    /// Whether there is at most as much.
+    #[serde(default)]
+    pub noise_is_bound: Option<bool>,
     /// Root mean square of the radial residuals.
     pub rms: Option<f64>,
     /// The same of points that were left out of the fit.

@@ -179,6 +179,7 @@ fn cells(row: &Row, columns: &[Column]) -> Vec<Cell> {
         count(row.coefficients),
         Cell::Real(row.mean_radius),
         Cell::Real(row.noise),
+        count(row.noise_is_bound.map(u64::from)),
         Cell::Real(row.rms),
         Cell::Real(row.heldout_rms),
         Cell::Real(row.area_error),

@@ -53,6 +53,7 @@ pub(super) fn run(args: FitArgs, console: Console) -> Result<()> {
         mut fitted,
         scan,
         scan_warnings,
+        unit,
         mut seconds,
     } = fit_scan(fitting, &options, &progress)?;
     let is_told = fitting.json || !console.is_quiet();
@@ -60,15 +61,8 @@ pub(super) fn run(args: FitArgs, console: Console) -> Result<()> {
     if args.output.is_some() {
         fitted.grain = fitted.grain_with_errors();
     }
-    let mut report = is_told.then(|| {
-        FitReport::new(
-            fitting.name(),
-            fitting.unit,
-            &fitted,
-            &options,
-            &scan_warnings,
-        )
-    });
+    let mut report =
+        is_told.then(|| FitReport::new(fitting.name(), unit, &fitted, &options, &scan_warnings));
     let before = started.elapsed().as_secs_f64();
     if args.writes() {
         progress.stage("Writing");
@@ -89,7 +83,7 @@ pub(super) fn run(args: FitArgs, console: Console) -> Result<()> {
             choice.degree,
             plural(fitted.grain.coefficient_count(), "coefficient")
         );
-        outputs::write_picture(path, &fitted.grain, Some(&scan), title, fitting.unit)?;
+        outputs::write_picture(path, &fitted.grain, Some(&scan), title, unit)?;
     }
     drop(progress);
     seconds.total = started.elapsed().as_secs_f64();

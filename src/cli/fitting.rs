@@ -6,7 +6,7 @@ use super::progress::Progress;
 use super::streams::say;
 use super::{inputs, threads};
 use crate::fit::{self, FitOptions, Fitted, Kind, Stage, Work, whole_or_largest};
-use crate::report::{Seconds, escaped};
+use crate::report::{Seconds, Unit, escaped};
 use crate::scan::Scan;
 use anyhow::{Context, Result, bail};
 use std::time::Instant;
@@ -16,6 +16,7 @@ pub(super) struct ScanFit {
     pub(super) fitted: Fitted,
     pub(super) scan: Scan,
     pub(super) scan_warnings: Vec<String>,
+    pub(super) unit: Option<Unit>,
     pub(super) seconds: Seconds,
 }
 
@@ -79,6 +80,7 @@ pub(super) fn fit_scan(
     Ok(ScanFit {
         fitted,
         scan_warnings: scan.warnings.clone(),
+        unit: inputs::unit_of(&scan, args.unit),
         scan,
         seconds: Seconds {
             read,

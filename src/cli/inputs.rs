@@ -47,6 +47,11 @@ pub(super) fn read(path: &Path, limit: &LimitArgs) -> Result<Vec<u8>> {
     })
 }
 
+/// The unit of a scan's lengths: the one asked for, or what the header of an image says.
+pub(super) fn unit_of(scan: &Scan, asked: Option<Unit>) -> Option<Unit> {
+    asked.or_else(|| scan.unit()?.parse().ok())
+}
+
 /// The scan in a file or in standard input, its lengths in this unit.
 pub(super) fn scan(path: &Path, input: &InputArgs, unit: Option<Unit>) -> Result<Scan> {
     parse_scan(path, &read(path, &input.limit)?, input, unit)

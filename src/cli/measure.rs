@@ -51,6 +51,7 @@ fn measure_scan(
     only: &[Measure],
     scan: &Scan,
 ) -> Result<MeasureReport> {
+    let unit = inputs::unit_of(scan, args.unit);
     if scan.is_flat() {
         bail!("cannot measure {input}: all points lie in one plane, they do not enclose a body");
     }
@@ -61,15 +62,15 @@ fn measure_scan(
             Some(_) => Measured::Voxels,
             None => Measured::Faces,
         };
-        warnings.extend(voxels.map(|volume| between_voxels(volume, args.unit)));
+        warnings.extend(voxels.map(|volume| between_voxels(volume, unit)));
         return Ok(MeasureReport::of_faces(
-            input, &scanned, of, only, args.unit, warnings,
+            input, &scanned, of, only, unit, warnings,
         ));
     }
     let surface = scanned_surface(scan).with_context(|| format!("cannot measure {input}"))?;
     let survey =
         Survey::of_mesh(&surface.mesh).with_context(|| format!("cannot measure {input}"))?;
-    let mut warnings = sentences(&scan.warnings, &surface.warnings, args.unit);
+    let mut warnings = sentences(&scan.warnings, &surface.warnings, unit);
     let roughness = roughness(&survey, &surface.mesh);
     if WORTH_A_WORD.contains(&roughness) {
         warnings.push(format!(
@@ -88,7 +89,7 @@ fn measure_scan(
         args.extrapolate,
         warnings,
     );
-    Ok(report.in_unit(args.unit))
+    Ok(report.in_unit(unit))
 }
 
 /// What to know of faces between voxels, which take up a volume.

@@ -14,7 +14,8 @@ use crate::page::{
     BenchPart, GrainPart, LotPart, MeasureRow, Page, SearchPart, Subject, write_page,
 };
 use crate::report::{
-    FitReport, Measure, MeasureReport, SearchReport, Withheld, by_reason, escaped, sentences, short,
+    FitReport, Measure, MeasureReport, SearchReport, Unit, Withheld, by_reason, escaped, sentences,
+    short,
 };
 use crate::scan::Scan;
 use anyhow::{Context, Result, bail};
@@ -150,12 +151,12 @@ impl<'a> Input<'a> {
             "no page shows it; measure it, or write its mesh",
         )?;
         let survey = Survey::of_grain(&grain, Scheme::Exact);
-        let (told, missing) = measured(&survey, &grain, args);
+        let (told, missing) = measured(&survey, &grain, args.extrapolate, args.unit);
         let guess = grain.unseen().filter(|_| args.extrapolate);
         let guess = guess.map(|unseen| format!("Of {name}, {unseen}."));
         let warnings = guess.into_iter().chain(missing).collect();
         let measures = MeasureRow::of(&told.measures, told.standard_errors.as_ref(), args.unit);
-        draw(args, &name, &grain, None)?;
+        draw(args, &name, &grain, None, args.unit)?;
         let mut facts = vec![("model", plural(grain.coefficient_count(), "coefficient"))];
         facts.extend(no_errors(told.no_standard_errors));
         facts.push(hash);
@@ -178,6 +179,7 @@ impl<'a> Input<'a> {
             path, name, bytes, ..
         } = self;
         let scan = inputs::parse_scan(path, &bytes, &args.input, args.unit)?;
+        let unit = inputs::unit_of(&scan, args.unit);
         let (scan, left_out) = whole_or_largest(scan, args.largest);
         let options = FitOptions::default().with_extrapolate(args.extrapolate);
         let failed = || format!("cannot fit {name}");
@@ -194,20 +196,20 @@ impl<'a> Input<'a> {
             false => None,
         };
         let survey = fitted.survey();
-        let told = FitReport::with_survey(name.clone(), args.unit, &fitted, &survey, &options, &[]);
-        let mut warnings = sentences(scan.warnings(), &fitted.warnings, args.unit);
-        let (measured, missing) = measured(&survey, &fitted.grain, args);
+        let told = FitReport::with_survey(name.clone(), unit, &fitted, &survey, &options, &[]);
+        let mut warnings = sentences(scan.warnings(), &fitted.warnings, unit);
+        let (measured, missing) = measured(&survey, &fitted.grain, args.extrapolate, unit);
         warnings.extend(missing);
         let errors = measured.standard_errors.as_ref();
-        let measures = MeasureRow::of(&measured.measures, errors, args.unit);
-        draw(args, &name, &fitted.grain, Some(&scan))?;
+        let measures = MeasureRow::of(&measured.measures, errors, unit);
+        draw(args, &name, &fitted.grain, Some(&scan), unit)?;
         let mut facts = facts(&told, &fitted);
         facts.push(hash);
         Ok(GrainPart::new(Subject {
             name,
             grain: &fitted.grain,
             scan: Some(&scan),
-            unit: args.unit,
+            unit,
             facts,
             measures,
             warnings,
@@ -218,10 +220,15 @@ impl<'a> Input<'a> {
 }
 
 /// All measures of a grain, and those that cannot be had or are withheld, as sentences.
-fn measured(survey: &Survey, grain: &Grain, args: &ReportArgs) -> (MeasureReport, Vec<String>) {
-    let withheld = Withheld::of(grain, args.extrapolate);
+fn measured(
+    survey: &Survey,
+    grain: &Grain,
+    is_extrapolated: bool,
+    unit: Option<Unit>,
+) -> (MeasureReport, Vec<String>) {
+    let withheld = Withheld::of(grain, is_extrapolated);
     let report = MeasureReport::of_model(String::new(), survey, &Measure::ALL, &withheld);
-    let report = report.in_unit(args.unit);
+    let report = report.in_unit(unit);
     let missing = by_reason(&report.not_measured).into_iter();
     let sentences = missing.map(|(names, reason)| format!("Not measured: {names}; {reason}."));
     let sentences = sentences.collect();
@@ -249,11 +256,17 @@ fn costs(scan: &Scan, name: &str) -> Result<BenchPart> {
     Ok((&scan).into())
 }
 
-fn draw(args: &ReportArgs, name: &str, grain: &Grain, scan: Option<&Scan>) -> Result<()> {
+fn draw(
+    args: &ReportArgs,
+    name: &str,
+    grain: &Grain,
+    scan: Option<&Scan>,
+    unit: Option<Unit>,
+) -> Result<()> {
     let Some(path) = &args.png else {
         return Ok(());
     };
-    outputs::write_picture(path, grain, scan, name.to_owned(), args.unit)
+    outputs::write_picture(path, grain, scan, name.to_owned(), unit)
 }
 
 /// What the fit rests on and how good it is.

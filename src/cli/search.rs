@@ -26,16 +26,11 @@ pub(super) fn run(args: SearchArgs, console: Console) -> Result<()> {
     let ScanFit {
         fitted,
         scan_warnings,
+        unit,
         mut seconds,
         ..
     } = fit_scan(fitting, &options, &progress)?;
-    let mut report = SearchReport::new(
-        fitting.name(),
-        fitting.unit,
-        &fitted,
-        &options,
-        &scan_warnings,
-    );
+    let mut report = SearchReport::new(fitting.name(), unit, &fitted, &options, &scan_warnings);
     if let Some(path) = &args.csv {
         outputs::write(path, |mut file| Ok(report.write_csv(&mut file)?))?;
     }

@@ -138,10 +138,14 @@ impl Fitted {
         let errors = self.errors_of_points(&told, &dimensions)?;
         let figures = self.figures(&told, &dimensions)?;
         let off = self.off_all_over(&told);
-        Ok(errors
+        let errors = errors
             .with_scale(off, &figures)
             .with_shift(off, &figures)
-            .with_lack(self.smoothed_over(&told), &figures))
+            .with_lack(self.smoothed_over(&told), &figures);
+        match errors.is_sound() {
+            true => Ok(errors),
+            false => Err(NoInterval::NotFinite),
+        }
     }
 
     /// Shares of area and volume by which they differ from those of the scan's own closed faces, where part of these faces

@@ -27,6 +27,8 @@ pub(crate) struct Samples {
     pub(crate) points: Vec<Point3<f64>>,
     /// Outward unit normals of the scan there.
     pub(crate) normals: Vec<Vector3<f64>>,
+    /// Mean squares of the move of the surface there that all samples near by share, as the middles between voxels do.
+    pub(crate) hidden: Vec<f64>,
 }
 
 /// Numbers of a quadric.
@@ -57,6 +59,7 @@ impl Samples {
             normals: jets
                 .map(|(jet, n)| Curvature::new(n, &jet).normal)
                 .collect(),
+            hidden: vec![0.0; points.len()],
             points,
         }
     }
@@ -73,7 +76,12 @@ impl Samples {
             .zip(&jets)
             .map(|(n, jet)| {
                 let curvature = Curvature::new(n, jet);
-                let near = self.near(&neighbours, &(centre + jet.place), &curvature.normal);
+                let place = centre + jet.place;
+                let near = self.near(&neighbours, &place, &curvature.normal);
+                let hidden = near.first().map_or(0.0, |&at| self.hidden[at]);
+                let near: Vec<Vector3<f64>> = (near.into_iter())
+                    .map(|at| self.points[at].coords - place)
+                    .collect();
                 // Of what no samples tell, all is in doubt.
                 let told = quadric(&near, &curvature).unwrap_or(Quadric {
                     square: jet.place.norm_squared(),
@@ -86,7 +94,7 @@ impl Samples {
                     false => own,
                 };
                 Squares {
-                    place: told.square,
+                    place: told.square + hidden,
                     curvature: off.norm_squared(),
                 }
             })
@@ -95,17 +103,16 @@ impl Samples {
         cells.flat_map(|own| [worst(own); PER_CELL]).collect()
     }
 
-    /// The samples nearest to a place that are of its side of the body, from there.
+    /// The samples nearest to a place that are of its side of the body, from the nearest on.
     fn near(
         &self,
         neighbours: &Neighbours,
         place: &Vector3<f64>,
         normal: &Vector3<f64>,
-    ) -> Vec<Vector3<f64>> {
+    ) -> Vec<usize> {
         let found = neighbours.nearest(place, MOST).into_iter();
         found
             .filter(|&at| self.normals[at].dot(normal) > SAME_SIDE)
-            .map(|at| self.points[at].coords - place)
             .collect()
     }
 }
@@ -190,7 +197,26 @@ mod tests {
         let points = normals.iter().map(|n| Point3::from(n * of(n)));
         Samples {
             points: points.collect(),
+            hidden: vec![0.0; normals.len()],
             normals,
+        }
+    }
+
+    #[test]
+    fn what_samples_near_by_hide_together_is_part_of_the_error() {
+        let mut samples = samples(|_| 1.0);
+        let own = samples.local_errors(&ball(1.0));
+        samples.hidden = (samples.normals.iter())
+            .map(|n| if n.z > 0.0 { 0.04 } else { 0.0 })
+            .collect();
+        let hidden = samples.local_errors(&ball(1.0)).into_iter().zip(own);
+        for (n, (hidden, own)) in of_cells(&ball(1.0)).iter().zip(hidden) {
+            let told = hidden.place - own.place;
+            let expected = if n.z > 0.0 { 0.04 } else { 0.0 };
+            assert!(
+                (told - expected).abs() < 1e-12 || n.z.abs() < 0.2,
+                "{n} {told}"
+            );
         }
     }
 

@@ -52,7 +52,7 @@ impl StandardErrors {
     }
 
     /// Whether its numbers can be standard errors.
-    pub(super) fn is_sound(&self) -> bool {
+    pub(crate) fn is_sound(&self) -> bool {
         let [centroid, moments] = [&self.centroid, &self.moments].map(Vector3::iter);
         let dimensions = self.dimensions.iter().chain(&self.dimensions_excess);
         let numbers = [&self.area, &self.volume].into_iter();
@@ -85,7 +85,7 @@ pub enum NoInterval {
     FewPoints,
     /// The scan has a neck: if these are two grains that touch, a radius rounds off what lies between them.
     Neck,
-    /// The figures are not finite.
+    /// The figures, or their errors, are not finite.
     NotFinite,
     /// Squares of the figures are beyond the range of numbers.
     OutOfRange,

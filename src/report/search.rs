@@ -96,7 +96,7 @@ impl SearchReport {
         }
     }
 
-    /// Writes the candidates as CSV: a line of names, then a row each; what is not known is empty.
+    /// Writes the candidates as CSV: a line of names, then a row each, `chosen` 1 or 0; what is not known is empty.
     ///
     /// # Errors
     /// Those of the writer.
@@ -104,13 +104,13 @@ impl SearchReport {
         writeln!(
             writer,
             "degree,segments,coefficients,area_error,volume_error,heldout_rms,estimate_rms,\
-             reduced_segments,rejected"
+             reduced_segments,chosen,rejected"
         )?;
         let number = |value: Option<f64>| value.map_or(String::new(), |value| value.to_string());
-        for row in &self.candidates {
+        for (at, row) in self.candidates.iter().enumerate() {
             writeln!(
                 writer,
-                "{},{},{},{},{},{},{},{},{}",
+                "{},{},{},{},{},{},{},{},{},{}",
                 row.degree,
                 row.segments,
                 row.coefficients,
@@ -119,6 +119,7 @@ impl SearchReport {
                 number(row.heldout_rms),
                 number(row.estimate_rms),
                 row.reduced_segments,
+                u8::from(at == self.chosen),
                 quoted(row.rejected.as_deref()),
             )?;
         }

@@ -75,7 +75,7 @@ impl FitWarning {
             ),
             Self::Dust { parts } => write!(
                 f,
-                "{} left out: each has below 1 % of the vertices and of the area of the faces.",
+                "{} left out: each has below 1 % of the area of the faces.",
                 match parts {
                     1 => "A detached part was".into(),
                     _ => format!("{parts} detached parts were"),
@@ -309,7 +309,7 @@ impl fmt::Display for NoInterval {
                 f,
                 "there are fewer points than coefficients, and no point tells what lies between them"
             ),
-            Self::NotFinite => write!(f, "the figures are not finite"),
+            Self::NotFinite => write!(f, "the figures, or their errors, are not finite"),
             Self::OutOfRange => write!(
                 f,
                 "in this unit squares of the figures are beyond the range of numbers; change the unit"

@@ -2,6 +2,7 @@
 
 use super::Scan;
 use super::topology::each_edge;
+use super::weld::first_at_same_place;
 use crate::digits::plural;
 use crate::disjoint_sets::DisjointSets;
 use crate::mesh::edges;
@@ -18,6 +19,24 @@ const FARTHEST: f64 = 3e-5;
 
 /// Nearest corners that each is compared with: through these it reaches all that meet at a place.
 const COMPARED: NonZero<usize> = NonZero::new(16).unwrap();
+
+/// Places of corners per triangle from which on triangles are loose: a closed surface has half a place for each, and triangles that
+/// share none have three.
+const LOOSE: f64 = 1.5;
+
+/// Whether the triangles of a scan share few corners.
+pub(super) fn are_loose(scan: &Scan) -> bool {
+    let are_too_many = |places: usize| places as f64 > LOOSE * scan.triangles.len() as f64;
+    if !are_too_many(scan.points.len()) {
+        return false;
+    }
+    let same = first_at_same_place(&scan.points);
+    let corners = scan.triangles.as_flattened().iter();
+    let mut places: Vec<u32> = corners.map(|&corner| same[corner as usize]).collect();
+    places.sort_unstable();
+    places.dedup();
+    are_too_many(places.len())
+}
 
 /// Makes one, in their middle, of the corners along open rims that nearly coincide, whatever their order, and says so in a warning.
 pub(super) fn close_gaps(scan: &mut Scan, extent: f64) {
@@ -157,6 +176,21 @@ mod tests {
 
     fn ball() -> Mesh {
         Mesh::radial(8, |_| 0.5)
+    }
+
+    #[test]
+    fn triangles_with_corners_of_their_own_are_loose() {
+        let ball = Mesh::radial(6, |_| 1.0);
+        assert!(are_loose(&loose(&ball, 1e-6)));
+        assert!(!are_loose(&loose(&ball, 0.0)));
+        let mut beside = Scan::of_mesh(ball);
+        assert!(!are_loose(&beside));
+        // Points of no triangle are no corners.
+        let points = beside.points.clone();
+        beside
+            .points
+            .extend((1..9).flat_map(|k| points.iter().map(move |p| p * f64::from(k + 1))));
+        assert!(!are_loose(&beside));
     }
 
     #[test]

@@ -6,7 +6,7 @@ use super::mend::{flaps, wound_against};
 use super::topology::Topology;
 use super::weld::first_at_same_place;
 use crate::digits::plural;
-use std::collections::HashSet;
+use std::collections::HashMap;
 
 /// Fills in `topology` and the warnings. All indices must be in range.
 pub(super) fn inspect(scan: &mut Scan) {
@@ -57,20 +57,55 @@ fn drop_degenerate(scan: &mut Scan) {
     }
 }
 
-/// Drops triangles with the places and the sense of one before them, which would count what they enclose twice.
+/// Drops triangles with the places and the sense of one before them, which would count what they enclose twice; those that more
+/// triangles of the same places with the other sense undo; and where all are there both ways, those of either.
 fn drop_repeated(scan: &mut Scan, same: &[u32]) -> bool {
     let before = scan.triangles.len();
-    let mut seen = HashSet::with_capacity(before);
-    scan.triangles.retain(|corners| {
+    let of_places = |corners: &[u32; 3]| {
         let [a, b, c] = corners.map(|corner| same[corner as usize]);
-        let from_least = [[a, b, c], [b, c, a], [c, a, b]].into_iter().min();
-        seen.insert(from_least)
+        let [low, middle, high] = {
+            let mut places = [a, b, c];
+            places.sort_unstable();
+            places
+        };
+        let is_turned = [
+            [low, middle, high],
+            [middle, high, low],
+            [high, low, middle],
+        ]
+        .iter()
+        .all(|turn| *turn != [a, b, c]);
+        ([low, middle, high], usize::from(is_turned))
+    };
+    let mut counts: HashMap<[u32; 3], [usize; 2]> = HashMap::with_capacity(before);
+    for corners in &scan.triangles {
+        let (places, sense) = of_places(corners);
+        counts.entry(places).or_default()[sense] += 1;
+    }
+    let are_both_ways = counts.values().all(|[one, other]| one == other);
+    let kept = |[one, other]: [usize; 2]| [one >= other, other >= one];
+    let mut kept: HashMap<[u32; 3], [bool; 2]> = counts
+        .into_iter()
+        .map(|(places, counts)| (places, kept(counts)))
+        .collect();
+    scan.triangles.retain(|corners| {
+        let (places, sense) = of_places(corners);
+        let kept = kept.entry(places).or_default();
+        let is_kept = std::mem::take(&mut kept[sense]);
+        kept[1 - sense] &= !(is_kept && are_both_ways);
+        is_kept
     });
     let dropped = before - scan.triangles.len();
     if dropped > 0 {
-        let triangles = plural(dropped, "triangle");
-        let warning = format!("Dropped {triangles} that repeat others.");
-        scan.warnings.push(warning);
+        scan.warnings.push(match are_both_ways {
+            true => {
+                "Each triangle was there in both senses: those that came first are kept.".into()
+            }
+            false => format!(
+                "Dropped {} that repeat others.",
+                plural(dropped, "triangle")
+            ),
+        });
     }
     dropped > 0
 }
@@ -218,6 +253,33 @@ mod tests {
         scan.triangles.remove(0);
         inspect(&mut scan);
         assert_eq!(scan.triangles.len(), 4);
+    }
+
+    /// As where vertices were merged: a flap without volume, of which one side was there already, and a mesh with a back side.
+    #[test]
+    fn triangles_that_undo_each_other_are_dropped_so_that_the_surface_stays_closed() {
+        let mut scan = tetrahedron();
+        let [a, b, c] = scan.triangles[1];
+        scan.triangles.extend([[b, c, a], [b, a, c]]);
+        inspect(&mut scan);
+        assert_eq!(scan.triangles, tetrahedron().triangles);
+        assert_eq!(scan.warnings, ["Dropped 2 triangles that repeat others."]);
+
+        let mut scan = tetrahedron();
+        let back = scan
+            .triangles
+            .clone()
+            .into_iter()
+            .map(|[a, b, c]| [b, a, c]);
+        scan.triangles.extend(back.collect::<Vec<_>>());
+        inspect(&mut scan);
+        assert_eq!(scan.triangles, tetrahedron().triangles);
+        assert!(scan.topology.unwrap().closed);
+        assert!(
+            scan.warnings[0].contains("both senses"),
+            "{:?}",
+            scan.warnings
+        );
     }
 
     #[test]

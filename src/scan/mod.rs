@@ -6,6 +6,7 @@
 mod apart;
 pub(crate) mod check;
 mod close_gaps;
+mod coarse;
 mod drawn;
 mod error;
 mod format;
@@ -300,8 +301,10 @@ pub fn parse_scan(bytes: &[u8], extension: Option<&str>) -> Result<Scan, ParseEr
     if format == Format::Stl && scan.triangles.is_empty() {
         return Err(ParseError::NoFacets);
     }
+    scan.warnings.extend(coarse::coarse(&scan.points));
     let odd = scan.warnings.clone();
-    scan.look_over(format == Format::Stl)
+    let are_loose = format == Format::Stl || close_gaps::are_loose(&scan);
+    scan.look_over(are_loose)
         .map_err(|error| error.beside(&odd))?;
     if scan.triangles.is_empty()
         && let Some(filled) = volume::filled_lattice(&scan.points)

@@ -102,6 +102,7 @@ fn check_consistency(report: &Value, asked: &[&str]) {
         "whole",
         "mean_radius",
         "noise",
+        "noise_is_bound",
         "limit",
         "rule",
         "seam_jump",

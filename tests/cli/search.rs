@@ -106,10 +106,15 @@ fn csv_has_the_columns_and_rows_of_the_json() {
         let text = std::fs::read_to_string(folder.path().join(name)).unwrap();
         let mut lines = text.lines();
         let columns: Vec<&str> = lines.next().unwrap().split(',').collect();
+        assert!(columns.contains(&"chosen"));
         let candidates = report["candidates"].as_array().unwrap();
         assert_eq!(lines.clone().count(), candidates.len());
-        for (line, row) in lines.zip(candidates) {
+        for (at, (line, row)) in lines.zip(candidates).enumerate() {
             for (cell, column) in line.splitn(columns.len(), ',').zip(&columns) {
+                if *column == "chosen" {
+                    assert_eq!(cell == "1", report["chosen"] == at, "{line}");
+                    continue;
+                }
                 match &row[*column] {
                     serde_json::Value::Null => assert_eq!(cell, ""),
                     serde_json::Value::String(text) => assert_eq!(cell, format!("\"{text}\"")),

@@ -12,7 +12,7 @@ use std::path::PathBuf;
 ///
 /// Of a mesh, a grain is what shares no point with the rest, with its hollows. Of a cloud, the plane that grains lie on is left out, and
 /// a grain is what hangs together by the distances between its points; grains that touch are cut apart at their neck.
-/// Of a segmented volume, a grain is what has one label and hangs together by faces of voxels. What is too small for a grain is dust. Files are numbered by where the grains lie, and keep the frame of the scan.
+/// Of a segmented volume, a grain is what has one label and hangs together by faces of voxels. What is too small for a grain is dust. Files are numbered by where the grains lie, or in the order of the labels, and keep the frame of the scan.
 #[derive(Args)]
 pub(in crate::cli) struct SplitArgs {
     /// The scan: PLY, STL, OBJ or XYZ, or a segmented volume: NRRD, MetaImage, NIfTI, a TIFF stack or .npy; packed with
@@ -157,7 +157,7 @@ pub(in crate::cli) struct ReportArgs {
     #[arg(long, help_heading = OUTPUT)]
     pub(in crate::cli) extrapolate: bool,
 
-    /// Unit of the scans' lengths, told beside them: um, mm, cm or m
+    /// Unit of the scans' lengths, told beside them: um, mm, cm or m; without it, what the header of an image says
     #[arg(long, value_name = "UNIT", help_heading = OUTPUT)]
     pub(in crate::cli) unit: Option<Unit>,
 

@@ -3,8 +3,8 @@
 //! A mean over a patch is biased by slope and curvature inside it. One correction removes that: the patch
 //! means of the residuals against a first estimate are added to what it says at the patches. These means are taken over
 //! six places with the mean and the covariance of the patch's points: they are those over all points but for fourth
-//! derivatives, and for how far the points of a patch lean to one side. The squares of the residuals there tell the noise of
-//! the points.
+//! derivatives, and for how far the points of a patch lean to one side. These places are not on the surface, so the noise is
+//! told by points themselves, a few of each patch.
 
 use super::posterior::MOST_FACTORED;
 use crate::buckets::Buckets;
@@ -48,6 +48,9 @@ const EVERY_PATCH: usize = 16;
 /// Places that stand for the points of a patch; fewer points stand for themselves.
 const PLACES: usize = 6;
 
+/// Points of a patch that tell how far its points are off.
+const TELLING: usize = 2;
+
 /// A cloud in patches.
 #[derive(Default)]
 pub(crate) struct Patches {
@@ -57,8 +60,9 @@ pub(crate) struct Patches {
     pub(crate) counts: Vec<f64>,
     /// Points left out.
     pub(crate) left_out: usize,
+    /// The places of each patch, and where they are not its points, [`TELLING`] of these behind them.
     places: Vec<Sample>,
-    /// Places of a patch begin where those of the one before end.
+    /// Those of a patch begin where those of the one before end.
     ends: Vec<usize>,
 }
 
@@ -132,7 +136,11 @@ impl Patches {
         let (mean, count) = (mean(&kept), kept.len());
         let places = match count <= PLACES {
             true => kept,
-            false => places(&kept).to_vec(),
+            false => {
+                let every = count / TELLING;
+                let telling = kept.iter().skip(every / 2).step_by(every);
+                places(&kept).into_iter().chain(telling.copied()).collect()
+            }
         };
         self.push(mean, count as f64, places);
     }
@@ -184,21 +192,28 @@ impl Patches {
         self.ends.push(self.places.len());
     }
 
-    /// What stands for the points.
+    /// What stands for the points, and what tells how far they are off.
     pub(crate) fn places(&self) -> &[Sample] {
         &self.places
     }
 
     /// Means of values at these places over the points of each patch.
     pub(crate) fn means_of(&self, values: &[f64]) -> Vec<f64> {
-        self.of_patches(values).map(mean_of).collect()
+        self.of_patches(values).map(mean_over_points).collect()
     }
 
-    /// Mean square, over all points, of what values at these places differ by from the means of their patches.
+    /// Mean square, over all points, of what their values differ by from the means of their patches.
     pub(crate) fn spread_of(&self, values: &[f64]) -> f64 {
         let square = |own: &[f64]| {
-            let mean = mean_of(own);
-            mean_of(&own.iter().map(|x| (x - mean).powi(2)).collect::<Vec<_>>())
+            let mean = mean_over_points(own);
+            let points = own.get(PLACES..).filter(|telling| !telling.is_empty());
+            let points = points.unwrap_or(own);
+            mean_of(
+                &points
+                    .iter()
+                    .map(|x| (x - mean).powi(2))
+                    .collect::<Vec<_>>(),
+            )
         };
         let squares: Vec<f64> = self.of_patches(values).map(square).collect();
         dot(&squares, &self.counts) / self.points()
@@ -209,12 +224,17 @@ impl Patches {
         self.counts.iter().sum()
     }
 
-    /// The values at the places of each patch.
+    /// The values at the places and telling points of each patch.
     fn of_patches<'a>(&'a self, values: &'a [f64]) -> impl Iterator<Item = &'a [f64]> {
         let starts = once(0).chain(self.ends.iter().copied());
         let ends = self.ends.iter().copied();
         starts.zip(ends).map(|(start, end)| &values[start..end])
     }
+}
+
+/// The mean over the points of a patch, from the values at its places.
+fn mean_over_points(own: &[f64]) -> f64 {
+    mean_of(&own[..own.len().min(PLACES)])
 }
 
 fn mean_of(values: &[f64]) -> f64 {

@@ -43,8 +43,7 @@ pub(super) struct Cloud<'a> {
     pub(super) voxels: Option<Voxels>,
     /// Of the ellipsoid of equal moments.
     pub(super) semi_axes: Vector3<f64>,
-    /// Every so many of the vertices, in order of height on the sphere, and the places in triangles that touch them; or
-    /// of the points.
+    /// Every so many of the vertices, in order of height, and the places in triangles that touch them; or of the points.
     pub(super) is_left_out: Vec<bool>,
 }
 
@@ -59,9 +58,10 @@ pub(super) struct Distances {
 impl<'a> Cloud<'a> {
     /// The vertices of a closed mesh, with their places on the sphere.
     pub(super) fn new(mesh: &'a Mesh, map: Vec<Vector3<f64>>) -> Self {
-        let is_left_out = left_out(&map);
+        let points: Vec<_> = mesh.vertices.iter().map(|vertex| vertex.coords).collect();
         let mut cloud = Self {
-            points: mesh.vertices.iter().map(|vertex| vertex.coords).collect(),
+            is_left_out: left_out(&points),
+            points,
             normals: mesh.normals(),
             weights: Vec::new(),
             inside: Vec::new(),
@@ -71,7 +71,6 @@ impl<'a> Cloud<'a> {
             mesh,
             directions: map.clone(),
             map,
-            is_left_out,
         };
         cloud.weigh();
         cloud
@@ -99,7 +98,7 @@ impl<'a> Cloud<'a> {
         cloud.points.extend(points);
         cloud.restart_from_map();
         let vertices = cloud.vertices();
-        let of_points = left_out(&cloud.directions[vertices..]);
+        let of_points = left_out(&cloud.points[vertices..]);
         cloud.is_left_out = vec![false; vertices];
         cloud.is_left_out.extend(of_points);
         cloud.weigh();
@@ -303,11 +302,15 @@ impl<'a> Cloud<'a> {
     }
 }
 
-/// Every so many of places on the sphere, in order of height.
-fn left_out(places: &[Vector3<f64>]) -> Vec<bool> {
-    let mut order: Vec<usize> = (0..places.len()).collect();
-    order.sort_by(|&one, &other| places[one].z.total_cmp(&places[other].z));
-    let mut is_left_out = vec![false; places.len()];
+/// Along it no two points of a lattice are alike high, and of a body that looks alike from two sides the same points come in turn.
+const UPWARDS: Vector3<f64> = Vector3::new(0.414_213_562_373_095, 0.732_050_807_568_877, 1.0);
+
+/// Every so many of points, in order of height in the frame of the body: the map to the sphere may be turned by a rounding.
+fn left_out(points: &[Vector3<f64>]) -> Vec<bool> {
+    let heights: Vec<f64> = points.iter().map(|point| UPWARDS.dot(point)).collect();
+    let mut order: Vec<usize> = (0..points.len()).collect();
+    order.sort_by(|&one, &other| heights[one].total_cmp(&heights[other]));
+    let mut is_left_out = vec![false; points.len()];
     for &place in order.iter().skip(HELD_OUT / 2).step_by(HELD_OUT) {
         is_left_out[place] = true;
     }

@@ -36,8 +36,6 @@ pub(super) struct Lengths<'a> {
     pub(super) unresolved: f64,
     /// What voxels hide.
     pub(super) hidden: Option<&'a Hidden>,
-    /// Functions of which the points decide.
-    pub(super) told: f64,
 }
 
 impl Lengths<'_> {
@@ -59,8 +57,8 @@ impl Lengths<'_> {
             higher += self.higher(end);
             squares += ends.square(end);
             if let Some(hidden) = self.hidden {
-                squares +=
-                    hidden.square(end, self.told) + ends.cut_off(end, [hidden.width(), length]);
+                squares += hidden.square(&end.point, &end.along);
+                squares += ends.cut_off(end, [hidden.width(), length]);
             }
         }
         let least = self.functions.cover().map_or(FLOOR, |_| FLOOR_OF_CELLS);

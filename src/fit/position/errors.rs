@@ -33,6 +33,7 @@ use super::finest;
 use super::functionals::{FIGURES, FigureVector, Functionals, by_move};
 use super::functions::{Functions, Rows};
 use super::least_squares::values;
+use super::voxels::Hidden;
 use crate::fit::close_pairs;
 use crate::fit::figures::{INERTIA, INTEGRALS, derivatives, form, mass, unlist};
 use crate::fit::hole::Holes;
@@ -70,8 +71,14 @@ const STEEPER_REST: f64 = 2.0;
 const RESOLVED: f64 = 0.5;
 
 impl Solved<'_> {
-    /// The standard errors of a surface's figures.
-    pub(super) fn errors(&self) -> Result<StandardErrors, NoInterval> {
+    /// What the scan's voxels hide of the surface.
+    pub(super) fn hidden_by_voxels(&self) -> Option<Hidden> {
+        let voxels = self.cloud.voxels.as_ref()?;
+        Some(voxels.hidden(self.functions, self.surface, self.told()))
+    }
+
+    /// The standard errors of a surface's figures, of which voxels hide so much.
+    pub(super) fn errors(&self, hidden: Option<&Hidden>) -> Result<StandardErrors, NoInterval> {
         let functionals =
             Functionals::new(self.functions, self.surface).ok_or(NoInterval::NotFinite)?;
         let feet = self.feet(self.surface);
@@ -86,10 +93,7 @@ impl Solved<'_> {
         let beside_holes = covariance + of_holes * of_holes.transpose();
         let block = beside_holes.fixed_view::<INTEGRALS, INTEGRALS>(0, 0);
         let mut of_mass = jacobian * block * jacobian.transpose();
-        let voxels = self.cloud.voxels.as_ref();
-        let hidden = voxels
-            .map(|voxels| voxels.hidden(self.functions, self.surface, functionals.moments.area));
-        if let Some(hidden) = &hidden {
+        if let Some(hidden) = hidden {
             of_mass += jacobian * hidden.covariance() * jacobian.transpose();
             of_mass[(0, 0)] += hidden.edges().powi(2);
         }
@@ -113,8 +117,7 @@ impl Solved<'_> {
             jacobian: &jacobian,
             inertia: inertia.into_owned(),
             unresolved,
-            hidden: hidden.as_ref(),
-            told: self.told(),
+            hidden,
         };
         let dimensions = lengths.squares(&Ends::new(self.cloud, &feet, &distances, self.rms[0]));
         let root = |x: f64| x.max(0.0).sqrt();

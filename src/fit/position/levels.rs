@@ -5,6 +5,7 @@ use super::functions::Functions;
 use super::local_faces::LocalFaces;
 use super::map::{Coarse, MapError, SphericalMap};
 use super::rounds::{Fitted, Problem};
+use super::voxels::Hidden;
 use crate::fit::context::Context;
 use crate::fit::error::FitError;
 use crate::sphere::CubeCell;
@@ -51,6 +52,8 @@ pub(super) struct Found {
     pub(super) scanned: usize,
     pub(super) points: Vec<Vector3<f64>>,
     pub(super) normals: Vec<Vector3<f64>>,
+    /// Mean squares of the move of the surface at these that voxels hide.
+    pub(super) hidden: Vec<f64>,
 }
 
 impl<'a> Levels<'a> {
@@ -128,7 +131,13 @@ impl<'a> Levels<'a> {
 
 impl Found {
     fn new(fitted: Fitted, cloud: &Cloud<'_>) -> Self {
+        let samples = cloud.points.iter().zip(&cloud.normals);
+        let square = |(point, normal)| {
+            let hidden: Option<&Hidden> = fitted.hidden.as_ref();
+            hidden.map_or(0.0, |hidden| hidden.square(point, normal))
+        };
         Self {
+            hidden: samples.map(square).collect(),
             fitted,
             scanned: cloud.scanned(),
             points: cloud.points.clone(),

@@ -134,6 +134,7 @@ pub(super) fn fit_position_if(
         scanned,
         points,
         normals,
+        hidden,
     } = found.ok_or(FitError::NoEstimate)?;
     let distance = |found: cloud::Distances| Distance {
         rms: found.rms * radius,
@@ -158,6 +159,10 @@ pub(super) fn fit_position_if(
         fitted_to: Samples {
             points: points.iter().map(|p| local.to_scan(p)).collect(),
             normals: normals.iter().map(|n| local.frame.axes * n).collect(),
+            hidden: hidden
+                .iter()
+                .map(|square| square * radius * radius)
+                .collect(),
         },
         warnings: local.warnings,
     })

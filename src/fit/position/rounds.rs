@@ -9,6 +9,7 @@ use super::cloud::{Cloud, Distances};
 use super::errors::Solved;
 use super::functions::{Functions, Rows};
 use super::least_squares::{Equations, Roughness, Term};
+use super::voxels::Hidden;
 use crate::fit::context::{Cancelled, Context};
 use crate::fit::linear::BlockFactor;
 use crate::measure::sound_crossings;
@@ -73,6 +74,8 @@ pub(super) struct Fitted {
     pub(super) is_folded: bool,
     /// Of its figures.
     pub(super) errors: Result<StandardErrors, NoInterval>,
+    /// What voxels hide of it.
+    pub(super) hidden: Option<Hidden>,
 }
 
 impl Fitted {
@@ -241,25 +244,28 @@ impl<'a> Problem<'a> {
         let crossings = crossing_places(&surface);
         let faults = [cloud.turned_over(&surface), crossings.len()];
         let is_folded = is_folded(&surface);
-        let errors = match (faults, is_folded) {
-            ([0, 0], false) => Solved {
-                functions: self.functions,
-                surface: &surface,
-                other: &other,
-                factor: &factor,
-                rows: &rows,
-                cloud,
-                rms: [distances.rms, held_out.rms],
-                roughness,
-            }
-            .errors(),
-            _ => Err(NoInterval::Crossing),
+        let solved = Solved {
+            functions: self.functions,
+            surface: &surface,
+            other: &other,
+            factor: &factor,
+            rows: &rows,
+            cloud,
+            rms: [distances.rms, held_out.rms],
+            roughness,
+        };
+        let is_sound = faults == [0, 0] && !is_folded;
+        let hidden = is_sound.then(|| solved.hidden_by_voxels()).flatten();
+        let errors = match is_sound {
+            true => solved.errors(hidden.as_ref()),
+            false => Err(NoInterval::Crossing),
         };
         Ok(Some(Fitted {
             faults,
             is_folded,
             crossing: crossings.first().copied(),
             errors,
+            hidden,
             surface,
             distances,
             held_out,

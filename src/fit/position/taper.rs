@@ -19,6 +19,9 @@ const LEAST_POINTS: usize = 20;
 /// is round.
 const ROUND: [f64; 2] = [0.03, 0.07];
 
+/// How thick a tip is where voxels end, in voxels from its axis, at most: one that is thicker ends there, from the second on surely.
+const THICK: [f64; 2] = [1.0, 2.0];
+
 /// By how much a body of such a length may reach beyond the height `end` along a unit vector, by its points between voxels of this
 /// width.
 pub(super) fn beyond(
@@ -51,11 +54,15 @@ pub(super) fn beyond(
     let [_, first, second] = polynomial(&depths, from_axis.clone());
     let rise = first + second;
     let bulge = -0.25 * second / rise;
-    let [cone, round] = ROUND;
-    let share = ((round - bulge) / (round - cone)).clamp(0.0, 1.0);
     let [at, slope] = polynomial(&depths, from_axis);
+    let thickness = (at - slope * from / range) / width;
+    let share =
+        |value: f64, [sure, none]: [f64; 2]| ((none - value) / (none - sure)).clamp(0.0, 1.0);
     match rise > 0.0 && slope > 0.0 {
-        true => share * (at / slope * range - from).clamp(0.0, to),
+        true => {
+            let share = share(bulge, ROUND) * share(thickness, THICK);
+            share * (at / slope * range - from).clamp(0.0, to)
+        }
         false => 0.0,
     }
 }
@@ -108,6 +115,14 @@ mod tests {
         for radius in [1.5_f64, 6.0, 30.0] {
             let told = told(|depth| (2.0 * radius * depth).sqrt());
             assert!(told < 0.05, "{radius}: {told}");
+        }
+    }
+
+    /// A cone without its tip, or the end of a block whose sides are not quite parallel.
+    #[test]
+    fn a_blunt_end_does_not_reach_beyond_its_voxels() {
+        for slope in [0.02, 0.2] {
+            assert_eq!(told(|depth| 3.0 + slope * depth), 0.0);
         }
     }
 }

@@ -16,20 +16,24 @@
 //! A flat side along a layer of voxels has no curvature: all of it may lie anywhere between two layers, so that of a disc of
 //! six layers the volume is known to 7 %, and its edges are rounded, as [all](rounded) are. How much of a side is flat is told by
 //! the area A(d) that is within d layers of its highest place: where the side is curved A grows with d, of one that is flat it is
-//! reached at once. What 2 A(1/2) is more than A(1) is taken to be flat, and moves as a whole, with a standard deviation of a twelfth
-//! of a layer's square.
+//! reached at once. What 2 A(1/2) is more than A(1) is taken to be flat, or the [terrace] of the voxels themselves where that
+//! is larger. It moves as a whole, with a variance of a twelfth of a layer's square, and may lean as far as it stays
+//! between the two layers.
 
 mod rounded;
+mod terrace;
 
-use super::functionals::{End, by_move_of, curvature};
+use super::functionals::{by_move_of, curvature};
 use super::functions::Functions;
 use crate::fit::figures::INTEGRALS;
+use crate::mesh::Mesh;
 use crate::model::{Position, area_normal};
 use crate::sphere::{CubeCell, GaussLegendre};
 use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
 use rayon::prelude::*;
 use rounded::lacking;
 use std::f64::consts::PI;
+use terrace::Terrace;
 
 /// Waves are summed up to so many times the shortest along the widest step.
 const SHELLS: f64 = 8.0;
@@ -37,22 +41,26 @@ const SHELLS: f64 = 8.0;
 /// Places along the side of a cell at which a surface is looked at.
 const NODES: usize = 16;
 
-/// Cosine of the angle between a flat side and the axis of a length that ends on it, at least.
+/// Cosine of the angle between the normals of a flat side and of a place that is on it, at least.
 const ENDS: f64 = 0.9;
 
 /// The lattice of a scan's voxels.
 pub(super) struct Voxels {
-    /// Normals of its layers: along the axes and the diagonals, over the distance from one layer to the next.
-    layers: Vec<Vector3<f64>>,
+    /// Normals of its layers: along the axes and the diagonals, over the distance from one layer to the next; and the largest
+    /// terrace that faces along each.
+    layers: Vec<(Vector3<f64>, Option<Terrace>)>,
     /// The variance of the volume of the voxels of a smooth body, over the body's area.
     miscount: f64,
+    /// From one voxel to the next, in columns.
+    steps: Matrix3<f64>,
     /// The side of a cube as large as a voxel.
     width: f64,
 }
 
 impl Voxels {
-    /// `steps` lead from one voxel to the next, in columns. `None` if they span no volume.
-    pub(super) fn new(steps: &Matrix3<f64>) -> Option<Self> {
+    /// `steps` lead from one voxel to the next, in columns; the mesh lies in the middle between voxels. `None` if the steps
+    /// span no volume.
+    pub(super) fn new(steps: &Matrix3<f64>, mesh: &Mesh) -> Option<Self> {
         let dual = steps.transpose().try_inverse()?;
         let lengths: Vec<f64> = steps.column_iter().map(|step| step.norm()).collect();
         let widest = lengths.iter().copied().fold(0.0, f64::max);
@@ -77,17 +85,20 @@ impl Voxels {
         let numbers =
             (0..27).map(|at| Vector3::new(at % 3, at / 3 % 3, at / 9) - Vector3::repeat(1));
         let layers = numbers.filter(|numbers| *numbers != Vector3::zeros());
+        let layers = layers.map(|numbers| {
+            let layer = dual * numbers.map(f64::from);
+            (layer, Terrace::largest(&layer, mesh))
+        });
         Some(Self {
-            layers: layers
-                .map(|numbers| dual * numbers.map(f64::from))
-                .collect(),
+            layers: layers.collect(),
             miscount: sum / (8.0 * PI.powi(3)),
+            steps: *steps,
             width: steps.determinant().abs().cbrt(),
         })
     }
 
-    /// What they hide of a surface of such an area.
-    pub(super) fn hidden(&self, functions: &Functions, surface: &Position, area: f64) -> Hidden {
+    /// What they hide of a surface, of so many functions that points decide.
+    pub(super) fn hidden(&self, functions: &Functions, surface: &Position, told: f64) -> Hidden {
         let rule = GaussLegendre::new(NODES);
         let of_cell = |cell: &CubeCell| {
             let nodes = cell.rectangle().nodes(&rule).into_iter();
@@ -109,10 +120,14 @@ impl Voxels {
         let places: Vec<Place> = cells.par_iter().flat_map_iter(of_cell).collect();
         let sides = self.layers.par_iter();
         Hidden {
-            flats: sides.filter_map(|layer| Flat::of(layer, &places)).collect(),
+            flats: sides
+                .filter_map(|(layer, terrace)| Flat::of(layer, terrace.as_ref(), &places))
+                .collect(),
             scatter: places.iter().map(Place::square).sum::<SMatrix<_, _, _>>() * self.miscount,
             miscount: self.miscount,
-            area,
+            area: places.iter().map(|place| place.area.norm()).sum(),
+            told,
+            steps: self.steps,
             rounded: places.iter().map(|place| place.lacking).sum(),
             width: self.width,
         }
@@ -138,13 +153,16 @@ impl Place {
 }
 
 /// A flat side along layers of voxels.
+#[derive(Debug)]
 struct Flat {
     layer: Vector3<f64>,
     area: f64,
     /// Of its highest place, in layers.
     top: f64,
-    /// Of the figures, if it moves by a layer.
+    /// Of the figures, if it moves by a layer, ...
     changes: SVector<f64, INTEGRALS>,
+    /// ... and if it leans, about either of its axes, so that its ends move by a layer.
+    leaning: [SVector<f64, INTEGRALS>; 2],
 }
 
 /// By so much, times the radius and the length, the area is less where an edge is rounded: 2 - pi / 2.
@@ -153,9 +171,13 @@ const ROUNDED: f64 = 0.43;
 /// Mean square of a place that may be anywhere between two layers.
 const ANYWHERE: f64 = 1.0 / 12.0;
 
+/// Mean square of the move of the ends of a side that leans about two axes and stays between two layers, where all places and
+/// slopes are alike likely.
+const LEANING: f64 = 1.0 / 40.0;
+
 impl Flat {
-    /// The largest on the side of a surface that faces along a layer's normal.
-    fn of(layer: &Vector3<f64>, places: &[Place]) -> Option<Self> {
+    /// The largest on the side of a surface that faces along a layer's normal, or the terrace of its voxels.
+    fn of(layer: &Vector3<f64>, terrace: Option<&Terrace>, places: &[Place]) -> Option<Self> {
         let along = layer.normalize();
         let mut side: Vec<(f64, f64, &Place)> = (places.iter())
             .map(|place| (layer.dot(&place.point), along.dot(&place.area), place))
@@ -167,7 +189,7 @@ impl Flat {
             below.push(below[below.len() - 1] + area);
         }
         let mut ends = [0; 2];
-        let (mut flat, mut top) = (0.0, 0.0);
+        let (mut flat, mut top) = terrace.map_or((0.0, 0.0), |it| (it.area, it.height));
         for (at, (height, ..)) in side.iter().enumerate() {
             let within = [0.5, 1.0].map(|depth| height - depth);
             for (end, least) in ends.iter_mut().zip(within) {
@@ -180,27 +202,67 @@ impl Flat {
                 (flat, top) = (2.0 * half - whole, *height);
             }
         }
-        (flat > 0.0).then(|| {
+        let all = below[side.len()];
+        (flat > 0.0 && all > 0.0).then(|| {
             // As if all of this side moved, as far as it is flat: the sides next to it grow.
-            let share = flat / below[side.len()] / layer.norm();
-            let changes = side.iter().map(|(_, area, place)| place.changes * *area);
+            let share = (flat / all).min(1.0) / layer.norm();
+            let moved_by = |height: &dyn Fn(&Vector3<f64>) -> f64| {
+                let changes = side
+                    .iter()
+                    .map(|(_, area, place)| place.changes * (*area * share * height(&place.point)));
+                changes.sum::<SVector<f64, INTEGRALS>>()
+            };
+            let points = side.iter().map(|(_, area, place)| (*area, place.point));
+            let middle = points
+                .clone()
+                .map(|(area, p)| p * area)
+                .sum::<Vector3<f64>>()
+                / all;
+            let spread = points.map(|(area, p)| {
+                let across = p - middle - along * along.dot(&(p - middle));
+                across * across.transpose() * (area / all)
+            });
+            let axes = spread.sum::<Matrix3<f64>>().symmetric_eigen();
+            let mut order = [0, 1, 2];
+            order.sort_unstable_by(|&i, &j| axes.eigenvalues[j].total_cmp(&axes.eigenvalues[i]));
+            let leaning = [order[0], order[1]].map(|i| {
+                let axis = axes.eigenvectors.column(i);
+                let end = (3.0 * axes.eigenvalues[i]).sqrt().max(f64::MIN_POSITIVE);
+                moved_by(&|p| axis.dot(&(p - middle)) / end)
+            });
             Self {
                 layer: *layer,
                 area: flat,
                 top,
-                changes: changes.sum::<SVector<f64, INTEGRALS>>() * share,
+                changes: moved_by(&|_| 1.0),
+                leaning,
             }
         })
+    }
+
+    /// Covariance of the figures.
+    fn covariance(&self) -> SMatrix<f64, INTEGRALS, INTEGRALS> {
+        let leaning = self
+            .leaning
+            .iter()
+            .map(|changes| changes * changes.transpose());
+        self.changes * self.changes.transpose() * ANYWHERE
+            + leaning.sum::<SMatrix<_, _, _>>() * LEANING
     }
 }
 
 /// What voxels hide of a surface.
+#[derive(Debug)]
 pub(super) struct Hidden {
     flats: Vec<Flat>,
     /// Covariance of the integrals by what is not flat.
     scatter: SMatrix<f64, INTEGRALS, INTEGRALS>,
     miscount: f64,
+    /// Of the surface.
     area: f64,
+    /// Functions that the points decide.
+    told: f64,
+    steps: Matrix3<f64>,
     /// Area that edges may lack.
     rounded: f64,
     width: f64,
@@ -209,9 +271,8 @@ pub(super) struct Hidden {
 impl Hidden {
     /// Covariance of area, volume and moments.
     pub(super) fn covariance(&self) -> SMatrix<f64, INTEGRALS, INTEGRALS> {
-        let flats = self.flats.iter().map(|flat| &flat.changes);
-        let squares = flats.map(|changes| changes * changes.transpose() * ANYWHERE);
-        squares.sum::<SMatrix<_, _, _>>() + self.scatter
+        let flats = self.flats.iter().map(Flat::covariance);
+        flats.sum::<SMatrix<_, _, _>>() + self.scatter
     }
 
     /// By how much the area is less if edges are [rounded], or those that flat sides share by a layer.
@@ -225,19 +286,24 @@ impl Hidden {
         self.width
     }
 
-    /// Mean square of the move of an end of a length, of a surface of so many functions.
-    pub(super) fn square(&self, end: &End, functions: f64) -> f64 {
-        let reach = self.area / functions;
+    /// Mean square of the move of a place of the surface along its unit normal: of one that functions even out over little more
+    /// than the terraces of a ball of its area, all of it may lie anywhere between two voxels.
+    pub(super) fn square(&self, place: &Vector3<f64>, normal: &Vector3<f64>) -> f64 {
+        let reach = self.area / self.told;
         let is_under = |flat: &&Flat| {
-            let depth = flat.top - flat.layer.dot(&end.point);
-            depth.abs() < 0.5 && flat.layer.dot(&end.along) > ENDS * flat.layer.norm()
+            let depth = flat.top - flat.layer.dot(place);
+            depth.abs() < 0.5 && flat.layer.dot(normal) > ENDS * flat.layer.norm()
         };
         let flats = self.flats.iter().filter(is_under);
         let squares = flats.map(|flat| {
             let share = (flat.area / reach).min(1.0);
             share * ANYWHERE / flat.layer.norm_squared()
         });
-        squares.sum::<f64>() + self.miscount / reach
+        let height = self.steps.tr_mul(normal).amax();
+        let terrace = height * (PI * self.area).sqrt();
+        let share = (terrace / reach).min(1.0).powi(2);
+        let of_terraces = share * ANYWHERE * height * height;
+        (squares.sum::<f64>() + self.miscount / reach).max(of_terraces)
     }
 }
 

@@ -35,7 +35,8 @@ pub(super) fn bulge(mesh: &Mesh) -> f64 {
         let length = (to - from).norm();
         let (n, m) = (normal(one), normal(other));
         let bend = n.angle(&m);
-        if bend < SHARPEST {
+        // Triangles that close a gap may have edges without length.
+        if bend < SHARPEST && length > 0.0 {
             let is_inwards = n.dot(&(middle(other) - middle(one))) > 0.0;
             let heights = (n.norm_squared() + m.norm_squared()) / length;
             let sum = if is_inwards { &mut within } else { &mut beyond };
@@ -76,6 +77,19 @@ mod tests {
             };
             assert_relative_eq!(bulge(&both), 2.0_f64.sqrt() * exact, max_relative = 0.06);
         }
+    }
+
+    /// A corner put in twice, with a triangle without area between.
+    #[test]
+    fn an_edge_without_length_bulges_nowhere() {
+        let mut ball = Mesh::radial(8, |_| 1.0);
+        let smooth = bulge(&ball);
+        let twin = ball.vertices.len() as u32;
+        let [a, b, c] = ball.triangles[0];
+        ball.vertices.push(ball.vertices[a as usize]);
+        ball.triangles[0] = [twin, b, c];
+        ball.triangles.extend([[a, b, twin], [a, twin, c]]);
+        assert_relative_eq!(bulge(&ball), smooth, max_relative = 0.01);
     }
 
     #[test]

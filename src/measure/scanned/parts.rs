@@ -1,12 +1,16 @@
-//! The parts of a scan's faces that share no point, by their size.
+//! The parts of a scan's faces, [apart] where they touch, by their size.
 
 use crate::mesh::{Bounds, Mesh, part, parts};
-use crate::scan::Scan;
+use crate::scan::{Scan, apart};
 use nalgebra::Point3;
 use std::ptr;
 
-/// A part with less than this share of the vertices, and of the area, is dust.
+/// A part with less than this share of the area is dust, and of the vertices unless these are those of voxels: a corner of one that no
+/// other touches has six.
 const DUST: f64 = 0.01;
+
+/// Where parts without dust have less than this share of the area, all is in pieces and none is dust.
+const LEAST_KEPT: f64 = 0.5;
 
 /// A part of a mesh.
 struct Size {
@@ -69,14 +73,20 @@ fn sizes(scan: &Scan, mesh: &Mesh) -> Vec<Size> {
 
 /// The scan without parts that are too small for bodies, and what these are; `None` if there are none.
 pub(crate) fn without_dust(scan: &Scan) -> Option<(Scan, LeftOut)> {
-    let mesh = scan.welded();
+    let mesh = apart(scan.welded());
     let mut sizes = sizes(scan, &mesh);
     let vertices = mesh.vertices.len() as f64;
     let area: f64 = sizes.iter().map(|size| size.area).sum();
     let outer: f64 = sizes.iter().map(|size| size.volume.max(0.0)).sum();
-    let is_small =
-        |size: &mut Size| size.area <= DUST * area && size.vertices as f64 <= DUST * vertices;
+    let is_small = |size: &mut Size| {
+        let has_few = scan.lattice.is_some() || size.vertices as f64 <= DUST * vertices;
+        has_few && size.area <= DUST * area
+    };
     let small: Vec<Size> = sizes.extract_if(.., is_small).collect();
+    let kept: f64 = sizes.iter().map(|size| size.area).sum();
+    if kept < LEAST_KEPT * area {
+        return None;
+    }
     let is_closed = scan.topology.as_ref().is_some_and(|own| own.closed);
     (!small.is_empty()).then(|| {
         let small: Vec<&Size> = small.iter().collect();
@@ -91,7 +101,7 @@ pub(crate) fn without_dust(scan: &Scan) -> Option<(Scan, LeftOut)> {
 /// The part that encloses most, and what the others are; `None` if there are no others. Hollows in it are wound the other way and lie
 /// within its bounds.
 pub(crate) fn largest_part(scan: &Scan) -> Option<(Scan, LeftOut)> {
-    let mesh = scan.welded();
+    let mesh = apart(scan.welded());
     let sizes = sizes(scan, &mesh);
     let order = |a: &&Size, b: &&Size| {
         let of_equal_volume = a.area.total_cmp(&b.area);
@@ -117,6 +127,7 @@ pub(crate) fn largest_part(scan: &Scan) -> Option<(Scan, LeftOut)> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::mesh::{Grid, contour};
     use approx::assert_relative_eq;
     use nalgebra::Vector3;
 
@@ -132,6 +143,57 @@ mod tests {
                 let [a, b, c] = corners.map(|corner| corner + before);
                 if is_inwards { [a, c, b] } else { [a, b, c] }
             }));
+    }
+
+    /// As where vertices were merged: a flap of four triangles along an edge of a ball, and thirty pieces of a ball that hang together
+    /// nowhere.
+    #[test]
+    fn a_flap_on_an_edge_is_dust_and_pieces_are_not() {
+        let mut mesh = Mesh::radial(12, |_| 1.0);
+        let ball = mesh.clone();
+        let [a, b, _] = mesh.triangles[0];
+        let [p, q] = [0, 1].map(|at| mesh.vertices.len() as u32 + at);
+        let middle = mesh.vertices[a as usize] + mesh.vertices[b as usize].coords;
+        let aside = mesh.vertices[a as usize]
+            .coords
+            .cross(&mesh.vertices[b as usize].coords);
+        mesh.vertices.push(middle * 0.52 + aside * 0.1);
+        mesh.vertices.push(middle * 0.52 - aside * 0.1);
+        mesh.triangles
+            .extend([[a, b, p], [b, a, q], [a, p, q], [b, q, p]]);
+        let scan = Scan::from_mesh(mesh).unwrap();
+        let (kept, left_out) = without_dust(&scan).unwrap();
+        assert_eq!(
+            (kept.triangles().len(), left_out.bodies),
+            (ball.triangles.len(), 1)
+        );
+        let (kept, _) = largest_part(&scan).unwrap();
+        assert_eq!(kept.triangles().len(), ball.triangles.len());
+        let mut pieces = Mesh::default();
+        for corners in &ball.triangles {
+            let first = pieces.vertices.len() as u32;
+            let own = corners.map(|corner| ball.vertices[corner as usize]);
+            pieces
+                .vertices
+                .extend(own.map(|p| p * (1.0 + 1e-3 * f64::from(first))));
+            pieces.triangles.push([first, first + 1, first + 2]);
+        }
+        assert!(without_dust(&Scan::from_mesh(pieces).unwrap()).is_none());
+    }
+
+    /// It has more than a hundredth of the vertices, and far less of the volume.
+    #[test]
+    fn a_voxel_at_the_corner_of_a_small_block_is_dust() {
+        let mut grid = Grid::new([10; 3]);
+        for at in 0..343 {
+            grid.fill([at % 7, at / 7 % 7, at / 49]);
+        }
+        grid.fill([7; 3]);
+        let scan = Scan::from_mesh(contour(&grid, |_, _| 0.5)).unwrap();
+        let (kept, left_out) = without_dust(&scan).unwrap();
+        assert_eq!(left_out.bodies, 1);
+        assert_eq!(kept.points().len() + 6, scan.points().len());
+        assert!(6.0 > DUST * scan.points().len() as f64);
     }
 
     #[test]

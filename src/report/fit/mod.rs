@@ -11,7 +11,7 @@ use super::rule::{kind_rule, rule};
 use super::standard_errors::{StandardErrorsRecord, recorded};
 use super::unit::Unit;
 use super::warning::sentences;
-use crate::fit::{FitOptions, Fitted, Reference, Tolerance};
+use crate::fit::{FitOptions, Fitted, LARGEST_OF_NOISE, Reference, Tolerance};
 use crate::measure::Survey;
 use crate::model::{NoInterval, StarGrain};
 use crate::sphere::Symmetry;
@@ -24,6 +24,9 @@ const FIGURES: [Measure; 4] = [
     Measure::Principal,
     Measure::Dimensions,
 ];
+
+/// Share of the mean radius up to which noise is not told from none: no search goes below 3e-6.
+const LEAST_NOISE: f64 = 3.5e-6;
 
 /// The result of a fit.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -96,10 +99,11 @@ pub struct FitReport {
     /// What an evaluation costs of the expansion of the whole sphere that is as near to the estimate; `null` where the
     /// model has no cells.
     pub whole: Option<EvaluationRecord>,
-    /// Standard deviation of the points' noise, at most that where the largest residual is more than six times their RMS, for
-    /// part of it is then shape; `null` where it was not estimated, or not told apart from edges. Up to some 3e-6 of
-    /// the mean radius it is not told from none: there may be less.
+    /// Standard deviation of the points' noise; `null` where it was not estimated, or not told apart from edges.
     pub noise: Option<f64>,
+    /// Whether there is at most as much noise: where the largest residual is more than six times their RMS, for part of it is
+    /// then shape, and up to some 3e-6 of the mean radius, which is not told from none.
+    pub noise_is_bound: bool,
     /// The error that was good enough: the difference from the estimate, or the held-out RMS of independent segments and
     /// mirrored fits.
     pub limit: f64,
@@ -197,6 +201,7 @@ impl FitReport {
         let errors = (figures.may_have_errors()).then(|| fitted.standard_errors(survey));
         let (standard_errors, no_standard_errors) = recorded(errors, &survey.axes());
         let is_noise = !matches!(errors, Some(Err(NoInterval::Unresolved { .. })));
+        let noise = search.noise.filter(|_| is_noise);
         let evaluation = EvaluationRecord::new(&fitted.grain);
         let reference = fitted.grain.unseen().is_none().then_some(fitted.reference);
         let beside = |found: Option<f64>, of: fn(&Reference) -> f64| {
@@ -235,7 +240,8 @@ impl FitReport {
                 .whole
                 .clone()
                 .map(|whole| EvaluationRecord::new(&whole.into())),
-            noise: search.noise.filter(|_| is_noise),
+            noise,
+            noise_is_bound: noise.is_some_and(|noise| is_bound(noise, fitted)),
             limit: search.limit,
             tolerance: (options.tolerance != Tolerance::Auto).then_some(search.tolerance),
             rule: rule(fitted, options, unit),
@@ -260,4 +266,10 @@ impl From<Reference> for ReferenceRecord {
             volume: reference.volume,
         }
     }
+}
+
+/// Whether there is at most so much noise: a model with few coefficients leaves more than it.
+fn is_bound(noise: f64, fitted: &Fitted) -> bool {
+    noise <= LEAST_NOISE * fitted.mean_radius
+        || fitted.residuals.max > LARGEST_OF_NOISE * fitted.residuals.rms.min(noise)
 }

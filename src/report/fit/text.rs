@@ -2,16 +2,13 @@
 
 use super::{FitReport, ReferenceRecord};
 use crate::digits::plural;
-use crate::fit::{LARGEST_OF_NOISE, ReferenceKind};
+use crate::fit::ReferenceKind;
 use crate::report::escape::escaped;
 use crate::report::measure::by_reason;
 use crate::report::number::{percent, short, with_error};
 use crate::report::unit::Labels;
 use crate::sphere::Symmetry;
 use std::fmt;
-
-/// Share of the mean radius up to which noise is not told from none: no search goes below 3e-6.
-const LEAST_NOISE: f64 = 3.5e-6;
 
 /// What a kind of reference is, in words, by its name.
 pub(crate) fn described_reference(kind: &str) -> &'static str {
@@ -71,12 +68,9 @@ impl FitReport {
 
     /// What is said before the noise: it may be none.
     pub(crate) fn noise_bound(&self) -> &'static str {
-        let is_least = |noise: f64| noise <= LEAST_NOISE * self.mean_radius;
-        // A model with few coefficients leaves more than the noise.
-        let is_more = |noise: f64| self.max > LARGEST_OF_NOISE * self.rms.min(noise);
-        match self.noise {
-            Some(noise) if is_more(noise) || is_least(noise) => "at most ",
-            _ => "",
+        match self.noise_is_bound {
+            true => "at most ",
+            false => "",
         }
     }
 

@@ -123,6 +123,14 @@ pub enum VolumeError {
         /// Volume of the boxes over that of the image.
         times: f64,
     },
+    /// The voxels of most labels are specks.
+    #[error(
+        "the voxels of {labels} labels are specks all over the image: these are grey values; segment the image first"
+    )]
+    Scattered {
+        /// How many labels are.
+        labels: usize,
+    },
     /// All voxels are zero.
     #[error("all voxels are zero: the image has no label")]
     NoLabels,

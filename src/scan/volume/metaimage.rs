@@ -83,7 +83,7 @@ pub(super) fn voxel_file(bytes: &[u8]) -> Option<String> {
 
 fn named(fields: &HashMap<String, String>) -> Option<&str> {
     let name = fields.get("ElementDataFile").map(String::as_str);
-    name.filter(|name| *name != "LOCAL")
+    name.filter(|name| !name.eq_ignore_ascii_case("LOCAL"))
 }
 
 /// The fields, and what follows them.

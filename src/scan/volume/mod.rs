@@ -40,6 +40,10 @@ const MOST_LABELS: usize = 100_000;
 /// Volume of the boxes round all labels, over that of the image, at most: grains that are packed overlap a few times.
 const MOST_BOXES: f64 = 100.0;
 
+/// Runs of voxels without a neighbour of the same label, over the voxels, from which on these are specks. A body of thirty voxels has
+/// one for ten, larger ones have fewer; of a grey value in noise nearly each voxel is one.
+const MOST_ALONE: f64 = 0.25;
+
 /// Fewest voxels that have a shape: those of a ball of radius 2.
 pub(super) const LEAST_VOXELS: usize = 30;
 
@@ -210,22 +214,37 @@ impl Volume {
 
     /// The labels but zero, and where they are.
     fn extents(&self) -> Result<BTreeMap<i64, Extent>, VolumeError> {
-        let mut found = BTreeMap::new();
+        let mut found: BTreeMap<i64, Extent> = BTreeMap::new();
         let [_, height, depth] = self.size;
-        for (z, y) in (0..depth).flat_map(|z| (0..height).map(move |y| (z, y))) {
-            for (label, [from, to]) in self.row(y, z)? {
-                let extent: &mut Extent = found.entry(label).or_default();
-                extent.add([from, y, z], [to - 1, y, z]);
-                if found.len() > MOST_LABELS {
-                    return Err(VolumeError::TooManyLabels { most: MOST_LABELS });
+        let mut below: Vec<Vec<Run>> = vec![Vec::new(); height];
+        for z in 0..depth {
+            for y in 0..height {
+                let runs = self.row(y, z)?;
+                for run in &runs {
+                    let [from, to] = run.1;
+                    let extent = found.entry(run.0).or_default();
+                    extent.add([from, y, z], [to - 1, y, z]);
+                    // Row after row those of the slice take the places of those of the slice below.
+                    let mut beside = [y.checked_sub(1), Some(y)].into_iter().flatten();
+                    let is_alone = !beside.any(|y| touches(&below[y], run));
+                    extent.alone += usize::from(is_alone);
+                    if found.len() > MOST_LABELS {
+                        return Err(VolumeError::TooManyLabels { most: MOST_LABELS });
+                    }
                 }
+                below[y] = runs;
             }
         }
-        Ok(found)
+        let with_shape = || found.values().filter(|own| own.voxels >= LEAST_VOXELS);
+        let scattered = with_shape().filter(|own| own.is_scattered()).count();
+        match scattered > 1 && 2 * scattered > with_shape().count() {
+            true => Err(VolumeError::Scattered { labels: scattered }),
+            false => Ok(found),
+        }
     }
 
     /// The labels but zero in a row along the first axis, each from where to where.
-    fn row(&self, y: usize, z: usize) -> Result<Vec<(i64, [usize; 2])>, VolumeError> {
+    fn row(&self, y: usize, z: usize) -> Result<Vec<Run>, VolumeError> {
         let [width, height, _] = self.size;
         let row = width * (y + height * z);
         let (mut runs, mut x) = (Vec::new(), 0);
@@ -297,7 +316,9 @@ impl Volume {
 
     /// The boundary of a label within its extent.
     pub(crate) fn grain(&self, label: i64, extent: &Extent) -> Result<Scan, VolumeError> {
-        let Extent { voxels, low, high } = extent;
+        let Extent {
+            voxels, low, high, ..
+        } = extent;
         if *voxels < LEAST_VOXELS {
             let voxels = *voxels;
             return Err(VolumeError::TooFew { label, voxels });
@@ -323,10 +344,24 @@ impl Volume {
     }
 }
 
+/// A label in a row of voxels, from where to where.
+type Run = (i64, [usize; 2]);
+
+/// Whether the runs of a row, in order, hold one of the same label beside another's.
+fn touches(row: &[Run], (label, [from, to]): &Run) -> bool {
+    let first = row.partition_point(|(_, [_, end])| end < from);
+    let mut beside = row[first..]
+        .iter()
+        .take_while(|(_, [start, _])| start <= to);
+    beside.any(|(other, _)| other == label)
+}
+
 /// Where the voxels of a label are.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Extent {
     voxels: usize,
+    /// Runs along the first axis without one of the same label beside them, in the row before or in the slice below.
+    alone: usize,
     low: [usize; 3],
     high: [usize; 3],
 }
@@ -335,6 +370,7 @@ impl Default for Extent {
     fn default() -> Self {
         Self {
             voxels: 0,
+            alone: 0,
             low: [usize::MAX; 3],
             high: [0; 3],
         }
@@ -346,6 +382,11 @@ impl Extent {
     fn volume(&self) -> f64 {
         let sides = (0..3).map(|axis| (self.high[axis] - self.low[axis] + 1) as f64);
         sides.product()
+    }
+
+    /// Whether the voxels are specks all over the image, as those of one grey value are.
+    fn is_scattered(&self) -> bool {
+        self.alone as f64 > MOST_ALONE * self.voxels as f64
     }
 
     /// Adds a run of voxels along the first axis.

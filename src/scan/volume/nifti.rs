@@ -11,9 +11,21 @@ pub(super) fn is_it(bytes: &[u8]) -> bool {
     bytes
         .get(344..HEADER)
         .is_some_and(|magic| magic == b"n+1\0" || magic == b"ni1\0")
+        || is_second(bytes)
+}
+
+/// Of the second version, whose header is longer.
+fn is_second(bytes: &[u8]) -> bool {
+    bytes
+        .get(4..8)
+        .is_some_and(|magic| magic == b"n+2\0" || magic == b"ni2\0")
 }
 
 pub(super) fn parse(bytes: &[u8]) -> Result<Volume, VolumeError> {
+    if is_second(bytes) {
+        let what = "a NIfTI-2 image".into();
+        return Err(VolumeError::Unsupported { what });
+    }
     let order = match bytes.first_chunk() {
         Some(start) if i32::from_le_bytes(*start) == HEADER as i32 => Order::Little,
         Some(start) if i32::from_be_bytes(*start) == HEADER as i32 => Order::Big,

@@ -27,17 +27,21 @@ fn the_deviation_of_an_uneven_cloud_is_that_of_its_posterior() {
     assert!((told / exact - 1.0).abs() < 0.1, "{told} {exact}");
 }
 
-/// Though the estimate sees means of patches of two points.
+/// Though the estimate sees means of patches of two points, or of twelve, and a bend of 1e-4 in each patch.
 #[test]
 fn the_noise_of_a_dense_cloud_is_that_of_its_points() {
-    let noise = 0.02;
-    let samples = samples(&fibonacci(50_000), |n| 1.0 + 0.1 * n.x * n.y, noise);
-    let estimate = estimated(&samples, Vector3::repeat(1.0));
-    assert_eq!(estimate.outliers, 0);
-    let told = estimate.noise() / noise;
-    assert!((told - 1.0).abs() < 0.02, "{told}");
-    let held_out = estimate.held_out() / noise;
-    assert!((held_out - 1.0).abs() < 0.02, "{held_out}");
+    for (points, noise) in [(50_000, 0.02), (300_000, 0.02), (300_000, 4e-6)] {
+        let samples = samples(&fibonacci(points), |n| 1.0 + 0.1 * n.x * n.y, noise);
+        let estimate = estimated(&samples, Vector3::repeat(1.0));
+        assert_eq!(estimate.outliers, 0);
+        let told = estimate.noise() / noise;
+        assert!((told - 1.0).abs() < 0.02, "{points} {noise}: {told}");
+        let held_out = estimate.held_out() / noise;
+        assert!(
+            (held_out - 1.0).abs() < 0.02,
+            "{points} {noise}: {held_out}"
+        );
+    }
 }
 
 /// One in a hundred, 40 standard deviations off, in patches of two points.

@@ -3,26 +3,28 @@ use crate::shapes::Sampling;
 use std::f64::consts::TAU;
 
 /// A mean over the surface is known as well as the mean of so many points: the volume to the noise times the area over
-/// the root of their number.
+/// the root of their number, and two to three times worse by what points that were held out tell.
 #[test]
 fn errors_are_those_of_noise_and_hold_the_truth() {
     let (count, noise) = (3000, 0.005);
-    let noisy = CurledOptions::clean(Curled::Banana).with_noise(noise);
-    let seen = synthesize_curled(&noisy.with_points(count)).unwrap();
-    let scan = Scan::from_points(seen.mesh.vertices);
-    let fit = fit_position(&scan, &FitOptions::default(), &Context::default()).unwrap();
-    let errors = fit.errors.unwrap();
-    let grain = PositionGrain::new(fit.frame, fit.surface).unwrap();
-    let [found, truth] = [grain_properties(&grain).properties, seen.truth.properties];
-    let of_mean = noise * fit.radius * truth.area / (count as f64).sqrt();
-    assert!(
-        (0.7..2.5).contains(&(errors.volume / of_mean)),
-        "{errors:?}"
-    );
-    assert!((found.volume - truth.volume).abs() < 3.0 * errors.volume);
-    assert!((found.area - truth.area).abs() < 3.0 * errors.area);
-    let [one, other] = [found, truth].map(|solid| solid.principal().unwrap().moments);
-    assert!((one - other).component_div(&errors.moments).amax() < 3.0);
+    let mut squares = 0.0;
+    for seed in 0..4 {
+        let noisy = CurledOptions::clean(Curled::Banana).with_noise(noise);
+        let seen = synthesize_curled(&noisy.with_points(count).with_seed(seed)).unwrap();
+        let scan = Scan::from_points(seen.mesh.vertices);
+        let fit = fit_position(&scan, &FitOptions::default(), &Context::default()).unwrap();
+        let errors = fit.errors.unwrap();
+        let grain = PositionGrain::new(fit.frame, fit.surface).unwrap();
+        let [found, truth] = [grain_properties(&grain).properties, seen.truth.properties];
+        let of_mean = noise * fit.radius * truth.area / (count as f64).sqrt();
+        squares += (errors.volume / of_mean).powi(2) / 4.0;
+        assert!((found.volume - truth.volume).abs() < 3.0 * errors.volume);
+        assert!((found.area - truth.area).abs() < 3.0 * errors.area);
+        let [one, other] = [found, truth].map(|solid| solid.principal().unwrap().moments);
+        assert!((one - other).component_div(&errors.moments).amax() < 3.0);
+    }
+    let ratio = squares.sqrt();
+    assert!((1.0..3.5).contains(&ratio), "{ratio}");
 }
 
 /// Of a banana without one of its ends the area would be five errors too small.
@@ -87,8 +89,8 @@ fn no_length_is_known_better_than_its_ends_are_seen() {
     });
     lengths.sort_by(|(one, _), (other, _)| other.total_cmp(one));
     for ((length, unseen), error) in lengths.iter().zip(&errors) {
-        assert!(*unseen > 5e-4 * length, "{unseen}");
-        assert!((0.9..3.0).contains(&(error / unseen)), "{error} {unseen}");
+        assert!(*unseen > 3e-4 * length, "{unseen}");
+        assert!((0.9..3.5).contains(&(error / unseen)), "{error} {unseen}");
     }
 }
 

@@ -17,10 +17,10 @@ fn ellipsoid(axes: [f64; 3]) -> (Functions, Position) {
 
 /// The standard deviations of the volume of a body's voxels and of their moment along x, and the share of the square of the first
 /// that is of flat sides.
-fn hidden_volume(spacing: &Vector3<f64>, axes: [f64; 3], area: f64) -> ([f64; 2], f64) {
-    let voxels = Voxels::new(&Matrix3::from_diagonal(spacing)).unwrap();
+fn hidden_volume(spacing: &Vector3<f64>, axes: [f64; 3]) -> ([f64; 2], f64) {
+    let voxels = Voxels::new(&Matrix3::from_diagonal(spacing), &Mesh::default()).unwrap();
     let (functions, surface) = ellipsoid(axes);
-    let hidden = voxels.hidden(&functions, &surface, area);
+    let hidden = voxels.hidden(&functions, &surface, 4.0);
     let all = hidden.covariance();
     let flat = all - hidden.scatter;
     let told = [1, 2].map(|at| all[(at, at)].sqrt());
@@ -69,8 +69,8 @@ fn miscounted(spacing: &Vector3<f64>, mean_axes: &Vector3<f64>) -> [f64; 2] {
 #[test]
 fn the_voxels_of_smooth_bodies_scatter_as_told() {
     let spacing = Vector3::new(1.0, 0.8, 0.5);
-    for (axes, area) in [([7.3, 7.3, 7.3], 669.7), ([9.0, 7.0, 5.0], 607.2)] {
-        let (told, flat) = hidden_volume(&spacing, axes, area);
+    for axes in [[7.3, 7.3, 7.3], [9.0, 7.0, 5.0]] {
+        let (told, flat) = hidden_volume(&spacing, axes);
         let found = miscounted(&spacing, &axes.into());
         for (told, found) in told.into_iter().zip(found) {
             assert_relative_eq!(told, found, max_relative = 0.3);
@@ -83,8 +83,8 @@ fn the_voxels_of_smooth_bodies_scatter_as_told() {
 #[test]
 fn the_voxels_of_flat_bodies_scatter_at_most_as_told() {
     let spacing = Vector3::new(1.0, 1.0, 1.0);
-    for (axes, area) in [([60.0, 60.0, 2.1], 22_690.0), ([60.0, 2.3, 2.3], 1362.0)] {
-        let (told, flat) = hidden_volume(&spacing, axes, area);
+    for axes in [[60.0, 60.0, 2.1], [60.0, 2.3, 2.3]] {
+        let (told, flat) = hidden_volume(&spacing, axes);
         let found = miscounted(&spacing, &axes.into());
         assert!(
             (0.8 * found[0]..3.0 * found[0]).contains(&told[0]) && told[1] > 0.8 * found[1],
@@ -102,7 +102,7 @@ fn a_flat_side_moves_as_a_whole() {
         point: Vector3::new(x, 0.0, z),
         area,
         lacking: 0.0,
-        changes: list_of(bend),
+        changes: list_of(bend, x),
     };
     let mut places: Vec<Place> = (0..100)
         .map(|i| place(f64::from(i), 3.0 + 1e-3 * f64::from(i), Vector3::z(), 0.0))
@@ -110,36 +110,99 @@ fn a_flat_side_moves_as_a_whole() {
     // Its edge, as a rounding of which 20 of area face upwards, and the side below.
     places.push(place(0.0, 2.0, Vector3::new(0.0, 0.0, 20.0), 2.0));
     places.push(place(0.0, -3.0, -Vector3::z() * 100.0, 0.0));
-    let flat = Flat::of(&layer, &places).unwrap();
+    let flat = Flat::of(&layer, None, &places).unwrap();
     assert_relative_eq!(flat.area, 100.0);
-    assert_relative_eq!(flat.changes[1], 100.0 / 2.0);
-    assert_relative_eq!(flat.changes[0], 2.0 * 20.0 * (100.0 / 120.0) / 2.0);
+    assert_relative_eq!(flat.changes[1], 100.0 / 2.0, max_relative = 1e-12);
+    assert_relative_eq!(
+        flat.changes[0],
+        2.0 * 20.0 * (100.0 / 120.0) / 2.0,
+        max_relative = 1e-12
+    );
+    // It may lean: the moment along x tells, and the volume does not.
+    let mean = 4950.0 / 120.0;
+    let deviation = f64::sqrt(328_350.0 / 120.0 - mean * mean);
+    let leaning = flat.leaning[0];
+    assert_relative_eq!(
+        leaning[2].abs(),
+        50.0 * deviation / f64::sqrt(3.0),
+        max_relative = 1e-12
+    );
+    assert!(leaning[1].abs() < 1e-10);
+    let variance = flat.covariance()[(2, 2)];
+    let moved = flat.changes[2].powi(2) / 12.0;
+    assert_relative_eq!(
+        variance - moved,
+        leaning[2].powi(2) / 40.0,
+        max_relative = 1e-10
+    );
     let outline = flat.changes[0];
     let hidden = Hidden {
         flats: vec![flat],
         scatter: SMatrix::zeros(),
         miscount: 0.0,
         area: 1000.0,
+        told: 10.0,
+        steps: Matrix3::zeros(),
         rounded: 0.0,
         width: 1.0,
     };
-    assert_relative_eq!(hidden.covariance()[(1, 1)], 50.0 * 50.0 / 12.0);
+    assert_relative_eq!(
+        hidden.covariance()[(1, 1)],
+        50.0 * 50.0 / 12.0,
+        max_relative = 1e-12
+    );
     assert_relative_eq!(hidden.edges(), 0.5 * ROUNDED * outline);
-    let end = |height: f64, along: Vector3<f64>| End {
-        figure: 0,
-        point: Vector3::new(0.0, 0.0, height),
-        along,
-    };
-    // Half a unit from layer to layer, and of ten functions each has the flat's area.
-    let square = |end: &End| hidden.square(end, 10.0);
-    assert_relative_eq!(square(&end(3.1, Vector3::z())), 0.25 / 12.0);
-    assert_eq!(square(&end(4.1, Vector3::z())), 0.0);
-    assert_eq!(square(&end(3.1, Vector3::x())), 0.0);
+    // Half a unit from layer to layer, and a function has the flat's area.
+    let square = |height: f64, normal| hidden.square(&Vector3::new(0.0, 0.0, height), &normal);
+    assert_relative_eq!(square(3.1, Vector3::z()), 0.25 / 12.0);
+    assert_eq!(square(4.1, Vector3::z()), 0.0);
+    assert_eq!(square(3.1, Vector3::x()), 0.0);
 }
 
-fn list_of(bend: f64) -> SVector<f64, INTEGRALS> {
+/// A place moves by up to half a step along its normal where functions reach no farther than terraces, and by a share where they even
+/// many of them out.
+#[test]
+fn a_place_is_somewhere_on_its_terrace() {
+    let steps = Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, 3.0));
+    let hidden = |told: f64| Hidden {
+        flats: Vec::new(),
+        scatter: SMatrix::zeros(),
+        miscount: 0.0,
+        area: 400.0 * PI,
+        told,
+        steps,
+        rounded: 0.0,
+        width: 1.0,
+    };
+    let square = |told: f64, normal| hidden(told).square(&Vector3::zeros(), &normal);
+    assert_relative_eq!(square(200.0, Vector3::z()), 9.0 / 12.0);
+    assert_relative_eq!(square(200.0, Vector3::x()), 1.0 / 12.0);
+    // A terrace of 20 pi, and functions that reach ten times as far.
+    assert_relative_eq!(square(2.0, Vector3::x()), 0.01 / 12.0, max_relative = 1e-12);
+}
+
+/// A terrace of the voxels themselves counts where the surface laid through them is not flat, and is no larger than the side.
+#[test]
+fn the_terrace_of_voxels_is_flat_where_their_surface_bends() {
+    let layer = Vector3::z();
+    let place = |i: i32| Place {
+        point: Vector3::new(f64::from(i), 0.0, -0.01 * f64::from(i * i)),
+        area: Vector3::z(),
+        lacking: 0.0,
+        changes: list_of(0.0, f64::from(i)),
+    };
+    let places: Vec<Place> = (-50..=50).map(place).collect();
+    let terrace = |area: f64| Terrace { area, height: 0.2 };
+    let moved = |terrace: Option<&Terrace>| Flat::of(&layer, terrace, &places).unwrap().changes[1];
+    assert!(moved(None) < 15.0);
+    assert_relative_eq!(moved(Some(&terrace(80.0))), 80.0, max_relative = 1e-12);
+    assert_relative_eq!(moved(Some(&terrace(180.0))), 101.0, max_relative = 1e-12);
+}
+
+fn list_of(bend: f64, moment: f64) -> SVector<f64, INTEGRALS> {
     let mut changes = SVector::zeros();
     changes[0] = bend;
     changes[1] = 1.0;
+    changes[2] = moment;
     changes
 }

@@ -12,7 +12,7 @@ fn nrrd(lines: &str, voxels: &[u8]) -> Result<Volume, VolumeError> {
 fn meta(lines: &str, voxels: &[u8]) -> Result<Volume, VolumeError> {
     let [width, height, depth] = SIZE;
     let head = format!(
-        "NDims = 3\nDimSize = {width} {height} {depth}\nElementType = MET_UCHAR\n{lines}\nElementDataFile = LOCAL\n"
+        "NDims = 3\nDimSize = {width} {height} {depth}\nElementType = MET_UCHAR\n{lines}\nElementDataFile = Local\n"
     );
     of("standard input", &[head.as_bytes(), voxels].concat())
 }

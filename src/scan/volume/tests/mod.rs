@@ -192,6 +192,52 @@ fn grey_values_and_files_elsewhere_are_refused() {
     ));
 }
 
+/// An ellipsoid of grey values that fall off outwards, with and without noise, and labels side by side.
+#[test]
+fn whole_numbers_that_are_grey_values_are_no_labels() {
+    const SIDE: i32 = 24;
+    let image = |value: &dyn Fn([i32; 3]) -> u8| {
+        let places = (0..SIDE.pow(3)).map(|at| [at % SIDE, at / SIDE % SIDE, at / SIDE.pow(2)]);
+        let voxels: Vec<u8> = places.map(value).collect();
+        let head = "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 24 24 24\nencoding: raw\n\n";
+        read("a.nrrd", &[head.as_bytes(), &voxels].concat())
+    };
+    let share = |at: [i32; 3]| {
+        let squares = at
+            .map(|i| (f64::from(i) - 11.7).powi(2))
+            .into_iter()
+            .zip([1.0, 1.3, 1.6]);
+        let radius = squares
+            .map(|(square, factor)| square * factor)
+            .sum::<f64>()
+            .sqrt();
+        (0.5 * (9.0 - radius)).clamp(-1.0, 1.0)
+    };
+    let noise = |[x, y, z]: [i32; 3]| ((7919 * x + 104_729 * y + 1_299_709 * z) % 101 % 9) as f64;
+    for factor in [0.0, 1.0] {
+        let grey = image(&|at| (100.0 + 90.0 * share(at) + factor * noise(at)) as u8 / 2 * 2 - 10);
+        let found = grey.labels();
+        assert!(
+            matches!(found, Err(VolumeError::Scattered { .. })),
+            "{found:?}"
+        );
+        assert!(grey.scan(Some(180)).is_err() && grey.grains().is_err());
+    }
+    let cells = image(&|[x, y, z]| (1 + x / 4 + 6 * (y / 4) + 36 * (z / 4)) as u8);
+    assert_eq!(cells.labels().unwrap().len(), 216);
+}
+
+#[test]
+fn the_second_version_of_nifti_is_named() {
+    let mut header = vec![0; 540];
+    header[..8].copy_from_slice(b"\x1c\x02\0\0n+2\0");
+    let error = parse_volume(Path::new("a.nii"), &header, 1 << 20).unwrap_err();
+    let ReadError::Volume { source, .. } = error else {
+        panic!("{error}");
+    };
+    assert!(source.to_string().contains("NIfTI-2"), "{source}");
+}
+
 /// A slope of one, or one that says nothing, leaves labels as they are.
 #[test]
 fn scaled_numbers_of_nifti_are_refused() {

@@ -1,6 +1,7 @@
 //! TIFF stacks: an image per slice. Spacing is that of ImageJ or OME; other files have none along the stack.
 
 mod description;
+mod palette;
 mod slice;
 
 use super::samples::{Kind, Order, Samples};
@@ -30,12 +31,12 @@ pub(super) fn parse(bytes: &[u8], limit: u64) -> Result<Volume, VolumeError> {
     let mut limits = Limits::default();
     limits.decoding_buffer_size = room.for_slice;
     limits.intermediate_buffer_size = room.for_slice;
-    let mut decoder = Decoder::new(Cursor::new(bytes))
+    let bytes = palette::as_grey(bytes).map_err(told)?;
+    let mut decoder = Decoder::new(Cursor::new(&*bytes))
         .map_err(told)?
         .with_limits(limits);
     let (width, height) = decoder.dimensions().map_err(told)?;
-    let description = decoder.get_tag_ascii_string(Tag::ImageDescription);
-    let description = Description::of(&description.unwrap_or_default())?;
+    let description = Description::of(&text(&mut decoder, bytes.len()))?;
     let (spacing, no_spacing) = match spacing(&mut decoder, description.spacing) {
         Ok(spacing) => (Some(spacing), None),
         Err(warning) => (None, Some(warning)),
@@ -133,6 +134,21 @@ impl Room {
 }
 
 type Stack<'a> = Decoder<Cursor<&'a [u8]>>;
+
+/// The description of a stack; bytes that are not UTF-8 are Latin-1, as of a micrometre. A file holds no more of them than it has.
+fn text(decoder: &mut Stack<'_>, most: usize) -> String {
+    let mut directory = decoder.image_ifd();
+    let length = directory
+        .find_entry(Tag::ImageDescription)
+        .map_or(0, |entry| entry.count());
+    let mut bytes = vec![0; usize::try_from(length).map_or(most, |length| length.min(most))];
+    let read = directory.find_tag_bytes(Tag::ImageDescription, &mut bytes, 0);
+    bytes.truncate(read.ok().flatten().unwrap_or(0));
+    let end = bytes.iter().position(|byte| *byte == 0);
+    bytes.truncate(end.unwrap_or(bytes.len()));
+    String::from_utf8(bytes)
+        .unwrap_or_else(|error| error.as_bytes().iter().copied().map(char::from).collect())
+}
 
 /// The steps between voxels, or what is said where they are not told.
 fn spacing(decoder: &mut Stack<'_>, told: Spacing) -> Result<Vector3<f64>, &'static str> {

@@ -2,11 +2,13 @@ use super::*;
 use crate::scan::Scan;
 
 /// A stack of slices of 12 x 10 samples, the least byte first, made by hand.
+#[derive(Clone, Copy)]
 struct Stack<'a> {
     slices: &'a [Vec<u8>],
     bits: u16,
-    is_white_zero: bool,
-    description: &'a str,
+    /// 0 where white is zero, 1 where black is, 3 of colours in a table.
+    interpretation: u32,
+    description: &'a [u8],
     /// Pixels per unit, along x and y.
     resolution: Option<[u32; 2]>,
 }
@@ -26,7 +28,7 @@ impl Stack<'_> {
                 file.resize(file.len().next_multiple_of(4), 0);
                 at
             };
-            let text = [self.description.as_bytes(), b"\0"].concat();
+            let text = [self.description, b"\0"].concat();
             let (text_at, samples_at) = (put(&text), put(slice));
             // Tag, type (2 text, 3 short, 4 long, 5 rational), count, value or where it is.
             let mut entries: Vec<[u32; 4]> = vec![
@@ -34,7 +36,7 @@ impl Stack<'_> {
                 [257, 3, 1, HEIGHT as u32],
                 [258, 3, 1, self.bits.into()],
                 [259, 3, 1, 1],
-                [262, 3, 1, u32::from(!self.is_white_zero)],
+                [262, 3, 1, self.interpretation],
                 [270, 2, text.len() as u32, text_at],
                 [273, 4, 1, samples_at],
                 [277, 3, 1, 1],
@@ -82,12 +84,12 @@ fn slices(label: u8) -> Vec<Vec<u8>> {
     (0..DEPTH).map(slice).collect()
 }
 
-fn described<'a>(slices: &'a [Vec<u8>], description: &'a str) -> Stack<'a> {
+fn described<'a>(slices: &'a [Vec<u8>], description: &'a (impl AsRef<[u8]> + ?Sized)) -> Stack<'a> {
     Stack {
         slices,
         bits: 8,
-        is_white_zero: false,
-        description,
+        interpretation: 1,
+        description: description.as_ref(),
         resolution: None,
     }
 }
@@ -112,7 +114,13 @@ fn the_spacing_of_imagej_and_of_ome_is_read_with_its_unit() {
     let imagej = "ImageJ=1.53t\nimages=9\nslices=9\nunit=\\u00B5m\nspacing=3\n";
     let ome = "<?xml version='1.0'?><OME><Image><Pixels SizeC='1' SizeT='1' SizeZ='9' PhysicalSizeX='.5' \
                PhysicalSizeY='.25' PhysicalSizeZ='3'/></Image></OME>";
-    for (description, resolution) in [(imagej, Some([2, 4])), (ome, None)] {
+    let latin = b"ImageJ=1\nimages=9\nslices=9\nunit=\xb5m\nspacing=3\n";
+    let told = [
+        (&latin[..], Some([2, 4])),
+        (imagej.as_bytes(), Some([2, 4])),
+        (ome.as_bytes(), None),
+    ];
+    for (description, resolution) in told {
         let stack = Stack {
             resolution,
             ..described(&slices, description)
@@ -128,7 +136,8 @@ fn the_spacing_of_imagej_and_of_ome_is_read_with_its_unit() {
         assert_eq!(
             extent(&volume.scan(Some(5)).unwrap()),
             sides,
-            "{description}"
+            "{}",
+            description.escape_ascii()
         );
     }
 }
@@ -200,11 +209,13 @@ fn labels_are_the_numbers_that_are_stored() {
     let slices = slices(5);
     let stack = described(&slices, "");
     assert_eq!(labels(&stack), [(5, voxels)].into());
-    let white = Stack {
-        is_white_zero: true,
-        ..stack
-    };
-    assert_eq!(labels(&white), [(5, voxels)].into());
+    for interpretation in [0, 3] {
+        let shown = Stack {
+            interpretation,
+            ..stack
+        };
+        assert_eq!(labels(&shown), [(5, voxels)].into());
+    }
     // A row of 12 bits takes two bytes.
     let rows = |z| {
         (0..HEIGHT).flat_map(move |y| {
@@ -215,10 +226,10 @@ fn labels_are_the_numbers_that_are_stored() {
         })
     };
     let packed: Vec<Vec<u8>> = (0..DEPTH).map(|z| rows(z).collect()).collect();
-    for is_white_zero in [false, true] {
+    for interpretation in [0, 1] {
         let stack = Stack {
             bits: 1,
-            is_white_zero,
+            interpretation,
             ..described(&packed, "")
         };
         assert_eq!(labels(&stack), [(1, voxels)].into());
