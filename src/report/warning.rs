@@ -46,7 +46,7 @@ impl fmt::Display for Labelled<'_> {
 impl FitWarning {
     fn write(&self, f: &mut fmt::Formatter<'_>, labels: Labels) -> fmt::Result {
         match *self {
-            Self::FacesNotClosed(FacesDefect::Open { holes, share }) => write!(
+            Self::FacesNotClosed(FacesDefect::Open { holes, share, .. }) => write!(
                 f,
                 "Closing the holes between the faces ({holes}) would take {}, and is left: the \
                  surface is fitted to the faces, and compared with the triangulation of their points' directions.",

@@ -27,7 +27,7 @@ const LOOSE: f64 = 1.5;
 /// Whether the triangles of a scan share few corners.
 pub(super) fn are_loose(scan: &Scan) -> bool {
     let are_too_many = |places: usize| places as f64 > LOOSE * scan.triangles.len() as f64;
-    if !are_too_many(scan.points.len()) {
+    if scan.triangles.is_empty() || !are_too_many(scan.points.len()) {
         return false;
     }
     let same = first_at_same_place(&scan.points);

@@ -11,7 +11,6 @@ use crate::buckets::Buckets;
 use crate::fit::prepare::Sample;
 use crate::sphere::CubeCell;
 use crate::spread::{covariance, median, robust_deviation};
-use crate::vectorize::dot;
 use nalgebra::{Matrix3, Vector3};
 use std::iter::once;
 
@@ -48,8 +47,11 @@ const EVERY_PATCH: usize = 16;
 /// Places that stand for the points of a patch; fewer points stand for themselves.
 const PLACES: usize = 6;
 
-/// Points of a patch that tell how far its points are off.
+/// Points of a patch that tell how far its points are off, ...
 const TELLING: usize = 2;
+
+/// ... in one of so many patches that these are so many: enough to tell the noise to .6 %.
+const TELLING_PATCHES: usize = 6144;
 
 /// A cloud in patches.
 #[derive(Default)]
@@ -100,7 +102,6 @@ impl Patches {
     /// and is .05 %); stretched all the way, patches along its sides were too long for their texture.
     pub(crate) fn new(samples: &[Sample], axes: &Vector3<f64>, per_edge: u16) -> Self {
         let stretched = axes.map(f64::sqrt);
-        let cells = 6 * usize::from(per_edge).pow(2);
         let place: Vec<u32> = samples
             .iter()
             .map(|&[x, y, z, _]| {
@@ -108,7 +109,7 @@ impl Patches {
                     as u32
             })
             .collect();
-        let sorted = Buckets::new(cells, &place);
+        let sorted = Buckets::new(patch_count(per_edge), &place);
         let mut patches = Self::default();
         let cells = sorted.iter();
         let tells = |members: &&[u32]| members.len() >= FEWEST;
@@ -117,14 +118,15 @@ impl Patches {
             .map(|members| middle_and_spread(samples, members).1)
             .collect();
         let usual = median(&mut spreads).unwrap_or(0.0);
-        for members in cells.filter(|members| !members.is_empty()) {
-            patches.add(samples, members, usual);
+        let every = patch_count(per_edge).div_ceil(TELLING_PATCHES);
+        for (at, members) in cells.filter(|members| !members.is_empty()).enumerate() {
+            patches.add(samples, members, usual, at.is_multiple_of(every));
         }
         patches
     }
 
-    /// `usual`: standard deviation of the radii in most patches.
-    fn add(&mut self, samples: &[Sample], members: &[u32], usual: f64) {
+    /// `usual`: standard deviation of the radii in most patches; `is_telling`: whether it tells how far its points are off.
+    fn add(&mut self, samples: &[Sample], members: &[u32], usual: f64, is_telling: bool) {
         let (middle, spread) = middle_and_spread(samples, members);
         let limit = match members.len() < FEWEST {
             true => f64::INFINITY,
@@ -139,7 +141,8 @@ impl Patches {
             false => {
                 let every = count / TELLING;
                 let telling = kept.iter().skip(every / 2).step_by(every);
-                places(&kept).into_iter().chain(telling.copied()).collect()
+                let telling = telling.filter(|_| is_telling).copied();
+                places(&kept).into_iter().chain(telling).collect()
             }
         };
         self.push(mean, count as f64, places);
@@ -202,21 +205,24 @@ impl Patches {
         self.of_patches(values).map(mean_over_points).collect()
     }
 
-    /// Mean square, over all points, of what their values differ by from the means of their patches.
+    /// Mean square, over all points, of what their values differ by from the means of their patches: of patches whose points are
+    /// seen, or some of them.
     pub(crate) fn spread_of(&self, values: &[f64]) -> f64 {
-        let square = |own: &[f64]| {
+        let (mut squares, mut points) = (0.0, 0.0);
+        for (own, &count) in self.of_patches(values).zip(&self.counts) {
             let mean = mean_over_points(own);
-            let points = own.get(PLACES..).filter(|telling| !telling.is_empty());
-            let points = points.unwrap_or(own);
-            mean_of(
-                &points
-                    .iter()
-                    .map(|x| (x - mean).powi(2))
-                    .collect::<Vec<_>>(),
-            )
-        };
-        let squares: Vec<f64> = self.of_patches(values).map(square).collect();
-        dot(&squares, &self.counts) / self.points()
+            let seen = if own.len() > PLACES {
+                &own[PLACES..]
+            } else if count <= PLACES as f64 {
+                own
+            } else {
+                continue;
+            };
+            let off: Vec<f64> = seen.iter().map(|x| (x - mean).powi(2)).collect();
+            squares += count * mean_of(&off);
+            points += count;
+        }
+        squares / points
     }
 
     /// Number of the points.
@@ -230,6 +236,11 @@ impl Patches {
         let ends = self.ends.iter().copied();
         starts.zip(ends).map(|(start, end)| &values[start..end])
     }
+}
+
+/// Patches of the whole sphere.
+fn patch_count(per_edge: u16) -> usize {
+    6 * usize::from(per_edge).pow(2)
 }
 
 /// The mean over the points of a patch, from the values at its places.
@@ -292,6 +303,7 @@ fn factor(mut rest: Matrix3<f64>) -> Matrix3<f64> {
 mod tests {
     use super::*;
     use crate::shapes::Sampling;
+    use crate::vectorize::dot;
     use std::f64::consts::TAU;
 
     /// An ellipsoid of 300 000 points, rough by a wave.

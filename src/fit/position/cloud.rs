@@ -114,6 +114,11 @@ impl<'a> Cloud<'a> {
         }
     }
 
+    /// The scan's faces, or those near its points.
+    pub(super) fn mesh(&self) -> &Mesh {
+        self.mesh
+    }
+
     /// Whether a sample is one of the scan: not if the mesh is only near it.
     pub(super) fn is_scanned(&self, sample: usize) -> bool {
         !self.is_of_points || sample >= self.vertices()

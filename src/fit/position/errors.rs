@@ -74,7 +74,7 @@ impl Solved<'_> {
     /// What the scan's voxels hide of the surface.
     pub(super) fn hidden_by_voxels(&self) -> Option<Hidden> {
         let voxels = self.cloud.voxels.as_ref()?;
-        Some(voxels.hidden(self.functions, self.surface, self.told()))
+        Some(voxels.hidden(self.functions, self.surface, self.told(), self.cloud.mesh()))
     }
 
     /// The standard errors of a surface's figures, of which voxels hide so much.

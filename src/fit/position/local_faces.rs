@@ -101,7 +101,7 @@ impl LocalFaces {
             None => Cloud::new(&self.mesh, directions),
         };
         cloud.semi_axes = self.semi_axes;
-        cloud.voxels = (self.steps.as_ref()).and_then(|steps| Voxels::new(steps, &self.mesh));
+        cloud.voxels = self.steps.as_ref().and_then(Voxels::new);
         cloud
     }
 

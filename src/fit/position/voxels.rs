@@ -46,9 +46,8 @@ const ENDS: f64 = 0.9;
 
 /// The lattice of a scan's voxels.
 pub(super) struct Voxels {
-    /// Normals of its layers: along the axes and the diagonals, over the distance from one layer to the next; and the largest
-    /// terrace that faces along each.
-    layers: Vec<(Vector3<f64>, Option<Terrace>)>,
+    /// Normals of its layers: along the axes and the diagonals, over the distance from one layer to the next.
+    layers: Vec<Vector3<f64>>,
     /// The variance of the volume of the voxels of a smooth body, over the body's area.
     miscount: f64,
     /// From one voxel to the next, in columns.
@@ -58,9 +57,8 @@ pub(super) struct Voxels {
 }
 
 impl Voxels {
-    /// `steps` lead from one voxel to the next, in columns; the mesh lies in the middle between voxels. `None` if the steps
-    /// span no volume.
-    pub(super) fn new(steps: &Matrix3<f64>, mesh: &Mesh) -> Option<Self> {
+    /// `steps` lead from one voxel to the next, in columns. `None` if they span no volume.
+    pub(super) fn new(steps: &Matrix3<f64>) -> Option<Self> {
         let dual = steps.transpose().try_inverse()?;
         let lengths: Vec<f64> = steps.column_iter().map(|step| step.norm()).collect();
         let widest = lengths.iter().copied().fold(0.0, f64::max);
@@ -85,20 +83,24 @@ impl Voxels {
         let numbers =
             (0..27).map(|at| Vector3::new(at % 3, at / 3 % 3, at / 9) - Vector3::repeat(1));
         let layers = numbers.filter(|numbers| *numbers != Vector3::zeros());
-        let layers = layers.map(|numbers| {
-            let layer = dual * numbers.map(f64::from);
-            (layer, Terrace::largest(&layer, mesh))
-        });
         Some(Self {
-            layers: layers.collect(),
+            layers: layers
+                .map(|numbers| dual * numbers.map(f64::from))
+                .collect(),
             miscount: sum / (8.0 * PI.powi(3)),
             steps: *steps,
             width: steps.determinant().abs().cbrt(),
         })
     }
 
-    /// What they hide of a surface, of so many functions that points decide.
-    pub(super) fn hidden(&self, functions: &Functions, surface: &Position, told: f64) -> Hidden {
+    /// What they hide of a surface, of so many functions that points decide, laid through their boundary.
+    pub(super) fn hidden(
+        &self,
+        functions: &Functions,
+        surface: &Position,
+        told: f64,
+        boundary: &Mesh,
+    ) -> Hidden {
         let rule = GaussLegendre::new(NODES);
         let of_cell = |cell: &CubeCell| {
             let nodes = cell.rectangle().nodes(&rule).into_iter();
@@ -118,11 +120,12 @@ impl Voxels {
         };
         let cells = functions.cells();
         let places: Vec<Place> = cells.par_iter().flat_map_iter(of_cell).collect();
-        let sides = self.layers.par_iter();
+        let flats = self.layers.par_iter().filter_map(|layer| {
+            let terrace = Terrace::largest(layer, boundary);
+            Flat::of(layer, terrace.as_ref(), &places)
+        });
         Hidden {
-            flats: sides
-                .filter_map(|(layer, terrace)| Flat::of(layer, terrace.as_ref(), &places))
-                .collect(),
+            flats: flats.collect(),
             scatter: places.iter().map(Place::square).sum::<SMatrix<_, _, _>>() * self.miscount,
             miscount: self.miscount,
             area: places.iter().map(|place| place.area.norm()).sum(),
@@ -206,36 +209,20 @@ impl Flat {
         (flat > 0.0 && all > 0.0).then(|| {
             // As if all of this side moved, as far as it is flat: the sides next to it grow.
             let share = (flat / all).min(1.0) / layer.norm();
+            let side: Vec<(f64, &Place)> =
+                side.iter().map(|&(_, area, place)| (area, place)).collect();
             let moved_by = |height: &dyn Fn(&Vector3<f64>) -> f64| {
-                let changes = side
-                    .iter()
-                    .map(|(_, area, place)| place.changes * (*area * share * height(&place.point)));
+                let changes = (side.iter())
+                    .map(|(area, place)| place.changes * (area * share * height(&place.point)));
                 changes.sum::<SVector<f64, INTEGRALS>>()
             };
-            let points = side.iter().map(|(_, area, place)| (*area, place.point));
-            let middle = points
-                .clone()
-                .map(|(area, p)| p * area)
-                .sum::<Vector3<f64>>()
-                / all;
-            let spread = points.map(|(area, p)| {
-                let across = p - middle - along * along.dot(&(p - middle));
-                across * across.transpose() * (area / all)
-            });
-            let axes = spread.sum::<Matrix3<f64>>().symmetric_eigen();
-            let mut order = [0, 1, 2];
-            order.sort_unstable_by(|&i, &j| axes.eigenvalues[j].total_cmp(&axes.eigenvalues[i]));
-            let leaning = [order[0], order[1]].map(|i| {
-                let axis = axes.eigenvectors.column(i);
-                let end = (3.0 * axes.eigenvalues[i]).sqrt().max(f64::MIN_POSITIVE);
-                moved_by(&|p| axis.dot(&(p - middle)) / end)
-            });
+            let (middle, slopes) = leaning(&side, &along);
             Self {
                 layer: *layer,
                 area: flat,
                 top,
                 changes: moved_by(&|_| 1.0),
-                leaning,
+                leaning: slopes.map(|slope| moved_by(&|point| slope.dot(&(point - middle)))),
             }
         })
     }
@@ -249,6 +236,27 @@ impl Flat {
         self.changes * self.changes.transpose() * ANYWHERE
             + leaning.sum::<SMatrix<_, _, _>>() * LEANING
     }
+}
+
+/// The middle of a side that faces along a unit vector, of places with areas, and the slopes along its two axes that move its ends by
+/// one, as those of a rectangle as wide.
+fn leaning(side: &[(f64, &Place)], along: &Vector3<f64>) -> (Vector3<f64>, [Vector3<f64>; 2]) {
+    let all: f64 = side.iter().map(|(area, _)| area).sum();
+    let moments = side.iter().map(|(area, place)| place.point * *area);
+    let middle = moments.sum::<Vector3<f64>>() / all;
+    let spread = side.iter().map(|(area, place)| {
+        let aside = place.point - middle;
+        let across = aside - along * along.dot(&aside);
+        across * across.transpose() * (area / all)
+    });
+    let axes = spread.sum::<Matrix3<f64>>().symmetric_eigen();
+    let mut order = [0, 1, 2];
+    order.sort_unstable_by(|&i, &j| axes.eigenvalues[j].total_cmp(&axes.eigenvalues[i]));
+    let slope = |i: usize| {
+        let end = (3.0 * axes.eigenvalues[i]).sqrt().max(f64::MIN_POSITIVE);
+        axes.eigenvectors.column(i) / end
+    };
+    (middle, [slope(order[0]), slope(order[1])])
 }
 
 /// What voxels hide of a surface.

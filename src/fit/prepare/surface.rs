@@ -189,7 +189,7 @@ fn from_parts(scan: &Scan) -> Result<ScannedSurface<'static>, FitError> {
         Some(defect) => {
             let cloud = from_directions(Cow::Owned(body.mesh.vertices.clone()), None)?;
             let unseen = match defect {
-                FacesDefect::Open { holes, share } => Some(Unseen::Open { holes, share }),
+                FacesDefect::Open { holes, share, .. } => Some(Unseen::Open { holes, share }),
                 _ => cloud.unseen,
             };
             let mut warnings = cloud.warnings;

@@ -49,12 +49,16 @@ pub struct ScannedBody {
 pub enum FacesDefect {
     /// There are holes whose fills would be a guess.
     #[error(
-        "the faces leave {} open, and to close them takes {} or more; scan what is missing, or fit a guess of it \
+        "the faces{} leave {} open, and to close them takes {} or more; {}scan what is missing, or fit a guess of it \
          (fit --extrapolate)",
+        in_parts(*parts),
         plural(*holes, "hole"),
-        share_of_area(*share)
+        share_of_area(*share),
+        join_parts(*parts)
     )]
     Open {
+        /// Number of surfaces that share no corner.
+        parts: usize,
         /// Number of holes.
         holes: usize,
         /// Area of the surfaces that would close them, as a share of that of the faces.
@@ -80,6 +84,20 @@ pub enum FacesDefect {
     /// A body goes through itself, so that the volume of its triangles is not what they enclose.
     #[error("{0}; mend the mesh")]
     Crossing(SelfCrossing),
+}
+
+fn in_parts(parts: usize) -> String {
+    match parts {
+        0 | 1 => String::new(),
+        parts => format!(", {parts} surfaces that share no corner,"),
+    }
+}
+
+fn join_parts(parts: usize) -> &'static str {
+    match parts {
+        0 | 1 => "",
+        _ => "join those of one grain corner to corner, ",
+    }
 }
 
 /// A share of the area of faces, as text: above all of it figures are of no use, for faces then hold next to nothing together.
@@ -118,8 +136,12 @@ pub fn scanned_body(scan: &Scan) -> Option<ScannedBody> {
     match fill(mesh, &rims, LARGEST_FILL) {
         Ok((mesh, fill)) => Some(arrange(mesh, Some(fill))),
         Err((mesh, share)) => {
-            let holes = rims.len();
-            Some(refused(mesh, FacesDefect::Open { holes, share }))
+            let defect = FacesDefect::Open {
+                parts: parts(&mesh).len(),
+                holes: rims.len(),
+                share,
+            };
+            Some(refused(mesh, defect))
         }
     }
 }
@@ -139,9 +161,31 @@ fn refused(mesh: Mesh, defect: FacesDefect) -> ScannedBody {
 mod tests {
     use super::*;
 
+    fn open(parts: usize, share: f64) -> String {
+        let holes = 2;
+        FacesDefect::Open {
+            parts,
+            holes,
+            share,
+        }
+        .to_string()
+    }
+
+    #[test]
+    fn faces_in_parts_are_to_be_joined() {
+        let whole = open(1, 0.3);
+        assert!(whole.starts_with("the faces leave 2 holes open") && !whole.contains("join"));
+        let loose = open(9, 0.3);
+        let start = "the faces, 9 surfaces that share no corner, leave 2";
+        assert!(
+            loose.starts_with(start) && loose.contains("join those"),
+            "{loose}"
+        );
+    }
+
     #[test]
     fn no_share_above_all_of_the_area_is_told() {
-        let told = |share: f64| FacesDefect::Open { holes: 2, share }.to_string();
+        let told = |share: f64| open(1, share);
         assert!(
             told(0.34).contains("takes 34 % of their area or more"),
             "{}",

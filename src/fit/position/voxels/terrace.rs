@@ -9,7 +9,7 @@ const LEVEL: f64 = 1e-3;
 /// Layers that are farther apart than this are no neighbours.
 const NEXT: f64 = 1.5;
 
-/// A side in one layer, with more area than the layers above and below have together.
+/// A side in one layer, with more than twice the area that lies in the layer above or below.
 pub(super) struct Terrace {
     /// By what it is larger than twice the larger of its neighbours: curved sides step down in terraces that are alike.
     pub(super) area: f64,

@@ -18,9 +18,9 @@ fn ellipsoid(axes: [f64; 3]) -> (Functions, Position) {
 /// The standard deviations of the volume of a body's voxels and of their moment along x, and the share of the square of the first
 /// that is of flat sides.
 fn hidden_volume(spacing: &Vector3<f64>, axes: [f64; 3]) -> ([f64; 2], f64) {
-    let voxels = Voxels::new(&Matrix3::from_diagonal(spacing), &Mesh::default()).unwrap();
+    let voxels = Voxels::new(&Matrix3::from_diagonal(spacing)).unwrap();
     let (functions, surface) = ellipsoid(axes);
-    let hidden = voxels.hidden(&functions, &surface, 4.0);
+    let hidden = voxels.hidden(&functions, &surface, 4.0, &Mesh::default());
     let all = hidden.covariance();
     let flat = all - hidden.scatter;
     let told = [1, 2].map(|at| all[(at, at)].sqrt());
