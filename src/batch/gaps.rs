@@ -106,12 +106,27 @@ impl Gaps {
         })
     }
 
-    fn told(&self, group: &Group) -> String {
-        let lack = match group.unknown {
+    /// Of how many grains a column is unknown, and why: most of a sentence; `None` where it is known of all.
+    pub(crate) fn lacking(&self, column: &str) -> Option<String> {
+        let unknown = |group: &&Group| {
+            group.unknown > 0 && group.columns.iter().any(|(_, name)| name == column)
+        };
+        let group = self.groups.iter().find(unknown)?;
+        let grains = plural(self.grains, "grain");
+        let lack = self.lack(group);
+        Some(format!("of {grains} {lack} {column}{}", group.why()))
+    }
+
+    fn lack(&self, group: &Group) -> String {
+        match group.unknown {
             1 => "1 lacks".into(),
             all if all == self.grains => "all lack".into(),
             some => format!("{some} lack"),
-        };
+        }
+    }
+
+    fn told(&self, group: &Group) -> String {
+        let lack = self.lack(group);
         let names = self.names(group);
         let are_all = group.columns.len() == self.columns && names.len() > MOST_NAMES;
         let names = match are_all {
@@ -275,6 +290,17 @@ mod tests {
             "Of 4 grains of a 2 lack volume and form (a hole of 40 degrees): means are of the rest, which may be unlike these."
         );
         assert_eq!(told(&[(&[], &[]), (&["path"], &[])]), None);
+    }
+
+    #[test]
+    fn of_how_many_a_column_is_unknown_is_told() {
+        let mut gaps = Gaps::new(NAMES.into_iter());
+        for lacking in ["volume", "area", "volume"] {
+            gaps.hear(|at| NAMES[at] != lacking, ["volume: a hole"].into_iter());
+        }
+        let told = gaps.lacking("volume").unwrap();
+        assert_eq!(told, "of 3 grains 2 lack volume (a hole)");
+        assert_eq!(gaps.lacking("form.flatness"), None);
     }
 
     #[test]

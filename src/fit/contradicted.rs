@@ -3,8 +3,8 @@
 use super::outcome::Fitted;
 use super::prepare::ReferenceKind;
 use super::warning::FitWarning;
-use crate::measure::extents_of_points;
-use crate::model::{Contradicted, NoInterval, Surface};
+use crate::measure::{MassProperties, extents_of_points};
+use crate::model::{Contradicted, NoInterval, Surface, Unseen};
 
 /// By how much area or volume may differ from those of the polyhedron through the points that a surface was fitted to. With
 /// standard errors, of 28 scans of grains and stones it is 1.8 % and 2.6 % at most; without, of cones, boxes and the like
@@ -38,6 +38,10 @@ impl Fitted {
             ReferenceKind::Crust => false,
         };
         if is_closed && may_contradict {
+            if let Some(hole) = self.guessed_hole() {
+                self.grain = self.grain.with_unseen(Some(hole));
+                return self;
+            }
             let contradicted = self.contradicted();
             self.grain = self.grain.with_contradicted(contradicted);
             let beyond = self.beyond_faces().or_else(|| self.beyond_points());
@@ -76,20 +80,51 @@ impl Fitted {
         })
     }
 
+    /// A hole over which the surface is a guess, though few points in it made it seem several that chance leaves: area or volume
+    /// differ from those of the polyhedron that closes it, as those of a lentil do whose underside shows in specks.
+    fn guessed_hole(&self) -> Option<Unseen> {
+        let survey = self.survey();
+        let told = survey.properties().ok()?;
+        self.beyond(&told)?;
+        match self.errors_of_points(&told, &survey.dimensions().ok()?) {
+            Err(NoInterval::Hole { half_angle }) => Unseen::hole(half_angle, self.points),
+            _ => None,
+        }
+    }
+
+    /// By how much area above, and by how much volume differ from those of the polyhedron.
+    fn differences(&self, told: &MassProperties) -> [f64; 2] {
+        let area = told.area - self.reference.area;
+        let shown = match self.reference.kind {
+            ReferenceKind::Faces => area,
+            // Steps make what is drawn between voxels larger than the body, and so does noise between points.
+            _ => area.max(0.0),
+        };
+        [shown, told.volume - self.reference.volume]
+    }
+
+    /// By how much they may differ, as a share.
+    fn largest_difference(&self) -> f64 {
+        let sag = match self.reference.kind.has_faces() {
+            true => 0.0,
+            false => SAG / self.points as f64,
+        };
+        LARGEST_DIFFERENCE + sag
+    }
+
+    /// What differs by more.
+    fn beyond(&self, told: &MassProperties) -> Option<Contradicted> {
+        let [area, volume] = self.differences(told);
+        let shares = [area / self.reference.area, volume / self.reference.volume];
+        Contradicted::beyond(self.largest_difference(), shares)
+    }
+
     fn contradicted(&self) -> Option<Contradicted> {
         let survey = self.survey();
         let told = survey.properties().ok()?;
         let has_faces = self.reference.kind.has_faces();
-        let area = told.area - self.reference.area;
-        let volume = told.volume - self.reference.volume;
-        let (shown, sag) = match self.reference.kind {
-            ReferenceKind::Faces => (area, 0.0),
-            // Steps make what is drawn between voxels larger than the body, and so does noise between points.
-            ReferenceKind::Voxels => (area.max(0.0), 0.0),
-            _ => (area.max(0.0), SAG / self.points as f64),
-        };
-        let shares = [shown / self.reference.area, volume / self.reference.volume];
-        let found = Contradicted::beyond(LARGEST_DIFFERENCE + sag, shares)?;
+        let found = self.beyond(&told)?;
+        let [area, volume] = self.differences(&told);
         let is_vouched = match self.errors_of_points(&told, &survey.dimensions().ok()?) {
             Ok(errors) if has_faces => {
                 let is_area = found.area.is_none() || area <= VOUCHING * errors.area;
@@ -97,8 +132,8 @@ impl Fitted {
                 is_area && is_volume
             }
             // Between points in few rows a surface may go anywhere, and beside the few on the rim of a plate; no error tells it.
-            _ if !has_faces && shown > WILD * self.reference.area => false,
-            _ if !has_faces && self.reaches_beyond(LARGEST_DIFFERENCE + sag) => false,
+            _ if !has_faces && area > WILD * self.reference.area => false,
+            _ if !has_faces && self.reaches_beyond(self.largest_difference()) => false,
             Ok(_) => true,
             // Where there is another reason, a polyhedron between points may be as wrong.
             Err(reason) => !has_faces && !matches!(reason, NoInterval::Unresolved { .. }),
@@ -126,15 +161,16 @@ impl Fitted {
 #[cfg(test)]
 mod tests {
     use crate::fit::prepare::ReferenceKind;
-    use crate::fit::{FitOptions, FitWarning, fit};
+    use crate::fit::{FitOptions, FitWarning, Fitted, fit};
     use crate::mesh::Mesh;
     use crate::model::{
-        Family, NoInterval, StandardErrors, StarGrain, StarSurface, Superquadric, Surface, Whole,
+        Family, NoInterval, StandardErrors, StarGrain, StarSurface, Superquadric, Surface, Unseen,
+        Whole,
     };
     use crate::scan::Scan;
     use crate::shapes::{Body, Sampling, SynthOptions, synthesize};
     use approx::assert_relative_eq;
-    use nalgebra::Vector3;
+    use nalgebra::{Point3, Vector3};
     use std::f64::consts::PI;
 
     /// The fit of a closed mesh, had its faces so many times the area and the volume.
@@ -163,6 +199,28 @@ mod tests {
         fitted.reference.volume = own.volume;
         let fitted = fitted.beside_polyhedron();
         assert!(fitted.grain_with_errors().contradicted().is_some());
+    }
+
+    /// A ball without a cap of 55 degrees, as if points had lain there.
+    #[test]
+    fn a_hole_is_not_seen_where_the_polyhedron_that_closes_it_is_much_smaller() {
+        let mut points = Sampling::Fibonacci.directions(2600, 0).unwrap();
+        points.retain(|n| n.z > -f64::cos(55.0 * PI / 180.0));
+        let scan = Scan::from_points(points.into_iter().map(Point3::from).collect());
+        let mut fitted = fit(&scan, &FitOptions::default()).unwrap();
+        let unseen = |fitted: &Fitted| match fitted.grain.unseen() {
+            Some(Unseen::Hole { half_angle }) => half_angle.to_degrees(),
+            _ => 0.0,
+        };
+        // From the centre of what is left.
+        let about = 45.0..60.0;
+        assert!(about.contains(&unseen(&fitted)), "{}", unseen(&fitted));
+        fitted.grain = fitted.grain.with_unseen(None);
+        let again = fitted.clone().beside_polyhedron();
+        assert!(about.contains(&unseen(&again)), "{}", unseen(&again));
+        let told = fitted.survey().properties().unwrap();
+        (fitted.reference.area, fitted.reference.volume) = (told.area, told.volume);
+        assert_eq!(unseen(&fitted.beside_polyhedron()), 0.0);
     }
 
     /// The faces cut off the edges of a brick.

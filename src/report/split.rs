@@ -98,8 +98,10 @@ impl SplitReport {
                 grain.file
             ),
         });
-        let warnings = cut_apart(&grains)
+        let clumps = clumps(&grains);
+        let warnings = cut_apart(&clumps)
             .into_iter()
+            .chain(of_many(&clumps))
             .chain(small(split))
             .chain(touching);
         let warnings: Vec<String> = warnings.collect();
@@ -143,8 +145,8 @@ fn small(split: &Split) -> Option<String> {
     })
 }
 
-/// Which grains were cut apart, on what evidence, and what to do if one of them was cut in two.
-fn cut_apart(grains: &[SplitGrainRecord]) -> Option<String> {
+/// The width of the neck of each clump that was cut, and the grains that it became.
+fn clumps(grains: &[SplitGrainRecord]) -> Vec<(f64, Vec<&str>)> {
     let mut clumps: BTreeMap<usize, (f64, Vec<&str>)> = BTreeMap::new();
     for grain in grains {
         if let (Some(clump), Some(neck)) = (grain.cut_from, grain.neck) {
@@ -152,8 +154,13 @@ fn cut_apart(grains: &[SplitGrainRecord]) -> Option<String> {
             files.push(&grain.file);
         }
     }
+    clumps.into_values().collect()
+}
+
+/// Which grains were cut apart, on what evidence, and what to do if one of them was cut in two.
+fn cut_apart(clumps: &[(f64, Vec<&str>)]) -> Option<String> {
     let told: Vec<String> = clumps
-        .values()
+        .iter()
         .map(|(neck, files)| format!("{} ({:.0} %)", files.join(" from "), 100.0 * neck))
         .collect();
     (!told.is_empty()).then(|| {
@@ -161,6 +168,19 @@ fn cut_apart(grains: &[SplitGrainRecord]) -> Option<String> {
             "Cut apart at a neck, with its width beside that of the narrower side: {}. A grain that has a waist, or \
              is bent, is cut too: if one of these was one grain, split again with --uncut.",
             told.join(", ")
+        )
+    })
+}
+
+/// Which grains come from clumps of more than two, whose necks lie close to each other.
+fn of_many(clumps: &[(f64, Vec<&str>)]) -> Option<String> {
+    let many = clumps.iter().filter(|(_, files)| files.len() > 2);
+    let files: Vec<&str> = many.flat_map(|(_, files)| files.iter().copied()).collect();
+    (!files.is_empty()).then(|| {
+        format!(
+            "From clumps of three and more: {}. Such pieces may lack up to a tenth of their points, or have as many of \
+             others, and one may be half a grain: their sizes are less certain than is told of them.",
+            files.join(", ")
         )
     })
 }
@@ -201,5 +221,37 @@ impl fmt::Display for SplitReport {
             ),
             None => Ok(()),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn grains_of_clumps_of_three_are_told_beside_those_of_pairs() {
+        let grain = |file: &str, clump: Option<usize>| SplitGrainRecord {
+            file: file.into(),
+            label: None,
+            points: 100,
+            cut_from: clump,
+            neck: clump.map(|_| 0.4),
+            may_touch: false,
+        };
+        let pair = ["a", "b"].map(|file| grain(file, Some(0)));
+        let chain = ["c", "d", "e"].map(|file| grain(file, Some(1)));
+        let alone = [grain("f", None)];
+        assert_eq!(of_many(&clumps(&[&pair[..], &alone].concat())), None);
+        let all = [&pair[..], &chain, &alone].concat();
+        let told = of_many(&clumps(&all)).unwrap();
+        assert!(
+            told.starts_with("From clumps of three and more: c, d, e. Such"),
+            "{told}"
+        );
+        let cut = cut_apart(&clumps(&all)).unwrap();
+        assert!(
+            cut.contains("a from b (40 %), c from d from e (40 %)."),
+            "{cut}"
+        );
     }
 }

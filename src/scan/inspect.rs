@@ -2,11 +2,10 @@
 //! side out, and warns of what a closed surface of one body would not have.
 
 use super::Scan;
-use super::mend::{flaps, wound_against};
+use super::mend::{flaps, repeats, wound_against};
 use super::topology::Topology;
 use super::weld::first_at_same_place;
 use crate::digits::plural;
-use std::collections::HashMap;
 
 /// Fills in `topology` and the warnings. All indices must be in range.
 pub(super) fn inspect(scan: &mut Scan) {
@@ -57,54 +56,20 @@ fn drop_degenerate(scan: &mut Scan) {
     }
 }
 
-/// Drops triangles with the places and the sense of one before them, which would count what they enclose twice; those that more
-/// triangles of the same places with the other sense undo; and where all are there both ways, those of either.
+/// Drops triangles that [repeat](repeats) others.
 fn drop_repeated(scan: &mut Scan, same: &[u32]) -> bool {
     let before = scan.triangles.len();
-    let of_places = |corners: &[u32; 3]| {
-        let [a, b, c] = corners.map(|corner| same[corner as usize]);
-        let [low, middle, high] = {
-            let mut places = [a, b, c];
-            places.sort_unstable();
-            places
-        };
-        let is_turned = [
-            [low, middle, high],
-            [middle, high, low],
-            [high, low, middle],
-        ]
-        .iter()
-        .all(|turn| *turn != [a, b, c]);
-        ([low, middle, high], usize::from(is_turned))
-    };
-    let mut counts: HashMap<[u32; 3], [usize; 2]> = HashMap::with_capacity(before);
-    for corners in &scan.triangles {
-        let (places, sense) = of_places(corners);
-        counts.entry(places).or_default()[sense] += 1;
-    }
-    let are_both_ways = counts.values().all(|[one, other]| one == other);
-    let kept = |[one, other]: [usize; 2]| [one >= other, other >= one];
-    let mut kept: HashMap<[u32; 3], [bool; 2]> = counts
-        .into_iter()
-        .map(|(places, counts)| (places, kept(counts)))
-        .collect();
-    scan.triangles.retain(|corners| {
-        let (places, sense) = of_places(corners);
-        let kept = kept.entry(places).or_default();
-        let is_kept = std::mem::take(&mut kept[sense]);
-        kept[1 - sense] &= !(is_kept && are_both_ways);
-        is_kept
-    });
+    let found = repeats(&joined(&scan.triangles, same));
+    let mut is_kept = found.is_kept.into_iter();
+    scan.triangles.retain(|_| is_kept.next().unwrap_or(true));
     let dropped = before - scan.triangles.len();
     if dropped > 0 {
-        scan.warnings.push(match are_both_ways {
+        let triangles = plural(dropped, "triangle");
+        scan.warnings.push(match found.are_both_ways {
             true => {
                 "Each triangle was there in both senses: those that came first are kept.".into()
             }
-            false => format!(
-                "Dropped {} that repeat others.",
-                plural(dropped, "triangle")
-            ),
+            false => format!("Dropped {triangles} that repeat others."),
         });
     }
     dropped > 0

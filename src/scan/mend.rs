@@ -1,7 +1,52 @@
 //! What a few wrong triangles break, mended: those wound against their neighbours are turned, and flaps that hang on a closed
-//! surface by one edge are dropped.
+//! surface by one edge are dropped, as are triangles that repeat others.
 
 use super::topology::each_edge;
+use std::collections::HashMap;
+use std::mem;
+
+/// Triangles of which some repeat others.
+pub(super) struct Repeats {
+    /// Whether all are there as often in one sense as in the other.
+    pub(super) are_both_ways: bool,
+    pub(super) is_kept: Vec<bool>,
+}
+
+/// Triangles that are kept: of those with the same corners the first of the sense that more of them have, for as many of the others
+/// undo the rest; of as many in both senses, which may be walls of two bodies, one each, but where all are so, as of sheets with a back
+/// side, the first.
+pub(super) fn repeats(triangles: &[[u32; 3]]) -> Repeats {
+    let sensed = || triangles.iter().copied().map(corners_and_sense);
+    let mut counts: HashMap<[u32; 3], [usize; 2]> = HashMap::with_capacity(triangles.len());
+    for (corners, sense) in sensed() {
+        counts.entry(corners).or_default()[sense] += 1;
+    }
+    let are_both_ways = counts.values().all(|[one, other]| one == other);
+    let keep = |[one, other]: [usize; 2]| [one >= other, other >= one];
+    let counts = counts.into_iter();
+    let mut kept: HashMap<[u32; 3], [bool; 2]> =
+        counts.map(|(corners, own)| (corners, keep(own))).collect();
+    let is_kept = sensed().map(|(corners, sense)| {
+        let left = kept.entry(corners).or_default();
+        let is_kept = mem::take(&mut left[sense]);
+        left[1 - sense] &= !(is_kept && are_both_ways);
+        is_kept
+    });
+    Repeats {
+        is_kept: is_kept.collect(),
+        are_both_ways,
+    }
+}
+
+/// The corners of a triangle in order, and 1 if it goes round them the other way.
+fn corners_and_sense([a, b, c]: [u32; 3]) -> ([u32; 3], usize) {
+    let [first, second, third] = [[a, b, c], [b, c, a], [c, a, b]]
+        .into_iter()
+        .min()
+        .unwrap_or([a, b, c]);
+    let corners = [first, second.min(third), second.max(third)];
+    (corners, usize::from(second > third))
+}
 
 /// The triangles to be turned for all of a part to be wound alike, ascending: of each part the fewer. `None` if it has no two
 /// sides, as a Möbius strip. Edges where more than two triangles meet tell nothing.

@@ -276,6 +276,27 @@ fn a_scan_is_a_clump_in_the_sizes_of_a_batch() {
         told.contains("results.csv has 1 cell of volume without a number"),
         "{told}"
     );
+    assert!(!told.contains("lack"), "{told}");
+    // Of two more grains, or of all, the volume is withheld.
+    let rows = "path,volume,not_measured\na.ply,4.18879,\nb.ply,14.13717,\nc.ply,33.51032,\n";
+    let withheld = "d.ply,,volume: half unseen\ne.ply,,volume: half unseen\n";
+    let path = folder.path().join("withheld.csv");
+    fs::write(&path, [rows, withheld].concat()).unwrap();
+    let mut words_of_rest = words.clone();
+    *words_of_rest.last_mut().unwrap() = "rest";
+    let sizes = words_of_rest
+        .iter_mut()
+        .find(|word| **word == "results.csv");
+    *sizes.unwrap() = "withheld.csv";
+    let told = json(&folder, &words_of_rest)["warnings"].to_string();
+    let expected = "of 5 grains 2 lack volume (half unseen): sizes are those of the rest";
+    assert!(told.contains(expected), "{told}");
+    fs::write(&path, ["path,volume,not_measured\n", withheld].concat()).unwrap();
+    let refused = errors(&grainform(&folder, &words_of_rest));
+    assert!(
+        refused.contains("tells no volumes: of 2 grains all lack volume (half unseen)"),
+        "{refused}"
+    );
     // The same grains in micrometres, in another folder.
     let told = "path,unit,volume\na.ply,um,4.18879e9\nb.ply,um,1.413717e10\nc.ply,um,3.351032e10\nd.ply,,\n";
     fs::write(folder.path().join("results_um.csv"), told).unwrap();

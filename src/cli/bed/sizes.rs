@@ -30,8 +30,14 @@ impl Sizes {
         let named = lot.names.iter().position(|name| name == "volume");
         let mut volumes = match named {
             Some(at) => lot.values[at].clone(),
-            None => bail!("{shown} tells no volumes: run batch with --only volume"),
+            None => match lot.gaps.lacking("volume") {
+                Some(lacking) => bail!("{shown} tells no volumes: {lacking}"),
+                None => bail!("{shown} tells no volumes: run batch with --only volume"),
+            },
         };
+        let lacking = lot.gaps.lacking("volume").map(|lacking| {
+            format!("In {shown} {lacking}: sizes are those of the rest, which may be unlike these.")
+        });
         if volumes.iter().any(|volume| *volume <= 0.0) {
             bail!("{shown} has a volume that is not above zero");
         }
@@ -69,7 +75,7 @@ impl Sizes {
         let remarks = remark.into_iter().chain(lot.taken_unit(shown));
         Ok(Self {
             diameters: order.into_iter().map(diameter).collect(),
-            remarks: remarks.chain(unread).collect(),
+            remarks: remarks.chain(unread).chain(lacking).collect(),
         })
     }
 }

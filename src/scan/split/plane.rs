@@ -3,7 +3,8 @@
 //! It is looked for by planes through three points each (Fischler and Bolles 1981): that on which most points lie, of
 //! those that have nothing on one side. A flat face of a body is one too; but what lies opposite covers it, and a tray
 //! goes on beside its grains. The plane's noise is told by the points below it: those above may be of grains. What is
-//! not thin beside the grains is no plane, but a layer of them.
+//! not thin beside the grains is no plane, but a layer of them, and nor is what lies all over its thickness, as low grains beside
+//! a high one do.
 
 use super::links::{nearest, nearest_distance, sixth_distances};
 use crate::polygon_hull::{hull_area, polygon_hull};
@@ -47,6 +48,10 @@ const LARGEST_REACH: f64 = 0.02;
 
 /// The plane is laid through the points within so many standard deviations: few of these are of grains.
 const CORE: f64 = 2.0;
+
+/// Of the points within two standard deviations of its noise those within one, at least: of noise seven tenths are, of grains that it
+/// goes through half.
+const LEAST_IN_MIDDLE: f64 = 0.6;
 
 /// Its reach over the height of what stands on it, or over the distance between its points, at most.
 const THIN: f64 = 0.25;
@@ -117,6 +122,7 @@ impl Plane {
         let on = points.iter().filter(|point| self.carries(point)).count();
         on as f64 >= LEAST_SHARE * points.len() as f64
             && self.is_clear_below(points)
+            && self.is_dense(points)
             && self.is_thin(points, on)
             && self.is_bare(points, on)
     }
@@ -215,6 +221,16 @@ impl Plane {
             core = CORE / DEVIATIONS * self.reach;
         }
         Some(self)
+    }
+
+    /// Whether points are denser in the middle of the plane, as those of noise are.
+    fn is_dense(&self, points: &[Point3<f64>]) -> bool {
+        let within = |deviations: f64| {
+            let most = deviations / DEVIATIONS * self.reach;
+            let heights = points.iter().map(|point| self.height(point).abs());
+            heights.filter(|height| *height < most).count() as f64
+        };
+        within(1.0) >= LEAST_IN_MIDDLE * within(CORE)
     }
 
     /// Whether the points that the plane carries are a sheet: one beside the grains, or beside the distance of its own.

@@ -65,6 +65,20 @@ fn a_sparse_table_is_found_between_many_low_grains() {
     );
 }
 
+/// Grains without a table, and a ball among them that is much higher.
+#[test]
+fn low_grains_beside_a_high_one_are_no_table() {
+    for (thickness, radius) in [(1.2, 5.0), (1.0, 3.0), (1.2, 9.0)] {
+        let mut points = grain(Vector3::repeat(radius), 20.0, 20.0, 6000);
+        for at in 0..30 {
+            let [x, y] = [at % 6, at / 6].map(|i| 8.0 * f64::from(i) + 0.3 * f64::from(at % 4));
+            let semi_axes = Vector3::new(3.4, 2.9, thickness);
+            points.extend(grain(semi_axes, x, y + 60.0, 1200));
+        }
+        assert_eq!(Plane::carrying(&points), None, "{thickness} {radius}");
+    }
+}
+
 #[test]
 fn the_least_step_between_coordinates_tells_what_they_were_rounded_to() {
     let points = [[0.5, 1.0, 0.0], [2.0, 1.0, 0.25], [1.0, 1.0, 1.0]].map(Point3::from);
