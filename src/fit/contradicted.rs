@@ -305,6 +305,10 @@ mod tests {
             fitted.reaches_beyond(0.05)
         };
         assert!(!reaches(0.2) && reaches(0.5));
+        // Whatever keeps it from errors.
+        fitted.errors = Some(Err(NoInterval::Neck));
+        fitted.measured = None;
+        assert!(fitted.contradicted().is_some());
     }
 
     #[test]
