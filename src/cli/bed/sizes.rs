@@ -28,14 +28,13 @@ impl Sizes {
         let shown = path.display();
         let lot = read_lot(path)?;
         let named = lot.names.iter().position(|name| name == "volume");
-        let mut volumes = match named {
-            Some(at) => lot.values[at].clone(),
-            None => match lot.gaps.lacking("volume") {
-                Some(lacking) => bail!("{shown} tells no volumes: {lacking}"),
-                None => bail!("{shown} tells no volumes: run batch with --only volume"),
-            },
+        let lacking = lot.gaps.lacking("volume");
+        let mut volumes = match (named, &lacking) {
+            (Some(at), _) => lot.values[at].clone(),
+            (None, Some(lacking)) => bail!("{shown} tells no volumes: {lacking}"),
+            (None, None) => bail!("{shown} tells no volumes: run batch with --only volume"),
         };
-        let lacking = lot.gaps.lacking("volume").map(|lacking| {
+        let lacking = lacking.map(|lacking| {
             format!("In {shown} {lacking}: sizes are those of the rest, which may be unlike these.")
         });
         if volumes.iter().any(|volume| *volume <= 0.0) {

@@ -7,6 +7,7 @@
 mod bodies;
 mod border;
 mod error;
+mod extent;
 mod frames;
 mod half_way;
 mod lattice;
@@ -22,12 +23,14 @@ mod voxel_lattice;
 
 pub use bodies::VoxelBody;
 pub use error::VolumeError;
+pub(crate) use extent::Extent;
 pub(super) use lattice::filled as filled_lattice;
 pub use voxel_lattice::VoxelLattice;
 
 use super::check::check;
 use super::{ReadError, Scan, inspect, source};
 use crate::mesh::{Grid, Mesh, contour};
+use extent::{Run, touches};
 use half_way::half_way;
 use nalgebra::{Matrix3, Point3, Vector3};
 use samples::Samples;
@@ -39,10 +42,6 @@ const MOST_LABELS: usize = 100_000;
 
 /// Volume of the boxes round all labels, over that of the image, at most: grains that are packed overlap a few times.
 const MOST_BOXES: f64 = 100.0;
-
-/// Runs of voxels without a neighbour of the same label, over the voxels, from which on these are specks. A body of thirty voxels has
-/// one for ten, larger ones have fewer; of a grey value in noise nearly each voxel is one.
-const MOST_ALONE: f64 = 0.25;
 
 /// Fewest voxels that have a shape: those of a ball of radius 2.
 pub(super) const LEAST_VOXELS: usize = 30;
@@ -341,61 +340,6 @@ impl Volume {
         scan.warnings.splice(0..0, warnings);
         scan.unit.clone_from(&self.unit);
         Ok(scan)
-    }
-}
-
-/// A label in a row of voxels, from where to where.
-type Run = (i64, [usize; 2]);
-
-/// Whether the runs of a row, in order, hold one of the same label beside another's.
-fn touches(row: &[Run], (label, [from, to]): &Run) -> bool {
-    let first = row.partition_point(|(_, [_, end])| end < from);
-    let mut beside = row[first..]
-        .iter()
-        .take_while(|(_, [start, _])| start <= to);
-    beside.any(|(other, _)| other == label)
-}
-
-/// Where the voxels of a label are.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Extent {
-    voxels: usize,
-    /// Runs along the first axis without one of the same label beside them, in the row before or in the slice below.
-    alone: usize,
-    low: [usize; 3],
-    high: [usize; 3],
-}
-
-impl Default for Extent {
-    fn default() -> Self {
-        Self {
-            voxels: 0,
-            alone: 0,
-            low: [usize::MAX; 3],
-            high: [0; 3],
-        }
-    }
-}
-
-impl Extent {
-    /// Voxels of the box.
-    fn volume(&self) -> f64 {
-        let sides = (0..3).map(|axis| (self.high[axis] - self.low[axis] + 1) as f64);
-        sides.product()
-    }
-
-    /// Whether the voxels are specks all over the image, as those of one grey value are.
-    fn is_scattered(&self) -> bool {
-        self.alone as f64 > MOST_ALONE * self.voxels as f64
-    }
-
-    /// Adds a run of voxels along the first axis.
-    fn add(&mut self, from: [usize; 3], to: [usize; 3]) {
-        self.voxels += to[0] - from[0] + 1;
-        for axis in 0..3 {
-            self.low[axis] = self.low[axis].min(from[axis]);
-            self.high[axis] = self.high[axis].max(to[axis]);
-        }
     }
 }
 
