@@ -3,10 +3,10 @@
 use super::args::SplitArgs;
 use super::console::Console;
 use super::{inputs, outputs, threads};
-use crate::export::{save_mesh, write_points_ply};
+use crate::export::{save_mesh, write_split_grain};
 use crate::mesh::Mesh;
 use crate::report::SplitReport;
-use crate::scan::{Scan, Split, Volume, split, split_labels, split_uncut};
+use crate::scan::{Split, SplitGrain, Volume, split, split_labels, split_uncut};
 use anyhow::{Context, Result, bail};
 use std::path::Path;
 
@@ -52,7 +52,7 @@ pub(super) fn run(args: SplitArgs, console: Console) -> Result<()> {
         let path = args.output.join(file);
         match (&volume, &grain.voxels) {
             (Some(volume), Some(body)) => write_voxels(&volume.alone(body), &path)?,
-            _ => write(&grain.scan, &path)?,
+            _ => write(grain, &path)?,
         }
     }
     drop(progress);
@@ -118,15 +118,15 @@ fn write_voxels(voxels: &Volume, path: &Path) -> Result<()> {
     outputs::write(path, |file| Ok(voxels.write_nrrd(file)?))
 }
 
-fn write(grain: &Scan, path: &Path) -> Result<()> {
-    match grain.topology() {
+fn write(grain: &SplitGrain, path: &Path) -> Result<()> {
+    match grain.scan.topology() {
         Some(_) => {
             let mesh = Mesh {
-                vertices: grain.points().to_vec(),
-                triangles: grain.triangles().to_vec(),
+                vertices: grain.scan.points().to_vec(),
+                triangles: grain.scan.triangles().to_vec(),
             };
             Ok(save_mesh(path, &mesh)?)
         }
-        None => outputs::write(path, |mut file| write_points_ply(grain.points(), &mut file)),
+        None => outputs::write(path, |mut file| write_split_grain(grain, &mut file)),
     }
 }

@@ -31,7 +31,7 @@ pub use error::{SaveError, WriteError};
 pub use format::MeshFormat;
 pub use grain::save_grain;
 pub use mesh::{write_obj, write_ply, write_stl};
-pub use points::{write_points_ply, write_points_xyz};
+pub use points::{write_points_ply, write_points_xyz, write_split_grain};
 #[cfg(feature = "cli")]
 pub(crate) use temporary::remove_temporaries;
 pub use temporary::sweep;

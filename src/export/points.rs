@@ -5,6 +5,7 @@ use std::io::{self, Write};
 use nalgebra::Point3;
 
 use super::WriteError;
+use crate::scan::{SplitGrain, clump};
 
 /// Writes a binary little-endian PLY of points with 64-bit coordinates.
 ///
@@ -12,8 +13,27 @@ use super::WriteError;
 ///
 /// [`WriteError`]: a coordinate that is not finite, or a failing writer.
 pub fn write_points_ply(points: &[Point3<f64>], writer: &mut impl Write) -> Result<(), WriteError> {
+    write_cloud(points, None, writer)
+}
+
+/// Writes the points of one grain of a [split](crate::scan::split) as [`write_points_ply`] does. Where it was cut from a clump, a
+/// comment says from how many, of which those who read the file are warned.
+///
+/// # Errors
+///
+/// Those of [`write_points_ply`].
+pub fn write_split_grain(grain: &SplitGrain, writer: &mut impl Write) -> Result<(), WriteError> {
+    let comment = grain.cut.map(|cut| clump::remark(cut.grains));
+    write_cloud(grain.scan.points(), comment.as_deref(), writer)
+}
+
+fn write_cloud(
+    points: &[Point3<f64>],
+    comment: Option<&str>,
+    writer: &mut impl Write,
+) -> Result<(), WriteError> {
     check(points, f64::MAX)?;
-    writer.write_all(ply_header(points.len()).as_bytes())?;
+    writer.write_all(ply_header(points.len(), comment).as_bytes())?;
     writer.write_all(b"end_header\n")?;
     Ok(write_rows(points, writer)?)
 }
@@ -32,9 +52,10 @@ pub fn write_points_xyz(points: &[Point3<f64>], writer: &mut impl Write) -> Resu
 }
 
 /// The header of a PLY up to the end of its element `vertex`.
-pub(super) fn ply_header(points: usize) -> String {
+pub(super) fn ply_header(points: usize, comment: Option<&str>) -> String {
+    let comment = comment.map_or(String::new(), |comment| format!("comment {comment}\n"));
     format!(
-        "ply\nformat binary_little_endian 1.0\ncomment written by grainform\n\
+        "ply\nformat binary_little_endian 1.0\ncomment written by grainform\n{comment}\
          element vertex {points}\nproperty double x\nproperty double y\nproperty double z\n"
     )
 }

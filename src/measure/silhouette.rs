@@ -3,6 +3,9 @@
 //! The triangles that are seen from in front cover it all, some places more than once. What is not an edge between two of them
 //! is their border: closed lines, which go round each place as often as it is covered. So the border of the union of all
 //! triangles is that of what these few lines go round, and this is left to the crate `i_overlay`, on integers of 64 bits.
+//!
+//! On straight walls chance tells which of many steep triangles are in front, and lines round thousands of slivers cross each
+//! other. These are united two by two, and so on, of which each step leaves only the outermost.
 
 use super::outline::signed_area;
 use super::slits::without_slits;
@@ -11,12 +14,25 @@ use i_overlay::core::fill_rule::FillRule;
 use i_overlay::float::simplify::SimplifyShape;
 use nalgebra::Vector2;
 
-/// Triangles are seen edge-on that cover no larger share of the square over their longest side, and take no part: on flat walls
-/// chance tells which of them are in front, and lines round thousands of slivers cross each other.
+/// Triangles are seen edge-on that cover no larger share of the square over their longest side, and take no part as long as what is
+/// left hangs together.
 const EDGE_ON: f64 = 1e-7;
+
+/// So few border edges are united at once, ...
+const FEW: usize = 1000;
+
+/// ... as are those which are no more than so many times those of what is not a sliver.
+const MOSTLY_SLIVERS: usize = 2;
+
+/// Slivers cover less of that square, and what is not a sliver covers more of it: both hold those between, lest rounding part them.
+const SLIVER: f64 = 0.1;
+const BROAD: f64 = 0.02;
 
 /// Slits of the border that are narrower go: coordinates of 32 bits are rounded to less, as far off as a hundred sizes.
 const SLIT: f64 = 1e-5;
+
+/// Corners from end to end.
+type Line = Vec<[f64; 2]>;
 
 /// What a mesh covers.
 pub(super) struct Silhouette {
@@ -30,17 +46,27 @@ impl Silhouette {
     /// That of the triangles of a closed mesh over places of the square from -1 to 1, of which those that are wound counter-clockwise cover all; if
     /// several parts lie apart, of the largest. `None` if they cover nothing. All triangles must name places that exist.
     pub(super) fn new(places: &[Vector2<f64>], triangles: &[[u32; 3]]) -> Option<Self> {
-        let mut lines = closed_lines(border_edges(places, triangles));
-        let mut parts = covered(places, &lines);
-        if parts.len() > 1 {
-            // Walls seen edge-on, which are narrower than rounding, may lie between.
-            lines.extend(edge_on(places, triangles));
-            parts = covered(places, &lines);
+        let lines_of = |edges| closed_lines(places, edges);
+        let edges = border_edges(places, triangles, EDGE_ON);
+        let broad = (edges.len() > FEW).then(|| border_edges(places, triangles, BROAD));
+        let is_of_slivers = |broad: &Vec<_>| edges.len() > MOSTLY_SLIVERS * broad.len();
+        let mut parts = match broad.as_ref().is_some_and(is_of_slivers) {
+            true => Vec::new(),
+            false => covered(&lines_of(edges)),
+        };
+        // Walls seen edge-on, which are narrower than rounding, may lie between parts.
+        if parts.len() != 1 {
+            let broad = broad.unwrap_or_else(|| border_edges(places, triangles, BROAD));
+            let slivers = united(&slivers(places, triangles));
+            parts = covered(&[lines_of(broad), slivers].concat());
         }
+        let corners = |line: Line| line.into_iter().map(Vector2::from).collect::<Vec<_>>();
+        let parts = parts.into_iter().map(|lines| {
+            let lines = lines.into_iter().map(corners);
+            lines.collect::<Vec<_>>()
+        });
         let outer = |part: &Vec<Vec<_>>| part.first().map_or(0.0, |line| signed_area(line));
-        let largest = parts
-            .into_iter()
-            .max_by(|one, other| outer(one).total_cmp(&outer(other)))?;
+        let largest = parts.max_by(|one, other| outer(one).total_cmp(&outer(other)))?;
         let mut lines = largest.into_iter();
         Some(Self {
             border: without_slits(lines.next()?, SLIT),
@@ -49,50 +75,49 @@ impl Silhouette {
     }
 }
 
-/// What closed lines through places go round at least once: of each part the outer border, and those of its holes.
-fn covered(places: &[Vector2<f64>], lines: &[Vec<u32>]) -> Vec<Vec<Vec<Vector2<f64>>>> {
-    let line = |line: &Vec<u32>| -> Vec<[f64; 2]> {
-        line.iter().map(|&at| places[at as usize].into()).collect()
-    };
-    let lines: Vec<_> = lines.iter().map(line).collect();
-    let corners = |line: Vec<[f64; 2]>| line.into_iter().map(Vector2::from).collect();
-    let part = |lines: Vec<_>| lines.into_iter().map(corners).collect();
-    let parts = lines.simplify_shape_as::<i64>(FillRule::NonZero);
-    parts.into_iter().map(part).collect()
+/// What closed lines go round at least once: of each part the outer border, and those of its holes.
+fn covered(lines: &[Line]) -> Vec<Vec<Line>> {
+    lines.simplify_shape_as::<i64>(FillRule::NonZero)
 }
 
-/// Twice the area of a triangle, above zero where it is wound counter-clockwise, and what it must be beyond not to be edge-on.
-fn seen(places: &[Vector2<f64>], corners: &[u32; 3]) -> [f64; 2] {
+/// The slivers in front, by where they lie round the origin.
+fn slivers(places: &[Vector2<f64>], triangles: &[[u32; 3]]) -> Vec<[[f64; 2]; 3]> {
+    let mut slivers: Vec<(f64, [[f64; 2]; 3])> = triangles
+        .iter()
+        .filter(|corners| (f64::MIN_POSITIVE..SLIVER).contains(&share_seen(places, corners)))
+        .map(|corners| {
+            let corners = corners.map(|corner| places[corner as usize]);
+            let middle: Vector2<f64> = corners.iter().sum();
+            (middle.y.atan2(middle.x), corners.map(Into::into))
+        })
+        .collect();
+    slivers.sort_by(|one, other| one.0.total_cmp(&other.0));
+    slivers.into_iter().map(|(_, corners)| corners).collect()
+}
+
+/// The border of what triangles cover, each wound counter-clockwise.
+fn united(triangles: &[[[f64; 2]; 3]]) -> Vec<Line> {
+    if triangles.len() < 2 {
+        return triangles.iter().map(|corners| corners.to_vec()).collect();
+    }
+    let (some, others) = triangles.split_at(triangles.len() / 2);
+    let (some, others) = rayon::join(|| united(some), || united(others));
+    let parts = covered(&[some, others].concat());
+    parts.into_iter().flatten().collect()
+}
+
+/// Twice the area of a triangle over the square over its longest side; above zero where it is wound counter-clockwise.
+fn share_seen(places: &[Vector2<f64>], corners: &[u32; 3]) -> f64 {
     let [a, b, c] = corners.map(|corner| places[corner as usize]);
     let sides = [b - a, c - b, a - c].map(|side| side.norm_squared());
-    [
-        orient2d([a, b, c]),
-        EDGE_ON * sides.into_iter().fold(0.0, f64::max),
-    ]
+    orient2d([a, b, c]) / sides.into_iter().fold(f64::MIN_POSITIVE, f64::max)
 }
 
-/// The triangles that are seen edge-on, counter-clockwise.
-fn edge_on(places: &[Vector2<f64>], triangles: &[[u32; 3]]) -> impl Iterator<Item = Vec<u32>> {
-    triangles.iter().filter_map(move |corners| {
-        let [area, least] = seen(places, corners);
-        let [a, b, c] = *corners;
-        (area.abs() <= least).then(|| {
-            if area < 0.0 {
-                vec![a, c, b]
-            } else {
-                vec![a, b, c]
-            }
-        })
-    })
-}
-
-/// The edges of the triangles that are wound counter-clockwise, from end to end, without those that two of them walk in
-/// opposite senses: these are most, and those between corners that no other triangle has are not even looked at.
-fn border_edges(places: &[Vector2<f64>], triangles: &[[u32; 3]]) -> Vec<[u32; 2]> {
-    let is_in_front = |corners: &&[u32; 3]| {
-        let [area, least] = seen(places, corners);
-        area > least
-    };
+/// The edges of the triangles that are in front, from end to end, without those that two of them walk in opposite senses: these
+/// are most, and those between corners that no other triangle has are not even looked at. In front is what is wound
+/// counter-clockwise round more than this share of the square over its longest side.
+fn border_edges(places: &[Vector2<f64>], triangles: &[[u32; 3]], least: f64) -> Vec<[u32; 2]> {
+    let is_in_front = |corners: &&[u32; 3]| share_seen(places, corners) > least;
     let (in_front, behind): (Vec<&[u32; 3]>, Vec<&[u32; 3]>) =
         triangles.iter().partition(is_in_front);
     let mut is_border = vec![false; places.len()];
@@ -124,7 +149,7 @@ fn border_edges(places: &[Vector2<f64>], triangles: &[[u32; 3]]) -> Vec<[u32; 2]
 }
 
 /// Closed lines through edges, each of which is walked once: at every place as many end as begin.
-fn closed_lines(mut edges: Vec<[u32; 2]>) -> Vec<Vec<u32>> {
+fn closed_lines(places: &[Vector2<f64>], mut edges: Vec<[u32; 2]>) -> Vec<Line> {
     edges.sort_unstable();
     let first = |from: u32| edges.partition_point(|edge| edge[0] < from);
     let mut is_walked = vec![false; edges.len()];
@@ -134,7 +159,7 @@ fn closed_lines(mut edges: Vec<[u32; 2]>) -> Vec<Vec<u32>> {
         while !is_walked[at] {
             is_walked[at] = true;
             let [from, to] = edges[at];
-            line.push(from);
+            line.push(places[from as usize].into());
             let onward = (first(to)..edges.len()).take_while(|&next| edges[next][0] == to);
             at = onward
                 .into_iter()
@@ -146,4 +171,52 @@ fn closed_lines(mut edges: Vec<[u32; 2]>) -> Vec<Vec<u32>> {
         }
     }
     lines
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+    use std::f64::consts::TAU;
+
+    /// Seen along its axis, a cylinder whose corners lie at other angles in each of its rings: its walls are chords of one
+    /// circle, all within each other's sagitta.
+    #[test]
+    fn slivers_of_walls_are_united_to_what_all_triangles_cover() {
+        let (rings, corners) = (24_u32, 60_u32);
+        let place = |ring: u32, corner: u32| {
+            let angle = TAU * (f64::from(corner) + 0.37 * f64::from(ring)) / f64::from(corners);
+            Vector2::new(angle.cos(), angle.sin())
+        };
+        let mut places: Vec<Vector2<f64>> = (0..rings)
+            .flat_map(|ring| (0..corners).map(move |corner| place(ring, corner)))
+            .collect();
+        places.push(Vector2::zeros());
+        let [bottom, top] = [0, rings - 1];
+        let at = |ring: u32, corner: u32| ring * corners + corner % corners;
+        let middle = rings * corners;
+        let wall = |ring: u32, corner: u32| {
+            let [a, b] = [at(ring, corner), at(ring, corner + 1)];
+            let [c, d] = [at(ring + 1, corner), at(ring + 1, corner + 1)];
+            [[a, b, d], [a, d, c]]
+        };
+        let walls = (bottom..top).flat_map(|ring| (0..corners).flat_map(move |n| wall(ring, n)));
+        let lids = (0..corners).flat_map(|n| {
+            let [under, over] = [bottom, top].map(|ring| [at(ring, n), at(ring, n + 1)]);
+            [[under[1], under[0], middle], [over[0], over[1], middle]]
+        });
+        let triangles: Vec<[u32; 3]> = walls.chain(lids).collect();
+        let edges = border_edges(&places, &triangles, EDGE_ON);
+        let broad = border_edges(&places, &triangles, BROAD);
+        assert!(edges.len() > FEW && edges.len() > MOSTLY_SLIVERS * broad.len());
+        let all = covered(&closed_lines(&places, edges));
+        let area =
+            |line: &Line| signed_area(&line.iter().copied().map(Vector2::from).collect::<Vec<_>>());
+        let all: f64 = all.iter().flatten().map(area).sum();
+        let found = Silhouette::new(&places, &triangles).unwrap();
+        assert_relative_eq!(signed_area(&found.border), all, max_relative = 1e-9);
+        assert!(found.holes.abs() < 1e-12);
+        // More than any of the polygons of 60 corners, of which it is made.
+        assert!(all > 1.0005 * 30.0 * (TAU / 60.0).sin(), "{all}");
+    }
 }

@@ -4,6 +4,7 @@ use super::number::{short, triple};
 use super::unit::Unit;
 use crate::digits::plural;
 use crate::scan::Split;
+use crate::scan::clump::MANY;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt;
@@ -174,7 +175,7 @@ fn cut_apart(clumps: &[(f64, Vec<&str>)]) -> Option<String> {
 
 /// Which grains come from clumps of more than two, whose necks lie close to each other.
 fn of_many(clumps: &[(f64, Vec<&str>)]) -> Option<String> {
-    let many = clumps.iter().filter(|(_, files)| files.len() > 2);
+    let many = clumps.iter().filter(|(_, files)| files.len() >= MANY);
     let files: Vec<&str> = many.flat_map(|(_, files)| files.iter().copied()).collect();
     (!files.is_empty()).then(|| {
         format!(

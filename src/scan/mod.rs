@@ -6,6 +6,7 @@
 mod apart;
 pub(crate) mod check;
 mod close_gaps;
+pub(crate) mod clump;
 mod coarse;
 mod drawn;
 mod error;

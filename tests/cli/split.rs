@@ -73,10 +73,16 @@ fn what_is_cut_apart_is_told_and_can_be_left_whole() {
         .filter(|point: &Vec<f64>| point.len() >= 3)
         .collect();
     let widest = points.iter().map(|point| point[0]).fold(0.0, f64::max);
-    let two = points
-        .iter()
-        .flat_map(|p| [0.0, 1.99 * widest].map(|x| format!("{} {} {}\n", p[0] + x, p[1], p[2])));
-    std::fs::write(folder.path().join("two.xyz"), two.collect::<String>()).unwrap();
+    for (name, at) in [
+        ("two.xyz", &[0.0, 1.99][..]),
+        ("three.xyz", &[0.0, 1.99, 3.98]),
+    ] {
+        let moved = |p: &Vec<f64>, x: &f64| format!("{} {} {}\n", p[0] + x * widest, p[1], p[2]);
+        let row = points
+            .iter()
+            .flat_map(|p| at.iter().map(move |x| moved(p, x)));
+        std::fs::write(folder.path().join(name), row.collect::<String>()).unwrap();
+    }
     let report = json(&folder, &["split", "two.xyz", "-o", "cut"]);
     assert_eq!(
         (&report["cuts"], report["grains"].as_array().unwrap().len()),
@@ -88,6 +94,15 @@ fn what_is_cut_apart_is_told_and_can_be_left_whole() {
         "{warnings}"
     );
     assert!(warnings.contains("--uncut"), "{warnings}");
+    let report = json(&folder, &["split", "three.xyz", "-o", "of_three"]);
+    assert_eq!(report["cuts"], 2);
+    // Pieces of three that touch may be wrong, those of two hardly.
+    for (grain, is_told) in [("cut", false), ("of_three", true)] {
+        let fitted = json(&folder, &["fit", &format!("{grain}/grain_0001.ply")]);
+        let warnings = fitted["warnings"].to_string();
+        let told = warnings.contains("cut from a clump of 3:");
+        assert_eq!(told, is_told, "{warnings}");
+    }
     let report = json(&folder, &["split", "two.xyz", "-o", "whole", "--uncut"]);
     assert_eq!(
         (&report["cuts"], report["grains"].as_array().unwrap().len()),

@@ -11,6 +11,7 @@ use ply_rs::parser::{Parser, Reader};
 use ply_rs::ply::{ElementDef, Encoding, PropertyAccess, PropertyType, Version};
 
 use super::meaning;
+use crate::scan::clump;
 use crate::scan::error::{ParseError, Place};
 use crate::scan::text::{quote, unexpected, words};
 
@@ -53,7 +54,9 @@ pub(super) fn read(bytes: &[u8]) -> Result<Header, ParseError> {
         body += line.len() + 1;
         if rewriter.push(index + 1, line.trim_ascii())? {
             let original = |line: usize| bytes.split(|&b| b == newline).nth(line - 1);
-            return parse(&rewriter.text, body.min(bytes.len()), index + 1, original);
+            let mut header = parse(&rewriter.text, body.min(bytes.len()), index + 1, original)?;
+            header.warnings.extend(rewriter.warnings);
+            return Ok(header);
         }
     }
     Err(ParseError::CutShort {
@@ -77,6 +80,7 @@ struct Rewriter {
     text: String,
     elements: HashSet<Vec<u8>>,
     properties: HashSet<Vec<u8>>,
+    warnings: Vec<String>,
 }
 
 impl Rewriter {
@@ -91,7 +95,12 @@ impl Rewriter {
                 }
                 tokens = vec![b"ply"];
             }
-            b"comment" | b"obj_info" => tokens = vec![b"comment"],
+            b"comment" | b"obj_info" => {
+                let remark = line.strip_prefix(b"comment ").unwrap_or_default();
+                let warning = str::from_utf8(remark).ok().and_then(clump::warning);
+                self.warnings.extend(warning);
+                tokens = vec![b"comment"];
+            }
             b"format" | b"end_header" => {}
             b"element" => {
                 self.properties.clear();

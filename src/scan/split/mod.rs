@@ -71,6 +71,8 @@ impl Split {
 pub struct Cut {
     /// The clump, a number that it shares with the other grains that were cut from it, and with none else.
     pub clump: usize,
+    /// How many grains were cut from it.
+    pub grains: usize,
     /// Width of the widest neck at which the clump was cut, over that of the narrower of its sides.
     pub neck: f64,
 }
@@ -186,7 +188,12 @@ fn split_points(all: &[Point3<f64>], necks: Necks) -> Split {
         .collect();
     let cuts = cut.into_iter().enumerate().flat_map(|(clump, parts)| {
         let Parts { parts, neck } = parts;
-        let cut = (parts.len() > 1).then_some(Cut { clump, neck });
+        let grains = parts.len();
+        let cut = (grains > 1).then_some(Cut {
+            clump,
+            grains,
+            neck,
+        });
         parts.into_iter().map(move |part| (part, cut))
     });
     let (grains, cuts): (Vec<Part>, Vec<Option<Cut>>) = cuts.unzip();
