@@ -39,7 +39,7 @@ pub struct CurvatureErrors {
 
 impl Survey<'_> {
     /// Standard errors of the [curvature](Self::curvature). Of means, deviations and the share: what bends is expected to add, for it does
-    /// not cancel, what the nodes of deviations miss, and chance, of patches of the surface that have nothing to do with each other; of the mean of H and K no more
+    /// not cancel, what the nodes of deviations miss, what lies between the places where errors are told as far as the ends are in doubt, and chance, of patches of the surface that have nothing to do with each other; of the mean of H and K no more
     /// than what moves them, which is the surface itself. Of the least and largest values: that of the place where they are, by how much
     /// they are more than the surface turns there, and how much farther another place may be. `None` where the grain tells no
     /// errors.
@@ -70,9 +70,19 @@ impl Survey<'_> {
         let of = |kind: Kind| {
             let own = told[kind as usize];
             let variance = own.standard_deviation.powi(2);
-            let of_variance = mean_by(&|k| (kind.of(k) - own.mean).powi(2))
-                .hypot(found.missed_variance(kind, own.mean));
             let end = |end: End| self.end_error(kind, end, places);
+            let (least, largest) = (end(End::Least)?, end(End::Largest)?);
+            let square = |k| (kind.of(k) - own.mean).powi(2);
+            let squares = places
+                .iter()
+                .map(|place| square(place.principal) * place.area);
+            let between = variance - squares.sum::<f64>() / whole;
+            let doubt = (least / (own.least - own.mean))
+                .abs()
+                .max((largest / (own.largest - own.mean)).abs());
+            let of_variance = mean_by(&square)
+                .hypot(found.missed_variance(kind, own.mean))
+                .hypot(between * (2.0 * doubt).min(1.0));
             let per = kind.per(length);
             Ok::<_, SurveyError>(Distribution {
                 mean: per
@@ -83,8 +93,8 @@ impl Survey<'_> {
                     },
                 standard_deviation: per
                     * ((variance + of_variance).sqrt() - own.standard_deviation),
-                least: per * end(End::Least)?,
-                largest: per * end(End::Largest)?,
+                least: per * least,
+                largest: per * largest,
             })
         };
         // Ripples of a fit bend flat sides both ways already: all of them may be off alike.
@@ -146,8 +156,12 @@ mod tests {
     use super::super::testing::bent_egg;
     use super::*;
     use crate::measure::Scheme;
-    use crate::model::Grain;
+    use crate::model::{
+        Family, Frame, Grain, LocalError, LocalErrors, StandardErrors, StarGrain, Whole,
+    };
+    use crate::sphere::CubeCell;
     use approx::assert_relative_eq;
+    use nalgebra::{Matrix3, Point3};
     use std::f64::consts::PI;
 
     fn told(grain: &Grain) -> CurvatureErrors {
@@ -175,6 +189,35 @@ mod tests {
         let patch = 8.0 * PI * place / curvature;
         let expected = mean * mean * place * (patch / area).sqrt();
         assert_relative_eq!(told(&grain).mean.mean, expected, max_relative = 0.1);
+    }
+
+    /// A peak at the pole, between the places where errors are told; its sharpness is in doubt.
+    #[test]
+    fn deviations_are_in_doubt_as_far_as_they_come_from_between_the_places() {
+        let degree = 110;
+        let mut harmonics = vec![0.0; (degree + 1) * (degree + 1)];
+        for l in 0..=degree {
+            let own = l as f64;
+            harmonics[l * l + l] = 3e-5 * (2.0 * own + 1.0).sqrt() * (-(own / 45.0).powi(2)).exp();
+        }
+        harmonics[0] = 3.5;
+        let frame = Frame {
+            centre: Point3::origin(),
+            axes: Matrix3::identity(),
+        };
+        let peak = Family::Whole(Whole::new(harmonics).unwrap());
+        let peak = StarGrain::new(frame, peak).unwrap();
+        let cells = CubeCell::uniform(LocalErrors::PARTS);
+        let error = LocalError {
+            place: 1e-6,
+            curvature: 1e-3,
+        };
+        let grain = Grain::from(peak)
+            .with_standard_errors(Ok(StandardErrors::NONE))
+            .with_local_errors(LocalErrors::new(vec![error; cells.len()]));
+        let survey = Survey::of_grain(&grain, Scheme::Exact);
+        let found = survey.curvature().unwrap().mean().standard_deviation;
+        assert!(told(&grain).mean.standard_deviation > 0.3 * found);
     }
 
     /// k1 - k2 of the egg is small beside what bends it: half of it is expected to be the length of two parts of k / sqrt(8) each.
