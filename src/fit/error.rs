@@ -206,7 +206,7 @@ pub enum FitError {
     #[error(
         "{:.1} % of the points stand apart from the surface that the centre sees by more than a tenth of the radius, and yet close \
          to each other, as outliers do not: a table under the grain, the wall of a hole, a fold, a second body, a thin stalk, or \
-         the rim of a thin plate; cut the grain out (grainform split, or a mesh editor)",
+         the rim of a thin plate; cut the grain out with grainform split or, where that finds one grain, with a mesh editor",
         100.0 * share
     )]
     SecondSurface {

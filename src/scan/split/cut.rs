@@ -82,31 +82,30 @@ pub(super) fn cut(places: &[Point3<f64>], clump: Vec<u32>, distance: f64, necks:
     if cuts.len() > 1 {
         settle(places, &mut whole, &cuts);
     }
-    let may_cut = cuts.is_empty() && most_cuts > 0;
+    let narrow = cuts.len();
     let mut parts = Vec::with_capacity(whole.len());
-    for (points, has_waist) in whole.into_iter().zip(waists) {
+    let mut left: Vec<(Vec<u32>, bool)> = whole.into_iter().zip(waists).collect();
+    while let Some((points, has_waist)) = left.pop() {
         let own = of(&points);
         let missed = Outline::misses(&own);
-        let broad = (missed > SMOOTH)
-            .then(|| Neck::between_two(&own, distance))
+        let neck = (missed > SMOOTH)
+            .then(|| Neck::by_outlines(&own, distance))
             .flatten();
-        let cut = broad.as_ref().filter(|_| may_cut && is_seen_round(&own));
-        let sides = cut.and_then(|neck| grains(&points, &neck.cut(&own)?));
-        match (broad, sides) {
+        let may_cut = narrow == 0 && cuts.len() < most_cuts;
+        let cut = neck.as_ref().filter(|_| may_cut && is_seen_round(&own));
+        let sides = cut.and_then(|neck| grains(&points, &neck.beyond(&own)));
+        match (neck, sides) {
             (Some(neck), Some(sides)) => {
                 cuts.push(neck);
-                parts.extend(sides.map(|points| Part {
-                    points,
-                    may_touch: false,
-                }));
+                left.extend(sides.map(|side| (side, false)));
             }
-            (broad, _) => parts.push(Part {
-                may_touch: has_waist || broad.is_some() || missed > FOLLOWED || has_neck(&own),
+            (neck, _) => parts.push(Part {
+                may_touch: has_waist || neck.is_some() || missed > FOLLOWED || has_neck(&own),
                 points,
             }),
         }
     }
-    if !are_likely(&parts) {
+    if narrow > 0 && !are_likely(&parts) {
         let mut points: Vec<u32> = parts.into_iter().flat_map(|part| part.points).collect();
         points.sort_unstable();
         let uncut = Part {

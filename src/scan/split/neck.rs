@@ -32,8 +32,11 @@ const PLACED: f64 = 0.07;
 /// ... and places that are tried on each side.
 const PLACES: i32 = 60;
 
-/// Share of the points that each side has, at least.
+/// Share of the points that each side has, at least, ...
 const LEAST_SIDE: f64 = 0.1;
+
+/// ... and where a small grain beside a large one is looked for.
+const LEAST_SMALL_SIDE: f64 = 0.005;
 
 /// Section of a neck over the smaller of the largest on both sides: what is below is cut, ...
 const NECK: f64 = 0.4;
@@ -93,11 +96,17 @@ pub(super) struct Neck {
 impl Neck {
     /// The neck of a clump of points that are some distance apart, if its sections have one.
     pub(super) fn find(points: &[Point3<f64>], distance: f64) -> Option<Self> {
+        Self::with_sides(points, distance, LEAST_SIDE)
+    }
+
+    /// The neck that has no less than this share of the points on either side.
+    fn with_sides(points: &[Point3<f64>], distance: f64, least_side: f64) -> Option<Self> {
         let step = points.len().div_ceil(MOST_COMPARED);
         let origin = *points.first()?;
         let rays: Vec<Vector3<f64>> = points.iter().step_by(step).map(|p| p - origin).collect();
         let ratio = |axis: &Vector3<f64>| {
-            narrowest(&rays, axis, distance).map_or(f64::INFINITY, |neck| neck.ratio)
+            let neck = narrowest(&rays, axis, distance, least_side);
+            neck.map_or(f64::INFINITY, |neck| neck.ratio)
         };
         let axes = (0..AXES).map(|i| {
             // Half of a Fibonacci lattice.
@@ -112,7 +121,7 @@ impl Neck {
         let (axis, _) = compass(first, step, least, |axis| -ratio(axis));
         // Of few points a section may be a line by chance; all of them decide.
         let rays: Vec<Vector3<f64>> = points.iter().map(|point| point - origin).collect();
-        let neck = narrowest(&rays, &axis, distance)?;
+        let neck = narrowest(&rays, &axis, distance, least_side)?;
         let outlined = neck.outlined(&rays);
         (outlined < OUTLINED).then(|| Self {
             outlined,
@@ -124,6 +133,13 @@ impl Neck {
     /// The neck that shows in thin slabs, if outlines on both sides of it tell two grains.
     pub(super) fn between_two(points: &[Point3<f64>], distance: f64) -> Option<Self> {
         Self::find(points, THIN * distance).filter(|neck| neck.is_between_two(points))
+    }
+
+    /// The neck on both sides of which outlines tell two grains: a broad one, or one between a large grain and a small one.
+    pub(super) fn by_outlines(points: &[Point3<f64>], distance: f64) -> Option<Self> {
+        let of_small = || Self::with_sides(points, THIN * distance, LEAST_SMALL_SIDE);
+        let is_small = |neck: &Self| neck.is_waist() && neck.tells_two(points);
+        Self::between_two(points, distance).or_else(|| of_small().filter(is_small))
     }
 
     /// The convex outline of the neck over the smaller of the largest on both sides.
@@ -199,14 +215,19 @@ impl Neck {
 
     /// Whether outlines on both sides of it tell two grains.
     fn is_between_two(&self, points: &[Point3<f64>]) -> bool {
-        self.may_part_two() && self.outlined < OUTLINED_BROAD && self.held > HELD && {
-            let beyond = self.beyond(points);
-            are_two(points, &beyond) && are_followed(points, &beyond)
-        }
+        self.may_part_two()
+            && self.outlined < OUTLINED_BROAD
+            && self.held > HELD
+            && self.tells_two(points)
+    }
+
+    fn tells_two(&self, points: &[Point3<f64>]) -> bool {
+        let beyond = self.beyond(points);
+        are_two(points, &beyond) && are_followed(points, &beyond)
     }
 
     /// Beside the neck a point is of the grain whose outline it is nearer to.
-    fn beyond(&self, points: &[Point3<f64>]) -> Vec<bool> {
+    pub(super) fn beyond(&self, points: &[Point3<f64>]) -> Vec<bool> {
         let heights: Vec<f64> = points
             .iter()
             .map(|p| self.axis.dot(&p.coords) - self.at)
@@ -310,7 +331,12 @@ fn are_followed(points: &[Point3<f64>], beyond: &[bool]) -> bool {
 }
 
 /// The smallest section along an axis between larger ones.
-fn narrowest(rays: &[Vector3<f64>], axis: &Vector3<f64>, distance: f64) -> Option<Neck> {
+fn narrowest(
+    rays: &[Vector3<f64>],
+    axis: &Vector3<f64>,
+    distance: f64,
+    least_side: f64,
+) -> Option<Neck> {
     let heights: Vec<f64> = rays.iter().map(|ray| axis.dot(ray)).collect();
     let (low, high) = heights
         .iter()
@@ -345,7 +371,7 @@ fn narrowest(rays: &[Vector3<f64>], axis: &Vector3<f64>, distance: f64) -> Optio
         below += sums[slab].count;
         let beside = before[slab].min(after[slab]);
         let ratio = sections[slab] / beside;
-        if (LEAST_SIDE..=1.0 - LEAST_SIDE).contains(&share)
+        if (least_side..=1.0 - least_side).contains(&share)
             && best.as_ref().is_none_or(|best| ratio < best.ratio)
         {
             best = Some(Neck {

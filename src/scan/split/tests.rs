@@ -282,6 +282,26 @@ fn a_row_of_balls_that_touch_is_cut_into_them() {
     }
 }
 
+/// Less than a tenth of the points are of the small one, between which and the large one the section is no narrow neck.
+#[test]
+fn a_small_ball_that_touches_a_large_one_is_cut_off() {
+    let large = touching(&[[0.0; 3]]);
+    let small = large.iter().step_by(12).map(|p| p / 3.0);
+    let small: Vec<_> = small.map(|p| p + Vector3::new(3.9, 0.3, 0.2)).collect();
+    let expected = [small.len(), large.len()];
+    let found = split(&Scan::from_points([large, small].concat())).unwrap();
+    let grains = found.grains.iter();
+    let mut sizes: Vec<usize> = grains.map(|grain| grain.indices.len()).collect();
+    sizes.sort_unstable();
+    assert_eq!((sizes.len(), found.cuts()), (2, 1));
+    for (size, expected) in sizes.into_iter().zip(expected) {
+        assert!(
+            size.abs_diff(expected) * 50 <= expected,
+            "{size}, not {expected}"
+        );
+    }
+}
+
 /// A waist of three quarters, of a smooth body without noise: two outlines fit such a cloud far better than one.
 #[test]
 fn a_peanut_is_not_cut_in_two_but_told() {
