@@ -99,3 +99,31 @@ fn the_side_of_half_a_grain_is_no_table() {
         assert_eq!(Plane::carrying(&half), None, "{seed}");
     }
 }
+
+/// Points at random over what is seen of a grain from above: few lie under its steep rim.
+#[test]
+fn half_a_grain_seen_from_above_has_no_table() {
+    let mut generator = ChaCha8Rng::seed_from_u64(7);
+    for case in 0..24 {
+        let semi_axes = [
+            Vector3::new(17.2, 11.8, 1.8),
+            Vector3::new(18.3, 12.9, 5.4),
+            Vector3::new(1.0, 0.54, 0.42),
+            Vector3::new(3.9, 2.4, 0.42),
+        ][case % 4];
+        let mut place = || {
+            let ray = Vector3::from_fn(|_, _| StandardNormal.sample(&mut generator));
+            Point3::from(Vector3::normalize(&ray).component_mul(&semi_axes))
+        };
+        let seen = Vector3::new(0.2, 0.1, 1.0);
+        let is_seen = |place: &Point3<f64>| {
+            let normal = place
+                .coords
+                .component_div(&semi_axes)
+                .component_div(&semi_axes);
+            normal.dot(&seen) > 0.0
+        };
+        let points: Vec<_> = (0..2000).map(|_| place()).filter(is_seen).collect();
+        assert_eq!(Plane::carrying(&points), None, "{case}");
+    }
+}
