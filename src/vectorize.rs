@@ -25,14 +25,14 @@ pub(crate) fn vectorize<T>(kernel: impl FnMut() -> T) -> T {
 pub(crate) const LANES: usize = 8;
 
 /// Numbers in blocks, the last one filled up with zeros.
-pub(crate) fn blocks(values: impl Iterator<Item = f64>) -> Vec<[f64; LANES]> {
+pub(crate) fn blocks<const N: usize>(values: impl Iterator<Item = f64>) -> Vec<[f64; N]> {
     let values: Vec<f64> = values.collect();
     let block = |values: &[f64]| {
-        let mut block = [0.0; LANES];
+        let mut block = [0.0; N];
         block[..values.len()].copy_from_slice(values);
         block
     };
-    values.chunks(LANES).map(block).collect()
+    values.chunks(N).map(block).collect()
 }
 
 /// A scalar product.

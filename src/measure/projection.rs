@@ -3,7 +3,7 @@
 use super::Outline;
 use super::silhouette::Silhouette;
 use crate::Mesh;
-use nalgebra::{Point3, Vector2, Vector3};
+use nalgebra::{Point3, Vector3};
 use thiserror::Error;
 
 /// Share of an outline's area that holes may have, as rounding leaves them.
@@ -51,12 +51,12 @@ pub fn project(
     let u = across.try_normalize(0.0).ok_or(ProjectionError::NoArea)?;
     let v = axis.cross(&u);
     let seen = mesh.vertices.iter().map(|vertex| vertex - centre);
-    let seen: Vec<Vector2<f64>> = seen
-        .map(|ray| Vector2::new(u.dot(&ray), v.dot(&ray)))
+    let seen: Vec<Vector3<f64>> = seen
+        .map(|ray| Vector3::new(u.dot(&ray), v.dot(&ray), axis.dot(&ray)))
         .collect();
     // In units of the farthest, which neither overflow nor vanish.
     let size = seen.iter().map(|place| place.amax()).fold(0.0, f64::max);
-    let places: Vec<Vector2<f64>> = seen.iter().map(|place| place / size).collect();
+    let places: Vec<Vector3<f64>> = seen.iter().map(|place| place / size).collect();
     if !places
         .iter()
         .all(|place| place.iter().all(|x| x.is_finite()))

@@ -12,10 +12,9 @@ use super::slits::without_slits;
 use crate::predicates::orient2d;
 use i_overlay::core::fill_rule::FillRule;
 use i_overlay::float::simplify::SimplifyShape;
-use nalgebra::Vector2;
+use nalgebra::{Vector2, Vector3};
 
-/// Triangles are seen edge-on that cover no larger share of the square over their longest side, and take no part as long as what is
-/// left hangs together.
+/// Triangles are seen edge-on that show no larger share of their area, and take no part as long as what is left hangs together.
 const EDGE_ON: f64 = 1e-7;
 
 /// So few border edges are united at once, ...
@@ -24,9 +23,12 @@ const FEW: usize = 1000;
 /// ... as are those which are no more than so many times those of what is not a sliver.
 const MOSTLY_SLIVERS: usize = 2;
 
-/// Slivers cover less of that square, and what is not a sliver covers more of it: both hold those between, lest rounding part them.
-const SLIVER: f64 = 0.1;
-const BROAD: f64 = 0.02;
+/// Of a sliver less than this share of its area is seen, and more of what is no sliver: both hold those between, lest rounding part them.
+const SLIVER: f64 = 0.5;
+const BROAD: f64 = 0.3;
+
+/// Parts that lie apart are specks, by rounding, where they cover no more than this share of the largest.
+const SPECK: f64 = 1e-9;
 
 /// Slits of the border that are narrower go: coordinates of 32 bits are rounded to less, as far off as a hundred sizes.
 const SLIT: f64 = 1e-5;
@@ -43,22 +45,23 @@ pub(super) struct Silhouette {
 }
 
 impl Silhouette {
-    /// That of the triangles of a closed mesh over places of the square from -1 to 1, of which those that are wound counter-clockwise cover all; if
-    /// several parts lie apart, of the largest. `None` if they cover nothing. All triangles must name places that exist.
-    pub(super) fn new(places: &[Vector2<f64>], triangles: &[[u32; 3]]) -> Option<Self> {
+    /// That of the triangles of a closed mesh, seen along the third of the coordinates, which are from -1 to 1: those that are wound
+    /// counter-clockwise cover all. If several parts lie apart, of the largest; `None` if they cover nothing. All triangles must name
+    /// places that exist.
+    pub(super) fn new(places: &[Vector3<f64>], triangles: &[[u32; 3]]) -> Option<Self> {
+        let shown: Vec<f64> = triangles.iter().map(|t| share_shown(places, t)).collect();
+        let edges_of = |least| border_edges(places.len(), triangles, &shown, least);
         let lines_of = |edges| closed_lines(places, edges);
-        let edges = border_edges(places, triangles, EDGE_ON);
-        let broad = (edges.len() > FEW).then(|| border_edges(places, triangles, BROAD));
-        let is_of_slivers = |broad: &Vec<_>| edges.len() > MOSTLY_SLIVERS * broad.len();
-        let mut parts = match broad.as_ref().is_some_and(is_of_slivers) {
-            true => Vec::new(),
-            false => covered(&lines_of(edges)),
-        };
+        let edges = edges_of(EDGE_ON);
+        let broad = (edges.len() > FEW).then(|| edges_of(BROAD));
+        let of_slivers = broad.filter(|broad| edges.len() > MOSTLY_SLIVERS * broad.len());
+        let mut parts = covered(&match of_slivers {
+            Some(broad) => [lines_of(broad), united(&slivers(places, triangles, &shown))].concat(),
+            None => lines_of(edges),
+        });
         // Walls seen edge-on, which are narrower than rounding, may lie between parts.
-        if parts.len() != 1 {
-            let broad = broad.unwrap_or_else(|| border_edges(places, triangles, BROAD));
-            let slivers = united(&slivers(places, triangles));
-            parts = covered(&[lines_of(broad), slivers].concat());
+        if !hang_together(&parts) {
+            parts = covered(&lines_of(edges_of(0.0)));
         }
         let corners = |line: Line| line.into_iter().map(Vector2::from).collect::<Vec<_>>();
         let parts = parts.into_iter().map(|lines| {
@@ -80,13 +83,25 @@ fn covered(lines: &[Line]) -> Vec<Vec<Line>> {
     lines.simplify_shape_as::<i64>(FillRule::NonZero)
 }
 
+/// Whether all parts but one are specks.
+fn hang_together(parts: &[Vec<Line>]) -> bool {
+    let areas = parts.iter().filter_map(|part| part.first());
+    let areas =
+        areas.map(|line| signed_area(&line.iter().map(|&at| at.into()).collect::<Vec<_>>()));
+    let (largest, sum) = areas.fold((0.0_f64, 0.0), |(largest, sum), area| {
+        (largest.max(area), sum + area)
+    });
+    sum - largest <= SPECK * largest
+}
+
 /// The slivers in front, by where they lie round the origin.
-fn slivers(places: &[Vector2<f64>], triangles: &[[u32; 3]]) -> Vec<[[f64; 2]; 3]> {
+fn slivers(places: &[Vector3<f64>], triangles: &[[u32; 3]], shown: &[f64]) -> Vec<[[f64; 2]; 3]> {
     let mut slivers: Vec<(f64, [[f64; 2]; 3])> = triangles
         .iter()
-        .filter(|corners| (f64::MIN_POSITIVE..SLIVER).contains(&share_seen(places, corners)))
-        .map(|corners| {
-            let corners = corners.map(|corner| places[corner as usize]);
+        .zip(shown)
+        .filter(|(_, shown)| (f64::MIN_POSITIVE..SLIVER).contains(*shown))
+        .map(|(corners, _)| {
+            let corners = corners.map(|corner| places[corner as usize].xy());
             let middle: Vector2<f64> = corners.iter().sum();
             (middle.y.atan2(middle.x), corners.map(Into::into))
         })
@@ -106,21 +121,27 @@ fn united(triangles: &[[[f64; 2]; 3]]) -> Vec<Line> {
     parts.into_iter().flatten().collect()
 }
 
-/// Twice the area of a triangle over the square over its longest side; above zero where it is wound counter-clockwise.
-fn share_seen(places: &[Vector2<f64>], corners: &[u32; 3]) -> f64 {
+/// The share of its area that a triangle shows: above zero where it is seen to be wound counter-clockwise.
+fn share_shown(places: &[Vector3<f64>], corners: &[u32; 3]) -> f64 {
     let [a, b, c] = corners.map(|corner| places[corner as usize]);
-    let sides = [b - a, c - b, a - c].map(|side| side.norm_squared());
-    orient2d([a, b, c]) / sides.into_iter().fold(f64::MIN_POSITIVE, f64::max)
+    let twice_its_area = (b - a).cross(&(c - a)).norm();
+    orient2d([a, b, c].map(|corner| corner.xy())) / twice_its_area.max(f64::MIN_POSITIVE)
 }
 
 /// The edges of the triangles that are in front, from end to end, without those that two of them walk in opposite senses: these
-/// are most, and those between corners that no other triangle has are not even looked at. In front is what is wound
-/// counter-clockwise round more than this share of the square over its longest side.
-fn border_edges(places: &[Vector2<f64>], triangles: &[[u32; 3]], least: f64) -> Vec<[u32; 2]> {
-    let is_in_front = |corners: &&[u32; 3]| share_seen(places, corners) > least;
-    let (in_front, behind): (Vec<&[u32; 3]>, Vec<&[u32; 3]>) =
-        triangles.iter().partition(is_in_front);
-    let mut is_border = vec![false; places.len()];
+/// are most, and those between corners that no other triangle has are not even looked at. In front is what shows more than this
+/// share of its area.
+fn border_edges(places: usize, triangles: &[[u32; 3]], shown: &[f64], least: f64) -> Vec<[u32; 2]> {
+    let (mut in_front, mut behind) = (Vec::new(), Vec::new());
+    for (corners, shown) in triangles.iter().zip(shown) {
+        let side = if *shown > least {
+            &mut in_front
+        } else {
+            &mut behind
+        };
+        side.push(corners);
+    }
+    let mut is_border = vec![false; places];
     for corner in behind.into_iter().flatten() {
         is_border[*corner as usize] = true;
     }
@@ -149,7 +170,7 @@ fn border_edges(places: &[Vector2<f64>], triangles: &[[u32; 3]], least: f64) -> 
 }
 
 /// Closed lines through edges, each of which is walked once: at every place as many end as begin.
-fn closed_lines(places: &[Vector2<f64>], mut edges: Vec<[u32; 2]>) -> Vec<Line> {
+fn closed_lines(places: &[Vector3<f64>], mut edges: Vec<[u32; 2]>) -> Vec<Line> {
     edges.sort_unstable();
     let first = |from: u32| edges.partition_point(|edge| edge[0] < from);
     let mut is_walked = vec![false; edges.len()];
@@ -159,7 +180,7 @@ fn closed_lines(places: &[Vector2<f64>], mut edges: Vec<[u32; 2]>) -> Vec<Line> 
         while !is_walked[at] {
             is_walked[at] = true;
             let [from, to] = edges[at];
-            line.push(places[from as usize].into());
+            line.push(places[from as usize].xy().into());
             let onward = (first(to)..edges.len()).take_while(|&next| edges[next][0] == to);
             at = onward
                 .into_iter()
@@ -186,13 +207,14 @@ mod tests {
         let (rings, corners) = (24_u32, 60_u32);
         let place = |ring: u32, corner: u32| {
             let angle = TAU * (f64::from(corner) + 0.37 * f64::from(ring)) / f64::from(corners);
-            Vector2::new(angle.cos(), angle.sin())
+            Vector3::new(angle.cos(), angle.sin(), 0.1 * f64::from(ring))
         };
-        let mut places: Vec<Vector2<f64>> = (0..rings)
+        let mut places: Vec<Vector3<f64>> = (0..rings)
             .flat_map(|ring| (0..corners).map(move |corner| place(ring, corner)))
             .collect();
-        places.push(Vector2::zeros());
         let [bottom, top] = [0, rings - 1];
+        places.push(Vector3::zeros());
+        places.push(Vector3::new(0.0, 0.0, 0.1 * f64::from(top)));
         let at = |ring: u32, corner: u32| ring * corners + corner % corners;
         let middle = rings * corners;
         let wall = |ring: u32, corner: u32| {
@@ -203,11 +225,12 @@ mod tests {
         let walls = (bottom..top).flat_map(|ring| (0..corners).flat_map(move |n| wall(ring, n)));
         let lids = (0..corners).flat_map(|n| {
             let [under, over] = [bottom, top].map(|ring| [at(ring, n), at(ring, n + 1)]);
-            [[under[1], under[0], middle], [over[0], over[1], middle]]
+            [[under[1], under[0], middle], [over[0], over[1], middle + 1]]
         });
         let triangles: Vec<[u32; 3]> = walls.chain(lids).collect();
-        let edges = border_edges(&places, &triangles, EDGE_ON);
-        let broad = border_edges(&places, &triangles, BROAD);
+        let shown: Vec<f64> = triangles.iter().map(|t| share_shown(&places, t)).collect();
+        let edges_of = |least| border_edges(places.len(), &triangles, &shown, least);
+        let (edges, broad) = (edges_of(EDGE_ON), edges_of(BROAD));
         assert!(edges.len() > FEW && edges.len() > MOSTLY_SLIVERS * broad.len());
         let all = covered(&closed_lines(&places, edges));
         let area =

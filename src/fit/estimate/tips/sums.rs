@@ -1,8 +1,11 @@
 //! Sums over the points of bumps about an end, each of which is the square of the one before.
 
 use super::super::cloud::Cloud;
-use crate::vectorize::{LANES, blocks, vectorize};
+use crate::vectorize::{self, vectorize};
 use nalgebra::Vector3;
+
+/// Points that are taken side by side: a processor waits less for one block of numbers where it has another.
+const LANES: usize = 2 * vectorize::LANES;
 
 /// Coefficients of exp(-v) by the powers of v - 1/2, over exp(-1/2): to 5e-13 for v from 0 to 1.
 const TAYLOR: [f64; 12] = taylor();
@@ -24,9 +27,10 @@ impl Points {
     pub(super) fn new(cloud: &Cloud, residuals: &[f64]) -> Self {
         let weighted = cloud.weights.iter().zip(residuals).map(|(w, e)| w * e);
         Self {
-            directions: [0, 1, 2].map(|axis| blocks(cloud.directions.iter().map(|n| n[axis]))),
-            weights: blocks(cloud.weights.iter().copied()),
-            weighted: blocks(weighted),
+            directions: [0, 1, 2]
+                .map(|axis| vectorize::blocks(cloud.directions.iter().map(|n| n[axis]))),
+            weights: vectorize::blocks(cloud.weights.iter().copied()),
+            weighted: vectorize::blocks(weighted),
         }
     }
 
