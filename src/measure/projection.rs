@@ -92,7 +92,7 @@ mod tests {
     }
 
     proptest! {
-        #![proptest_config(ProptestConfig::with_cases(12))]
+        #![proptest_config(ProptestConfig::with_cases(36))]
         #[test]
         fn the_outline_of_an_ellipsoid_is_an_ellipse(direction in prop::array::uniform3(-1.0..1.0_f64)) {
             let semi_axes = Vector3::new(2.0, 1.5, 1.0);
