@@ -63,17 +63,13 @@ impl Silhouette {
         if !hang_together(&parts) {
             parts = covered(&lines_of(edges_of(0.0)));
         }
-        let corners = |line: Line| line.into_iter().map(Vector2::from).collect::<Vec<_>>();
-        let parts = parts.into_iter().map(|lines| {
-            let lines = lines.into_iter().map(corners);
-            lines.collect::<Vec<_>>()
-        });
-        let outer = |part: &Vec<Vec<_>>| part.first().map_or(0.0, |line| signed_area(line));
+        let outer = |part: &Vec<Line>| part.first().map_or(0.0, area);
+        let parts = parts.into_iter();
         let largest = parts.max_by(|one, other| outer(one).total_cmp(&outer(other)))?;
         let mut lines = largest.into_iter();
         Some(Self {
-            border: without_slits(lines.next()?, SLIT),
-            holes: -lines.map(|line| signed_area(&line)).sum::<f64>(),
+            border: without_slits(corners(&lines.next()?), SLIT),
+            holes: -lines.map(|line| area(&line)).sum::<f64>(),
         })
     }
 }
@@ -83,11 +79,17 @@ fn covered(lines: &[Line]) -> Vec<Vec<Line>> {
     lines.simplify_shape_as::<i64>(FillRule::NonZero)
 }
 
+fn corners(line: &Line) -> Vec<Vector2<f64>> {
+    line.iter().map(|&corner| corner.into()).collect()
+}
+
+fn area(line: &Line) -> f64 {
+    signed_area(&corners(line))
+}
+
 /// Whether all parts but one are specks.
 fn hang_together(parts: &[Vec<Line>]) -> bool {
-    let areas = parts.iter().filter_map(|part| part.first());
-    let areas =
-        areas.map(|line| signed_area(&line.iter().map(|&at| at.into()).collect::<Vec<_>>()));
+    let areas = parts.iter().filter_map(|part| part.first()).map(area);
     let (largest, sum) = areas.fold((0.0_f64, 0.0), |(largest, sum), area| {
         (largest.max(area), sum + area)
     });
@@ -233,8 +235,6 @@ mod tests {
         let (edges, broad) = (edges_of(EDGE_ON), edges_of(BROAD));
         assert!(edges.len() > FEW && edges.len() > MOSTLY_SLIVERS * broad.len());
         let all = covered(&closed_lines(&places, edges));
-        let area =
-            |line: &Line| signed_area(&line.iter().copied().map(Vector2::from).collect::<Vec<_>>());
         let all: f64 = all.iter().flatten().map(area).sum();
         let found = Silhouette::new(&places, &triangles).unwrap();
         assert_relative_eq!(signed_area(&found.border), all, max_relative = 1e-9);

@@ -4,7 +4,7 @@
 //! that touch there is a section much smaller than those on both sides: the neck.
 
 use super::dust::LEAST_POINTS;
-use super::outline::Outline;
+use super::outline::{Outline, are_followed, are_two, outline};
 use crate::polygon_hull::{hull_area, polygon_hull};
 use crate::sphere::{across, compass};
 use nalgebra::{Matrix2, Point3, Vector2, Vector3};
@@ -59,13 +59,6 @@ const OUTLINED_BROAD: f64 = 0.6;
 
 /// Points in a thin slab over those in the fuller one beside it, at least: between rows there are fewer.
 const HELD: f64 = 0.2;
-
-/// RMS distance from two outlines over that from one. Of grains that touch it is below .12, with noise of 1 % too.
-const TWO: f64 = 0.33;
-
-/// RMS distance from the outline of one side over its radius, at most. Of smooth grains that touch it is below .01, between voxels
-/// .03; of the arms of a hook above .054.
-const FOLLOWED: f64 = 0.045;
 
 /// How near to a neck points are told apart by outlines, as a share of the radius of the smaller grain, ...
 const BESIDE: f64 = 1.0;
@@ -296,38 +289,6 @@ pub(super) fn settle(places: &[Point3<f64>], grains: &mut [Vec<u32>], necks: &[N
             return;
         }
     }
-}
-
-fn outline(points: &[Point3<f64>], is_of: impl Fn(usize) -> bool) -> Option<Outline> {
-    Outline::through(&those(points, is_of))
-}
-
-fn those(points: &[Point3<f64>], is_of: impl Fn(usize) -> bool) -> Vec<Point3<f64>> {
-    let own = (0..points.len()).filter(|&i| is_of(i));
-    own.map(|i| points[i]).collect()
-}
-
-/// Whether the outlines of both sides are much nearer to the points than one of all.
-fn are_two(points: &[Point3<f64>], beyond: &[bool]) -> bool {
-    let sides = [false, true].map(|side| outline(points, |i| beyond[i] == side));
-    let ([Some(below), Some(above)], Some(whole)) = (sides, Outline::through(points)) else {
-        return false;
-    };
-    let (mut two, mut one) = (0.0, 0.0);
-    for (point, is_beyond) in points.iter().zip(beyond) {
-        let own = if *is_beyond { &above } else { &below };
-        two += own.distance(point).powi(2);
-        one += whole.distance(point).powi(2);
-    }
-    two < TWO * TWO * one
-}
-
-/// Whether the outline of either side is its points' own: the arms of a bent body have none that is.
-fn are_followed(points: &[Point3<f64>], beyond: &[bool]) -> bool {
-    let mut sides = [false, true]
-        .map(|side| those(points, |i| beyond[i] == side))
-        .into_iter();
-    sides.all(|own| Outline::misses(&own) < FOLLOWED)
 }
 
 /// The smallest section along an axis between larger ones.
