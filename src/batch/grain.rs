@@ -92,7 +92,12 @@ pub(super) fn grain(
             });
         }
     };
-    fitted.grain = fitted.grain_with_errors();
+    let is_local = |measure: &Measure| !measure.is_of_whole();
+    let are_local_asked = outputs.model.is_some() || settings.measures.iter().any(is_local);
+    fitted.grain = match are_local_asked {
+        true => fitted.grain_with_errors(),
+        false => fitted.grain_with_standard_errors(),
+    };
     if let Some(path) = &outputs.model {
         save_grain(path, &fitted.grain)?;
     }
@@ -180,4 +185,56 @@ fn cells(figure: &Figure, told: &Value) -> Vec<Option<f64>> {
     std::iter::once(at(&figure.measured))
         .chain(figure.error.as_ref().map(at))
         .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shapes::Sampling;
+    use nalgebra::{Point3, Vector3};
+    use rand::SeedableRng;
+    use rand_chacha::ChaCha8Rng;
+    use rand_distr::{Distribution, StandardNormal};
+
+    fn asked(measures: Vec<Measure>) -> Settings {
+        Settings {
+            fit: FitOptions::default(),
+            largest: false,
+            measures,
+            unit: None,
+            max_bytes: u64::MAX,
+            models: false,
+            meshes: None,
+        }
+    }
+
+    #[test]
+    fn a_measure_alone_is_told_as_among_all() {
+        let mut random = ChaCha8Rng::seed_from_u64(0);
+        let directions = Sampling::Fibonacci.directions(600, 0).unwrap();
+        let places = directions.iter().map(|n| {
+            let error: f64 = StandardNormal.sample(&mut random);
+            Point3::from(Vector3::new(3.0 * n.x, 2.0 * n.y, 1.5 * n.z) * (1.0 + 0.001 * error))
+        });
+        let scan = Scan::from_points(places.collect());
+        let nowhere = Outputs {
+            model: None,
+            mesh: None,
+        };
+        let told = |measures: Vec<Measure>| {
+            let row = grain(Ok(scan.clone()), &asked(measures), &nowhere).unwrap();
+            assert_eq!(row.reason, None);
+            row.figures
+        };
+        let all = told(Measure::ALL.to_vec());
+        let mut rest = all.as_slice();
+        for measure in Measure::ALL {
+            let alone = told(vec![measure]);
+            let among;
+            (among, rest) = rest.split_at(alone.len());
+            assert_eq!(alone, among, "{measure}");
+        }
+        let untold = all.iter().filter(|figure| figure.is_none()).count();
+        assert!(untold < 10, "{untold} of {}", all.len());
+    }
 }

@@ -147,18 +147,13 @@ pub(super) fn estimated(
     };
 
     let residuals = residuals(&grain, samples.rows());
+    let choice = &mut search.candidates[search.chosen];
+    choice.heldout_rms = Some(estimate.held_out_of(&residuals, samples.rows()));
     let (outliers, one_sided) = (estimate.outliers, estimate.one_sided);
-    // Points may crowd where the surface is farthest from the estimate.
-    if outliers + one_sided == 0 {
-        let apart = residuals.rms.powi(2) - estimate.residual().powi(2);
-        let among_points = apart.max(0.0).sqrt().hypot(estimate.held_out());
-        let held_out = &mut search.candidates[search.chosen].heldout_rms;
-        *held_out = held_out.map(|rms| rms.max(among_points));
-    }
     let mut fitted = prepared.fitted(
         grain,
         search,
-        residuals,
+        Residuals::of(residuals),
         samples.rows().len() - outliers - one_sided,
     );
     fitted.whole = whole;
@@ -252,7 +247,7 @@ impl Target for Plain<'_> {
 const CHUNK: usize = 1 << 15;
 
 /// Residuals of all samples, in the grain's own frame.
-fn residuals(grain: &StarGrain, samples: &[Sample]) -> Residuals {
+fn residuals(grain: &StarGrain, samples: &[Sample]) -> Vec<f64> {
     let of_chunk = |samples: &[Sample]| {
         let direction = |&[x, y, z, _]: &Sample| Vector3::new(x, y, z);
         let directions: Vec<_> = samples.iter().map(direction).collect();
@@ -262,6 +257,5 @@ fn residuals(grain: &StarGrain, samples: &[Sample]) -> Residuals {
         }
         radii
     };
-    let all: Vec<f64> = samples.par_chunks(CHUNK).flat_map_iter(of_chunk).collect();
-    Residuals::of(all)
+    samples.par_chunks(CHUNK).flat_map_iter(of_chunk).collect()
 }

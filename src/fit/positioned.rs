@@ -39,7 +39,7 @@ pub(super) fn positioned(
     let (mut fit, mut grain) = fitted(options)?;
     let is_free = options.segments.is_none();
     // Fewer cells may not go through themselves, ...
-    while is_free && grain.is_err() && cells_of(&fit) > FEWEST_CELLS {
+    while is_free && grain.is_err() && !fit.is_hopeless && cells_of(&fit) > FEWEST_CELLS {
         (fit, grain) = fitted(&FitOptions {
             max_segments: Some((cells_of(&fit) / 2).max(FEWEST_CELLS)),
             ..options.clone()

@@ -1,7 +1,7 @@
 //! Leverage of points: how much of each the estimate follows.
 //!
-//! It is [computed](exact) of few points, [probed](probed) of more, as long as their matrix is factored, and
-//! [guessed](guessed) of many, of which each matters little. What counts is 1 - h: the others miss a point by e / (1 - h)
+//! It is [computed](exact::Exact) of few points, [probed](probed) of more whose matrix is factored, or whose residuals are no noise, and
+//! [guessed](guessed) of others, of which each matters little. What counts is 1 - h: the others miss a point by e / (1 - h)
 //! that the estimate misses by e, a thousand times as much at the lone point on the tip of a spindle.
 
 mod exact;
@@ -9,7 +9,7 @@ mod guessed;
 mod probed;
 
 use super::outcome::Estimate;
-use exact::exact;
+use exact::Exact;
 use guessed::guessed;
 use probed::probed;
 
@@ -17,24 +17,18 @@ use probed::probed;
 const FEW: usize = 800;
 
 impl Estimate {
-    /// Whether every leverage is computed.
-    pub(super) fn has_few_points(&self) -> bool {
-        self.cloud.len() <= FEW
-    }
-
     /// 1 - h of every point of the cloud.
     pub(super) fn spares(&self) -> &[f64] {
-        match self.factor.is_some() && !self.has_few_points() {
-            true => self.derived.spares.get_or_init(|| probed(self)),
-            false => self.steady_spares(),
-        }
-    }
-
-    /// The same without probes, in which a cloud and its mirror image differ.
-    pub(super) fn steady_spares(&self) -> &[f64] {
-        self.derived.steady_spares.get_or_init(|| {
-            let computed = self.has_few_points().then(|| exact(self));
-            computed.flatten().unwrap_or_else(|| guessed(self))
+        self.derived.spares.get_or_init(|| {
+            if self.cloud.len() <= FEW
+                && let Some(computed) = Exact::new(self).spares()
+            {
+                return computed;
+            }
+            match self.factor.is_some() || self.dense.is_none() && self.is_rough() {
+                true => probed(self),
+                false => guessed(self),
+            }
         })
     }
 }
@@ -111,7 +105,7 @@ mod tests {
     fn leverages_are_those_of_their_definition() {
         let estimate = uneven(900);
         let defined = by_definition(&estimate);
-        let computed = exact(&estimate).unwrap();
+        let computed = Exact::new(&estimate).spares().unwrap();
         let probed = probed(&estimate);
         for ((h, computed), probed) in defined.iter().zip(&computed).zip(&probed) {
             assert!((1.0 - h - computed).abs() < 1e-9, "{h} {computed}");

@@ -22,6 +22,7 @@ mod dimensions;
 mod draws;
 mod errors;
 mod functionals;
+mod held_out;
 mod information;
 mod known_errors;
 mod left_out;

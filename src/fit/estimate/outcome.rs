@@ -46,8 +46,6 @@ pub(crate) struct Estimate {
 pub(super) struct Derived {
     /// 1 - the leverage of every point.
     pub(super) spares: OnceLock<Vec<f64>>,
-    /// The same without probes.
-    pub(super) steady_spares: OnceLock<Vec<f64>>,
     /// The largest holes between the points.
     pub(super) holes: OnceLock<Holes>,
     /// What is known of errors, or why nothing is.

@@ -39,38 +39,6 @@ impl Estimate {
         variance(&self.spectrum, &self.unlearnt).sqrt() * self.plain_length()
     }
 
-    /// Error of predictions of a point from all others, as root mean square, in the scan's unit: by the points'
-    /// leverages; of more than a few points, whose leverages are guessed, at least that [by their mean](Self::held_out_by_mean);
-    /// of patches that alone.
-    ///
-    /// Over the RMS of points that the fit has not seen, of twelve real scans: .60 to 1.12, .97 in the median, where the mean
-    /// alone tells .57 to 1.12 and .92; of nine in ten of 93 clouds of 60 to 800 clean points .4 to 1.3, and 1, where it tells .1
-    /// to 1.1, and .5.
-    pub(crate) fn held_out(&self) -> f64 {
-        if self.dense.is_some() {
-            return self.held_out_by_mean();
-        }
-        let residuals = self.posterior().residuals(&self.coefficients);
-        let missed = residuals.iter().zip(self.steady_spares());
-        let square = self.cloud.mean_square(missed.map(|(e, spare)| e / spare));
-        let told = square.sqrt() * self.cloud.mean;
-        match self.has_few_points() {
-            true => told,
-            false => {
-                told.max(self.by_mean(self.cloud.mean_square(residuals), self.cloud.len() as f64))
-            }
-        }
-    }
-
-    /// The same by generalised cross-validation, that is with the mean of the points' leverages: less than it is where
-    /// single points decide, as on a steep flank.
-    pub(crate) fn held_out_by_mean(&self) -> f64 {
-        let points = self
-            .dense
-            .map_or(self.cloud.len() as f64, |dense| dense.points);
-        self.by_mean(self.mean_square(), points)
-    }
-
     /// Distance of its points along the normals, as root mean square, in the scan's unit.
     pub(crate) fn residual(&self) -> f64 {
         self.mean_square().sqrt() * self.cloud.mean
@@ -78,7 +46,7 @@ impl Estimate {
 
     /// The same along the rays, as a share of the radius in each direction; of patches in the ratio of the points' to theirs.
     pub(crate) fn relative_residual(&self) -> f64 {
-        let residuals = self.posterior().residuals(&self.coefficients);
+        let residuals = self.residuals();
         let relative = residuals.iter().map(|e| e * e).sum::<f64>() / residuals.len() as f64;
         let ratio = self.dense.as_ref().map_or(1.0, |dense| {
             dense.residuals / self.cloud.mean_square(residuals).max(f64::MIN_POSITIVE)
@@ -86,7 +54,12 @@ impl Estimate {
         (relative * ratio).sqrt()
     }
 
-    /// Mean square of its points' residuals, in units of the mean radius.
+    /// Measured less fitted radii of its points, in the stretched space and in units of the mean radius.
+    pub(super) fn residuals(&self) -> Vec<f64> {
+        self.posterior().residuals(&self.coefficients)
+    }
+
+    /// Mean square of its points' residuals along the normals, in units of the mean radius.
     fn mean_square(&self) -> f64 {
         match self.dense {
             Some(Dense { residuals, .. }) => residuals,
@@ -94,9 +67,12 @@ impl Estimate {
         }
     }
 
-    /// The same of so many points and a mean square of their residuals.
-    fn by_mean(&self, square: f64, points: f64) -> f64 {
-        square.sqrt() / spare(&self.unlearnt, points) * self.cloud.mean
+    /// Share of the points that is not spent on coefficients: 1 - the mean of their leverages.
+    pub(super) fn mean_spare(&self) -> f64 {
+        let points = self
+            .dense
+            .map_or(self.cloud.len() as f64, |dense| dense.points);
+        spare(&self.unlearnt, points)
     }
 
     /// What an expansion may leave out and still be the estimate itself, in the scan's unit.

@@ -112,8 +112,11 @@ impl<'a> Levels<'a> {
             return Ok(fitted.map(|fitted| Found::new(fitted, cloud)));
         }
         let may_be_worth = |rms: f64| is_worth(rms / level.most_standing_out());
-        if problem.run(cloud, &may_be_worth, context)?.is_none() {
+        let Some(fitted) = problem.run(cloud, &may_be_worth, context)? else {
             return Ok(None);
+        };
+        if fitted.is_hopeless {
+            return Ok(Some(Found::new(fitted, cloud)));
         }
         let places = match self.map.between(cloud.vertex_directions(), context) {
             // Faces that became all but flat when directions moved leave no place for what is between them.

@@ -67,6 +67,8 @@ pub struct PositionFit {
     pub turned_over: usize,
     /// Pairs of triangles of the surface's mesh that cross.
     pub crossings: usize,
+    /// Whether neither fewer cells nor rougher ones would leave a surface that is sound.
+    pub(super) is_hopeless: bool,
     /// Where the first of them do, in the scan's frame.
     pub crossing: Option<Point3<f64>>,
     /// Standard errors of its figures.
@@ -155,6 +157,7 @@ pub(super) fn fit_position_if(
         tolerance,
         turned_over,
         crossings,
+        is_hopeless: fitted.is_hopeless,
         errors: fitted.errors.map(|errors| errors.times(radius)),
         fitted_to: Samples {
             points: points.iter().map(|p| local.to_scan(p)).collect(),

@@ -103,6 +103,26 @@ fn a_banana_is_fitted_whole() {
     assert_relative_eq!(volume, BANANA_VOLUME, max_relative = 5e-3);
 }
 
+/// A rod that is wound up three times.
+fn spring(n: &Vector3<f64>) -> Vector3<f64> {
+    let angle = 9.0 * n.z;
+    let (sin, cos) = angle.sin_cos();
+    let radius = 2.0 + 0.3 * n.x;
+    Vector3::new(radius * cos, radius * sin, 0.3 * n.y + 0.35 * angle)
+}
+
+#[test]
+fn a_fit_is_given_up_where_the_surface_is_turned_over_in_many_places() {
+    let options = FitOptions::default().with_segments(24);
+    for (body, is_hopeless) in [(mesh(24, spring), true), (mesh(12, banana), false)] {
+        let fit = fitted(&body, &options);
+        let told = (fit.is_hopeless, fit.turned_over, fit.crossings);
+        assert_eq!(fit.is_hopeless, is_hopeless, "{told:?}");
+        // Nor is it tried with more roughness.
+        assert!(fit.roughness < 1e-6, "{}", fit.roughness);
+    }
+}
+
 /// No more is done for a surface that its held-out distance makes no use of.
 #[test]
 fn a_fit_is_given_up_at_its_held_out_distance() {

@@ -6,6 +6,7 @@
 
 use super::super::outcome::Estimate;
 use super::super::posterior::sign;
+use super::exact::Exact;
 use crate::fit::neighbours::Neighbours;
 use nalgebra::Vector3;
 use rand::SeedableRng;
@@ -23,6 +24,10 @@ const BOUND: f64 = 3.0;
 
 /// Floor of that mean.
 const LEAST: f64 = 1e-3;
+
+/// Below this the probes of other points show: then 1 - h is [computed](Exact) of so many points about one, which decide with it.
+const SMALL: f64 = 0.05;
+const NEAREST: usize = 16;
 
 /// 1 - h of every point of an estimate whose matrix is factored.
 pub(super) fn probed(estimate: &Estimate) -> Vec<f64> {
@@ -54,7 +59,16 @@ pub(super) fn probed(estimate: &Estimate) -> Vec<f64> {
         let mean = (sum / near.len().max(1) as f64).max(LEAST);
         own.clamp(mean / BOUND, mean * BOUND).min(1.0)
     });
-    bounded.collect()
+    let exact = Exact::new(estimate);
+    let among_nearest = |(point, told): (usize, f64)| {
+        let nearest = (told < SMALL).then(|| &near[point][..NEAREST.min(near[point].len())]);
+        let own = nearest.and_then(|near| near.iter().position(|&other| other == point));
+        let found = nearest
+            .zip(own)
+            .and_then(|(near, own)| Some(exact.spares_among(near)?[own]));
+        found.unwrap_or(told)
+    };
+    bounded.enumerate().map(among_nearest).collect()
 }
 
 /// A class for every point, of which the nearest ones are given: one that none of these has, or else the one whose nearest
