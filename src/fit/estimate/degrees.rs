@@ -23,8 +23,10 @@ const DEGREES: [usize; 5] = [36, 48, 60, 72, 80];
 /// a thousand in its logarithm, one way or the other.
 const WORTH_A_DEGREE: f64 = 0.01;
 
-/// Coefficients per point beyond which a higher degree is not tried.
-const MOST_PER_POINT: f64 = 0.9;
+/// Coefficients per point beyond which a higher degree is not tried: what is left of detail is noise to a lower one. With 1.4, where
+/// it was .9, eight of eight textured scans of 3000 to 4500 points are nearer to points that were held out, by 1 to 9 %, with as many
+/// coefficients of their cells; with 2.2 by another percent, in twice the time.
+const MOST_PER_POINT: f64 = 1.4;
 
 /// The degree that a cloud of so many points is first fitted at.
 pub(super) fn first_degree(points: usize) -> usize {

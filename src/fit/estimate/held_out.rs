@@ -19,7 +19,7 @@ impl Estimate {
         if self.dense.is_none() {
             return rms(residuals
                 .iter()
-                .zip(self.spares())
+                .zip(self.steady_spares())
                 .map(|(e, spare)| e / spare));
         }
         let points = residuals.iter().zip(self.counts());
@@ -34,7 +34,7 @@ impl Estimate {
         if self.dense.is_some() {
             return rms(self.without_largest(residuals)) / self.mean_spare();
         }
-        let missed = self.along_rays().into_iter().zip(self.spares());
+        let missed = self.along_rays().into_iter().zip(self.steady_spares());
         let more = missed.map(|(e, spare)| e / spare - e);
         let kept = self.kept(samples).into_iter().map(|i| residuals[i]);
         rms(kept.zip(more).map(|(e, more)| e + more))

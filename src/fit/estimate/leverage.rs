@@ -19,17 +19,34 @@ const FEW: usize = 800;
 impl Estimate {
     /// 1 - h of every point of the cloud.
     pub(super) fn spares(&self) -> &[f64] {
-        self.derived.spares.get_or_init(|| {
-            if self.cloud.len() <= FEW
+        match self.factor.is_some() && !self.has_few_points() {
+            true => self.probed_spares(),
+            false => self.steady_spares(),
+        }
+    }
+
+    /// The same with probes, in which a cloud and its mirror image differ, only of detail.
+    pub(super) fn steady_spares(&self) -> &[f64] {
+        self.derived.steady_spares.get_or_init(|| {
+            if self.has_few_points()
                 && let Some(computed) = Exact::new(self).spares()
             {
                 return computed;
             }
-            match self.factor.is_some() || self.dense.is_none() && self.is_rough() {
-                true => probed(self),
+            match self.dense.is_none() && self.is_rough() {
+                true => self.probed_spares().to_vec(),
                 false => guessed(self),
             }
         })
+    }
+
+    fn probed_spares(&self) -> &[f64] {
+        self.derived.probed_spares.get_or_init(|| probed(self))
+    }
+
+    /// Whether every leverage is computed.
+    fn has_few_points(&self) -> bool {
+        self.cloud.len() <= FEW
     }
 }
 

@@ -44,8 +44,10 @@ pub(crate) struct Estimate {
 /// What follows from the rest: computed once, when it is first asked for.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Derived {
-    /// 1 - the leverage of every point.
-    pub(super) spares: OnceLock<Vec<f64>>,
+    /// 1 - the leverage of every point, by probes.
+    pub(super) probed_spares: OnceLock<Vec<f64>>,
+    /// The same, by probes only of detail.
+    pub(super) steady_spares: OnceLock<Vec<f64>>,
     /// The largest holes between the points.
     pub(super) holes: OnceLock<Holes>,
     /// What is known of errors, or why nothing is.

@@ -45,8 +45,8 @@ const MOST_TRIES: usize = 3;
 /// Cells per edge of the cube of directions of the mesh in which crossings are looked for: 13 826 vertices.
 const RESOLUTION: usize = 48;
 
-/// A surface that is turned over at this share of its samples, or as many pairs of triangles of whose mesh cross, is left neither
-/// by more roughness nor by fewer functions: of combs, springs and discs it was at .05 to .5, and 2000 to 56 000 pairs of 27 648
+/// A surface of faces that is turned over at this share of its samples, or as many pairs of triangles of whose mesh cross, is mended
+/// neither by more roughness nor by fewer functions: of combs, springs and discs it was at .05 to .5, and 2000 to 56 000 pairs of 27 648
 /// triangles crossed. Of those that came out sound at most .03 and 1300 did at first.
 const HOPELESS: f64 = 0.125;
 
@@ -81,7 +81,7 @@ pub(super) struct Fitted {
     pub(super) errors: Result<StandardErrors, NoInterval>,
     /// What voxels hide of it.
     pub(super) hidden: Option<Hidden>,
-    /// Whether no fit of these samples will leave a sound surface.
+    /// Whether no fit to these faces will leave a sound surface.
     pub(super) is_hopeless: bool,
 }
 
@@ -265,14 +265,15 @@ impl<'a> Problem<'a> {
         let triangles = 12 * RESOLUTION * RESOLUTION;
         let shares = [(faults[0], cloud.points.len()), (faults[1], triangles)];
         let is_far = |(faults, of): (usize, usize)| faults as f64 > HOPELESS * of as f64;
-        let is_refused = is_folded || !crossings.is_empty();
+        // Through few points rougher surfaces, and such of fewer cells, may be sound.
+        let may_be_hopeless = !cloud.is_of_points && (is_folded || !crossings.is_empty());
         let hidden = is_sound.then(|| solved.hidden_by_voxels()).flatten();
         let errors = match is_sound {
             true => solved.errors(hidden.as_ref()),
             false => Err(NoInterval::Crossing),
         };
         Ok(Some(Fitted {
-            is_hopeless: is_refused && shares.into_iter().any(is_far),
+            is_hopeless: may_be_hopeless && shares.into_iter().any(is_far),
             faults,
             is_folded,
             crossing: crossings.first().copied(),

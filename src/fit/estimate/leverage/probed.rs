@@ -25,7 +25,8 @@ const BOUND: f64 = 3.0;
 /// Floor of that mean.
 const LEAST: f64 = 1e-3;
 
-/// Below this the probes of other points show: then 1 - h is [computed](Exact) of so many points about one, which decide with it.
+/// Below this the probes of other points show. Where what is left is detail, and so no more than its neighbours decide with a point,
+/// 1 - h is then [computed](Exact) of so many about it.
 const SMALL: f64 = 0.05;
 const NEAREST: usize = 16;
 
@@ -60,8 +61,10 @@ pub(super) fn probed(estimate: &Estimate) -> Vec<f64> {
         own.clamp(mean / BOUND, mean * BOUND).min(1.0)
     });
     let exact = Exact::new(estimate);
+    let is_rough = estimate.is_rough();
     let among_nearest = |(point, told): (usize, f64)| {
-        let nearest = (told < SMALL).then(|| &near[point][..NEAREST.min(near[point].len())]);
+        let nearest =
+            (is_rough && told < SMALL).then(|| &near[point][..NEAREST.min(near[point].len())]);
         let own = nearest.and_then(|near| near.iter().position(|&other| other == point));
         let found = nearest
             .zip(own)
