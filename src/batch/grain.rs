@@ -92,11 +92,16 @@ pub(super) fn grain(
             });
         }
     };
-    let is_local = |measure: &Measure| !measure.is_of_whole();
-    let are_local_asked = outputs.model.is_some() || settings.measures.iter().any(is_local);
-    fitted.grain = match are_local_asked {
+    let are_places_asked = settings
+        .measures
+        .iter()
+        .any(|measure| !is_of_whole(*measure));
+    fitted.grain = match outputs.model.is_some() || are_places_asked {
         true => fitted.grain_with_errors(),
-        false => fitted.grain_with_standard_errors(),
+        false => {
+            let errors = fitted.standard_errors(&fitted.survey());
+            fitted.grain.with_standard_errors(errors)
+        }
     };
     if let Some(path) = &outputs.model {
         save_grain(path, &fitted.grain)?;
@@ -109,6 +114,22 @@ pub(super) fn grain(
         mesh_hash: outputs.mesh.as_ref().and_then(hash),
         ..row(&fitted, &of_scan, settings)
     })
+}
+
+/// Whether a measure and its errors follow from sums over the surface and from how far this reaches along its principal axes. The
+/// errors of all others are those of the surface [from place to place](crate::model::LocalErrors).
+const fn is_of_whole(measure: Measure) -> bool {
+    matches!(
+        measure,
+        Measure::Area
+            | Measure::Volume
+            | Measure::Centroid
+            | Measure::Inertia
+            | Measure::Principal
+            | Measure::Dimensions
+            | Measure::Form
+            | Measure::Ellipsoid
+    )
 }
 
 /// What is told of a scan beside its fit.

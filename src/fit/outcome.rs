@@ -268,12 +268,6 @@ impl Fitted {
         grain.with_standard_errors(told)
     }
 
-    /// The grain with its [standard errors](Self::standard_errors) only, or why there are none.
-    pub(crate) fn grain_with_standard_errors(&self) -> Grain {
-        let told = self.standard_errors(&self.survey());
-        self.grain.clone().with_standard_errors(told)
-    }
-
     /// Standard deviations of the radius in directions of the scan's frame (vectors of any length but zero), in the scan's
     /// unit: of the surface, and of a new point of the same scan. `None` of fits to the points themselves.
     ///

@@ -45,6 +45,7 @@ const FLOOR: f64 = 1e-5;
 
 /// Parts of a cube's edge in cells that bumps are wider than: each holds four of those of [`LocalErrors`].
 const WIDE_PARTS: u16 = LocalErrors::PARTS / 2;
+const PER_WIDE_CELL: f64 = 4.0 * PER_CELL as f64;
 
 /// Cosine of the angle to a principal axis up to which a body may end there: where it ends is then told no better than by the
 /// errors of its dimensions, of which what is missing is a part though it may be chance.
@@ -69,10 +70,19 @@ impl Estimate {
         let unshrunk = Family::Whole(self.unshrunk());
         let unshrunk = StarGrain::stretched(frame, self.stretch(), unshrunk).ok()?;
         let jets = best.jets(&towards).into_iter().zip(grain.jets(&towards));
-        let jets = jets.zip(unshrunk.jets(&towards));
+        let jets: Vec<_> = jets.zip(unshrunk.jets(&towards)).collect();
         // What is smooth is taken once in a cell; how far the grain is from the estimate is not.
         let cells = CubeCell::uniform(LocalErrors::PARTS);
         let middles: Vec<Vector3<f64>> = cells.iter().map(CubeCell::middle).collect();
+        let wide = |cell: usize| CubeCell::position(WIDE_PARTS, &middles[cell]);
+        let apart = |at: usize| {
+            let ((best, told), _) = &jets[at];
+            (told.place.norm() - best.place.norm()).powi(2)
+        };
+        let mut apart_around = vec![0.0; CubeCell::uniform(WIDE_PARTS).len()];
+        for at in 0..jets.len() {
+            apart_around[wide(at / PER_CELL)] += apart(at) / PER_WIDE_CELL;
+        }
         let plain: Vec<Vector3<f64>> = middles.iter().map(|n| self.plain(n)).collect();
         let locals = self.locals(&plain, |given, middles| {
             given.cell_variances(middles, &places, PER_CELL)
@@ -86,10 +96,11 @@ impl Estimate {
         let square = |at: usize, best: &SurfaceJet, told: &SurfaceJet, unshrunk: &SurfaceJet| {
             let (n, cell) = (&local[at], at / PER_CELL);
             let known = &locals[cell];
-            let [height, bump] = unexpected[CubeCell::position(WIDE_PARTS, &middles[cell])];
+            let [height, bump] = unexpected[wide(cell)];
             let curvature = Curvature::new(&towards[at], best);
             let exact = tensor(&curvature);
-            let apart = told.place.norm() - best.place.norm();
+            // By chance the grain may cross the estimate in all places of a cell.
+            let apart = apart(at).max(apart_around[wide(cell)]);
             let told = tensor(&Curvature::new(&towards[at], told));
             let difference = (told - exact).norm_squared();
             let unshrunk = tensor(&Curvature::new(&towards[at], unshrunk));
@@ -100,7 +111,7 @@ impl Estimate {
             let bend = self.bend(n, best.place.norm(), &normal, [first, second]);
             let bending = known.variance_at_least() * bending_per_value;
             let unknown = known.variance_at_least() + beside[cell] + height;
-            let radius = apart.powi(2) + unknown * known.scale.powi(2);
+            let radius = apart + unknown * known.scale.powi(2);
             let rounding_of_place = (FLOOR * best.place.norm()).powi(2);
             Squares {
                 place: (radius + rounding_of_place) * normal.dot(n).powi(2),
@@ -110,9 +121,9 @@ impl Estimate {
                     + bump * bend.of_bump(),
             }
         };
-        let jets = jets.enumerate();
+        let jets = jets.iter().enumerate();
         Some(
-            jets.map(|(at, ((best, told), unshrunk))| square(at, &best, &told, &unshrunk))
+            jets.map(|(at, ((best, told), unshrunk))| square(at, best, told, unshrunk))
                 .collect(),
         )
     }

@@ -81,22 +81,6 @@ impl Measure {
         Self::Spectrum,
     ];
 
-    /// Whether it and its errors follow from sums over the surface and from how far this reaches along its principal axes. The
-    /// errors of all others are those of the surface [from place to place](crate::model::LocalErrors).
-    pub(crate) const fn is_of_whole(self) -> bool {
-        matches!(
-            self,
-            Self::Area
-                | Self::Volume
-                | Self::Centroid
-                | Self::Inertia
-                | Self::Principal
-                | Self::Dimensions
-                | Self::Form
-                | Self::Ellipsoid
-        )
-    }
-
     /// The name: the key of the JSON report.
     pub const fn name(self) -> &'static str {
         match self {
