@@ -164,6 +164,15 @@ mod tests {
     use approx::assert_relative_eq;
     use std::f64::consts::PI;
 
+    /// Area, volume and solid angle.
+    fn sums(elements: &[Element]) -> [f64; 3] {
+        let figures = elements.iter().map(|e| {
+            let volume = e.area.dot(&e.place) / 3.0;
+            Vector3::new(e.area.norm(), volume, e.seen().2)
+        });
+        figures.sum::<Vector3<f64>>().into()
+    }
+
     #[test]
     fn the_elements_of_a_mesh_have_its_area_and_volume_and_fill_the_sphere() {
         for resolution in [1, 8, 100] {
@@ -172,9 +181,7 @@ mod tests {
             let exact = mesh_properties(&mesh).unwrap();
             let elements = mesh_elements(&mesh, &exact.centroid);
             assert!(elements.len() > NODES / 4);
-            let area: f64 = elements.iter().map(|e| e.area.norm()).sum();
-            let volume: f64 = elements.iter().map(|e| e.area.dot(&e.place) / 3.0).sum();
-            let sphere: f64 = elements.iter().map(|e| e.seen().2).sum();
+            let [area, volume, sphere] = sums(&elements);
             assert_relative_eq!(area, exact.area, max_relative = 1e-11);
             assert_relative_eq!(volume, exact.volume, max_relative = 1e-11);
             assert_relative_eq!(sphere, 4.0 * PI, max_relative = 1e-4);
@@ -205,9 +212,7 @@ mod tests {
             let elements = mesh_elements(&mesh, &from);
             let parts = elements.len() / mesh.triangles.len();
             assert!(parts < 50, "{parts}");
-            let area: f64 = elements.iter().map(|e| e.area.norm()).sum();
-            let volume: f64 = elements.iter().map(|e| e.area.dot(&e.place) / 3.0).sum();
-            let sphere: f64 = elements.iter().map(|e| e.seen().2).sum();
+            let [area, volume, sphere] = sums(&elements);
             assert_relative_eq!(area, exact.area, max_relative = 1e-11);
             assert_relative_eq!(volume, exact.volume, max_relative = 1e-11);
             assert_relative_eq!(sphere, 4.0 * PI, max_relative = 1e-5);
@@ -229,7 +234,7 @@ mod tests {
         let elements = mesh_elements(&disc, &Point3::new(0.5, 0.2, 0.1));
         assert!(elements.len() < 600_000, "{}", elements.len());
         assert!(elements.iter().all(|e| e.seen().2 > 0.0));
-        let sphere: f64 = elements.iter().map(|e| e.seen().2).sum();
+        let [_, _, sphere] = sums(&elements);
         assert_relative_eq!(sphere, 4.0 * PI, max_relative = 1e-4);
     }
 }

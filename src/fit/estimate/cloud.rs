@@ -78,6 +78,14 @@ impl Cloud {
         mapped.collect()
     }
 
+    /// Which samples are its points: these are in their order, without those that were left out.
+    pub(super) fn holds(&self, samples: &[Sample]) -> Vec<bool> {
+        let mapped = Self::mapped(samples, self.stretch, 1.0);
+        let mut own = self.directions.iter().peekable();
+        let is_own = |(n, _): &(_, f64)| own.next_if_eq(&n).is_some();
+        mapped.iter().map(is_own).collect()
+    }
+
     /// The points themselves, in units of `mean`.
     pub(crate) fn points(&self) -> Vec<Vector3<f64>> {
         let rays = self.directions.iter().zip(&self.radii);

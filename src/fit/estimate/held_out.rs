@@ -4,7 +4,6 @@
 //! [leverage](super::leverage) h. The mean of all leverages does not do on textured scans, where single points decide at tips and
 //! creases: by it points of one half of a scan are told to be missed up to three times less by a fit of the other than they are.
 
-use super::cloud::Cloud;
 use super::outcome::Estimate;
 use crate::fit::prepare::Sample;
 
@@ -34,10 +33,11 @@ impl Estimate {
         if self.dense.is_some() {
             return rms(self.without_largest(residuals)) / self.mean_spare();
         }
-        let missed = self.along_rays().into_iter().zip(self.steady_spares());
+        let missed = self.along_rays().iter().zip(self.steady_spares());
         let more = missed.map(|(e, spare)| e / spare - e);
-        let kept = self.kept(samples).into_iter().map(|i| residuals[i]);
-        rms(kept.zip(more).map(|(e, more)| e + more))
+        let all = residuals.iter().zip(self.cloud.holds(samples));
+        let own = all.filter(|(_, is_own)| *is_own);
+        rms(own.zip(more).map(|((e, _), more)| e + more))
     }
 
     /// The root mean square error of predictions along the normals by generalised cross-validation, that is with the mean of the
@@ -47,27 +47,20 @@ impl Estimate {
     }
 
     /// Measured less fitted radii of its points, in the scan's unit.
-    fn along_rays(&self) -> Vec<f64> {
-        let residuals = self.residuals().into_iter();
-        let points = residuals.zip(&self.cloud.directions);
-        points
-            .map(|(e, n)| e * self.cloud.mean * self.length(n))
-            .collect()
+    fn along_rays(&self) -> &[f64] {
+        self.derived.along_rays.get_or_init(|| {
+            let residuals = self.residuals().into_iter();
+            let points = residuals.zip(&self.cloud.directions);
+            points
+                .map(|(e, n)| e * self.cloud.mean * self.length(n))
+                .collect()
+        })
     }
 
     /// How many points each of the cloud stands for, in units of the mean of that number.
     fn counts(&self) -> impl Iterator<Item = f64> {
         let points = self.cloud.directions.iter().zip(&self.cloud.weights);
         points.map(|(n, weight)| weight / self.cloud.along_normal(n).powi(2))
-    }
-
-    /// Which of the samples are its points: they are in the order of these, without those that were left out.
-    fn kept(&self, samples: &[Sample]) -> Vec<usize> {
-        let mapped = Cloud::mapped(samples, self.cloud.stretch, self.cloud.mean);
-        let mut own = self.cloud.directions.iter().peekable();
-        let is_own = |(n, _): &(_, f64)| own.next_if(|&own| own == n).is_some();
-        let kept: Vec<bool> = mapped.iter().map(is_own).collect();
-        (0..kept.len()).filter(|&i| kept[i]).collect()
     }
 
     /// Without the largest, as many as were left out.
@@ -91,6 +84,7 @@ fn rms(errors: impl IntoIterator<Item = f64>) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::cloud::Cloud;
     use super::super::trial::{estimated, fibonacci, samples};
     use super::*;
     use crate::shapes::Sampling;

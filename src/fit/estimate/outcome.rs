@@ -44,6 +44,8 @@ pub(crate) struct Estimate {
 /// What follows from the rest: computed once, when it is first asked for.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Derived {
+    /// Residuals of its points along the rays, in the scan's unit.
+    pub(super) along_rays: OnceLock<Vec<f64>>,
     /// 1 - the leverage of every point, by probes.
     pub(super) probed_spares: OnceLock<Vec<f64>>,
     /// The same, by probes only of detail.

@@ -53,9 +53,8 @@ pub(super) fn strays(samples: &[Sample], estimate: &Estimate) -> Option<Vec<usiz
     let cloud = &estimate.cloud;
     let mapped = Cloud::mapped(samples, cloud.stretch, 1.0);
     let (directions, measured): (Vec<_>, Vec<_>) = mapped.into_iter().unzip();
-    let mut kept = cloud.directions.iter().peekable();
-    let is_left_out = |&at: &usize| kept.next_if_eq(&&directions[at]).is_none();
-    let left_out: Vec<usize> = (0..samples.len()).filter(is_left_out).collect();
+    let are_kept = cloud.holds(samples);
+    let left_out: Vec<usize> = (0..samples.len()).filter(|&at| !are_kept[at]).collect();
     let at: Vec<Vector3<f64>> = left_out.iter().map(|&at| directions[at]).collect();
     let fitted = estimate.stretched_radii(&at);
     let off = left_out.iter().zip(fitted);

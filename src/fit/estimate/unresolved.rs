@@ -107,8 +107,7 @@ pub(super) fn is_rough(residuals: &[f64]) -> bool {
 impl Estimate {
     /// Whether what it leaves of the points is no noise, but edges and detail.
     pub(crate) fn is_rough(&self) -> bool {
-        let residuals = self.posterior().residuals(&self.coefficients);
-        is_rough(&self.cloud.of_mean_weight(&residuals))
+        is_rough(&self.cloud.of_mean_weight(&self.residuals()))
     }
 
     /// Whether it is a made body with edges that it does not resolve, so that its errors are not known: where residuals are no

@@ -60,18 +60,20 @@ pub(super) fn probed(estimate: &Estimate) -> Vec<f64> {
         let mean = (sum / near.len().max(1) as f64).max(LEAST);
         own.clamp(mean / BOUND, mean * BOUND).min(1.0)
     });
+    if !estimate.is_rough() {
+        return bounded.collect();
+    }
     let exact = Exact::new(estimate);
-    let is_rough = estimate.is_rough();
-    let among_nearest = |(point, told): (usize, f64)| {
-        let nearest =
-            (is_rough && told < SMALL).then(|| &near[point][..NEAREST.min(near[point].len())]);
-        let own = nearest.and_then(|near| near.iter().position(|&other| other == point));
-        let found = nearest
-            .zip(own)
-            .and_then(|(near, own)| Some(exact.spares_among(near)?[own]));
-        found.unwrap_or(told)
+    let among_nearest = |point: usize| {
+        let nearest = &near[point][..NEAREST.min(near[point].len())];
+        let own = nearest.iter().position(|&other| other == point)?;
+        Some(exact.spares_among(nearest)?[own])
     };
-    bounded.enumerate().map(among_nearest).collect()
+    let told = |(point, told): (usize, f64)| {
+        let is_small = (told < SMALL).then_some(point);
+        is_small.and_then(among_nearest).unwrap_or(told)
+    };
+    bounded.enumerate().map(told).collect()
 }
 
 /// A class for every point, of which the nearest ones are given: one that none of these has, or else the one whose nearest
