@@ -97,6 +97,16 @@ impl Mesh {
     /// # Errors
     /// The first [`MeshDefect`] met.
     pub fn check_closed(&self) -> Result<(), MeshDefect> {
+        let edges = self.check_edges()? as i64;
+        let found = self.vertices.len() as i64 - edges + self.triangles.len() as i64;
+        match found {
+            2 => Ok(()),
+            _ => Err(MeshDefect::EulerCharacteristic { found }),
+        }
+    }
+
+    /// Checks all of that but the topology, and that every vertex is in use; gives the number of edges.
+    pub(crate) fn check_edges(&self) -> Result<usize, MeshDefect> {
         let is_nowhere = |vertex: &Point3<f64>| !vertex.iter().all(|x| x.is_finite());
         if let Some(vertex) = self.vertices.iter().position(is_nowhere) {
             return Err(MeshDefect::NotFinite { vertex });
@@ -119,12 +129,7 @@ impl Mesh {
                 }
             }
         }
-        let found =
-            self.vertices.len() as i64 - (directed.len() / 2) as i64 + self.triangles.len() as i64;
-        if found != 2 {
-            return Err(MeshDefect::EulerCharacteristic { found });
-        }
-        Ok(())
+        Ok(directed.len() / 2)
     }
 }
 

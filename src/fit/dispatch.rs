@@ -71,6 +71,7 @@ impl PreparedScan<'_> {
             samples: None,
             edged: None,
             errors: None,
+            step: self.step,
         }
     }
 }

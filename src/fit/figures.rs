@@ -9,7 +9,7 @@
 //!
 //! and the principal moments change by the diagonal of the change of the inertia along the principal axes.
 
-use crate::measure::{MassProperties, Moments, PrincipalInertia};
+use crate::measure::{MassProperties, Moments, PrincipalInertia, inertia};
 use nalgebra::{Matrix3, Point3, SMatrix, SVector, Vector3};
 
 /// Area, volume, three first moments and six second moments, as a list.
@@ -98,7 +98,7 @@ pub(super) fn derivatives(at: &Moments) -> SMatrix<f64, INTEGRALS, INTEGRALS> {
             area: d.area,
             volume: d.volume,
             first: (d.first - centroid * d.volume) / at.volume,
-            second: Matrix3::identity() * central.trace() - central,
+            second: inertia(&central),
         };
         all.set_column(column, &list(&changed));
     }

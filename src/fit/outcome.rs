@@ -51,6 +51,8 @@ pub struct Fitted {
     pub(crate) edged: Option<Vec<Point3<f64>>>,
     /// Standard errors of a surface that has no estimate of its radius.
     pub(crate) errors: Option<Result<StandardErrors, NoInterval>>,
+    /// Of points that may be the centres of voxels, the mean distance from one to the next; zero of others.
+    pub(crate) step: f64,
 }
 
 /// What an estimate says of itself. Lengths are in the scan's unit.
@@ -176,7 +178,9 @@ impl Fitted {
             FitWarning::Layers { share, .. } => share / 2.0,
             _ => 0.0,
         });
-        of_points.fold(self.beside_faces(told), f64::hypot)
+        // Half a step outwards, all over.
+        let outwards = self.step / 2.0 * told.area / (3.0 * told.volume);
+        of_points.fold(self.beside_faces(told).hypot(outwards), f64::hypot)
     }
 
     /// The same for what lies between flat faces and a surface that goes through

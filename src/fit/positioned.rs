@@ -108,6 +108,7 @@ pub(super) fn positioned(
         samples: Some(fit.fitted_to),
         edged: None,
         errors: Some(errors),
+        step: scan.step,
     };
     let fitted = fitted.measured();
     sound::check_positions(&fitted)?;

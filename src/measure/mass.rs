@@ -98,9 +98,17 @@ impl Moments {
             area: self.area,
             volume: self.volume,
             centroid: origin + centroid,
-            inertia: Matrix3::identity() * central.trace() - central,
+            inertia: inertia(&central),
         }
     }
+}
+
+/// The inertia tensor of second moments. Of a needle a trace less one of its parts would cancel.
+pub(crate) fn inertia(second: &Matrix3<f64>) -> Matrix3<f64> {
+    let [x, y, z] = second.diagonal().into();
+    let mut inertia = -second;
+    inertia.set_diagonal(&Vector3::new(y + z, z + x, x + y));
+    inertia
 }
 
 impl AddAssign for Moments {

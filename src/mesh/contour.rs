@@ -65,6 +65,18 @@ impl Grid {
             .count()
     }
 
+    /// The number of voxels inside that have a face to one outside.
+    pub(crate) fn outermost(&self) -> usize {
+        let steps = [1, self.size[0], self.size[0] * self.size[1]];
+        let is_outermost = |index: usize| {
+            let mut beside = steps.iter().flat_map(|step| [index - step, index + step]);
+            beside.any(|next| !self.is_inside[next])
+        };
+        let all = 0..self.is_inside.len();
+        all.filter(|&index| self.is_inside[index] && is_outermost(index))
+            .count()
+    }
+
     /// The number of voxels inside in a layer across an axis.
     pub(crate) fn layer(&self, axis: usize, at: usize) -> usize {
         let step = [1, self.size[0], self.size[0] * self.size[1]][axis];

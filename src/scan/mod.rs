@@ -28,7 +28,6 @@ mod xyz;
 
 use std::path::Path;
 
-use crate::digits::significant;
 use crate::mesh::Mesh;
 use nalgebra::Point3;
 
@@ -42,6 +41,7 @@ pub use split::{Cut, Plane, Split, SplitGrain, split, split_labels, split_uncut}
 pub(crate) use split::{are_two_grains, has_neck, voxels_have_neck};
 pub use topology::Topology;
 pub(crate) use topology::each_edge;
+use volume::Centres;
 #[cfg(feature = "cli")]
 pub(crate) use volume::Extent;
 pub use volume::{Volume, VolumeError, VoxelBody, VoxelLattice, parse_volume, voxel_file};
@@ -61,6 +61,8 @@ pub struct Scan {
     pub(crate) scatter: f64,
     /// Of a surface between voxels, where these lie.
     pub(crate) lattice: Option<VoxelLattice>,
+    /// Of points that may be the centres of voxels, the mean distance from one to the next; zero of others.
+    pub(crate) step: f64,
     /// See [`Self::unit`].
     pub(crate) unit: Option<String>,
     pub(crate) warnings: Vec<String>,
@@ -190,14 +192,35 @@ impl Scan {
         let Some((lattice, scatter)) = volume::between_voxels(self) else {
             return;
         };
-        let steps = lattice.steps.column_iter();
-        let sides = steps.map(|step| significant(step.norm(), 4));
         self.warnings.push(format!(
             "The vertices lie half-way between voxels of {}, as marching cubes without grey values put them: the faces are \
              taken as those of a segmented volume.",
-            sides.collect::<Vec<_>>().join(" x ")
+            lattice.sides()
         ));
         (self.lattice, self.scatter) = (Some(lattice), scatter);
+    }
+
+    /// Takes points that are the centres of voxels for the boundary of these.
+    fn on_lattice(mut self) -> Self {
+        match volume::centres(&self.points) {
+            Some(Centres::Of(grain)) => return *grain,
+            Some(Centres::Open(lattice)) => {
+                self.warnings.push(format!(
+                    "All points lie on a lattice with steps of {}, and do not close round a grain. If they are the centres of voxels, \
+                     its surface lies half a step outside of them; errors allow for that. Read the image itself, or all of its \
+                     outermost voxels.",
+                    lattice.sides()
+                ));
+                self.step = lattice
+                    .steps
+                    .column_iter()
+                    .map(|step| step.norm())
+                    .sum::<f64>()
+                    / 3.0;
+            }
+            None => {}
+        }
+        self
     }
 
     /// The scan that a part of its faces is: what is known of all points is true of the part's too. Bodies of voxels each may have
@@ -206,6 +229,7 @@ impl Scan {
         let mut part = Self {
             scatter: self.scatter,
             lattice: self.lattice,
+            step: self.step,
             unit: self.unit.clone(),
             ..Self::of_mesh(mesh)
         };
@@ -281,7 +305,8 @@ pub(crate) fn starts_as_model(bytes: &[u8]) -> bool {
 /// The `extension` only breaks ties. Coordinates keep all digits of the file, polygons become
 /// fans of triangles, and the repeated corners of STL become shared points.
 ///
-/// Points that are the centres of the outermost voxels of a grain become the boundary of these voxels, with a warning.
+/// Points on a lattice that are the centres of the voxels of a grain, all or the outermost, become the boundary of these voxels, with a
+/// warning.
 /// Triangles with coinciding corners or that repeat others are dropped and a mesh wound inwards is turned outwards;
 /// these and whatever else is odd, such as holes or several bodies, leave a warning.
 ///
@@ -307,10 +332,8 @@ pub fn parse_scan(bytes: &[u8], extension: Option<&str>) -> Result<Scan, ParseEr
     let are_loose = format == Format::Stl || close_gaps::are_loose(&scan);
     scan.look_over(are_loose)
         .map_err(|error| error.beside(&odd))?;
-    if scan.triangles.is_empty()
-        && let Some(filled) = volume::filled_lattice(&scan.points)
-    {
-        scan = filled;
+    if scan.triangles.is_empty() {
+        scan = scan.on_lattice();
     }
     Ok(scan)
 }

@@ -98,6 +98,51 @@ fn a_turned_cube_is_as_long_as_wide_and_thick() {
 }
 
 #[test]
+fn meshes_that_are_no_closed_surface_of_one_body_are_refused() {
+    let ball = mesh(
+        &Ellipsoid {
+            semi_axes: Vector3::repeat(1.0),
+        },
+        8,
+    );
+    let refused = |change: &dyn Fn(&mut Mesh)| {
+        let mut changed = ball.clone();
+        change(&mut changed);
+        Survey::of_mesh(&changed).err()
+    };
+    assert_eq!(refused(&|_| ()), None);
+    let is_twice = |found: Option<SurveyError>| {
+        matches!(
+            found,
+            Some(SurveyError::NotClosed(MeshDefect::EdgeUsedTwice { .. }))
+        )
+    };
+    assert!(is_twice(refused(&|mesh| mesh
+        .triangles
+        .extend_from_within(..))));
+    assert!(is_twice(refused(&|mesh| mesh
+        .triangles
+        .extend_from_within(..1))));
+    assert!(is_twice(refused(&|mesh| mesh.triangles[5].swap(0, 1))));
+    let open = refused(&|mesh| mesh.triangles.truncate(mesh.triangles.len() - 1));
+    assert!(matches!(
+        open,
+        Some(SurveyError::NotClosed(MeshDefect::OpenEdge { .. }))
+    ));
+    let two = refused(&|mesh| {
+        let count = mesh.vertices.len() as u32;
+        mesh.vertices.extend_from_within(..);
+        let again = mesh
+            .triangles
+            .iter()
+            .map(|corners| corners.map(|at| at + count));
+        let again: Vec<_> = again.collect();
+        mesh.triangles.extend(again);
+    });
+    assert_eq!(two, Some(SurveyError::Several { bodies: 2 }));
+}
+
+#[test]
 fn an_ellipsoid_has_its_closed_forms() {
     let semi_axes = Vector3::new(3.0, 2.0, 1.0);
     let surface = Ellipsoid { semi_axes };

@@ -1,10 +1,11 @@
 //! Faults of real scans: outliers, holes, uneven density.
 
 use grainform::measure::grain_properties;
-use grainform::scan::Scan;
+use grainform::scan::{Scan, parse_scan};
 use grainform::shapes::{Body, Sampling, SynthOptions, synthesize};
 use grainform::{FitError, FitOptions, Fitted, StarSurface, Surface, fit};
-use nalgebra::{Point3, Vector3};
+use nalgebra::{Point3, Rotation3, Vector3};
+use std::f64::consts::PI;
 
 const GRAINS: [Body; 3] = [Body::Bean, Body::Chickpea, Body::Maize];
 
@@ -266,4 +267,54 @@ fn noisy_rods_are_fitted() {
         let with_stalk = fit(&Scan::from_points(points), &FitOptions::default());
         assert!(with_stalk.is_err(), "{count}");
     }
+}
+
+/// The centres of the outermost voxels, a twentieth wide, of a turned ellipsoid.
+fn voxels(semi_axes: &Vector3<f64>) -> Vec<Point3<f64>> {
+    let turn = Rotation3::from_euler_angles(0.4, 0.7, 1.3);
+    let is_inside = |at: [i32; 3]| {
+        let place = turn * (Vector3::from(at.map(f64::from)).add_scalar(0.3) * 0.05);
+        place.component_div(semi_axes).norm() < 1.0
+    };
+    let line = || -40..=40;
+    let all = line().flat_map(|x| line().flat_map(move |y| line().map(move |z| [x, y, z])));
+    let is_outermost = |at: &[i32; 3]| {
+        let beside = |axis: usize, side: i32| {
+            let mut beside = *at;
+            beside[axis] += side;
+            beside
+        };
+        let mut sides = (0..3).flat_map(|axis| [beside(axis, -1), beside(axis, 1)]);
+        is_inside(*at) && sides.any(|side| !is_inside(side))
+    };
+    let outermost = all.filter(is_outermost);
+    outermost
+        .map(|at| Point3::from(Vector3::from(at.map(f64::from)) * 0.05))
+        .collect()
+}
+
+#[test]
+fn centres_of_voxels_have_their_volume_or_errors_that_allow_for_half_a_voxel() {
+    let semi_axes = Vector3::new(1.0, 0.7, 0.5);
+    let truth = 4.0 / 3.0 * PI * semi_axes.product();
+    let volume = |points: &[Point3<f64>]| {
+        let text: String = points
+            .iter()
+            .map(|p| format!("{} {} {}\n", p.x, p.y, p.z))
+            .collect();
+        let scan = parse_scan(text.as_bytes(), Some("xyz")).unwrap();
+        let fitted = fit(&scan, &FitOptions::default()).unwrap();
+        let survey = fitted.survey();
+        let volume = survey.properties().unwrap().volume;
+        (
+            volume / truth - 1.0,
+            fitted.standard_errors(&survey).unwrap().volume / truth,
+        )
+    };
+    let all = voxels(&semi_axes);
+    let (off, error) = volume(&all);
+    assert!(off.abs() < 2.0 * error && error < 0.01, "{off} {error}");
+    let half: Vec<_> = all.iter().step_by(2).copied().collect();
+    let (off, error) = volume(&half);
+    assert!(off < -0.05 && off.abs() < 2.0 * error, "{off} {error}");
 }

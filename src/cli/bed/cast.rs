@@ -69,7 +69,7 @@ impl Cast {
     fn kind(&mut self, path: &Path, args: &BedArgs) -> Result<GrainKind> {
         let name = inputs::name(path);
         let metres = args.unit.metres();
-        let failed = || format!("{name} is no grain");
+        let failed = || format!("cannot make a grain of {name}");
         let usual = args.engine.as_ref().map(|_| SPHERES);
         let Some(spheres) = args.spheres.or(usual) else {
             let bytes = inputs::read(path, &args.input.limit)?;

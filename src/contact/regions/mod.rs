@@ -247,6 +247,9 @@ pub fn contact_gaps(
 ) -> Result<Vec<ContactPlace>, RegionError> {
     let bodies = [first, second];
     check(bodies, pose)?;
+    if margin.is_nan() {
+        return Err(RegionError::NotFinite);
+    }
     let common = Common::new(bodies, pose);
     if common.clearance(bodies) > margin {
         return Ok(Vec::new());

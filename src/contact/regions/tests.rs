@@ -217,6 +217,17 @@ fn a_pose_or_a_surface_that_is_not_finite_is_refused_and_the_next_pose_is_not() 
 }
 
 #[test]
+fn a_margin_that_is_no_number_is_refused() {
+    let ball = ball(1.0);
+    let ball = Radial(&ball);
+    let body = ContactBody::new(&ball);
+    let apart = Isometry3::translation(0.0, 0.0, 2.1);
+    let gaps = |margin: f64| contact_gaps(&body, &body, &apart, margin);
+    assert_eq!(gaps(0.2).unwrap().len(), 1);
+    assert_eq!(gaps(f64::NAN).err(), Some(RegionError::NotFinite));
+}
+
+#[test]
 fn pairs_are_followed_by_as_many_threads_as_there_are() {
     fn is_shared<T: Send + Sync + Clone + std::fmt::Debug>() {}
     is_shared::<ContactBody<'_>>();

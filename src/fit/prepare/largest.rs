@@ -40,6 +40,7 @@ fn largest_piece(scan: &Scan) -> Option<(Scan, LeftOut)> {
         let points = pieces.largest(&scan.points);
         let body = Scan {
             points,
+            step: scan.step,
             ..Scan::default()
         };
         let left_out = LeftOut {

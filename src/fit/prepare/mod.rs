@@ -85,6 +85,8 @@ pub struct PreparedScan<'a> {
     pub(crate) has_large_faces: bool,
     /// Whether it is fitted as a thin rod.
     pub(super) is_rod: bool,
+    /// Of points that may be the centres of voxels, the mean distance from one to the next; zero of others.
+    pub(super) step: f64,
     points: Cow<'a, [Point3<f64>]>,
     representatives: Option<Vec<Point3<f64>>>,
 }
@@ -170,6 +172,7 @@ impl<'a> PreparedScan<'a> {
             may_be_known: surface.is_sparse || surface.is_many,
             has_large_faces,
             is_rod: false,
+            step: scan.step,
             points: surface.points,
             representatives: surface.representatives,
         })

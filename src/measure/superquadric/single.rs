@@ -106,6 +106,15 @@ mod tests {
         assert!((found.volume - 8.0).abs() < 0.01 && (found.area - 24.0).abs() < 0.3);
     }
 
+    /// About its long axis the moment is one part in a hundred thousand million of the others.
+    #[test]
+    fn a_needle_has_its_least_moment() {
+        let needle = Superquadric::single([1e5, 1.0, 1.0], 2.0, 2.0).unwrap();
+        let found = superquadric_properties(&needle).properties;
+        let least = 0.4 * found.volume;
+        assert_relative_eq!(found.inertia[(0, 0)], least, max_relative = 1e-13);
+    }
+
     /// Areas of a Gauss rule were up to .2 % off here, and up to 140 times what was told.
     #[test]
     fn areas_of_sharp_and_of_long_bodies_are_right_within_their_stated_errors() {

@@ -5,6 +5,7 @@ use crate::measure::{
     EXPANSION_DEGREE, EnclosingBallError, HullError, InscribedBallError, MeshIntegralError,
     OutOfBounds, ProjectionError,
 };
+use crate::mesh::MeshDefect;
 use thiserror::Error;
 
 /// Why something cannot be measured.
@@ -17,6 +18,9 @@ pub enum SurveyError {
     /// The mesh, or the hull, encloses nothing.
     #[error(transparent)]
     Mesh(#[from] MeshIntegralError),
+    /// The mesh is not closed, or broken.
+    #[error(transparent)]
+    NotClosed(#[from] MeshDefect),
     /// The faces of the scan do not say what is inside.
     #[error(transparent)]
     Faces(#[from] FacesDefect),

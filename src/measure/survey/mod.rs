@@ -18,6 +18,7 @@ use super::{
     mesh_properties, project,
 };
 use crate::Mesh;
+use crate::mesh::parts;
 use crate::model::{Grain, NoInterval, Radial, StandardErrors, StarSurface};
 pub(crate) use body::Measured;
 use body::{Body, Inside};
@@ -118,8 +119,13 @@ impl<'a> Survey<'a> {
     ///
     /// # Errors
     ///
-    /// When it is broken or encloses no volume.
+    /// When it is broken or not closed, when these are several bodies, and when it encloses no volume.
     pub fn of_mesh(mesh: &Mesh) -> Result<Self, SurveyError> {
+        mesh.check_edges()?;
+        let bodies = parts(mesh).len();
+        if bodies > 1 {
+            return Err(SurveyError::Several { bodies });
+        }
         let body = Body::mesh(mesh, Inside::Bodies(1));
         let survey = Self::new(body, Err(NoInterval::Polyhedron));
         survey.properties()?;

@@ -76,7 +76,8 @@ impl BedMeans {
     }
 }
 
-/// The mean of a figure: its error over several beds is from their spread, that of one its own.
+/// The mean of a figure: its error over several beds is from their spread, that of one its own. Beds that are alike, as counts of few
+/// grains may be by chance, tell none.
 fn mean(
     runs: &[BedRunRecord],
     figure: impl Fn(&BedRunRecord) -> Option<(f64, Option<f64>)>,
@@ -90,7 +91,7 @@ fn mean(
             let value = found.iter().map(|(value, _)| value).sum::<f64>() / count;
             let spread = found.iter().map(|(one, _)| (one - value).powi(2));
             let variance = spread.sum::<f64>() / (count - 1.0);
-            let error = Some((variance / count).sqrt());
+            let error = (variance > 0.0).then(|| (variance / count).sqrt());
             Some(BedMean { value, error })
         }
     }

@@ -1,9 +1,9 @@
-//! Axes that the voxels may have of which marching cubes made a mesh.
+//! Axes that voxels may have where these are not the file's.
 //!
 //! What marching cubes make of voxels that are in a body or not has few sides: those of voxels, and others at fixed angles to them.
+//! The centres of voxels are apart by few [differences](super::recurring), likewise.
 
 use nalgebra::{Matrix3, Point3, Vector3};
-use std::iter::once;
 
 /// Triangles that are looked at.
 const LOOKED_AT: usize = 1000;
@@ -16,27 +16,22 @@ const SHARE: f64 = 0.95;
 const SAME: f64 = 0.9999;
 const RIGHT: f64 = 3e-3;
 
-/// Those of the file, and of a mesh of few sides any three of these that are at right angles; rotations.
-pub(super) fn frames(
-    points: &[Point3<f64>],
-    triangles: &[[u32; 3]],
-) -> impl Iterator<Item = Matrix3<f64>> {
-    let sides = sides(points, triangles);
-    let count = sides.len();
+/// Any three of some directions that are at right angles; rotations.
+pub(super) fn frames(directions: Vec<Vector3<f64>>) -> impl Iterator<Item = Matrix3<f64>> {
+    let count = directions.len();
     let triples =
         (0..count).flat_map(move |i| (0..i).flat_map(move |j| (0..j).map(move |k| [i, j, k])));
-    let turned = triples.filter_map(move |triple| {
-        let [a, b, c] = triple.map(|side| sides[side]);
+    triples.filter_map(move |triple| {
+        let [a, b, c] = triple.map(|at| directions[at]);
         let are_right = [a.dot(&b), b.dot(&c), c.dot(&a)];
         let b = (b - a * a.dot(&b)).normalize();
         let is_frame = are_right.iter().all(|cosine| cosine.abs() < RIGHT);
         is_frame.then(|| Matrix3::from_columns(&[a, b, a.cross(&b)]))
-    });
-    once(Matrix3::identity()).chain(turned)
+    })
 }
 
 /// The directions that nearly all faces have, up to their sign; none where these are many.
-fn sides(points: &[Point3<f64>], triangles: &[[u32; 3]]) -> Vec<Vector3<f64>> {
+pub(super) fn sides(points: &[Point3<f64>], triangles: &[[u32; 3]]) -> Vec<Vector3<f64>> {
     let doubled_area = |corners: &[u32; 3]| {
         let [a, b, c] = corners.map(|corner| points[corner as usize]);
         (b - a).cross(&(c - a))

@@ -4,22 +4,18 @@
 //! a voxel, one is odd: that of the axis along which it lies between two voxels.
 
 use super::VoxelLattice;
-use super::frames::frames;
-use crate::spread::median;
-use nalgebra::{Matrix3, Point3, Vector3};
+use super::frames::{frames, sides};
+use super::steps::Steps;
+use nalgebra::{Matrix3, Point3};
 
 /// Fewer vertices do not tell.
 const LEAST_POINTS: usize = 100;
 
-/// Vertices that are looked at first, and the share of them that may differ in a coordinate: of other meshes nearly all do.
-const LOOKED_AT: usize = 5000;
-const MOST_DISTINCT: f64 = 0.6;
-
-/// Coordinates this near, as a share of the extent, are one, ...
-const SAME: f64 = 1e-4;
-
-/// ... and this near to a whole number of half steps, as a share of one.
+/// Vertices are this near to a whole number of half steps, as a share of one.
 const ON_STEP: f64 = 0.02;
+
+/// Half steps are the usual ones, or along straight walls, where vertices are whole steps apart but for the ends, their halves.
+const PARTS: [f64; 2] = [1.0, 2.0];
 
 /// Share of the vertices that lie half-way between two voxels: where faces may go either way between eight voxels some programs add others.
 const SHARE: f64 = 0.99;
@@ -29,16 +25,19 @@ pub(super) fn half_way(points: &[Point3<f64>], triangles: &[[u32; 3]]) -> Option
     if points.len() < LEAST_POINTS {
         return None;
     }
-    frames(points, triangles).find_map(|frame| along(&frame, points))
+    along(&Matrix3::identity(), points).or_else(|| {
+        let mut turned = frames(sides(points, triangles));
+        turned.find_map(|frame| along(&frame, points))
+    })
 }
 
 /// The same of voxels along the axes of a frame.
 fn along(frame: &Matrix3<f64>, points: &[Point3<f64>]) -> Option<VoxelLattice> {
-    let axis = |axis: usize| Steps::new(points, frame.column(axis).into_owned());
+    let axis = |axis: usize| Steps::new(points, frame.column(axis).into(), ON_STEP, &PARTS);
     let axes = [axis(0)?, axis(1)?, axis(2)?];
     let mut vertices = [0; 8];
     for point in points {
-        let odd = axes.iter().map(|axis| axis.is_odd(point));
+        let odd = axes.iter().map(|axis| axis.number(point) % 2 != 0);
         vertices[odd.fold(0, |bits, is_odd| 2 * bits + usize::from(is_odd))] += 1;
     }
     // The bits of the middles of voxels: those of vertices differ from them in one.
@@ -50,83 +49,23 @@ fn along(frame: &Matrix3<f64>, points: &[Point3<f64>]) -> Option<VoxelLattice> {
     })?;
     let is_odd = [4, 2, 1].map(|bit| middle & bit > 0);
     let mut of_layers = axes.iter().zip(is_odd);
-    if !of_layers.any(|(axis, is_odd)| axis.holds_neighbours(is_odd)) {
+    if !of_layers.any(|(axis, is_odd)| holds_neighbours(axis, is_odd)) {
         return None;
     }
     let first = is_odd.map(|is_odd| f64::from(u8::from(is_odd)));
-    let place = |at: usize| axes[at].first + first[at] * axes[at].half;
+    let place = |at: usize| axes[at].first + first[at] * axes[at].step;
     Some(VoxelLattice {
         first: frame * Point3::new(place(0), place(1), place(2)),
-        steps: Matrix3::from_columns(&axes.map(|axis| axis.along * (2.0 * axis.half))),
+        steps: Matrix3::from_columns(&axes.map(|axis| axis.along * (2.0 * axis.step))),
     })
 }
 
-/// Places along an axis that are half steps apart.
-struct Steps {
-    along: Vector3<f64>,
-    first: f64,
-    half: f64,
-    /// The half steps from the first place to all of them, ascending.
-    numbers: Vec<i64>,
-}
-
-impl Steps {
-    /// Those that all points are at.
-    fn new(points: &[Point3<f64>], along: Vector3<f64>) -> Option<Self> {
-        let level = |point: &Point3<f64>| along.dot(&point.coords);
-        let every = points.len().div_ceil(LOOKED_AT);
-        let some: Vec<f64> = points.iter().step_by(every).map(level).collect();
-        let most = (MOST_DISTINCT * some.len() as f64) as usize;
-        if levels(some).len() > most {
-            return None;
-        }
-        let levels = levels(points.iter().map(level).collect());
-        let mut gaps: Vec<f64> = levels.windows(2).map(|pair| pair[1] - pair[0]).collect();
-        let usual = median(&mut gaps)?;
-        // Along straight walls vertices are whole steps apart, but for the ends.
-        let halves = [usual, usual / 2.0];
-        halves
-            .into_iter()
-            .find_map(|half| Self::of(along, &levels, half))
-    }
-
-    /// Those of about this length that all levels are at.
-    fn of(along: Vector3<f64>, levels: &[f64], about: f64) -> Option<Self> {
-        let (&first, &last) = (levels.first()?, levels.last()?);
-        let half = (last - first) / ((last - first) / about).round();
-        let numbers = levels.iter().map(|level| (level - first) / half);
-        let are_on_steps = numbers.clone().all(|n| (n - n.round()).abs() < ON_STEP);
-        are_on_steps.then(|| Self {
-            along,
-            first,
-            half,
-            numbers: numbers.map(|n| n.round() as i64).collect(),
-        })
-    }
-
-    /// Whether vertices lie in a layer of voxels and in the next. Where the surface was drawn at a quarter of the way they do so in
-    /// every other one of these steps, at a sixth in every third.
-    fn holds_neighbours(&self, is_odd: bool) -> bool {
-        let layers = self.numbers.iter().filter(|&n| (n % 2 != 0) == is_odd);
-        let next = layers.clone().skip(1);
-        layers.zip(next).any(|(layer, next)| next - layer == 2)
-    }
-
-    fn is_odd(&self, point: &Point3<f64>) -> bool {
-        let level = self.along.dot(&point.coords);
-        ((level - self.first) / self.half).round() as i64 % 2 != 0
-    }
-}
-
-/// The means of values that are one, ascending.
-fn levels(mut values: Vec<f64>) -> Vec<f64> {
-    values.sort_unstable_by(f64::total_cmp);
-    let ends = values.first().zip(values.last());
-    let same = SAME * ends.map_or(0.0, |(first, last)| last - first);
-    let levels = values.chunk_by(|one, next| next - one <= same);
-    levels
-        .map(|level| level.iter().sum::<f64>() / level.len() as f64)
-        .collect()
+/// Whether vertices lie in a layer of voxels and in the next. Where the surface was drawn at a quarter of the way they do so in
+/// every other one of these half steps, at a sixth in every third.
+fn holds_neighbours(steps: &Steps, is_odd: bool) -> bool {
+    let layers = steps.numbers.iter().filter(|&n| (n % 2 != 0) == is_odd);
+    let next = layers.clone().skip(1);
+    layers.zip(next).any(|(layer, next)| next - layer == 2)
 }
 
 #[cfg(test)]
@@ -134,7 +73,7 @@ mod tests {
     use super::*;
     use crate::mesh::{Grid, Mesh, contour};
     use approx::assert_relative_eq;
-    use nalgebra::Rotation3;
+    use nalgebra::{Rotation3, Vector3};
 
     /// What marching cubes make of an ellipsoid in voxels of these sides.
     fn between(steps: &Vector3<f64>) -> Mesh {
@@ -219,7 +158,8 @@ mod tests {
             let mesh = drawn(share, &steps, |at| {
                 (turn * at).component_div(&semi_axes).norm() < 1.0
             });
-            let axes = |axis: usize| Steps::new(&mesh.vertices, Vector3::ith(axis, 1.0));
+            let axes =
+                |axis: usize| Steps::new(&mesh.vertices, Vector3::ith(axis, 1.0), ON_STEP, &PARTS);
             assert!((0..3).all(|axis| axes(axis).is_some()));
             assert_eq!(half_way(&mesh.vertices, &mesh.triangles), None);
         }

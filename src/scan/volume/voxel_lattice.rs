@@ -1,5 +1,6 @@
 //! The lattice of an image's voxels, in which those within a surface are counted.
 
+use crate::digits::significant;
 use nalgebra::{Matrix3, Point3, Vector3};
 
 /// Points this near to the middle between two voxels, in steps, are there.
@@ -16,6 +17,15 @@ pub struct VoxelLattice {
 }
 
 impl VoxelLattice {
+    /// The lengths of the steps, as text.
+    pub(crate) fn sides(&self) -> String {
+        let sides = self
+            .steps
+            .column_iter()
+            .map(|step| significant(step.norm(), 4));
+        sides.collect::<Vec<_>>().join(" x ")
+    }
+
     /// Where points lie, counted in voxels along the axes of the image. `None` if voxels have no volume.
     pub(crate) fn places(&self, points: &[Point3<f64>]) -> Option<Vec<Point3<f64>>> {
         let inverse = self.steps.try_inverse()?;
