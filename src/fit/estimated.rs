@@ -23,8 +23,12 @@ const FEW_COEFFICIENTS: usize = 81;
 /// it adds 5 % to the error. Of a smooth grain not even that: cells even out noise that the estimate follows.
 const GOOD_ENOUGH: f64 = 1.0 / 3.0;
 
-/// The same where what is left of the points is no noise but detail: it adds 3 %.
-const GOOD_ENOUGH_OF_DETAIL: f64 = 1.0 / 4.0;
+/// The same where what is left of the points is no noise but detail, at least and at most: it adds 3 to 12 %, ...
+const GOOD_ENOUGH_OF_DETAIL: [f64; 2] = [1.0 / 4.0, 1.0 / 2.0];
+
+/// ... and in between the difference that is this share of the distance at which points are missed that the estimate has not seen: it
+/// adds 2 % to that.
+const OF_MISSED: f64 = 1.0 / 5.0;
 
 /// Cells that are so many times farther off than the limit give way to one expansion that is within it and has no more
 /// coefficients.
@@ -49,9 +53,13 @@ impl Aim {
         estimate: &Estimate,
     ) -> Result<Self, FitError> {
         let tolerance = options.tolerance.length(prepared.mean_radius);
-        let good_enough = GOOD_ENOUGH * estimate.deviation();
+        let deviation = estimate.deviation();
+        let good_enough = GOOD_ENOUGH * deviation;
         let limit = match good_enough > tolerance && estimate.is_rough() {
-            true => tolerance.max(GOOD_ENOUGH_OF_DETAIL * estimate.deviation()),
+            true => {
+                let [least, most] = GOOD_ENOUGH_OF_DETAIL.map(|share| share * deviation);
+                tolerance.max((OF_MISSED * estimate.held_out()).clamp(least, most))
+            }
             false => tolerance.max(good_enough),
         };
         let most = options.max_degree.unwrap_or(estimate.degree);

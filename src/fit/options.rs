@@ -98,7 +98,7 @@ impl Seams {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Tolerance {
     /// 0.03 % of the mean radius. In every case a third of the estimate's own standard deviation is good enough, or a
-    /// quarter where what it leaves of the points is no noise.
+    /// quarter to a half where what it leaves of the points is no noise.
     Auto,
     /// In the scan's unit.
     Length(f64),

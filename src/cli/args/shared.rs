@@ -79,8 +79,8 @@ pub(in crate::cli) struct FittingArgs {
     pub(in crate::cli) max_segments: Option<usize>,
 
     /// RMS difference from the estimate that is good enough: a length in the scan's unit, a share of the mean
-    /// radius such as 0.3%, or auto (0.03%); a quarter of the estimate's own standard deviation always
-    /// is, a third where what is left of the points is noise
+    /// radius such as 0.3%, or auto (0.03%); a third of the estimate's own standard deviation always
+    /// is, a quarter to a half where what is left of the points is detail
     #[arg(long, value_name = "T|auto", default_value = "auto", value_parser = tolerance,
           help_heading = SEARCH)]
     pub(in crate::cli) tolerance: Tolerance,
