@@ -16,6 +16,14 @@ const SHARE: f64 = 0.95;
 const SAME: f64 = 0.9999;
 const RIGHT: f64 = 3e-3;
 
+/// What is found along the axes of the file, or else along any three of some directions that are at right angles.
+pub(super) fn in_a_frame<T>(
+    directions: impl FnOnce() -> Vec<Vector3<f64>>,
+    along: impl Fn(&Matrix3<f64>) -> Option<T>,
+) -> Option<T> {
+    along(&Matrix3::identity()).or_else(|| frames(directions()).find_map(|frame| along(&frame)))
+}
+
 /// Any three of some directions that are at right angles; rotations.
 pub(super) fn frames(directions: Vec<Vector3<f64>>) -> impl Iterator<Item = Matrix3<f64>> {
     let count = directions.len();

@@ -4,7 +4,7 @@
 //! a voxel, one is odd: that of the axis along which it lies between two voxels.
 
 use super::VoxelLattice;
-use super::frames::{frames, sides};
+use super::frames::{in_a_frame, sides};
 use super::steps::Steps;
 use nalgebra::{Matrix3, Point3};
 
@@ -25,10 +25,7 @@ pub(super) fn half_way(points: &[Point3<f64>], triangles: &[[u32; 3]]) -> Option
     if points.len() < LEAST_POINTS {
         return None;
     }
-    along(&Matrix3::identity(), points).or_else(|| {
-        let mut turned = frames(sides(points, triangles));
-        turned.find_map(|frame| along(&frame, points))
-    })
+    in_a_frame(|| sides(points, triangles), |frame| along(frame, points))
 }
 
 /// The same of voxels along the axes of a frame.

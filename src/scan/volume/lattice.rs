@@ -1,7 +1,7 @@
 //! Points that are the centres of voxels, of all of a grain or of its outermost ones: they lie on a lattice, and close all round.
 
 use super::VoxelLattice;
-use super::frames::frames;
+use super::frames::in_a_frame;
 use super::recurring::recurring;
 use super::steps::Steps;
 use super::voxel_scan;
@@ -39,10 +39,7 @@ pub(in crate::scan) fn centres(points: &[Point3<f64>]) -> Option<Centres> {
     if points.len() < LEAST_POINTS {
         return None;
     }
-    let places = Places::along(&Matrix3::identity(), points).or_else(|| {
-        let mut turned = frames(recurring(points));
-        turned.find_map(|frame| Places::along(&frame, points))
-    })?;
+    let places = in_a_frame(|| recurring(points), |frame| Places::along(frame, points))?;
     match places.filled() {
         Some(scan) => Some(Centres::Of(Box::new(scan))),
         None => places.are_dense().then_some(Centres::Open(places.lattice)),
