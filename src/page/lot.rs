@@ -16,6 +16,8 @@ pub(crate) struct LotPart {
     columns: Vec<String>,
     rows: Vec<Vec<String>>,
     truth: Option<Truth>,
+    /// The unit of lengths, as a sentence; `None` where they are in several.
+    lengths: Option<String>,
     /// What is odd about the results and what lies beside them: whole sentences.
     warnings: Vec<String>,
     #[serde(flatten)]
@@ -60,8 +62,12 @@ impl LotPart {
         let surfaces = Surfaces::read(folder, &keys, &saved);
         let of_truth = truth.zip(known.as_ref());
         let of_truth = of_truth.and_then(|(path, known)| known.doubt(path, folder));
+        let fitted = rows
+            .iter()
+            .filter(|row| cell(&columns, row, "status") != "failed");
+        let units = fitted.map(|row| cell(&columns, row, "unit")).collect();
         let doubts = [
-            several_units(folder, &columns, &rows),
+            several_units(folder, &units),
             gaps(folder, &columns, &rows),
             of_truth,
         ];
@@ -71,6 +77,7 @@ impl LotPart {
             truth: known,
             warnings: doubts.chain(surfaces.doubts(folder)).collect(),
             surfaces,
+            lengths: unit_of_lengths(&units),
             rows: rows.iter().map(texts).collect(),
             columns,
         })
@@ -104,16 +111,56 @@ fn gaps(folder: &Path, columns: &[String], rows: &[StringRecord]) -> Option<Stri
     gaps.sentence(&format!(" of {}", folder.display()))
 }
 
-/// That the lengths of the scans are in several units, if so.
-fn several_units(folder: &Path, columns: &[String], rows: &[StringRecord]) -> Option<String> {
-    let units = rows.iter().map(|row| cell(columns, row, "unit"));
-    let units: BTreeSet<&str> = units.filter(|unit| !unit.is_empty()).collect();
-    (units.len() > 1).then(|| {
+/// That the lengths of the scans are in several units, if so. Of a scan that tells none the unit is empty.
+fn several_units(folder: &Path, units: &BTreeSet<&str>) -> Option<String> {
+    let told: Vec<&str> = units
+        .iter()
+        .copied()
+        .filter(|unit| !unit.is_empty())
+        .collect();
+    (told.len() > 1).then(|| {
         format!(
             "Lengths in {} are in {}, as the column unit tells of each scan: compare no lengths, areas or volumes across \
              units.",
             folder.display(),
-            Vec::from_iter(units).join(" and ")
+            told.join(" and ")
         )
     })
+}
+
+/// The one unit of all lengths, as a sentence.
+fn unit_of_lengths(units: &BTreeSet<&str>) -> Option<String> {
+    match Vec::from_iter(units.iter().copied())[..] {
+        [] | [""] => Some("Lengths are in the unit of the scans, which these do not tell.".into()),
+        ["", unit] => Some(format!(
+            "Lengths are in {unit}, but for scans that tell no unit."
+        )),
+        [unit] => Some(format!(
+            "Lengths are in {unit}, areas and volumes in its powers."
+        )),
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_unit_of_lengths_is_told_where_there_is_one() {
+        let told = |units: &[&str]| unit_of_lengths(&units.iter().copied().collect());
+        assert!(told(&[""]).unwrap().contains("do not tell"));
+        assert!(
+            told(&["mm", "mm"])
+                .unwrap()
+                .starts_with("Lengths are in mm, areas")
+        );
+        assert!(
+            told(&["um", ""])
+                .unwrap()
+                .starts_with("Lengths are in um, but")
+        );
+        assert_eq!(told(&["mm", "um"]), None);
+        assert_eq!(told(&["", "mm", "um"]), None);
+    }
 }

@@ -4,6 +4,7 @@
 //! Beyond it, allowances, as squares:
 //!
 //! - half of the excess of a largest value, by the variance at the end itself, for a scan may be thinner there;
+//! - what [ripples](super::plateau) have raised the ends of flat sides by, at both of them;
 //! - the mean square of what is [missing](super::tips) at the ends, as far as the points tell it: the prior is the same
 //!   everywhere, and takes the last of a beak or a tip for noise;
 //! - what the largest [holes](super::hole) may hide, at the end itself or where the body may reach farther;
@@ -19,6 +20,7 @@ use super::functionals::combined;
 use super::left_out::LeftOut;
 use super::outcome::Estimate;
 use super::outcome::{slope_variance, variance};
+use super::plateau::Plateau;
 use super::posterior::Conditioned;
 use super::tips::Tips;
 use crate::fit::figures::{INERTIA, by_size, squares_by_size};
@@ -47,7 +49,7 @@ pub(super) struct Dimensions {
 pub(super) fn dimensions(
     estimate: &Estimate,
     given: &Conditioned<'_>,
-    reach: &Reach,
+    (reach, plateau): (&Reach, &Plateau<'_>),
     principal: &PrincipalInertia,
     (mass, covariances): (&[Vec<f64>], &[Vec<f64>]),
     sd: impl Fn(usize, usize) -> f64,
@@ -85,7 +87,7 @@ pub(super) fn dimensions(
             combined(vectors, factors.iter())
         };
         let mut squares = dot(&whole(&ends, mass), &whole(&solved, covariances)).max(0.0);
-        let (mut missing, mut chance) = (0.0, 0.0);
+        let (mut missing, mut chance, mut raised) = (0.0, 0.0, 0.0);
         for (at, end) in (2 * i..).zip(&extent.ends) {
             let value = dot(&ends[at], &solved[at]).max(0.0);
             found.excess[i] += end.excess(value, slope_per_value * value);
@@ -94,12 +96,13 @@ pub(super) fn dimensions(
             chance += at.variance * end.by_radius * end.by_radius;
             squares += (OF_UNSEEN * end.unseen(&estimate.cloud)).powi(2);
             squares += end.hidden(holes).powi(2);
+            raised += plateau.rise(end, value);
             if let Some(points) = left_out {
                 let missed = points.near(&end.direction) * end.by_radius * end.by_radius;
                 squares += missed.max(end.exceeded(points).powi(2));
             }
         }
-        squares += missing * missing + chance;
+        squares += missing * missing + chance + raised * raised;
         squares += (0.5 * found.excess[i]).powi(2);
         squares += turned(reach, principal, i, extent.length, &sd);
         found.variances[i] = squares;

@@ -126,8 +126,13 @@ impl End {
     }
 
     /// The axis, in the stretched space.
-    fn towards(&self) -> Vector3<f64> {
+    pub(super) fn towards(&self) -> Vector3<f64> {
         self.direction * self.along + self.tilt
+    }
+
+    /// The share of the direction along the axis.
+    pub(super) fn along(&self) -> f64 {
+        self.along
     }
 
     /// By how much the extent is uncertain for what holes may hide.

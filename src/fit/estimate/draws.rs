@@ -28,13 +28,13 @@ const CELL_DRAWS: usize = 12;
 const BLOCK: usize = 256;
 
 /// Surfaces drawn from a posterior, less its mean.
-struct Draws {
+pub(super) struct Draws {
     degree: usize,
     draws: Vec<Vec<f64>>,
 }
 
 impl Draws {
-    fn new(given: &Conditioned<'_>, count: usize) -> Self {
+    pub(super) fn new(given: &Conditioned<'_>, count: usize) -> Self {
         let mut random = ChaCha8Rng::seed_from_u64(0);
         let posterior = given.posterior;
         let scale = given.noise.sqrt();
@@ -54,6 +54,17 @@ impl Draws {
             degree: posterior.degree(),
             draws: given.covariances(&rights),
         }
+    }
+
+    /// The radii of each in directions, in units of the mean radius.
+    pub(super) fn radii(&self, directions: &[Vector3<f64>]) -> impl Iterator<Item = Vec<f64>> {
+        let harmonics = ScatteredHarmonics::new(self.degree, directions);
+        let count = directions.len();
+        self.draws.iter().map(move |draw| {
+            let mut radii = vec![0.0; count];
+            harmonics.synthesis(draw, &mut radii);
+            radii
+        })
     }
 
     /// Variances in directions, in squares of the mean radius.

@@ -25,6 +25,7 @@ use super::known_errors::{EXCESS_SHARE, KnownErrors, of_inertia};
 use super::left_out::LeftOut;
 use super::one_sided::off;
 use super::outcome::Estimate;
+use super::plateau::Plateau;
 use super::posterior::Posterior;
 use super::rims::Rim;
 use super::texture::hidden_slopes;
@@ -162,11 +163,20 @@ fn known(
     let nodes = surface.nodes.iter().zip(&surface.radii);
     let starts: Vec<_> = nodes.map(|((n, _), (r, _))| (*n, *r)).collect();
     let reach = Reach::new(estimate, &starts)?;
+    let plateau = Plateau::new(estimate, &given, &surface);
     let sd =
         |i: usize, j: usize| entry_variance(&of_inertia(&covariance), &principal.axes, i, j).sqrt();
     let mass_and = (&gradients[..], &covariances[..]);
     let beside = (left_out, holes);
-    let dimensions = dimensions(estimate, &given, &reach, &principal, mass_and, sd, beside);
+    let dimensions = dimensions(
+        estimate,
+        &given,
+        (&reach, &plateau),
+        &principal,
+        mass_and,
+        sd,
+        beside,
+    );
     Some(KnownErrors {
         figures: Figures {
             area: mass.area,

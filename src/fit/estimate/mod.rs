@@ -37,6 +37,7 @@ mod one_sided;
 mod outcome;
 mod outliers;
 mod patches;
+mod plateau;
 mod posterior;
 mod rims;
 mod spectrum;

@@ -45,3 +45,17 @@ pub(super) fn lens(half: f64) -> Vec<Sample> {
     };
     fibonacci(3000).into_iter().map(at).collect()
 }
+
+/// A tablet of radius 1 and half thickness .45 with round edges of radius .25: where the ray leaves it, by halving.
+pub(super) fn tablet(n: &Vector3<f64>) -> f64 {
+    let is_inside = |r: f64| {
+        let (out, up) = (n.x.hypot(n.y) * r - 0.75, n.z.abs() * r - 0.2);
+        out.max(0.0).hypot(up.max(0.0)) < 0.25
+    };
+    let mut between = [0.0, 2.0];
+    for _ in 0..40 {
+        let middle = 0.5 * (between[0] + between[1]);
+        between[usize::from(!is_inside(middle))] = middle;
+    }
+    between[0]
+}

@@ -4,6 +4,9 @@
 const MAIN = ['volume', 'area', 'dimensions.length', 'dimensions.width', 'dimensions.thickness', 'form.elongation',
   'form.flatness', 'sphericity.wadell', 'roundness', 'heldout_rms'];
 
+// Of these, the ones that mean nothing across units.
+const isSize = (name) => /^(volume|area|dimensions|heldout_rms)/.test(name);
+
 // Small pictures, all drawn by one viewer.
 function thumbnails(lot, corners) {
   const canvas = el('canvas', { width: 176, height: 132 });
@@ -147,13 +150,14 @@ function lotPart(lot, grid) {
       return { x: thickness / width, y: width / length, label: nameOf(row), lead: () => lead(row) };
     }),
   }) : [];
+  const spread = main.filter((name) => lot.lengths || !isSize(name));
   const failed = all.filter((row) => lot.rows[row][lot.columns.indexOf('status')] === 'failed').length;
   return el('section', {}, el('h2', {}, lot.name),
-    el('p', { class: 'note' }, `${all.length} scans, ${failed} of them without a result. A click on a heading sorts, one on a grain shows it.`),
+    el('p', { class: 'note' }, `${all.length} scans, ${failed} of them without a result. A click on a heading sorts, one on a grain shows it. ${lot.lengths || ''}`),
     lot.warnings.map((warning) => el('p', { class: 'warning' }, warning)),
     el('div', { class: 'wide' }, table), detail,
     numeric.length ? [el('h3', {}, 'Any two measures'), el('p', {}, 'across ', x, ' up ', y), plot] : [],
     lot.truth ? [el('h3', {}, 'Beside the truth'), truthPart(lot, all, number, nameOf)] : [],
     el('h3', {}, 'Distributions'),
-    el('div', { class: 'row' }, main.slice(0, 8).map((name) => histogram(name, all.map((row) => number(row, name)), name)), zingg));
+    el('div', { class: 'row' }, spread.slice(0, 8).map((name) => histogram(name, all.map((row) => number(row, name)), name)), zingg));
 }
