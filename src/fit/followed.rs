@@ -45,6 +45,9 @@ const MOST_NEAR: usize = 20_000;
 /// and stalks it is .20 to .43, of stones .67 and more, of kernels with what is left of their awns .43 and more.
 const IN_FEW_PLACES: f64 = 0.35;
 
+/// The same where positions follow what a radius misses: of pins .29 to .34, of clusters of dust .46 to .48, of scans without .68 and more.
+const OF_FEW: f64 = 0.57;
+
 impl Fitted {
     /// The same of a radius that does not follow its scan. If it does not in few places, what it misses there is no noise and no
     /// texture, and no error tells of it.
@@ -156,6 +159,13 @@ fn is_in_few_places(star: &Fitted, scan: &Scan) -> bool {
     distances.mean_absolute < IN_FEW_PLACES * distances.rms()
 }
 
+/// What stands out of a body that a radius follows, by the distances of points from it: the mean of these is then much less than
+/// their RMS, and no area is hidden.
+pub(super) fn stands_out(star: &Fitted, distances: &Deviation) -> Option<FitWarning> {
+    let is_out = !hides_much(star) && distances.mean_absolute < OF_FEW * distances.rms();
+    is_out.then_some(FitWarning::StandsOut)
+}
+
 /// How many times farther points are from a fitted radius that are held out, by the radial distances of both; with the
 /// mean of their leverages, for on a steep flank, where single points decide the radius, they do not decide the distance.
 pub(super) fn held_out_over_fitted(star: &Fitted) -> f64 {
@@ -243,6 +253,27 @@ mod tests {
         let outside = handle.filter(|place| place.norm() > 1.0);
         let all = ball.into_iter().chain(outside);
         Scan::from_points(all.map(Point3::from).collect())
+    }
+
+    /// Positions that go out to a pin or to dust are told as such; those of a body that hides from a radius are not.
+    #[test]
+    fn what_stands_out_of_a_body_that_a_radius_follows_is_told() {
+        let directions = Sampling::Fibonacci.directions(5000, 0).unwrap();
+        let pin = (0..36).map(|i| {
+            let (sin, cos) = f64::from(i).sin_cos();
+            Vector3::new(0.05 * sin, 0.05 * cos, 1.1 + f64::from(i) / 72.0)
+        });
+        let told = |points: Vec<Vector3<f64>>| {
+            let scan = Scan::from_points(points.into_iter().map(Point3::from).collect());
+            let star = PreparedScan::new(&scan, Symmetry::NONE).unwrap();
+            let star = star
+                .fit(&FitOptions::default(), &Context::default())
+                .unwrap();
+            stands_out(&star, &normal_distances(&star.grain, scan.points()))
+        };
+        let with_pin = directions.iter().copied().chain(pin).collect();
+        assert_eq!(told(with_pin), Some(FitWarning::StandsOut));
+        assert_eq!(told(directions), None);
     }
 
     #[test]

@@ -8,7 +8,7 @@ use super::context::Context;
 use super::error::FitError;
 use super::followed::{
     does_not_see, held_out_over_fitted, hidden_share, hides_much, is_hiding, missed,
-    normal_distances,
+    normal_distances, stands_out,
 };
 use super::kind_choice::{KindChoice, Rival};
 use super::options::{FitOptions, Kind, Seams};
@@ -213,6 +213,7 @@ fn compared(
         rms: fitted.search.choice().heldout_rms.unwrap_or(f64::INFINITY),
     };
     fitted.kind = KindChoice::Compared { kept, rival: own };
+    fitted.warnings.extend(stands_out(&star, &distances));
     Ok(fitted)
 }
 

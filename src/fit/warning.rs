@@ -109,6 +109,8 @@ pub enum FitWarning {
         /// Whether it is taken along the ray from the grain's centre, or else along a normal of the surface.
         is_along_ray: bool,
     },
+    /// Positions go out to few points that a radius, which follows all others, does not reach.
+    StandsOut,
     /// Part of the surface faces away from the best centre and is smoothed over.
     NotStarShaped {
         /// Its share of the area.

@@ -208,6 +208,10 @@ impl FitWarning {
                     100.0 * share
                 )
             }
+            Self::StandsOut => f.write_str(
+                "All but few points lie on a grain that a radius follows, and this surface goes out to those few. If they are dust, a \
+                 stalk or what held the grain, take them out of the scan: sizes and their errors are those of all of it.",
+            ),
             Self::NotStarShaped { share } => write!(
                 f,
                 "The surface is not quite star-shaped: {:.2} % of its area faces away from the best \

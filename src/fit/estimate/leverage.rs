@@ -118,6 +118,43 @@ mod tests {
         assert!(mean(&exact, true) > 1.5 * mean(&exact, false));
     }
 
+    /// Of furrows along the axis, of which high orders tell, points by the equator have more than those by the poles.
+    #[test]
+    fn leverages_of_a_furrowed_grain_depend_on_the_polar_angle() {
+        let furrows = |n: &Vector3<f64>| {
+            let (azimuth, out) = (n.y.atan2(n.x), n.x.hypot(n.y));
+            3.0 + 0.1 * out.powi(16) * (16.0 * azimuth).cos()
+                + 0.1 * out.powi(11) * (11.0 * azimuth + 1.0).sin()
+        };
+        let estimate = estimated(
+            &samples(&fibonacci(1500), furrows, 0.02),
+            Vector3::repeat(3.0),
+        );
+        assert!(estimate.spectrum.tilt > 0.0 && !estimate.cloud.is_uneven());
+        let exact = by_definition(&estimate);
+        let told: Vec<f64> = guessed(&estimate).iter().map(|spare| 1.0 - spare).collect();
+        let mean = |leverages: &[f64], is_polar: bool| {
+            let points = leverages.iter().zip(&estimate.cloud.directions);
+            let own = points.filter(|(_, n)| {
+                if is_polar {
+                    n.z.abs() > 0.8
+                } else {
+                    n.z.abs() < 0.3
+                }
+            });
+            let (sum, count) = own.fold((0.0, 0.0), |(sum, count), (h, _)| (sum + h, count + 1.0));
+            sum / count
+        };
+        for is_polar in [true, false] {
+            let (exact, told) = (mean(&exact, is_polar), mean(&told, is_polar));
+            assert!(
+                (told / exact - 1.0).abs() < 0.01,
+                "{is_polar}: {told} {exact}"
+            );
+        }
+        assert!(mean(&exact, false) > 1.2 * mean(&exact, true));
+    }
+
     #[test]
     fn leverages_are_those_of_their_definition() {
         let estimate = uneven(900);

@@ -9,8 +9,8 @@ use crate::mesh::Grid;
 use crate::scan::Scan;
 use nalgebra::{Matrix3, Point3};
 
-/// Fewest points of a surface of voxels.
-const LEAST_POINTS: usize = 200;
+/// Fewest places of a surface of voxels.
+const LEAST_PLACES: usize = 200;
 
 /// Points are this near to places of the lattice, in steps: coordinates may be rounded.
 const ON_STEP: f64 = 0.1;
@@ -36,7 +36,7 @@ pub(in crate::scan) enum Centres {
 
 /// What points are that lie on a lattice about as coarse as they are dense; `None` of all others.
 pub(in crate::scan) fn centres(points: &[Point3<f64>]) -> Option<Centres> {
-    if points.len() < LEAST_POINTS {
+    if points.len() < LEAST_PLACES {
         return None;
     }
     let places = in_a_frame(|| recurring(points), |frame| Places::along(frame, points))?;
@@ -65,6 +65,10 @@ impl Places {
         let mut voxels: Vec<[usize; 3]> = points.iter().map(place).collect();
         voxels.sort_unstable();
         voxels.dedup();
+        // Beside a place far off, all others are one.
+        if voxels.len() < LEAST_PLACES {
+            return None;
+        }
         let side = |axis: &Steps| axis.numbers.last().map_or(0, |&last| last as usize) + 1;
         let first = Point3::from(axes.each_ref().map(|axis| axis.first));
         Some(Self {
@@ -159,6 +163,19 @@ mod tests {
             is_inside(*at) && sides.any(|side| !is_inside(at + side))
         };
         all.filter(is_outermost).map(Point3::from).collect()
+    }
+
+    /// Seen from a row that means "no data", all points of a grain are at one place.
+    #[test]
+    fn a_point_far_off_makes_no_lattice_of_the_others() {
+        let mut points: Vec<Point3<f64>> = Sampling::Random
+            .directions(2000, 1)
+            .unwrap()
+            .into_iter()
+            .map(Point3::from)
+            .collect();
+        points.push(Point3::new(-9999.0, -9999.0, -9999.0));
+        assert!(centres(&points).is_none());
     }
 
     /// The volume of the grain that is made of points.
