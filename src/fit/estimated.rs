@@ -173,6 +173,13 @@ pub(super) fn estimated(
         let points = one_sided;
         fitted.warnings.push(FitWarning::OneSided { points });
     }
+    let is_layered = |warning: &FitWarning| matches!(warning, FitWarning::Layers { .. });
+    if !fitted.warnings.iter().any(is_layered)
+        && let Some(share) = estimate.layers()
+    {
+        let apart = share * fitted.mean_radius;
+        fitted.warnings.push(FitWarning::Layers { apart, share });
+    }
     fitted.estimate = Some(EstimateSummary {
         degree: estimate.degree,
         deviation: estimate.deviation(),

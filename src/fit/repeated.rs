@@ -5,7 +5,7 @@ use crate::scan::distinct;
 use nalgebra::Point3;
 use std::borrow::Cow;
 
-/// A place that so many points stand at is told.
+/// A place that so many times as many points stand at as at others is told.
 const OVER_AND_OVER: usize = 10;
 
 /// The points without repeats, and the place that is repeated most, where it is told.
@@ -16,7 +16,8 @@ pub(super) fn without_repeats(
         return (points, None);
     };
     let (place, times) = distinct.most;
-    let warning = (times >= OVER_AND_OVER).then_some(FitWarning::Repeated { place, times });
+    let is_odd = times * distinct.points.len() >= OVER_AND_OVER * points.len();
+    let warning = is_odd.then_some(FitWarning::Repeated { place, times });
     (Cow::Owned(distinct.points), warning)
 }
 

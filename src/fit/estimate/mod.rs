@@ -27,6 +27,7 @@ mod functionals;
 mod held_out;
 mod information;
 mod known_errors;
+mod layered;
 mod left_out;
 mod leverage;
 mod likelihood;

@@ -38,8 +38,11 @@ const NEIGHBOURS: usize = 40;
 /// Points of a layer, at least.
 const LEAST_OF_LAYER: usize = 8;
 
-/// Share of the variance that is left within two layers, at most.
+/// Share of the variance that is left within two layers, at most, ...
 const WITHIN: f64 = 0.2;
+
+/// ... and beside a surface that goes between them, where rounded coordinates leave .25 in the mean.
+const WITHIN_BESIDE: f64 = 0.14;
 
 /// Neighbours by which it is told whether layers lie among each other, ...
 const BESIDE: usize = 4;
@@ -53,8 +56,15 @@ const LEAST_MIXED: f64 = 0.2;
 /// Share of the neighbourhoods that fall apart from which on a cloud does.
 const LEAST_SHARE: f64 = 0.06;
 
+/// The same beside a surface that goes between them: of rounded coordinates it is .004 at most, of layers five times the noise apart .04
+/// and more.
+const LEAST_SHARE_BESIDE: f64 = 0.03;
+
 /// Share of the radius by which layers are apart, at least: what is nearer is rounding, and does no harm ...
 const LEAST_APART: f64 = 1e-3;
+
+/// ... or beside a surface that goes between them ...
+const LEAST_BESIDE: f64 = 2e-4;
 
 /// ... and over that by which a ball sags over their neighbours, of which a polynomial of second degree leaves some.
 const OVER_SAG: f64 = 0.3;
@@ -95,33 +105,68 @@ pub(super) fn layers(points: &[Point3<f64>], unit: f64) -> Option<FitWarning> {
 
 /// By how much two layers of neighbours in directions near one are apart, as a share of their radii, if they fall apart in two.
 fn apart(n: &Vector3<f64>, near: &[(Vector3<f64>, f64)]) -> Option<f64> {
-    let count = near.len();
     let [u, v] = across(n);
-    let radius = near.iter().map(|(_, radius)| radius).sum::<f64>() / count as f64;
+    let radius = near.iter().map(|(_, radius)| radius).sum::<f64>() / near.len() as f64;
     let wide = near.iter().map(|(other, _)| (other - n).norm());
     let wide = wide.fold(f64::MIN_POSITIVE, f64::max);
     let places: Vec<[f64; 3]> = near
         .iter()
         .map(|(other, own)| [u.dot(other) / wide, v.dot(other) / wide, own / radius])
         .collect();
-    let heights = off_quadric(&places);
-    let mut sorted: Vec<f64> = heights.iter().copied().collect();
+    let least = LEAST_APART.max(OVER_SAG * wide * wide / 2.0);
+    parted(&places, off_quadric(&places).as_slice(), WITHIN, least)
+}
+
+/// By how much heights at places fall apart in two, if these lie among each other, are farther apart than `least`, and leave less than
+/// a share of the variance within.
+fn parted(places: &[[f64; 3]], heights: &[f64], within: f64, least: f64) -> Option<f64> {
+    let count = heights.len();
+    let mut sorted = heights.to_vec();
     sorted.sort_unstable_by(f64::total_cmp);
-    let whole = heights.norm_squared();
-    let mut below: f64 = sorted.iter().take(LEAST_OF_LAYER - 1).sum();
+    let mean = heights.iter().sum::<f64>() / count as f64;
+    let whole: f64 = heights.iter().map(|height| (height - mean).powi(2)).sum();
+    let mut below: f64 = sorted
+        .iter()
+        .take(LEAST_OF_LAYER - 1)
+        .map(|height| height - mean)
+        .sum();
     let parted = (LEAST_OF_LAYER..=count.saturating_sub(LEAST_OF_LAYER)).map(|at| {
-        below += sorted[at - 1];
-        // Heights add up to zero: so do both layers.
+        below += sorted[at - 1] - mean;
         let (one, other) = (at as f64, (count - at) as f64);
         let apart = -below / one - below / other;
         let left = whole - apart * apart * one * other / count as f64;
         (left, apart, sorted[at])
     });
     let (left, apart, from) = parted.min_by(|one, other| one.0.total_cmp(&other.0))?;
-    let least = LEAST_APART.max(OVER_SAG * wide * wide / 2.0);
-    let is_parted = left < WITHIN * whole && apart > least;
+    let is_parted = left < within * whole && apart > least;
     let is_above: Vec<bool> = heights.iter().map(|height| *height >= from).collect();
-    (is_parted && are_mixed(&places, &is_above)).then_some(apart)
+    (is_parted && are_mixed(places, &is_above)).then_some(apart)
+}
+
+/// By how much layers are apart that a surface goes between, as a share of the radius: of neighbours in directions what it leaves of
+/// them falls apart in two. Told nearer than what neighbours sag by.
+pub(in crate::fit) fn layers_beside(directions: &[Vector3<f64>], residuals: &[f64]) -> Option<f64> {
+    if directions.len() < LEAST_POINTS {
+        return None;
+    }
+    let neighbours = Neighbours::new(directions);
+    let every = directions.len().div_ceil(LOOKED_AT);
+    let some = directions.iter().step_by(every);
+    let apart = some.map(|n| {
+        let [u, v] = across(n);
+        let near = neighbours.nearest(n, NEIGHBOURS);
+        let places: Vec<_> = near
+            .iter()
+            .map(|&at| [u, v].map(|axis| axis.dot(&directions[at])))
+            .map(|[x, y]| [x, y, 0.0])
+            .collect();
+        let heights: Vec<f64> = near.iter().map(|&at| residuals[at]).collect();
+        parted(&places, &heights, WITHIN_BESIDE, LEAST_BESIDE)
+    });
+    let apart: Vec<Option<f64>> = apart.collect();
+    let looked_at = apart.len() as f64;
+    let mut told: Vec<f64> = apart.into_iter().flatten().collect();
+    (told.len() as f64 > LEAST_SHARE_BESIDE * looked_at).then(|| median(&mut told))?
 }
 
 /// Whether points of both layers lie among each other, as those of rows, steps and edges do not: in whatever direction neighbours
@@ -189,6 +234,21 @@ mod tests {
             );
             assert!((length / share - 1.0).abs() < 0.05, "{length}");
         }
+    }
+
+    #[test]
+    fn layers_beside_a_surface_are_told_nearer_and_noise_is_none() {
+        let directions = Sampling::Random.directions(4000, 2).unwrap();
+        let beside = |residual: &dyn Fn(usize) -> f64| {
+            let residuals: Vec<f64> = (0..directions.len()).map(residual).collect();
+            layers_beside(&directions, &residuals)
+        };
+        let at_random = |at: usize| (at as f64 * 12.9898).sin() * 43758.5453 % 1.0;
+        let noise = |at: usize| 3e-4 * at_random(at);
+        let apart = beside(&|at| noise(at) + if at % 3 == 0 { 1e-3 } else { -1e-3 }).unwrap();
+        assert!((apart / 2e-3 - 1.0).abs() < 0.1, "{apart}");
+        assert_eq!(beside(&noise), None);
+        assert_eq!(beside(&|at| 0.8e-4 * noise(at).signum()), None);
     }
 
     #[test]

@@ -32,6 +32,7 @@ pub(crate) use axes::principal_axes;
 pub use largest::largest_body;
 #[cfg(feature = "cli")]
 pub(crate) use largest::whole_or_largest;
+pub(super) use layers::layers_beside;
 pub use reference::{Reference, ReferenceKind};
 pub(crate) use samples::{CellGrid, Sample, Samples};
 pub use scanned::ScannedSurface;
