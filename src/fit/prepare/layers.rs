@@ -13,6 +13,9 @@
 //! none                                                   of none
 //! ```
 //!
+//! Layers nearer than what neighbours sag by are told by what a surface that goes between them leaves of the points, as far as they are
+//! some five times the noise apart: of two scans of exact points laid onto each other .4 % off, of all of five.
+//!
 //! Layers nearer than what neighbours scatter by are not told from noise, and those over a part of the body may be taken for dust. The
 //! outermost voxels of a body seem to lie in two layers as well, in one of six: they do not lie on a smooth surface either.
 
