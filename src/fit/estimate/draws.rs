@@ -69,11 +69,8 @@ impl Draws {
 
     /// Variances in directions, in squares of the mean radius.
     fn variances(&self, directions: &[Vector3<f64>]) -> Vec<f64> {
-        let harmonics = ScatteredHarmonics::new(self.degree, directions);
-        let mut radii = vec![0.0; directions.len()];
         let mut sums = vec![0.0; directions.len()];
-        for draw in &self.draws {
-            harmonics.synthesis(draw, &mut radii);
+        for radii in self.radii(directions) {
             for (sum, radius) in sums.iter_mut().zip(&radii) {
                 *sum += radius * radius / self.draws.len() as f64;
             }

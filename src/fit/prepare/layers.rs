@@ -91,13 +91,7 @@ pub(super) fn layers(points: &[Point3<f64>], unit: f64) -> Option<FitWarning> {
         let near: Vec<_> = near.iter().map(|&at| (directions[at], radii[at])).collect();
         apart(&n, &near)
     });
-    let apart: Vec<Option<f64>> = apart.collect();
-    let looked_at = apart.len() as f64;
-    let mut told: Vec<f64> = apart.into_iter().flatten().collect();
-    if told.len() as f64 <= LEAST_SHARE * looked_at {
-        return None;
-    }
-    let share = median(&mut told)?;
+    let share = told_by(apart, LEAST_SHARE)?;
     let lengths = points.iter().map(|point| (point.coords - middle).norm());
     let mean = lengths.sum::<f64>() / points.len() as f64;
     Some(FitWarning::Layers {
@@ -158,18 +152,20 @@ pub(in crate::fit) fn layers_beside(directions: &[Vector3<f64>], residuals: &[f6
     let apart = some.map(|n| {
         let [u, v] = across(n);
         let near = neighbours.nearest(n, NEIGHBOURS);
-        let places: Vec<_> = near
-            .iter()
-            .map(|&at| [u, v].map(|axis| axis.dot(&directions[at])))
-            .map(|[x, y]| [x, y, 0.0])
-            .collect();
+        let places = near.iter().map(|&at| &directions[at]);
+        let places: Vec<_> = places.map(|n| [u.dot(n), v.dot(n), 0.0]).collect();
         let heights: Vec<f64> = near.iter().map(|&at| residuals[at]).collect();
         parted(&places, &heights, WITHIN_BESIDE, LEAST_BESIDE)
     });
+    told_by(apart, LEAST_SHARE_BESIDE)
+}
+
+/// By how much layers are apart, if more than a share of the neighbourhoods fall apart.
+fn told_by(apart: impl Iterator<Item = Option<f64>>, least_share: f64) -> Option<f64> {
     let apart: Vec<Option<f64>> = apart.collect();
     let looked_at = apart.len() as f64;
     let mut told: Vec<f64> = apart.into_iter().flatten().collect();
-    (told.len() as f64 > LEAST_SHARE_BESIDE * looked_at).then(|| median(&mut told))?
+    (told.len() as f64 > least_share * looked_at).then(|| median(&mut told))?
 }
 
 /// Whether points of both layers lie among each other, as those of rows, steps and edges do not: in whatever direction neighbours
