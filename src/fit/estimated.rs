@@ -4,10 +4,11 @@ use super::blended::{self, Outcome, Settings, Target};
 use super::candidate::{Candidate, Search, Work};
 use super::context::{Context, Stage};
 use super::error::FitError;
-use super::estimate::{Estimate, estimate};
+use super::estimate::Estimate;
 use super::options::{FitOptions, Seams, Tolerance};
 use super::outcome::{EstimateSummary, Fitted, Residuals};
 use super::prepare::{PreparedScan, Sample};
+use super::rippled::without_ripples;
 use super::warning::FitWarning;
 use crate::model::{Family, StarGrain};
 use crate::sphere::{Interpolant, coefficient_count};
@@ -112,13 +113,7 @@ pub(super) fn estimated(
     context: &Context<'_>,
 ) -> Result<Fitted, FitError> {
     context.enter(Stage::Estimating)?;
-    let samples = prepared.sorted_samples();
-    let estimate = estimate(
-        samples.rows(),
-        prepared.semi_axes,
-        !prepared.has_large_faces,
-        context,
-    )?;
+    let (samples, estimate) = without_ripples(prepared, context)?;
     let aim = Aim::new(prepared, options, &estimate)?;
     let cut = match aim.is_whole {
         true => None,

@@ -36,6 +36,7 @@ mod positioned;
 mod prepare;
 mod quadric;
 mod repeated;
+mod rippled;
 mod rod;
 mod samples;
 mod scatter;

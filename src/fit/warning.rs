@@ -13,6 +13,11 @@ pub enum FitWarning {
     FacesNotClosed(FacesDefect),
     /// Small holes between the scan's faces were closed in the reference.
     Filled(Fill),
+    /// Few large faces among small ones close what may have been a hole or a cut.
+    Closing {
+        /// Their share of the area.
+        share: f64,
+    },
     /// The scan's faces go through themselves, by little.
     SelfCrossing(SelfCrossing),
     /// Parts of the faces that are too small for bodies were left out.

@@ -61,13 +61,20 @@ impl FitWarning {
                 holes, edges, area, ..
             }) => write!(
                 f,
-                "{} in the surface that the fit is compared with: {edges} edges, and {}{} of its area.",
+                "{} in the surface that the fit is compared with: {edges} edges, and {}{} of its area. There the fitted \
+                 surface is a guess.",
                 match holes {
                     1 => "A small hole was closed".into(),
                     _ => format!("{holes} small holes were closed"),
                 },
                 short(area),
                 labels.area()
+            ),
+            Self::Closing { share } => write!(
+                f,
+                "Few large faces among small ones, {} % of the area, close what may have been a hole: there the figures and \
+                 their errors are those of these faces, whatever the grain is like.",
+                significant(100.0 * share, 2)
             ),
             Self::SelfCrossing(crossing) => write!(
                 f,
@@ -160,7 +167,7 @@ impl FitWarning {
             } => write!(
                 f,
                 "No point lies within {:.0} degrees of the direction ({:.2}, {:.2}, {:.2}): the surface \
-                 there is a guess.",
+                 there is a guess, and errors hold no furrow or tip that it may hide.",
                 half_angle.to_degrees(),
                 direction.x,
                 direction.y,

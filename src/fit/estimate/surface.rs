@@ -85,6 +85,16 @@ impl Estimate {
         self.stretched_radius().values(directions)
     }
 
+    /// How far the surface is beyond places in the grain's own frame, along their rays, in the scan's unit.
+    pub(in crate::fit) fn beyond(&self, places: &[Vector3<f64>]) -> Vec<f64> {
+        let stretched: Vec<_> = places.iter().map(|place| self.stretched(place)).collect();
+        let directions: Vec<_> = stretched.iter().map(Vector3::normalize).collect();
+        let radii = self.stretched_radii(&directions).into_iter();
+        let both = radii.zip(stretched.iter().zip(places));
+        both.map(|(radius, (stretched, place))| (radius / stretched.norm() - 1.0) * place.norm())
+            .collect()
+    }
+
     /// The radius over directions of the stretched space, in the scan's unit there.
     pub(crate) fn stretched_radius(&self) -> Interpolant {
         let scaled: Vec<f64> = self

@@ -7,7 +7,7 @@ use super::voxels::Voxels;
 use crate::fit::crust::{surface_of_points, without_alone};
 use crate::fit::error::FitError;
 use crate::fit::prepare::{
-    Reference, ReferenceKind, principal_axes, scanned_surface, semi_axes, usable,
+    Reference, ReferenceKind, closed_by_faces, principal_axes, scanned_surface, semi_axes, usable,
 };
 use crate::fit::repeated::without_repeats;
 use crate::fit::warning::FitWarning;
@@ -44,7 +44,7 @@ impl LocalFaces {
             mesh,
             points,
             kind,
-            warnings,
+            mut warnings,
         } = faces(scan)?;
         let unit = Unit::of(&mesh);
         let at_unit = unit.mesh(&mesh);
@@ -59,6 +59,11 @@ impl LocalFaces {
             centre: properties.centroid,
             axes: principal_axes(&at_unit, &properties),
         };
+        let semi_axes = semi_axes(&properties, &at_unit_frame);
+        let is_filled = |warning: &FitWarning| matches!(warning, FitWarning::Filled(_));
+        if kind == ReferenceKind::Faces && !warnings.iter().any(is_filled) {
+            warnings.extend(closed_by_faces(&at_unit, &at_unit_frame, &semi_axes));
+        }
         let place = |point: &Point3<f64>| at_unit_frame.to_local(point) / size;
         let points = points.map(|vertices| {
             let points = Mesh {
@@ -71,7 +76,7 @@ impl LocalFaces {
         let radius = size * unit.length;
         Ok(Self {
             points,
-            semi_axes: semi_axes(&properties, &at_unit_frame) / size,
+            semi_axes: semi_axes / size,
             steps: scan
                 .lattice
                 .map(|lattice| at_unit_frame.axes.tr_mul(&lattice.steps) / radius),

@@ -2,6 +2,7 @@
 //! where the surface is.
 
 use crate::disjoint_sets::DisjointSets;
+use crate::fit::warning::FitWarning;
 use crate::mesh::{Mesh, edges, undirected};
 use crate::model::Frame;
 use crate::sphere::cube_grid;
@@ -26,6 +27,9 @@ const LONG: f64 = 2.0;
 /// ... and the edges round them are shorter than this share of the longest across them. The first row of coarse faces beside
 /// fine ones has long edges on its other side.
 const OF_RIM: f64 = 0.5;
+
+/// Share of the area of such faces from which they are told.
+const LEAST_TOLD: f64 = 1e-3;
 
 /// Cells per edge of the cube of directions in which faces are met: 6146 directions.
 const CELLS: usize = 32;
@@ -147,6 +151,8 @@ pub(super) struct OnFaces {
     pub(super) points: Vec<Point3<f64>>,
     /// Whether faces are large whatever those about them are.
     pub(super) are_coarse: bool,
+    /// What is to be told of faces that close a cut or a hole.
+    pub(super) closing: Option<FitWarning>,
 }
 
 /// Finds them.
@@ -159,6 +165,7 @@ pub(super) fn on_large_faces(mesh: &Mesh, frame: &Frame, semi_axes: &Vector3<f64
         places.iter().map(Vector3::normalize).collect()
     };
     let mut are_large = are_closing(&mesh.triangles, &seen(&vertices));
+    let closing = told(mesh, &are_large);
     let plain = seen(&plain);
     let is_coarse =
         |[from, to]: [u32; 2]| plain[from as usize].dot(&plain[to as usize]) < LARGE.cos();
@@ -202,12 +209,43 @@ pub(super) fn on_large_faces(mesh: &Mesh, frame: &Frame, semi_axes: &Vector3<f64
     OnFaces {
         points: points.collect(),
         are_coarse,
+        closing,
     }
+}
+
+/// What is to be told of a mesh whose faces close a cut or a hole, in the frame of its ellipsoid of equal second moments.
+pub(in crate::fit) fn closed_by_faces(
+    mesh: &Mesh,
+    frame: &Frame,
+    semi_axes: &Vector3<f64>,
+) -> Option<FitWarning> {
+    let stretched = |vertex| frame.to_local(vertex).component_div(semi_axes);
+    let seen = mesh
+        .vertices
+        .iter()
+        .map(|vertex| stretched(vertex).normalize());
+    told(
+        mesh,
+        &are_closing(&mesh.triangles, &seen.collect::<Vec<_>>()),
+    )
+}
+
+fn told(mesh: &Mesh, are_closing: &[bool]) -> Option<FitWarning> {
+    let [mut all, mut closing] = [0.0; 2];
+    for (corners, &is_closing) in mesh.triangles.iter().zip(are_closing) {
+        let [a, b, c] = corners.map(|corner| mesh.vertices[corner as usize]);
+        let area = (b - a).cross(&(c - a)).norm();
+        all += area;
+        closing += if is_closing { area } else { 0.0 };
+    }
+    let share = closing / all;
+    (share > LEAST_TOLD).then_some(FitWarning::Closing { share })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::measure::mesh_properties;
     use approx::assert_relative_eq;
     use nalgebra::{Matrix3, Rotation3};
 
@@ -251,8 +289,20 @@ mod tests {
         for vertex in &mut mesh.vertices {
             *vertex = frame.to_scan(&vertex.coords);
         }
-        let OnFaces { points, are_coarse } = on_large_faces(&mesh, &frame, &semi_axes);
+        let OnFaces {
+            points,
+            are_coarse,
+            closing,
+        } = on_large_faces(&mesh, &frame, &semi_axes);
         assert!(!are_coarse);
+        // Of an ellipse between an ellipsoid's ends.
+        let cut = PI * semi_axes.y * semi_axes.z * (1.0 - 0.993 * 0.993);
+        let area = mesh_properties(&mesh).unwrap().area;
+        let Some(FitWarning::Closing { share }) = closing else {
+            panic!("{closing:?}");
+        };
+        assert_relative_eq!(share, cut / area, max_relative = 0.05);
+        assert_eq!(closed_by_faces(&mesh, &frame, &semi_axes), closing);
         assert!(points.len() > 12, "{}", points.len());
         for point in &points {
             assert_relative_eq!(frame.to_local(point).x, 0.993 * 3.0, max_relative = 1e-9);

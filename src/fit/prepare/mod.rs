@@ -14,6 +14,7 @@ mod largest;
 mod layers;
 mod left_out;
 mod middle;
+mod middles;
 mod pieces;
 mod reference;
 mod representatives;
@@ -29,10 +30,12 @@ mod triangulated;
 mod twins;
 
 pub(crate) use axes::principal_axes;
+pub(super) use facets::closed_by_faces;
 pub use largest::largest_body;
 #[cfg(feature = "cli")]
 pub(crate) use largest::whole_or_largest;
 pub(super) use layers::layers_beside;
+pub(super) use middles::Middle;
 pub use reference::{Reference, ReferenceKind};
 pub(crate) use samples::{CellGrid, Sample, Samples};
 pub use scanned::ScannedSurface;
@@ -50,6 +53,7 @@ use crate::sphere::Symmetry;
 use bulge::bulge;
 use centre::{deepest_centre, facing_away_share};
 use facets::on_large_faces;
+use middles::middles;
 use nalgebra::{Matrix3, Point3, Vector3};
 use std::borrow::Cow;
 use std::f64::consts::PI;
@@ -84,6 +88,8 @@ pub struct PreparedScan<'a> {
     pub(crate) may_be_known: bool,
     /// Whether faces are large, and not only beside those about them.
     pub(crate) has_large_faces: bool,
+    /// The middles of its own large faces.
+    pub(super) middles: Vec<Middle>,
     /// Whether it is fitted as a thin rod.
     pub(super) is_rod: bool,
     /// Of points that may be the centres of voxels, the mean distance from one to the next; zero of others.
@@ -145,8 +151,16 @@ impl<'a> PreparedScan<'a> {
             .seen_faces()
             .map(|faces| on_large_faces(faces, &frame, &semi_axes));
         let on_faces = on_faces.unwrap_or_default();
+        surface.warnings.extend(on_faces.closing);
         let has_large_faces = on_faces.are_coarse;
         let bulge = if has_large_faces { bulge(&mesh) } else { 0.0 };
+        let middles = match surface.kind {
+            ReferenceKind::Faces => surface
+                .seen_faces()
+                .map(|faces| middles(faces, &frame, &semi_axes)),
+            _ => None,
+        };
+        let middles = middles.unwrap_or_default();
         let reference = Reference {
             kind: surface.kind,
             area: unit.area(properties.area),
@@ -172,6 +186,7 @@ impl<'a> PreparedScan<'a> {
             unseen: surface.unseen,
             may_be_known: surface.is_sparse || surface.is_many,
             has_large_faces,
+            middles,
             is_rod: false,
             step: scan.step,
             points: surface.points,
@@ -203,7 +218,12 @@ impl<'a> PreparedScan<'a> {
         Samples::by_place(&self.points, &self.frame)
     }
 
-    /// The same, in the cells of a grid.
+    /// The same with more points.
+    pub(crate) fn samples_and(&self, points: &[Point3<f64>]) -> Samples {
+        Samples::by_place(&[&self.points[..], points].concat(), &self.frame)
+    }
+
+    /// Those of its points, in the cells of a grid.
     pub(crate) fn samples(&self, grid: &CellGrid) -> Samples {
         Samples::new(&self.points, &self.frame, grid)
     }
