@@ -8,7 +8,8 @@
 //!                  \-> clump -> engines
 //! ```
 //!
-//! A scan of many grains is first [split](scan::split).
+//! Arrows are data: `fit` also measures what it has fitted, and `measure` knows nothing of `fit`. A scan of many grains is first
+//! [split](scan::split).
 //!
 //! # Conventions
 //!

@@ -6,11 +6,11 @@ use crate::sphere::coefficient_count;
 /// One setting of the search and what became of it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Candidate {
-    /// Degree of the segments' expansions.
+    /// Largest degree of the segments' expansions.
     pub degree: usize,
-    /// Number of segments, n_s = k^2.
+    /// Number of segments: 1 of one expansion, that of the cells, or k^2.
     pub segments: usize,
-    /// (degree + 1)^2 n_s.
+    /// Coefficients of all segments together.
     pub coefficients: usize,
     /// Segments fitted at a lower degree, because their samples do not support this one.
     pub reduced_segments: usize,
@@ -18,7 +18,8 @@ pub struct Candidate {
     pub area_error: Option<f64>,
     /// Volume against the reference surface: signed, relative. `None` if not fitted.
     pub volume_error: Option<f64>,
-    /// Root mean square of the radial leave-one-out errors, in the scan's unit. `None` if not fitted.
+    /// Root mean square error of points that were left out one by one, in the scan's unit: along rays, of positions along normals.
+    /// Of blended cells that were not chosen it is forecast from the estimate. `None` if not fitted.
     pub heldout_rms: Option<f64>,
     /// Root mean square difference of the radius from the estimate, over all directions, in the scan's unit.
     /// `None` of candidates that are fitted to the points themselves.

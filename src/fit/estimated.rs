@@ -7,7 +7,7 @@ use super::error::FitError;
 use super::estimate::Estimate;
 use super::options::{FitOptions, Seams, Tolerance};
 use super::outcome::{EstimateSummary, Fitted, Residuals};
-use super::prepare::{PreparedScan, Sample};
+use super::prepare::{Origin, PreparedScan, Sample};
 use super::rippled::without_ripples;
 use super::warning::FitWarning;
 use crate::model::{Family, StarGrain};
@@ -169,7 +169,8 @@ pub(super) fn estimated(
         fitted.warnings.push(FitWarning::OneSided { points });
     }
     let is_layered = |warning: &FitWarning| matches!(warning, FitWarning::Layers { .. });
-    if !fitted.warnings.iter().any(is_layered)
+    if prepared.origin() == Origin::Points
+        && !fitted.warnings.iter().any(is_layered)
         && let Some(share) = estimate.layers()
     {
         let apart = share * fitted.mean_radius;

@@ -124,8 +124,8 @@ pub(super) fn missed(star: &Fitted, scan: &Scan, options: &FitOptions) -> Option
     // So far faces lie within a smooth surface through their corners.
     let sag = star.reference.bulge / star.reference.area;
     let scatter = scatter(&places)?.max(sag).max(good);
-    if let Some(rms) = star.search.noise.filter(|rms| *rms > NOISY * scatter) {
-        return Some(FitWarning::FarFromNeighbours { rms, scatter });
+    if let Some(noise) = star.search.noise.filter(|noise| *noise > NOISY * scatter) {
+        return Some(FitWarning::NoiseBeyondScatter { noise, scatter });
     }
     if off(star.residuals.rms) <= FAR * scatter {
         return None;

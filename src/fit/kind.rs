@@ -1,7 +1,8 @@
 //! Which kind of surface a scan is given: a radius, or the position of points over the sphere.
 //!
 //! A radius first: it takes fewer coefficients where both do. Where it hides area, ends above its limit, is steep, or is far
-//! from points that lie on smooth surfaces with their neighbours, the position is fitted too, as far as it may still be better, and the one with fewer coefficients at the limit is kept.
+//! from points that lie on smooth surfaces with their neighbours, the position is fitted too, as far as it may still be better. Of two
+//! within the limit the one with fewer coefficients is kept, else the nearer one.
 //! Of voxels the position alone, for a radius follows their steps as if they were texture.
 
 use super::context::Context;
@@ -22,7 +23,7 @@ use crate::scan::Scan;
 use crate::sphere::Symmetry;
 use std::sync::OnceLock;
 
-/// A radius that hides area so counts as so many times farther off ...
+/// A radius that hides area so counts as so many times farther off, when it is compared with positions.
 const HIDING: f64 = 2.0;
 
 /// Share of the points that a radius may have left out as dust, if it sees all else.
@@ -213,7 +214,10 @@ fn compared(
         rms: fitted.search.choice().heldout_rms.unwrap_or(f64::INFINITY),
     };
     fitted.kind = KindChoice::Compared { kept, rival: own };
-    fitted.warnings.extend(stands_out(&star, &distances));
+    // What stands out of a closed surface is a part of it.
+    if scan.triangles().is_empty() {
+        fitted.warnings.extend(stands_out(&star, &distances));
+    }
     Ok(fitted)
 }
 

@@ -170,7 +170,7 @@ impl Fitted {
         }
     }
 
-    /// Standard error of all lengths together, as a share of them.
+    /// Standard error of the size: of one factor on all lengths.
     fn off_all_over(&self, told: &MassProperties) -> f64 {
         let of_points = self.warnings.iter().map(|warning| match warning {
             FitWarning::Averaged { share, .. } => *share,
@@ -183,12 +183,11 @@ impl Fitted {
         of_points.fold(self.beside_faces(told).hypot(outwards), f64::hypot)
     }
 
-    /// The same for what lies between flat faces and a surface that goes through
-    /// their corners. Scanners put these on the surface, and the faces are too small a body; what thins meshes out keeps
-    /// the faces about it, and puts the corners outside. The true volume is as likely to be anywhere in between, and the fit
-    /// at one end: of quadric edge collapses it is about half-way, of meshes that keep their volume at the other end. Where
-    /// faces are large, the fit is drawn to them, and a body that is smooth is larger by their bulge. Of faces that are not closed
-    /// the polyhedron through their corners stands for them.
+    /// The same for what lies between flat faces and a surface through their corners. Scanners put these on the surface, and the
+    /// faces are too small a body; what thins meshes out keeps the faces about it, and puts the corners outside. The true volume is
+    /// as likely to be anywhere in between, and the fit at one end: of quadric edge collapses it is about half-way, of meshes that
+    /// keep their volume at the other end. Where faces are large, the fit is drawn to them, and a body that is smooth is larger by
+    /// their bulge. Of faces that are not closed the polyhedron through their corners stands for them.
     fn beside_faces(&self, told: &MassProperties) -> f64 {
         let is_not_closed = |warning: &FitWarning| matches!(warning, FitWarning::FacesNotClosed(_));
         if self.reference.kind != ReferenceKind::Faces && !self.warnings.iter().any(is_not_closed) {

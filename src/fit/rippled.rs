@@ -28,8 +28,12 @@ pub(super) fn without_ripples(
     context: &Context<'_>,
 ) -> Result<(Samples, Estimate), Cancelled> {
     let made_from = |samples: &Samples| {
-        let may_stand_alone = !prepared.has_large_faces;
-        estimate(samples.rows(), prepared.semi_axes, may_stand_alone, context)
+        estimate(
+            samples.rows(),
+            prepared.semi_axes,
+            prepared.origin(),
+            context,
+        )
     };
     let mut samples = prepared.sorted_samples();
     let mut found = made_from(&samples)?;
@@ -75,6 +79,7 @@ fn rippled(prepared: &PreparedScan<'_>, estimate: &Estimate) -> Vec<Point3<f64>>
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::fit::prepare::Origin;
     use crate::mesh::Mesh;
     use crate::scan::Scan;
     use crate::sphere::Symmetry;
@@ -139,7 +144,7 @@ mod tests {
         let prepared = PreparedScan::new(&scan, Symmetry::NONE).unwrap();
         let context = Context::default();
         let samples = prepared.sorted_samples();
-        let alone = estimate(samples.rows(), prepared.semi_axes, true, &context).unwrap();
+        let alone = estimate(samples.rows(), prepared.semi_axes, Origin::Faces, &context).unwrap();
         let (with_middles, found) = without_ripples(&prepared, &context).unwrap();
         assert!(rippled(&prepared, &alone).len() > 10);
         assert!(rippled(&prepared, &found).is_empty());

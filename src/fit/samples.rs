@@ -9,8 +9,9 @@
 //! ```
 //!
 //! fitted by least squares to the heights of the nearest samples over the tangent plane. All of the difference counts as
-//! error, that of the quadric too, and of its distance what it may be off by its samples' scatter: it follows noise more than the surface does, and no bend of the size of its samples' patch.
-//! Of a cell the largest counts, for such bends are narrow.
+//! error, though part of it is the quadric's: it follows noise more than the surface does, and misses bends as narrow as its patch.
+//! The error of the distance also holds what the samples' scatter leaves open of the quadric. Of a cell the largest error counts, for
+//! such bends are narrow.
 
 use crate::fit::local_cells::{PER_CELL, Squares, of_cells, tensor};
 use crate::fit::neighbours::Neighbours;

@@ -7,7 +7,7 @@ use std::f64::consts::PI;
 
 /// Half-angle, in radians, of the largest hole that is told of as if it were seen. In holes of 20 degrees the radius is
 /// off by 0.2 to 5 %, in holes of 40 by 10 to 26 %.
-const LARGEST_HOLE: f64 = PI / 6.0;
+const LARGEST_WITH_FIGURES: f64 = PI / 6.0;
 
 /// Standard deviation of the radius where nothing was seen, as a share of the mean radius: the largest error of holes of
 /// 40 degrees. All of a hole is off together.
@@ -16,7 +16,7 @@ const GUESS: f64 = 0.25;
 impl Unseen {
     /// A cap without points, if it is larger than is told of, and than those that few points leave by chance.
     pub(crate) fn hole(half_angle: f64, points: usize) -> Option<Self> {
-        let is_large = half_angle > LARGEST_HOLE.max(random_gap(points));
+        let is_large = half_angle > LARGEST_WITH_FIGURES.max(random_gap(points));
         is_large.then_some(Self::Hole { half_angle })
     }
 

@@ -11,6 +11,13 @@ pub enum FitWarning {
     /// The scan's faces do not say what is inside: the surface is fitted to their points, and the reference is the
     /// triangulation of these points' directions.
     FacesNotClosed(FacesDefect),
+    /// Vertices that subdivision put on the flat faces of a coarser mesh were left out.
+    Subdivided {
+        /// Their number.
+        made: usize,
+        /// Vertices of the scan.
+        points: usize,
+    },
     /// Small holes between the scan's faces were closed in the reference.
     Filled(Fill),
     /// Few large faces among small ones close what may have been a hole or a cut.
@@ -114,7 +121,7 @@ pub enum FitWarning {
         /// Whether it is taken along the ray from the grain's centre, or else along a normal of the surface.
         is_along_ray: bool,
     },
-    /// Positions go out to few points that a radius, which follows all others, does not reach.
+    /// Positions go out to few points, of ones without faces, that a radius, which follows all others, does not reach.
     StandsOut,
     /// Part of the surface faces away from the best centre and is smoothed over.
     NotStarShaped {
@@ -145,11 +152,18 @@ pub enum FitWarning {
         /// Whether it was the only candidate.
         is_only: bool,
     },
-    /// Points that were held out are much farther from positions than points are from the surfaces through their neighbours.
+    /// Points that were held out are much farther from the surface than points are from the surfaces through their neighbours.
     FarFromNeighbours {
         /// Root mean square distance of points that were held out, in the scan's unit.
         rms: f64,
         /// That of points from the surfaces through their neighbours, or what is good enough.
+        scatter: f64,
+    },
+    /// The noise that the estimate tells is much more than points scatter about the surfaces through their neighbours.
+    NoiseBeyondScatter {
+        /// The noise, as standard deviation in the scan's unit.
+        noise: f64,
+        /// That scatter, or what is good enough.
         scatter: f64,
     },
     /// The segments do not come within the limit of the estimate.

@@ -45,17 +45,18 @@ pub struct SearchReport {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct CandidateRecord {
-    /// Degree of the segments' expansions.
+    /// Largest degree of the segments' expansions.
     pub degree: usize,
     /// Number of segments.
     pub segments: usize,
-    /// (degree + 1)^2 per segment.
+    /// Coefficients of all segments together.
     pub coefficients: usize,
     /// Area against the reference.
     pub area_error: Option<f64>,
     /// Volume against the reference.
     pub volume_error: Option<f64>,
-    /// Root mean square of the radial errors of points that were left out one by one.
+    /// Root mean square error of points that were left out one by one, along rays; of blended cells that were not chosen it is
+    /// forecast from the estimate.
     pub heldout_rms: Option<f64>,
     /// Root mean square difference of the radius from the estimate, over all directions; `null` of candidates that
     /// are fitted to the points themselves.

@@ -57,12 +57,16 @@ impl FitWarning {
                 "What the faces enclose cannot be told, for {defect}: the surface is fitted to the faces, and compared \
                  with the triangulation of their points' directions."
             ),
+            Self::Subdivided { made, points } => write!(
+                f,
+                "{made} of {points} vertices lie in the middles of the edges of a coarser mesh, where subdivision puts them: they \
+                 tell nothing of the grain, and the others are fitted."
+            ),
             Self::Filled(Fill {
                 holes, edges, area, ..
             }) => write!(
                 f,
-                "{} in the surface that the fit is compared with: {edges} edges, and {}{} of its area. There the fitted \
-                 surface is a guess.",
+                "{} in the surface that the fit is compared with: {edges} edges, and {}{} of its area.",
                 match holes {
                     1 => "A small hole was closed".into(),
                     _ => format!("{holes} small holes were closed"),
@@ -257,6 +261,15 @@ impl FitWarning {
                  grain is narrow, or fit a mesh of the points.",
                 short(rms),
                 rms / scatter,
+                unit = labels.length()
+            ),
+            Self::NoiseBeyondScatter { noise, scatter } => write!(
+                f,
+                "The estimate takes {}{unit} for noise, {:.1} times what points scatter about the surfaces through their neighbours: \
+                 part of it is shape that the surface does not follow. Scan more densely where the grain is narrow, or fit a mesh of \
+                 the points.",
+                short(noise),
+                noise / scatter,
                 unit = labels.length()
             ),
             Self::LimitNotMet { rms, limit } => write!(

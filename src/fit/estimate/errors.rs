@@ -42,7 +42,7 @@ use std::f64::consts::PI;
 
 /// Half-angle of holes, in radians, up to which 95 % intervals of area and volume cover: of 20 degrees they do (92 %
 /// of 50 particles), of 40 they are up to 8 standard errors off.
-const LARGEST_HOLE: f64 = 25.0 * PI / 180.0;
+const LARGEST_WITH_ERRORS: f64 = 25.0 * PI / 180.0;
 
 impl Estimate {
     /// Standard errors of the figures that are told of the grain; nothing is computed before this is called.
@@ -52,7 +52,7 @@ impl Estimate {
     pub(in crate::fit) fn errors(&self, told: &Figures) -> Result<StandardErrors, NoInterval> {
         let holes = self.holes();
         let half_angle = holes.largest;
-        if half_angle > LARGEST_HOLE.max(random_gap(self.cloud.len())) {
+        if half_angle > LARGEST_WITH_ERRORS.max(random_gap(self.cloud.len())) {
             return Err(NoInterval::Hole { half_angle });
         }
         let known = || self.known_errors(holes);

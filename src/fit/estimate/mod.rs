@@ -58,7 +58,7 @@ pub use local::RadiusError;
 pub(crate) use outcome::Estimate;
 
 use crate::fit::context::{Cancelled, Context};
-use crate::fit::prepare::Sample;
+use crate::fit::prepare::{Origin, Sample};
 use crate::fit::without::without;
 use cloud::Cloud;
 use degrees::{Degrees, first_degree};
@@ -76,16 +76,16 @@ use std::sync::Arc;
 use stopping::SETTLED;
 
 /// Estimates the radius, and makes the estimate again without points that lie off it to [one side](one_sided). `axes`: semi-axes of
-/// the ellipsoid of equal second moments, along the grain's own axes; `may_stand_alone`: whether a point may lie off the
-/// surface, as none does that was taken from a face.
+/// the ellipsoid of equal second moments, along the grain's own axes.
 pub(crate) fn estimate(
     samples: &[Sample],
     axes: Vector3<f64>,
-    may_stand_alone: bool,
+    origin: Origin,
     context: &Context<'_>,
 ) -> Result<Estimate, Cancelled> {
+    let may_stand_alone = origin != Origin::LargeFaces;
     let whole = with_neighbours(samples, axes, may_stand_alone, context)?;
-    if !may_stand_alone {
+    if origin != Origin::Points {
         return Ok(whole);
     }
     let fewest = ((1.0 - one_sided::MOST) * samples.len() as f64) as usize;

@@ -2,7 +2,7 @@
 
 use super::{Estimate, estimate};
 use crate::fit::context::Context;
-use crate::fit::prepare::Sample;
+use crate::fit::prepare::{Origin, Sample};
 use crate::shapes::Sampling;
 use nalgebra::Vector3;
 use rand::SeedableRng;
@@ -24,7 +24,7 @@ pub(super) fn samples(
 }
 
 pub(super) fn estimated(samples: &[Sample], axes: Vector3<f64>) -> Estimate {
-    estimate(samples, axes, true, &Context::default()).unwrap()
+    estimate(samples, axes, Origin::Points, &Context::default()).unwrap()
 }
 
 pub(super) fn fibonacci(points: usize) -> Vec<Vector3<f64>> {

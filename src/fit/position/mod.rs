@@ -67,10 +67,10 @@ pub struct PositionFit {
     pub turned_over: usize,
     /// Pairs of triangles of the surface's mesh that cross.
     pub crossings: usize,
+    /// Where the first of these cross, in the scan's frame.
+    pub crossing: Option<Point3<f64>>,
     /// Whether neither fewer cells nor rougher ones would leave a surface that is sound.
     pub(super) is_hopeless: bool,
-    /// Where the first of them do, in the scan's frame.
-    pub crossing: Option<Point3<f64>>,
     /// Standard errors of its figures.
     pub errors: Result<StandardErrors, NoInterval>,
     /// What it was fitted to.

@@ -15,6 +15,7 @@ mod layers;
 mod left_out;
 mod middle;
 mod middles;
+mod origin;
 mod pieces;
 mod reference;
 mod representatives;
@@ -23,6 +24,7 @@ mod rows;
 mod samples;
 mod scanned;
 mod strays;
+mod subdivided;
 mod surface;
 mod thin;
 mod together;
@@ -36,6 +38,7 @@ pub use largest::largest_body;
 pub(crate) use largest::whole_or_largest;
 pub(super) use layers::layers_beside;
 pub(super) use middles::Middle;
+pub(crate) use origin::Origin;
 pub use reference::{Reference, ReferenceKind};
 pub(crate) use samples::{CellGrid, Sample, Samples};
 pub use scanned::ScannedSurface;
@@ -202,6 +205,15 @@ impl<'a> PreparedScan<'a> {
     /// The points to fit.
     pub(crate) fn points(&self) -> &[Point3<f64>] {
         &self.points
+    }
+
+    /// What an estimate of it is made from.
+    pub(crate) fn origin(&self) -> Origin {
+        match self.reference.kind {
+            _ if self.has_large_faces => Origin::LargeFaces,
+            ReferenceKind::Faces => Origin::Faces,
+            _ => Origin::Points,
+        }
     }
 
     /// Points of the scan that stand apart from their neighbours and are not fitted.
@@ -375,5 +387,17 @@ mod tests {
             let found = mean_radius(&mesh, &Point3::origin(), ReferenceKind::Faces);
             assert!((least..2.0).contains(&found), "{found}");
         }
+    }
+
+    #[test]
+    fn points_may_have_dust_beside_them_and_faces_none() {
+        let radius = |n: &Vector3<f64>| 1.0 + 0.2 * n.x;
+        let origin = |scan: Scan| PreparedScan::new(&scan, Symmetry::NONE).unwrap().origin();
+        let mesh = Mesh::radial(16, radius);
+        let points = Scan::from_points(mesh.vertices.clone());
+        assert_eq!(origin(points), Origin::Points);
+        assert_eq!(origin(Scan::from_mesh(mesh).unwrap()), Origin::Faces);
+        let coarse = Scan::from_mesh(Mesh::radial(3, radius)).unwrap();
+        assert_eq!(origin(coarse), Origin::LargeFaces);
     }
 }

@@ -1,18 +1,20 @@
 //! The surface that a scan draws: a closed mesh through its points, by its own faces or by the
 //! triangulation of their directions.
 
+use super::gap::Gap;
 use super::left_out::told;
 use super::middle::middle;
 use super::reference::ReferenceKind;
 use super::rounder::rounder_of_rod;
 use super::scanned::ScannedSurface;
+use super::subdivided::made_by_subdivision;
 use super::thin::{Thinned, WHOLE_CLOUD, select, thin};
 use super::triangulated::from_directions;
 use crate::fit::error::FitError;
 use crate::fit::warning::FitWarning;
 use crate::fit::without::without;
 use crate::measure::{
-    FacesDefect, Fill, SelfCrossing, even_places, scanned_body, self_crossing, without_dust,
+    FacesDefect, Fill, SelfCrossing, Unit, even_places, scanned_body, self_crossing, without_dust,
 };
 use crate::mesh::Mesh;
 use crate::model::Unseen;
@@ -125,8 +127,21 @@ fn from_faces<'a>(scan: &'a Scan, unreferenced: &[u32]) -> Result<ScannedSurface
             (mesh, points)
         }
     };
+    // Others number the vertices of the mesh differently.
+    let made = match points.len() == mesh.vertices.len() {
+        true => made_by_subdivision(&mesh),
+        false => Vec::new(),
+    };
+    let subdivided = (!made.is_empty()).then(|| FitWarning::Subdivided {
+        made: made.len(),
+        points: points.len(),
+    });
+    let points = match made.is_empty() {
+        true => points,
+        false => Cow::Owned(without(&points, made)),
+    };
     Ok(ScannedSurface {
-        warnings: crossing.into_iter().collect(),
+        warnings: crossing.into_iter().chain(subdivided).collect(),
         ..closed(mesh, points)
     })
 }
@@ -226,9 +241,14 @@ fn filled(mesh: Mesh, fill: Option<Fill>) -> ScannedSurface<'static> {
         vertices: points.clone(),
         triangles: seen,
     };
+    let gap = Gap::new(&Unit::of(&faces).mesh(&faces)).warning();
     ScannedSurface {
         faces: Some(faces),
-        warnings: fill.map(FitWarning::Filled).into_iter().collect(),
+        warnings: fill
+            .map(FitWarning::Filled)
+            .into_iter()
+            .chain(gap)
+            .collect(),
         ..closed(mesh, Cow::Owned(points))
     }
 }
@@ -257,5 +277,27 @@ mod tests {
         assert!(!has_neck(
             &|n| 1.0 / n.component_div(&Vector3::new(1.0, 1.5, 3.0)).norm()
         ));
+    }
+
+    #[test]
+    fn a_hole_that_is_wide_is_told_though_it_is_closed() {
+        let told = |degrees: f64| {
+            let mut mesh = Mesh::radial(32, |n| 2.0 + 0.3 * n.x);
+            let rim = degrees.to_radians().cos();
+            let is_seen = |at: &u32| mesh.vertices[*at as usize].coords.normalize().z < rim;
+            mesh.triangles.retain(|corners| corners.iter().all(is_seen));
+            let scan = Scan::from_mesh(mesh).unwrap();
+            let warnings = scanned_surface(&scan).unwrap().warnings;
+            let is_filled = |warning: &FitWarning| matches!(warning, FitWarning::Filled(_));
+            assert!(warnings.iter().any(is_filled), "{warnings:?}");
+            let gap = warnings.iter().find_map(|warning| match warning {
+                FitWarning::Gap { half_angle, .. } => Some(half_angle.to_degrees()),
+                _ => None,
+            });
+            gap
+        };
+        let gap = told(20.0).unwrap();
+        assert!((18.0..24.0).contains(&gap), "{gap}");
+        assert_eq!(told(6.0), None);
     }
 }

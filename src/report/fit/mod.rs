@@ -44,7 +44,7 @@ pub struct FitReport {
     /// Why it is of this kind: half a sentence; left out of a radius that follows the scan.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub surface_rule: Option<String>,
-    /// Degree of the segments' expansions.
+    /// Largest degree of the segments' expansions.
     pub degree: usize,
     /// Number of segments.
     pub segments: usize,
@@ -54,8 +54,7 @@ pub struct FitReport {
     /// Root mean square difference of the radius between mirror images of the scan; left out likewise.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub asymmetry: Option<f64>,
-    /// Coefficients that the model holds: (degree + 1)^2 per segment, fewer where a segment was
-    /// reduced.
+    /// Coefficients that the model holds.
     pub coefficients: usize,
     /// Area of the fitted surface, integrated exactly; `null`, as the next three, where it is in `not_measured`.
     pub area: Option<f64>,
@@ -85,7 +84,7 @@ pub struct FitReport {
     pub rms: f64,
     /// Largest absolute residual, likewise.
     pub max: f64,
-    /// Root mean square of the radial errors of points that were left out of the fit one by one.
+    /// Root mean square error of points that were left out of the fit one by one: along rays, of positions along normals.
     pub heldout_rms: Option<f64>,
     /// Mean radius over all directions; of positions the radius of the ball of equal volume.
     pub mean_radius: f64,
