@@ -5,12 +5,11 @@ use super::console::Console;
 use super::{inputs, outputs, solid, threads};
 use crate::annotate::{Annotated, ScanDeviation};
 use crate::export::{Detail, MeshFormat};
-use crate::measure::{Deviation, mesh_properties};
+use crate::measure::{Deviation, equivalent_radius, mesh_properties};
 use crate::model::{Grain, Surface};
 use crate::portrait::colours;
 use crate::report::Withheld;
 use anyhow::{Result, bail};
-use std::f64::consts::PI;
 use std::path::Path;
 
 /// Bytes that a mesh takes per square of its resolution, while it is made: of places only, and with what is known at
@@ -142,7 +141,7 @@ fn far_off(surface: &Annotated) -> Option<String> {
     let known = known.copied().filter(|distance| distance.is_finite());
     let off = Deviation::of(known.map(|distance| (distance, 1.0))).rms();
     let volume = mesh_properties(&surface.mesh).ok()?.volume;
-    let share = off / (0.75 * volume / PI).cbrt();
+    let share = off / equivalent_radius(volume);
     let told = || {
         let share = 100.0 * share;
         format!(

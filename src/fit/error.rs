@@ -224,11 +224,16 @@ pub enum FitError {
         /// Standard deviation of the radius against the neighbours' median.
         scatter: f64,
     },
-    /// The points do not determine a surface in numbers.
+    /// The points do not determine a radius in numbers.
     #[error(
         "the points do not determine a radius in every direction; look at the scan, or fit independent segments"
     )]
     NoEstimate,
+    /// The points do not determine positions in numbers, or these are not worth a fit.
+    #[error(
+        "the points do not determine positions over the sphere: scan more densely, or ask for fewer segments or a lower degree"
+    )]
+    NoPositions,
     /// Mirrors and independent segments are those of a radius.
     #[error(
         "positions over the sphere have no mirrors and no independent segments: leave --symmetry and --seams out"

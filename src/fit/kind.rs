@@ -7,11 +7,11 @@
 
 use super::context::Context;
 use super::error::FitError;
-use super::followed::{
+use super::kind_choice::{KindChoice, Rival};
+use super::misfit::{
     does_not_see, held_out_over_fitted, hidden_share, hides_much, is_hiding, missed,
     normal_distances, stands_out,
 };
-use super::kind_choice::{KindChoice, Rival};
 use super::options::{FitOptions, Kind, Seams};
 use super::outcome::Fitted;
 use super::position::MOST_COEFFICIENTS;
@@ -46,10 +46,10 @@ pub fn fit_scan(
     match options.kind {
         Kind::Star => star().map(|star| {
             let missed = missed_by(&star, scan, options);
-            star.missing(missed, scan)
+            star.without_errors_if_local(missed, scan)
         }),
         Kind::Position => positioned(scan, options, context, KindChoice::Asked, &|_| true),
-        Kind::Auto if scan.scatter > 0.0 && is_of_any_kind(options) => {
+        Kind::Auto if scan.is_of_voxels() && is_of_any_kind(options) => {
             match positioned(scan, options, context, KindChoice::Voxels, &|_| true) {
                 Err(FitError::Cancelled) => Err(FitError::Cancelled),
                 Err(position) => match star() {
@@ -73,13 +73,13 @@ pub fn fit_scan(
                     found => found,
                 },
             },
-            Ok(star) => followed(scan, star, options, context),
+            Ok(star) => star_or_positions(scan, star, options, context),
         },
     }
 }
 
 /// A radius, or positions if they follow the scan better.
-fn followed(
+fn star_or_positions(
     scan: &Scan,
     star: Fitted,
     options: &FitOptions,
@@ -91,7 +91,7 @@ fn followed(
         && (does_not_see(&star) || options.is_unbounded() && !is_outnumbered(&star) && is_worse());
     match may_be_better {
         true => compared(scan, star, missed, options, context),
-        false => Ok(star.missing(missed, scan)),
+        false => Ok(star.without_errors_if_local(missed, scan)),
     }
 }
 
@@ -138,7 +138,7 @@ fn is_of_any_kind(options: &FitOptions) -> bool {
 fn unseen(error: &FitError, options: &FitOptions) -> Option<KindChoice> {
     match *error {
         FitError::NotStarShaped { share } => {
-            (!options.is_of_points()).then_some(KindChoice::Hidden { share })
+            (!options.is_degree_zero()).then_some(KindChoice::Hidden { share })
         }
         FitError::Scattered { .. }
         | FitError::Strays { .. }
@@ -196,7 +196,7 @@ fn compared(
             if let Some(forecast) = outdone.into_inner() {
                 let kept = own;
                 star.kind = KindChoice::Outdoes { kept, forecast };
-                return Ok(star.missing(missed, scan));
+                return Ok(star.without_errors_if_local(missed, scan));
             }
             let star = for_want_of_positions(star, error);
             return Ok(match is_hiding || missed.is_some() {
@@ -207,7 +207,7 @@ fn compared(
         Ok(fitted) => fitted,
     };
     if is_of_dust(&fitted, &star, scan) {
-        return Ok(star.missing(missed, scan));
+        return Ok(star.without_errors_if_local(missed, scan));
     }
     let kept = Rival {
         coefficients: fitted.grain.coefficient_count(),

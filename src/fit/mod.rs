@@ -20,7 +20,6 @@ mod error;
 mod estimate;
 mod estimated;
 mod figures;
-mod followed;
 mod gaps;
 mod hole;
 mod kind;
@@ -28,6 +27,7 @@ mod kind_choice;
 mod linear;
 mod local_cells;
 mod mirrored;
+mod misfit;
 mod neighbours;
 mod options;
 mod outcome;
@@ -55,10 +55,10 @@ pub use candidate::{Candidate, Rejection, Search, Work};
 pub use context::{Context, Stage};
 pub use error::FitError;
 pub use estimate::RadiusError;
-pub(crate) use followed::LARGEST_OF_NOISE;
 pub use kind::fit_scan;
 pub use kind_choice::{KindChoice, Rival};
 pub use mirrored::{DirectedSample, MirroredFitError, fit_mirrored};
+pub(crate) use misfit::LARGEST_OF_NOISE;
 pub use options::{
     FitOptions, Kind, MAX_CELLS, MAX_COEFFICIENTS, MAX_DEGREE, MAX_PARTS, MAX_WHOLE_DEGREE, Seams,
     Tolerance,

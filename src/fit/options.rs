@@ -250,7 +250,7 @@ impl FitOptions {
                 most,
             )?;
         }
-        if self.kind == Kind::Position && self.is_of_points() {
+        if self.kind == Kind::Position && self.is_degree_zero() {
             return Err(FitError::PointOfDegreeZero);
         }
         if self.kind == Kind::Position
@@ -274,7 +274,7 @@ impl FitOptions {
     }
 
     /// Whether positions would be points.
-    pub(super) fn is_of_points(&self) -> bool {
+    pub(super) fn is_degree_zero(&self) -> bool {
         self.top_degree() == 0
     }
 

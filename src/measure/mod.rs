@@ -18,7 +18,6 @@ mod enclosing_ball;
 mod even_places;
 mod extents;
 mod feet;
-mod followed;
 mod form;
 mod four_triangles;
 mod hull;
@@ -53,6 +52,7 @@ mod survey;
 #[cfg(test)]
 mod trial;
 mod triangle_tree;
+mod unfollowed;
 mod unit;
 
 pub use bounds::OutOfBounds;

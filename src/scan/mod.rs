@@ -152,6 +152,11 @@ impl Scan {
         self.scatter
     }
 
+    /// Whether the faces lie between voxels.
+    pub(crate) fn is_of_voxels(&self) -> bool {
+        self.scatter > 0.0
+    }
+
     /// The unit of lengths that the header of an image tells, such as `mm`; `None` where it tells none, as other files do.
     pub fn unit(&self) -> Option<&str> {
         self.unit.as_deref()

@@ -4,7 +4,7 @@ use super::{folder, run};
 use std::path::Path;
 
 const README: &str = include_str!("../../README.md");
-const BEDS: &str = include_str!("../../docs/beds.md");
+const BEDS: &str = include_str!("../../docs/engines.md");
 
 /// The content of the fenced blocks of a language.
 fn blocks(text: &'static str, language: &str) -> impl Iterator<Item = &'static str> {

@@ -11,6 +11,7 @@
 //! quadruples the cells: on even texture, and where symmetry makes many cells alike, the one between
 //! needs a fifth fewer coefficients.
 
+mod between_nodes;
 mod forest;
 mod joint;
 mod local_fit;
@@ -19,7 +20,6 @@ mod patch;
 mod search;
 #[cfg(test)]
 mod tests;
-mod unseen;
 
 use crate::model::Blended;
 use nalgebra::Vector3;

@@ -1,10 +1,10 @@
 //! The rounds: forecast, joint fit, better forecast.
 
+use super::between_nodes::BetweenNodes;
 use super::forest::{Bounds, Forest, Plan};
 use super::joint::{Joint, Solved};
 use super::local_fit::LocalFits;
 use super::nodes::{Sampler, nodes_per_side};
-use super::unseen::Unseen;
 use super::{Blend, Outcome, Round, Settings, Target};
 use crate::fit::MAX_COEFFICIENTS;
 use crate::model::Blended;
@@ -34,7 +34,7 @@ const FIRST_RATIO_OF_TEXTURE: f64 = 0.45;
 const LEAST_OF_RATIO: f64 = 0.85;
 
 /// Squared error between the directions of a fit per squared error at them, before it is known.
-const FIRST_UNSEEN: f64 = 1.05;
+const FIRST_BETWEEN: f64 = 1.05;
 
 /// Forecasts aim at this share of the squared error that is good enough: .975 of the RMS.
 const AIM: f64 = 0.95;
@@ -62,7 +62,7 @@ pub(super) struct Search<'a> {
     rounds: Vec<Round>,
     best: Option<Found>,
     /// Squared error between the directions of a fit per squared error at them.
-    unseen: f64,
+    between: f64,
     /// The least squared error of a joint fit per sum of its cells' own that a fit has told.
     least_ratio: f64,
 }
@@ -81,7 +81,7 @@ struct Found {
     coefficients: usize,
     /// Which of the rounds.
     round: usize,
-    unseen: Unseen,
+    between: BetweenNodes,
 }
 
 impl<'a> Search<'a> {
@@ -102,7 +102,7 @@ impl<'a> Search<'a> {
             trees: Vec::new(),
             rounds: Vec::new(),
             best: None,
-            unseen: FIRST_UNSEEN,
+            between: FIRST_BETWEEN,
             least_ratio: f64::INFINITY,
         }
     }
@@ -121,16 +121,16 @@ impl<'a> Search<'a> {
         let Found {
             surface,
             round,
-            unseen,
+            between,
             ..
         } = self.best?;
         Some(Outcome {
-            max: unseen.largest(&surface, self.target),
+            max: between.largest(&surface, self.target),
             surface,
             rounds: self.rounds,
             chosen: round,
-            rms: unseen.rms,
-            met: unseen.rms <= self.settings.limit,
+            rms: between.rms,
+            met: between.rms <= self.settings.limit,
         })
     }
 
@@ -195,7 +195,7 @@ impl<'a> Search<'a> {
         let met = self
             .best
             .as_ref()
-            .filter(|found| self.is_met(found.unseen.rms));
+            .filter(|found| self.is_met(found.between.rms));
         let most = met.map(|found| (1.0 - LEAST_SAVING) * found.coefficients as f64);
         let open = self.trees.iter().enumerate().filter(|(_, tree)| {
             let is_new = !tree.fitted.contains(&tree.plan);
@@ -217,7 +217,7 @@ impl<'a> Search<'a> {
     fn may_win(&self, plan: &Plan) -> bool {
         self.best.as_ref().is_none_or(|best| {
             let least = LEAST_OF_RATIO * self.least_ratio * plan.error;
-            !self.is_met(best.unseen.rms) && least < 4.0 * PI * best.unseen.rms * best.unseen.rms
+            !self.is_met(best.between.rms) && least < 4.0 * PI * best.between.rms * best.between.rms
         })
     }
 
@@ -256,9 +256,9 @@ impl<'a> Search<'a> {
     /// body that lies between cells, the blend errs as neither cell's own fit shows.
     fn refine(&mut self) -> Option<()> {
         while let Some((cells, degrees)) = self.finer() {
-            let before = self.best.as_ref().map(|best| best.unseen.rms);
+            let before = self.best.as_ref().map(|best| best.between.rms);
             self.solve(&cells, &degrees)?;
-            if self.best.as_ref().map(|best| best.unseen.rms) == before {
+            if self.best.as_ref().map(|best| best.between.rms) == before {
                 break;
             }
         }
@@ -271,14 +271,14 @@ impl<'a> Search<'a> {
         let best = self
             .best
             .as_ref()
-            .filter(|best| !self.is_met(best.unseen.rms))?;
-        let largest = best.unseen.squares.iter().copied().fold(0.0, f64::max);
-        let fair = self.goal() / best.unseen.squares.len() as f64;
+            .filter(|best| !self.is_met(best.between.rms))?;
+        let largest = best.between.squares.iter().copied().fold(0.0, f64::max);
+        let fair = self.goal() / best.between.squares.len() as f64;
         let most = fair.max(LEAST_CUT * largest);
         let coefficients = best.surface.coefficients().iter().map(Vec::len);
         let cover = best.surface.cover().cells().iter();
         let (mut cells, mut degrees) = (Vec::new(), Vec::new());
-        for ((cell, size), square) in cover.zip(coefficients).zip(&best.unseen.squares) {
+        for ((cell, size), square) in cover.zip(coefficients).zip(&best.between.squares) {
             let before = cells.len();
             match *square > most && 2 * cell.parts <= MAX_FACE_PARTS {
                 true => cells.extend(cell.quarters()),
@@ -289,7 +289,7 @@ impl<'a> Search<'a> {
         let bounds = self.bounds();
         let sizes = degrees.iter().map(|&degree| coefficient_count(degree));
         let is_within = cells.len() <= bounds.cells && sizes.sum::<usize>() <= bounds.coefficients;
-        (is_within && cells.len() > best.unseen.squares.len()).then_some((cells, degrees))
+        (is_within && cells.len() > best.between.squares.len()).then_some((cells, degrees))
     }
 
     /// Fits cells of one size and degree, and fewer of them as long as they do.
@@ -299,7 +299,11 @@ impl<'a> Search<'a> {
             Some(_) => self.settings.limit,
             None => WIDE_OF_THE_LIMIT * self.settings.limit,
         };
-        while let Some(best) = self.best.as_ref().filter(|found| found.unseen.rms <= worth) {
+        while let Some(best) = self
+            .best
+            .as_ref()
+            .filter(|found| found.between.rms <= worth)
+        {
             let saving = (1.0 - LEAST_SAVING) * best.coefficients as f64;
             let most = (saving as usize / coefficient_count(degree)).min(self.bounds().cells);
             let parts = (most / 6).isqrt().min(MAX_FACE_PARTS.into());
@@ -337,16 +341,16 @@ impl<'a> Search<'a> {
         let count = coefficients.iter().map(Vec::len).sum();
         let seen = (squared / (4.0 * PI)).sqrt();
         let surface = Blended::new(cover, coefficients).ok()?;
-        let mut rms = seen * self.unseen.sqrt();
+        let mut rms = seen * self.between.sqrt();
         let is_first = self.best.is_none();
-        let mut unseen = None;
+        let mut between = None;
         if is_first || self.is_met(seen) || self.is_better(count, rms) {
-            let found = Unseen::of(&surface, self.target, &mut self.sampler, &sides);
+            let found = BetweenNodes::of(&surface, self.target, &mut self.sampler, &sides);
             rms = found.rms;
             if seen > 0.0 && (is_first || self.is_met(seen)) {
-                self.unseen = (rms / seen).powi(2).clamp(1.0, 4.0);
+                self.between = (rms / seen).powi(2).clamp(1.0, 4.0);
             }
-            unseen = Some(found);
+            between = Some(found);
         }
         let round = self.rounds.len();
         self.rounds.push(Round {
@@ -355,12 +359,12 @@ impl<'a> Search<'a> {
             coefficients: count,
             rms,
         });
-        if let Some(unseen) = unseen.filter(|unseen| self.is_better(count, unseen.rms)) {
+        if let Some(between) = between.filter(|between| self.is_better(count, between.rms)) {
             self.best = Some(Found {
                 surface,
                 coefficients: count,
                 round,
-                unseen,
+                between,
             });
         }
         Some(rms)
@@ -369,9 +373,9 @@ impl<'a> Search<'a> {
     /// Whether a surface of so many coefficients and such an error is better than the best so far.
     fn is_better(&self, coefficients: usize, rms: f64) -> bool {
         self.best.as_ref().is_none_or(|best| {
-            match (self.is_met(best.unseen.rms), self.is_met(rms)) {
+            match (self.is_met(best.between.rms), self.is_met(rms)) {
                 (true, true) => coefficients < best.coefficients,
-                (met, is_met) => is_met || (!met && rms < best.unseen.rms),
+                (met, is_met) => is_met || (!met && rms < best.between.rms),
             }
         })
     }

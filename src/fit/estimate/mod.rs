@@ -6,13 +6,14 @@
 //!    ellipsoid that is like the grain; the parameters of both are those under which the points are most likely.
 //!    No degree has to be chosen: it is high enough when the last degrees carry nothing.
 //! 3. Points that stand alone are left out, and those that lie off the surface to one side, and the estimate is made again.
-//! 4. Where what it leaves of the points is detail, they are [followed] more closely, as far as others are then missed by less.
+//! 4. Where what it leaves of the points is detail, they are followed [more closely](closer), as far as others are then missed by less.
 //! 5. Clouds of more than 30 000 points, and uneven ones of more than 3000, are reduced to patch means, with one correction.
 //!
 //! The posterior covariance says how well every functional of the radius is known.
 
 mod blur;
 mod bump;
+mod closer;
 mod cloud;
 mod conjugate_gradients;
 mod curvature;
@@ -22,7 +23,6 @@ mod dimension_errors;
 mod dimensions;
 mod draws;
 mod errors;
-mod followed;
 mod functionals;
 mod held_out;
 mod information;
@@ -60,9 +60,9 @@ pub(crate) use outcome::Estimate;
 use crate::fit::context::{Cancelled, Context};
 use crate::fit::prepare::{Origin, Sample};
 use crate::fit::without::without;
+use closer::closer;
 use cloud::Cloud;
 use degrees::{Degrees, first_degree};
-use followed::followed;
 use map::rounder;
 use nalgebra::Vector3;
 use one_sided::one_sided;
@@ -164,7 +164,7 @@ fn by_degrees(
         dense,
         derived: Derived::default(),
     };
-    followed(found, context)
+    closer(found, context)
 }
 
 /// Adds the patch means of the residuals, and solves again.

@@ -109,14 +109,14 @@ pub fn fit_position(
 /// The same, but only where `is_worth` says so of the number of coefficients and the least distance that they may leave.
 ///
 /// # Errors
-/// Also [`FitError::NoEstimate`] if it is not.
+/// Also [`FitError::NoPositions`] if it is not.
 pub(super) fn fit_position_if(
     scan: &Scan,
     options: &FitOptions,
     context: &Context<'_>,
     is_worth: &(dyn Fn(Rival) -> bool + Sync),
 ) -> Result<PositionFit, FitError> {
-    if options.is_of_points() {
+    if options.is_degree_zero() {
         return Err(FitError::PointOfDegreeZero);
     }
     let local = LocalFaces::new(scan)?;
@@ -137,7 +137,7 @@ pub(super) fn fit_position_if(
         points,
         normals,
         hidden,
-    } = found.ok_or(FitError::NoEstimate)?;
+    } = found.ok_or(FitError::NoPositions)?;
     let distance = |found: cloud::Distances| Distance {
         rms: found.rms * radius,
         max: found.max * radius,

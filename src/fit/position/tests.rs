@@ -141,7 +141,7 @@ fn a_fit_is_given_up_at_its_held_out_distance() {
         };
         let found = fit_position_if(&scan, &options, &context, &is_worth);
         match factor < 1.0 {
-            true => assert_eq!(found.unwrap_err(), FitError::NoEstimate),
+            true => assert_eq!(found.unwrap_err(), FitError::NoPositions),
             false => assert_eq!(found.unwrap().held_out.rms, of_fit.rms),
         }
     }

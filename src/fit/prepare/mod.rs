@@ -139,7 +139,9 @@ impl<'a> PreparedScan<'a> {
             .filter(|properties| properties.volume > Unit::LEAST_VOLUME)
             .ok_or(FitError::NoVolume)?;
         // Steps of voxels face anywhere.
-        let without_steps = (scan.scatter > 0.0).then(|| relaxed(&mesh, ROUNDS_OVER_STEPS));
+        let without_steps = scan
+            .is_of_voxels()
+            .then(|| relaxed(&mesh, ROUNDS_OVER_STEPS));
         let seen = without_steps.as_ref().unwrap_or(&mesh);
         let centre = star_centre(seen, properties.centroid, symmetry, &mut surface.warnings)?;
         let frame = Frame {

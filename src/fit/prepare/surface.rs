@@ -45,7 +45,7 @@ pub fn scanned_surface(scan: &Scan) -> Result<ScannedSurface<'_>, FitError> {
         None => from_directions(Cow::Borrowed(&scan.points), None),
     }?;
     if surface.kind == ReferenceKind::Faces {
-        let has_neck = match scan.scatter > 0.0 {
+        let has_neck = match scan.is_of_voxels() {
             true => {
                 surface.kind = ReferenceKind::Voxels;
                 voxels_have_neck(&surface.points, scan.voxel_lattice())

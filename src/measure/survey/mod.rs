@@ -15,7 +15,7 @@ use super::unit::Unit;
 use super::{
     Ball, Convexity, CurvatureStatistics, EquivalentEllipsoid, Form, MassProperties, OrientedBox,
     Outline, PrincipalInertia, ScannedBody, SideRatios, SolidProperties, Spectrum, Sphericity,
-    mesh_properties, project,
+    equivalent_radius, mesh_properties, project,
 };
 use crate::Mesh;
 use crate::mesh::parts;
@@ -27,7 +27,6 @@ use errors::KnownPlace;
 pub use errors::{BoxErrors, CurvatureErrors, OutlineErrors};
 use nalgebra::{Matrix3, Vector3};
 use std::cell::OnceCell;
-use std::f64::consts::PI;
 use std::fmt;
 
 /// A body, and what has been measured of it: each figure is computed when it is first asked for, and
@@ -201,7 +200,7 @@ impl<'a> Survey<'a> {
     /// As [`Self::properties`].
     pub fn mean_radius(&self) -> Result<f64, SurveyError> {
         let found = self.measured()?;
-        let of_volume = || (0.75 * found.properties.volume / PI).cbrt();
+        let of_volume = || equivalent_radius(found.properties.volume);
         Ok(self.unit.length * found.mean_radius.unwrap_or_else(of_volume))
     }
 

@@ -4,7 +4,7 @@ use super::known::KnownPlace;
 use super::{Survey, SurveyError};
 use crate::measure::Curvature;
 use crate::measure::curvature_kind::{End, Kind};
-use crate::measure::followed::unfollowed;
+use crate::measure::unfollowed::unfollowed;
 use nalgebra::Vector3;
 use std::f64::consts::{LN_2, SQRT_2};
 

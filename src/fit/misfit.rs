@@ -1,4 +1,4 @@
-//! Whether a radius follows its scan.
+//! Whether a radius misses its scan, and what is told of it then.
 
 use super::options::FitOptions;
 use super::outcome::Fitted;
@@ -49,17 +49,16 @@ const IN_FEW_PLACES: f64 = 0.35;
 const OF_FEW: f64 = 0.57;
 
 impl Fitted {
-    /// The same of a radius that does not follow its scan. If it does not in few places, what it misses there is no noise and no
-    /// texture, and no error tells of it.
-    pub(super) fn missing(self, missed: Option<FitWarning>, scan: &Scan) -> Self {
+    /// A radius without errors, if it misses its scan in few places: what it misses there is no noise and no texture, and no error
+    /// tells of it.
+    pub(super) fn without_errors_if_local(self, missed: Option<FitWarning>, scan: &Scan) -> Self {
         match missed {
             Some(missed) if is_in_few_places(&self, scan) => self.without_errors(Some(missed)),
             _ => self,
         }
     }
 
-    /// The same of a surface that does not follow its scan, as far as is known in this way: without errors and noise, but for those of
-    /// what holes hide.
+    /// A surface that misses its scan, without errors and noise; one with a hole as it is, for its errors are those of a guess.
     pub(super) fn without_errors(mut self, missed: Option<FitWarning>) -> Self {
         if self.grain.unseen().is_some() {
             return self;
@@ -215,7 +214,10 @@ mod tests {
         let found = missed(&fitted, &scan, &FitOptions::default());
         [
             found.is_some(),
-            fitted.missing(found, &scan).errors.is_none(),
+            fitted
+                .without_errors_if_local(found, &scan)
+                .errors
+                .is_none(),
         ]
     }
 
@@ -283,7 +285,7 @@ mod tests {
         let star = star.fit(&options, &Context::default()).unwrap();
         assert!(star.errors.is_none() && star.search.noise.is_some());
         let found = missed(&star, &scan, &options);
-        let without = star.missing(found, &scan);
+        let without = star.without_errors_if_local(found, &scan);
         assert_eq!(without.errors, Some(Err(NoInterval::NotFollowed)));
         assert_eq!(without.search.noise, None);
         let fitted = crate::fit::fit(&scan, &options).unwrap();

@@ -14,7 +14,7 @@ const MOST_WORST: usize = 24;
 const LATTICE: usize = 16;
 
 /// That error.
-pub(super) struct Unseen {
+pub(super) struct BetweenNodes {
     pub(super) rms: f64,
     /// The largest in plain space at those directions, cell by cell.
     largest: Vec<f64>,
@@ -22,7 +22,7 @@ pub(super) struct Unseen {
     pub(super) squares: Vec<f64>,
 }
 
-impl Unseen {
+impl BetweenNodes {
     /// Of a surface whose cells were fitted at so many nodes per side.
     pub(super) fn of(
         surface: &Blended,

@@ -23,7 +23,7 @@ const MOST_STEPS: usize = 4;
 const WORTH_A_STEP: f64 = 0.01;
 
 /// The estimate with the noise under which points that it has not seen are missed by least, where what it leaves of them is no noise.
-pub(super) fn followed(mut best: Estimate, context: &Context<'_>) -> Result<Estimate, Cancelled> {
+pub(super) fn closer(mut best: Estimate, context: &Context<'_>) -> Result<Estimate, Cancelled> {
     let is_clean = best.spectrum.noise() < FLOOR;
     if is_clean || best.dense.is_some() || !best.is_rough() {
         return Ok(best);
@@ -99,7 +99,7 @@ mod tests {
             (off.sum::<f64>() / hidden.len() as f64).sqrt()
         };
         let context = Context::default();
-        let again = followed(noisier.clone(), &context).unwrap();
+        let again = closer(noisier.clone(), &context).unwrap();
         assert!(again.spectrum.noise() < 0.75 * noisier.spectrum.noise());
         assert!(again.held_out() < 0.99 * noisier.held_out());
         let [before, after] = [&noisier, &again].map(missed);
@@ -113,7 +113,7 @@ mod tests {
         let found = estimated(&noisy, Vector3::repeat(1.0));
         let noise = found.spectrum.noise();
         assert!((noise / 0.01 - 1.0).abs() < 0.05, "{noise}");
-        let again = followed(found, &Context::default()).unwrap();
+        let again = closer(found, &Context::default()).unwrap();
         assert_eq!(again.spectrum.noise(), noise);
     }
 }
