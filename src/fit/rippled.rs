@@ -11,10 +11,13 @@ use super::prepare::{Middle, PreparedScan, Samples};
 use nalgebra::{Point3, Vector3};
 use std::f64::consts::PI;
 
-/// A surface that is so many times as far off the middle of a face as a smooth one would be, and by this share of the mean radius
-/// more, ripples. On meshes of smooth bodies the first is 1.05 and hardly more.
+/// A surface that is so many times as far off the middle of a face as a smooth one would be, ...
 const TIMES: f64 = 4.0;
+
+/// ... and more by this share of the mean radius and so many times the noise, ripples. On meshes of smooth bodies the first is 1.05 and
+/// hardly more; what no radius follows is noise of the estimate, and no middles mend it.
 const AND_MORE: f64 = 3e-4;
+const NOISES: f64 = 3.0;
 
 /// Ripples over faces that have no more of the area than this do not matter, or are the detail of a textured scan.
 const LEAST_SHARE: f64 = 0.01;
@@ -60,7 +63,7 @@ fn rippled(prepared: &PreparedScan<'_>, estimate: &Estimate) -> Vec<Point3<f64>>
         .map(|middle| prepared.frame().to_local(&middle.place));
     let local: Vec<Vector3<f64>> = local.collect();
     let beyond = estimate.beyond(&local);
-    let least = AND_MORE * prepared.mean_radius;
+    let least = AND_MORE * prepared.mean_radius + NOISES * estimate.noise();
     let is_rippled = |((middle, place), beyond): &((&Middle, Vector3<f64>), f64)| {
         let off = beyond * place.normalize().dot(&middle.normal);
         off.abs() > TIMES * middle.bulge + least

@@ -34,7 +34,10 @@ fn a_handle_that_no_surface_follows_leaves_figures_without_errors() {
     let reason = "the surface does not follow the scan everywhere";
     assert_eq!(report["no_standard_errors"], reason);
     assert!(report["standard_errors"].is_null() && report["noise"].is_null());
-    assert!(warns(&report, "shape that the surface does not follow"), "{report}");
+    assert!(
+        warns(&report, "shape that the surface does not follow"),
+        "{report}"
+    );
     for asked in [["--surface", "star"], ["--segments", "1"]] {
         let report = json(&folder, &[&["fit", "cup.xyz"][..], &asked].concat());
         assert_eq!(report["no_standard_errors"], reason, "{asked:?}");
