@@ -1,9 +1,9 @@
 //! Keeps the estimate of a mesh from rippling between the corners of its faces.
 //!
-//! Points that lie far from each other beside ones that are near do not hold the highest degrees that these ask for. A crease is such
-//! a thing to ask for them: that about a hole of a fine mesh which was closed with faces three times as large made the surface over
-//! it .5 to 2 % of the whole area too large, 7 to 30 standard errors. A smooth surface lies no farther off the middle of a face than
-//! the normals at its corners tell. Where an estimate does, the middles are points too.
+//! Where few large faces lie among small ones, what the small ones ask for, as beside a crease, are degrees that nothing holds over the
+//! large ones. Over holes that were closed with faces three times as large as the others the surface was so rippled that the whole area
+//! was .5 to 2 % too large, 7 to 30 standard errors. A smooth surface lies no farther off the middle of a face than the normals at its
+//! corners tell. Where an estimate does, the middles are points too.
 
 use super::context::{Cancelled, Context};
 use super::estimate::{Estimate, estimate};

@@ -290,11 +290,10 @@ mod tests {
             let warnings = scanned_surface(&scan).unwrap().warnings;
             let is_filled = |warning: &FitWarning| matches!(warning, FitWarning::Filled(_));
             assert!(warnings.iter().any(is_filled), "{warnings:?}");
-            let gap = warnings.iter().find_map(|warning| match warning {
+            warnings.iter().find_map(|warning| match warning {
                 FitWarning::Gap { half_angle, .. } => Some(half_angle.to_degrees()),
                 _ => None,
-            });
-            gap
+            })
         };
         let gap = told(20.0).unwrap();
         assert!((18.0..24.0).contains(&gap), "{gap}");
