@@ -40,8 +40,8 @@ pub(crate) struct Population {
     pub correlations: Vec<Vec<Option<f64>>>,
     /// Grains that are worth a look.
     pub outliers: Vec<Outlier>,
-    /// What is odd about their units, what is not known of all of them, and how many have warnings of their own: whole
-    /// sentences.
+    /// What is odd about their units, what is not known of all of them, how many have warnings of their own, and which are the same
+    /// file twice: whole sentences.
     pub warnings: Vec<String>,
     /// The units of length that are told of the grains, and how many tell none.
     #[serde(skip)]
@@ -137,13 +137,14 @@ impl Population {
         }
     }
 
-    /// Computes what is told, when all grains are there.
-    pub(super) fn finish(&mut self) {
+    /// Computes what is told, when all grains are there; `copies` are of the same bytes as one before, which is named after each.
+    pub(super) fn finish(&mut self, copies: &[[String; 2]]) {
         for (statistics, values) in self.measures.iter_mut().zip(&self.values) {
             let known: Vec<f64> = values.iter().flatten().copied().collect();
             statistics.take(known);
         }
-        let doubts = [self.doubt(), self.gaps.sentence(""), self.own_warnings()];
+        let gaps = self.gaps.sentence("");
+        let doubts = [self.doubt(), gaps, self.own_warnings(), copied(copies)];
         self.warnings.extend(doubts.into_iter().flatten());
         self.keep_told();
         let pair = |one: &Vec<Option<f64>>| -> Vec<Option<f64>> {
@@ -225,6 +226,18 @@ impl Statistics {
         self.deviation = deviation;
         self.quantiles = QUANTILES.map(|share| quantile(&known, share));
     }
+}
+
+/// Which scans are the same file twice.
+fn copied(copies: &[[String; 2]]) -> Option<String> {
+    let [copy, own] = copies.first()?;
+    let have = match copies.len() {
+        1 => "1 scan has".into(),
+        copies => format!("{copies} scans have"),
+    };
+    Some(format!(
+        "{have} the same bytes as another, such as {copy} as {own}: each is counted as a grain of its own."
+    ))
 }
 
 #[cfg(test)]

@@ -68,8 +68,6 @@ pub(crate) struct Done {
     pub population: Population,
     /// The files written.
     pub files: Vec<PathBuf>,
-    /// Grains of the same bytes as one before, which is named after each.
-    pub copies: Vec<[String; 2]>,
     /// Models and meshes of earlier runs, which no row is of.
     pub left_over: Vec<PathBuf>,
 }
@@ -179,7 +177,7 @@ fn work(batch: &Batch, hear: &(dyn Fn(Step) + Sync)) -> Result<Done, BatchError>
             }
         }
     }
-    population.finish();
+    population.finish(&copies);
     let is_known = [batch.settings.models, batch.settings.meshes.is_some()];
     let files = write_results(folder, &columns, &rows, &population)?;
     Ok(Done {
@@ -188,7 +186,6 @@ fn work(batch: &Batch, hear: &(dyn Fn(Step) + Sync)) -> Result<Done, BatchError>
         failed: failures,
         population,
         files,
-        copies,
         left_over: left_over(folder, &paths, hashes, is_known).map_err(failed)?,
     })
 }

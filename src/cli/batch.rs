@@ -74,16 +74,6 @@ pub(super) fn run(args: BatchArgs, console: Console) -> Result<()> {
     for path in &done.files {
         console.wrote(&path.display().to_string())?;
     }
-    if let Some([copy, own]) = done.copies.first() {
-        let warning = format!(
-            "{} the same bytes as another, such as {copy} as {own}: each is counted as a grain of its own.",
-            match done.copies.len() {
-                1 => "1 scan has".into(),
-                copies => format!("{copies} scans have"),
-            }
-        );
-        console.warn(&[warning]);
-    }
     if let Some(first) = done.left_over.first() {
         let note = format!(
             "no row is of {} that earlier runs left, such as {}: remove what is not needed, or write into another folder",

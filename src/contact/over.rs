@@ -24,7 +24,7 @@ impl Touch {
 }
 
 impl UnionContact {
-    /// The same of the parts of both unions that touch.
+    /// Principal curvatures over the contact, out to these reaches, of the parts of both unions that touch.
     pub fn curvatures_over(
         &self,
         bodies: [(&MultiSuperquadric, &Frame); 2],

@@ -61,7 +61,7 @@ impl Distribution {
 }
 
 impl CurvatureStatistics {
-    /// That of a surface, at nodes all over its [tiling](Surface::tiling).
+    /// The statistics of a surface, from nodes all over its [tiling](Surface::tiling).
     pub fn new(surface: &(impl Surface + ?Sized)) -> Self {
         let (found, on_planes) = (curved_nodes(surface), on_planes(surface));
         let ends = Kind::ALL.map(|kind| End::BOTH.map(|end| (kind, end)));

@@ -16,7 +16,7 @@ pub struct EquivalentEllipsoid {
 }
 
 impl EquivalentEllipsoid {
-    /// That of a body with these properties; `None` where they are not those of a solid.
+    /// The ellipsoid of equal moments of a body with these properties; `None` where they are not those of a solid.
     pub fn new(properties: &MassProperties) -> Option<Self> {
         let principal = properties.principal()?;
         // ∫ x_i² dV is half the trace less the moment about the axis i.

@@ -19,7 +19,7 @@ pub struct SideRatios {
 }
 
 impl SideRatios {
-    /// Those of a box with these sides, in any order.
+    /// The ratios of a box with these sides, in any order.
     pub fn new(sides: &Vector3<f64>) -> Self {
         let [long, intermediate, short] = descending(sides);
         Self {
@@ -52,7 +52,7 @@ pub struct Form {
 }
 
 impl Form {
-    /// Those of a body with these dimensions, in any order.
+    /// The form of a body with these dimensions, in any order.
     pub fn new(dimensions: &Vector3<f64>) -> Self {
         let [length, width, thickness] = descending(dimensions);
         Self {

@@ -30,7 +30,7 @@ pub struct Sphericity {
 }
 
 impl Sphericity {
-    /// Those of a body with this area and volume, these principal dimensions L, W, T in any order, and
+    /// The sphericities of a body with this area and volume, these principal dimensions L, W, T in any order, and
     /// these radii of the inscribed and of the enclosing sphere.
     pub fn new(
         properties: &MassProperties,

@@ -88,7 +88,7 @@ impl Grain {
         }
     }
 
-    /// The same with what its scan did not see.
+    /// The grain with what its scan did not see.
     pub fn with_unseen(self, unseen: Option<Unseen>) -> Self {
         Self { unseen, ..self }
     }
@@ -98,7 +98,7 @@ impl Grain {
         self.unseen
     }
 
-    /// The same with what the polyhedron through the points contradicts that it was fitted to.
+    /// The grain with what is contradicted by the polyhedron through the points that it was fitted to.
     pub fn with_contradicted(self, contradicted: Option<Contradicted>) -> Self {
         Self {
             contradicted,
@@ -106,12 +106,12 @@ impl Grain {
         }
     }
 
-    /// What the polyhedron through the points contradicts that it was fitted to: these figures of it are not to be relied on.
+    /// What is contradicted by the polyhedron through the points that it was fitted to: these figures are not to be relied on.
     pub fn contradicted(&self) -> Option<Contradicted> {
         self.contradicted
     }
 
-    /// The same with standard errors of its figures, or why there are none. Of errors that are not finite or below zero
+    /// The grain with standard errors of its figures, or why there are none. Of errors that are not finite or below zero
     /// there are none.
     pub fn with_standard_errors(self, found: Result<StandardErrors, NoInterval>) -> Self {
         let standard_errors = match found {
@@ -132,7 +132,7 @@ impl Grain {
         self.standard_errors
     }
 
-    /// The same with standard errors of its surface from place to place, where they are known.
+    /// The grain with standard errors of its surface from place to place, where they are known.
     pub fn with_local_errors(self, local_errors: Option<LocalErrors>) -> Self {
         Self {
             local_errors,

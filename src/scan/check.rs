@@ -48,12 +48,26 @@ pub(crate) fn check(points: &[Point3<f64>]) -> Result<Span, ParseError> {
     let direction = far.unwrap_or_default().normalize();
     let across = longest(offsets().map(|offset| direction.cross(&offset)));
     if across.norm() <= FLAT {
-        let points = points.len();
-        return Err(ParseError::Collinear { points });
+        return Err(far_away(points, extent).unwrap_or(ParseError::Collinear {
+            points: points.len(),
+        }));
     }
     let normal = across.normalize();
     let flat = offsets().all(|offset| normal.dot(&offset).abs() <= FLAT);
     Ok(Span { extent, flat })
+}
+
+/// The one point that is far from all others, if these are one place beside its distance.
+fn far_away(points: &[Point3<f64>], extent: f64) -> Option<ParseError> {
+    // One of two points is not that one.
+    points.iter().take(2).find_map(|near| {
+        let all = points.iter().enumerate();
+        let distances = all.map(|(point, place)| (point, (place - near).norm()));
+        let mut far = distances.filter(|(_, distance)| *distance > FLAT * extent);
+        let (point, distance) = far.next()?;
+        let is_alone = points.len() > 2 && far.next().is_none();
+        is_alone.then_some(ParseError::OneFarAway { point, distance })
+    })
 }
 
 fn longest(vectors: impl Iterator<Item = Vector3<f64>>) -> Vector3<f64> {
@@ -104,6 +118,25 @@ mod tests {
             .map(|i| point![1.0, 2.0, -3.0] * f64::from(i))
             .collect();
         assert_eq!(check(&points), Err(ParseError::Collinear { points: 9 }));
+    }
+
+    #[test]
+    fn one_point_far_from_a_body_is_named() {
+        let body = [
+            point![0.0, 0.0, 0.0],
+            point![1.0, 0.0, 0.0],
+            point![0.0, 3.0, 0.0],
+            point![0.0, 0.0, 2.0],
+        ];
+        for at in [0, 1, 4] {
+            let mut points = body.to_vec();
+            points.insert(at, point![-1e30, 0.0, 0.0]);
+            let found = check(&points).unwrap_err();
+            let ParseError::OneFarAway { point, distance } = found else {
+                panic!("{found}");
+            };
+            assert_eq!((point, distance), (at, 1e30));
+        }
     }
 
     #[test]

@@ -246,6 +246,16 @@ pub enum ParseError {
         /// The coordinate.
         value: f64,
     },
+    /// All points but one are one place beside the distance of this one.
+    #[error(
+        "point {point} is {distance:e} away from all others, which are one place beside that; take it out, as what a scanner writes for no data"
+    )]
+    OneFarAway {
+        /// The point, counted from zero.
+        point: usize,
+        /// Its distance, in the scan's unit.
+        distance: f64,
+    },
     /// All points coincide, or are so near that squares underflow.
     #[error(
         "all points ({points}) lie at one place; expected the surface of a body, check the unit and the export"

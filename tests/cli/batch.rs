@@ -328,6 +328,8 @@ fn copies_of_a_scan_are_told_by_the_batch_and_beside_another_lot() {
     let warning =
         "warning: 1 scan has the same bytes as another, such as lot/02.xyz as lot/01.xyz: ";
     assert!(told.starts_with(warning), "{told}");
+    let summary = std::fs::read_to_string(path("lots/summary.json")).unwrap();
+    assert!(summary.contains("\"1 scan has the same bytes as another"));
     let told = errors(&grainform(&folder, &["compare", "apart", "lots"]));
     let warning = "warning: 1 grain of the other lot is of scans that others are of";
     assert!(told.contains(warning), "{told}");

@@ -14,7 +14,7 @@ fn two(units: [Option<&str>; 2]) -> Population {
             ..Row::default()
         });
     }
-    population.finish();
+    population.finish(&[]);
     population
 }
 
@@ -29,7 +29,7 @@ fn deviations_are_from_the_mean_of_the_two_values_in_the_middle() {
             ..Row::default()
         });
     }
-    population.finish();
+    population.finish(&[]);
     let [outlier] = population.outliers.as_slice() else {
         panic!("{:?}", population.outliers);
     };
@@ -53,7 +53,7 @@ fn what_differs_from_values_that_are_all_alike_is_worth_a_look() {
             ..Row::default()
         });
     }
-    population.finish();
+    population.finish(&[]);
     let [outlier] = population.outliers.as_slice() else {
         panic!("{:?}", population.outliers);
     };
@@ -98,7 +98,7 @@ fn a_population_has_the_statistics_worked_out_by_hand() {
             ..Row::default()
         });
     }
-    population.finish();
+    population.finish(&[]);
     let area = &population.measures[0];
     assert_eq!((area.measure.as_str(), area.count), ("area", 9));
     // The sum is 142; the quartiles are the 3rd and 7th of nine.
@@ -139,7 +139,7 @@ fn outliers_among_nearly_alike(far: i32, error: Option<f64>) -> usize {
             ..Row::default()
         });
     }
-    population.finish();
+    population.finish(&[]);
     population.outliers.len()
 }
 
@@ -176,7 +176,7 @@ fn what_is_withheld_of_some_grains_and_who_has_warnings_is_told() {
             ..Row::default()
         });
     }
-    population.finish();
+    population.finish(&[]);
     assert_eq!(
         population.warnings,
         [

@@ -77,7 +77,7 @@ impl ConvexPair<'_> {
         self.contact_by(Method::Minimax, warm)
     }
 
-    /// The same by a method.
+    /// The contact by a method of choice, as [`contact`](Self::contact) finds it by [`Method::Minimax`].
     pub fn contact_by(&self, method: Method, warm: Option<&Warm>) -> ConvexContact {
         let warm = warm.filter(|warm| warm.is_finite());
         if let Some(warm) = warm

@@ -49,7 +49,7 @@ pub struct Split {
     pub dust: usize,
     /// Points of these; of a segmented volume their voxels.
     pub dust_points: usize,
-    /// Those of the dust that are too small for a grain only beside the others.
+    /// Pieces of the dust that are too small for a grain only beside the others.
     pub small: usize,
     /// Why labels of a segmented volume, or bodies of them, are no grains.
     pub left_out: Vec<VolumeError>,
