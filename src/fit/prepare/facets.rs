@@ -8,7 +8,7 @@ use crate::model::Frame;
 use crate::sphere::cube_grid;
 use crate::spread::median;
 use nalgebra::{Point3, Vector3};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::f64::consts::PI;
 
 /// A face is large when two of its corners are seen at more than this angle, in radians: so far apart are the
@@ -82,16 +82,15 @@ impl Face {
     }
 }
 
-/// Which triangles close a cut or a hole, by the directions in which their corners are seen in the stretched space.
-fn are_closing(triangles: &[[u32; 3]], seen: &[Vector3<f64>]) -> Vec<bool> {
-    let mut are_closing = vec![false; triangles.len()];
+/// The triangles that close each cut or hole, by the directions in which their corners are seen in the stretched space.
+fn closing(triangles: &[[u32; 3]], seen: &[Vector3<f64>]) -> Vec<Vec<u32>> {
     let length = |[from, to]: [u32; 2]| (seen[from as usize] - seen[to as usize]).norm();
     if !triangles
         .iter()
         .flat_map(edges)
         .any(|ends| length(ends) > RESOLVED)
     {
-        return are_closing;
+        return Vec::new();
     }
     let usual = usual(triangles, seen.len(), length);
     // How many times as long as those about its ends an edge is.
@@ -110,7 +109,7 @@ fn are_closing(triangles: &[[u32; 3]], seen: &[Vector3<f64>]) -> Vec<bool> {
             sets.join(beside, at);
         }
     }
-    for part in sets.members().iter().filter(|part| part.len() > 1) {
+    let is_closing = |part: &Vec<u32>| {
         let [mut across, mut rim, mut most] = [0.0_f64; 3];
         for ends in part.iter().flat_map(|&at| edges(&triangles[at as usize])) {
             let (length, times) = (length(ends), times(ends));
@@ -120,13 +119,19 @@ fn are_closing(triangles: &[[u32; 3]], seen: &[Vector3<f64>]) -> Vec<bool> {
             }
             most = most.max(times);
         }
-        if across > RESOLVED && most > LONGER && rim <= OF_RIM * across {
-            for &at in part {
-                are_closing[at as usize] = true;
-            }
-        }
-    }
-    are_closing
+        across > RESOLVED && most > LONGER && rim <= OF_RIM * across
+    };
+    let mut parts = sets.members();
+    parts.retain(|part| part.len() > 1 && is_closing(part));
+    parts
+}
+
+/// Whether triangles that hang together have one rim, by Euler's number: the walls of a cylinder have two.
+fn is_disc(part: &[u32], triangles: &[[u32; 3]]) -> bool {
+    let faces = || part.iter().map(|&at| &triangles[at as usize]);
+    let corners: HashSet<u32> = faces().flatten().copied().collect();
+    let sides: HashSet<[u32; 2]> = faces().flat_map(edges).map(undirected).collect();
+    corners.len() + part.len() == sides.len() + 1
 }
 
 /// The median length of the edges at each vertex.
@@ -164,8 +169,12 @@ pub(super) fn on_large_faces(mesh: &Mesh, frame: &Frame, semi_axes: &Vector3<f64
     let seen = |places: &[Vector3<f64>]| -> Vec<Vector3<f64>> {
         places.iter().map(Vector3::normalize).collect()
     };
-    let mut are_large = are_closing(&mesh.triangles, &seen(&vertices));
-    let closing = told(mesh, &are_large);
+    let parts = closing(&mesh.triangles, &seen(&vertices));
+    let closing = told(mesh, &parts);
+    let mut are_large = vec![false; mesh.triangles.len()];
+    for &at in parts.iter().flatten() {
+        are_large[at as usize] = true;
+    }
     let plain = seen(&plain);
     let is_coarse =
         |[from, to]: [u32; 2]| plain[from as usize].dot(&plain[to as usize]) < LARGE.cos();
@@ -224,21 +233,19 @@ pub(in crate::fit) fn closed_by_faces(
         .vertices
         .iter()
         .map(|vertex| stretched(vertex).normalize());
-    told(
-        mesh,
-        &are_closing(&mesh.triangles, &seen.collect::<Vec<_>>()),
-    )
+    told(mesh, &closing(&mesh.triangles, &seen.collect::<Vec<_>>()))
 }
 
-fn told(mesh: &Mesh, are_closing: &[bool]) -> Option<FitWarning> {
-    let [mut all, mut closing] = [0.0; 2];
-    for (corners, &is_closing) in mesh.triangles.iter().zip(are_closing) {
+fn told(mesh: &Mesh, parts: &[Vec<u32>]) -> Option<FitWarning> {
+    let area = |corners: &[u32; 3]| {
         let [a, b, c] = corners.map(|corner| mesh.vertices[corner as usize]);
-        let area = (b - a).cross(&(c - a)).norm();
-        all += area;
-        closing += if is_closing { area } else { 0.0 };
-    }
-    let share = closing / all;
+        (b - a).cross(&(c - a)).norm()
+    };
+    let discs = parts.iter().filter(|part| is_disc(part, &mesh.triangles));
+    let closing = discs
+        .flatten()
+        .map(|&at| area(&mesh.triangles[at as usize]));
+    let share = closing.sum::<f64>() / mesh.triangles.iter().map(area).sum::<f64>();
     (share > LEAST_TOLD).then_some(FitWarning::Closing { share })
 }
 
@@ -357,5 +364,31 @@ mod tests {
         let semi_axes = Vector3::new(3.0, 1.0, 0.8);
         let mesh = Mesh::radial(16, |n| 1.0 / n.component_div(&semi_axes).norm());
         assert!(on_large_faces(&mesh, &frame, &semi_axes).points.is_empty());
+    }
+
+    #[test]
+    fn straight_walls_between_round_ends_close_nothing() {
+        // Rings of a capsule, with long faces between the two at its waist.
+        let (rings, around) = (20_u32, 60_u32);
+        let mut mesh = Mesh::default();
+        for ring in 0..2 * rings {
+            let north = ring >= rings;
+            let angle = PI - PI * f64::from(ring - u32::from(north) + 1) / f64::from(2 * rings);
+            let height = if north { 1.0 } else { -1.0 };
+            mesh.vertices.extend((0..around).map(|at| {
+                let (v, u) = (2.0 * PI * f64::from(at) / f64::from(around)).sin_cos();
+                Point3::new(angle.sin() * u, angle.sin() * v, angle.cos() + height)
+            }));
+        }
+        for (ring, at) in (1..2 * rings).flat_map(|ring| (0..around).map(move |at| (ring, at))) {
+            let [below, above] = [ring - 1, ring].map(|ring| ring * around);
+            let next = (at + 1) % around;
+            let [a, b, c, d] = [below + at, below + next, above + next, above + at];
+            mesh.triangles.extend([[a, b, c], [a, c, d]]);
+        }
+        let seen = mesh.vertices.iter().map(|vertex| vertex.coords.normalize());
+        let parts = closing(&mesh.triangles, &seen.collect::<Vec<_>>());
+        assert_eq!(parts.iter().flatten().count() as u32, 2 * around);
+        assert_eq!(told(&mesh, &parts), None);
     }
 }
