@@ -319,15 +319,15 @@ mod tests {
         assert!(widest > 0.09, "{widest}");
     }
 
-    /// Between a ring of so many vertices and one of a quarter of them.
+    /// Between a ring of so many vertices and one of a sixth of them.
     fn row_between(fine: u32, from: u32, coarse: u32) -> Vec<[u32; 3]> {
         let part = |at: u32| {
-            let next = (at + 1) % (fine / 4);
-            let below = move |i: u32| from + (4 * at + i) % fine;
-            let fan = (0..4).map(move |i| [below(i), below(i + 1), coarse + at]);
-            fan.chain([[below(4), coarse + next, coarse + at]])
+            let next = (at + 1) % (fine / 6);
+            let below = move |i: u32| from + (6 * at + i) % fine;
+            let fan = (0..6).map(move |i| [below(i), below(i + 1), coarse + at]);
+            fan.chain([[below(6), coarse + next, coarse + at]])
         };
-        (0..fine / 4).flat_map(part).collect()
+        (0..fine / 6).flat_map(part).collect()
     }
 
     #[test]
@@ -338,20 +338,22 @@ mod tests {
         };
         let semi_axes = Vector3::repeat(1.0);
         let mut mesh = Mesh::default();
-        for (around, angle) in [(160_u32, 1.5_f64), (40, 1.35), (40, 1.2)] {
+        for (around, angle) in [(240_u32, 1.526_f64), (240, 1.5), (40, 1.35), (40, 1.2)] {
             mesh.vertices.extend((0..around).map(|at| {
                 let (v, u) = (2.0 * PI * f64::from(at) / f64::from(around)).sin_cos();
                 Point3::new(angle.sin() * u, angle.sin() * v, angle.cos())
             }));
         }
-        mesh.triangles = row_between(160, 0, 160);
-        mesh.triangles.extend((0..40).flat_map(|at| {
-            let next = (at + 1) % 40;
-            [
-                [160 + at, 160 + next, 200 + next],
-                [160 + at, 200 + next, 200 + at],
-            ]
-        }));
+        let band = |around: u32, below: u32, above: u32| {
+            (0..around).flat_map(move |at| {
+                let next = (at + 1) % around;
+                let [a, b, c, d] = [below + at, below + next, above + next, above + at];
+                [[a, b, c], [a, c, d]]
+            })
+        };
+        mesh.triangles = row_between(240, 240, 480);
+        mesh.triangles
+            .extend(band(240, 0, 240).chain(band(40, 480, 520)));
         assert!(on_large_faces(&mesh, &frame, &semi_axes).points.is_empty());
     }
 
