@@ -55,6 +55,9 @@ pub(super) fn without_ripples(
 
 /// The middles of faces over which an estimate ripples.
 fn rippled(prepared: &PreparedScan<'_>, estimate: &Estimate) -> Vec<Point3<f64>> {
+    if prepared.middles.is_empty() {
+        return Vec::new();
+    }
     let half_wave = PI / estimate.degree as f64;
     let is_wide = |middle: &&Middle| middle.width > half_wave;
     let middles: Vec<&Middle> = prepared.middles.iter().filter(is_wide).collect();

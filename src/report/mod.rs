@@ -30,6 +30,7 @@ mod tray;
 mod truth;
 mod unit;
 mod warning;
+mod withheld_reason;
 
 pub use bed::{BedKindRecord, BedMean, BedMeans, BedReport, BedRunRecord};
 pub use bed_inputs::{BedInputsRecord, BedInputsReport};

@@ -7,7 +7,8 @@ use super::voxels::Voxels;
 use crate::fit::crust::{surface_of_points, without_alone};
 use crate::fit::error::FitError;
 use crate::fit::prepare::{
-    Reference, ReferenceKind, closed_by_faces, principal_axes, scanned_surface, semi_axes, usable,
+    Reference, ReferenceKind, closed_by_faces, principal_axes, scanned_surface, seen, semi_axes,
+    usable,
 };
 use crate::fit::repeated::without_repeats;
 use crate::fit::warning::FitWarning;
@@ -62,7 +63,8 @@ impl LocalFaces {
         let semi_axes = semi_axes(&properties, &at_unit_frame);
         let is_filled = |warning: &FitWarning| matches!(warning, FitWarning::Filled(_));
         if kind == ReferenceKind::Faces && !warnings.iter().any(is_filled) {
-            warnings.extend(closed_by_faces(&at_unit, &at_unit_frame, &semi_axes));
+            let seen = seen(&at_unit, &at_unit_frame, &semi_axes);
+            warnings.extend(closed_by_faces(&at_unit, &seen));
         }
         let place = |point: &Point3<f64>| at_unit_frame.to_local(point) / size;
         let points = points.map(|vertices| {

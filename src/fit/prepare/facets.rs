@@ -160,22 +160,33 @@ pub(super) struct OnFaces {
     pub(super) closing: Option<FitWarning>,
 }
 
-/// Finds them.
-pub(super) fn on_large_faces(mesh: &Mesh, frame: &Frame, semi_axes: &Vector3<f64>) -> OnFaces {
-    let vertices = mesh.vertices.iter().map(|vertex| frame.to_local(vertex));
-    let plain: Vec<Vector3<f64>> = vertices.collect();
-    let vertices = plain.iter().map(|vertex| vertex.component_div(semi_axes));
-    let vertices: Vec<Vector3<f64>> = vertices.collect();
-    let seen = |places: &[Vector3<f64>]| -> Vec<Vector3<f64>> {
-        places.iter().map(Vector3::normalize).collect()
-    };
-    let parts = closing(&mesh.triangles, &seen(&vertices));
+/// The directions in which the vertices of a mesh are seen in the stretched space.
+pub(in crate::fit) fn seen(
+    mesh: &Mesh,
+    frame: &Frame,
+    semi_axes: &Vector3<f64>,
+) -> Vec<Vector3<f64>> {
+    let vertices = mesh.vertices.iter();
+    let stretched = vertices.map(|vertex| frame.to_local(vertex).component_div(semi_axes));
+    stretched.map(|place| place.normalize()).collect()
+}
+
+/// Finds them; `seen` are the [directions](seen) of the vertices.
+pub(super) fn on_large_faces(
+    mesh: &Mesh,
+    seen: &[Vector3<f64>],
+    frame: &Frame,
+    semi_axes: &Vector3<f64>,
+) -> OnFaces {
+    let parts = closing(&mesh.triangles, seen);
     let closing = told(mesh, &parts);
     let mut are_large = vec![false; mesh.triangles.len()];
     for &at in parts.iter().flatten() {
         are_large[at as usize] = true;
     }
-    let plain = seen(&plain);
+    let local = |vertex: &Point3<f64>| frame.to_local(vertex);
+    let plain = mesh.vertices.iter().map(|vertex| local(vertex).normalize());
+    let plain: Vec<Vector3<f64>> = plain.collect();
     let is_coarse =
         |[from, to]: [u32; 2]| plain[from as usize].dot(&plain[to as usize]) < LARGE.cos();
     let mut are_coarse = false;
@@ -190,7 +201,8 @@ pub(super) fn on_large_faces(mesh: &Mesh, frame: &Frame, semi_axes: &Vector3<f64
     }
     let faces = mesh.triangles.iter().zip(are_large);
     let faces = faces.filter_map(|(corners, is_large)| {
-        Face::new(corners.map(|corner| vertices[corner as usize]), is_large)
+        let place = |at: u32| local(&mesh.vertices[at as usize]).component_div(semi_axes);
+        Face::new(corners.map(place), is_large)
     });
     let faces: Vec<Face> = faces.collect();
     let (mut directions, _) = cube_grid(CELLS);
@@ -222,18 +234,9 @@ pub(super) fn on_large_faces(mesh: &Mesh, frame: &Frame, semi_axes: &Vector3<f64
     }
 }
 
-/// What is to be told of a mesh whose faces close a cut or a hole, in the frame of its ellipsoid of equal second moments.
-pub(in crate::fit) fn closed_by_faces(
-    mesh: &Mesh,
-    frame: &Frame,
-    semi_axes: &Vector3<f64>,
-) -> Option<FitWarning> {
-    let stretched = |vertex| frame.to_local(vertex).component_div(semi_axes);
-    let seen = mesh
-        .vertices
-        .iter()
-        .map(|vertex| stretched(vertex).normalize());
-    told(mesh, &closing(&mesh.triangles, &seen.collect::<Vec<_>>()))
+/// What is to be told of a mesh whose faces close a cut or a hole; `seen` are the [directions](seen) of its vertices.
+pub(in crate::fit) fn closed_by_faces(mesh: &Mesh, seen: &[Vector3<f64>]) -> Option<FitWarning> {
+    told(mesh, &closing(&mesh.triangles, seen))
 }
 
 fn told(mesh: &Mesh, parts: &[Vec<u32>]) -> Option<FitWarning> {
@@ -300,7 +303,7 @@ mod tests {
             points,
             are_coarse,
             closing,
-        } = on_large_faces(&mesh, &frame, &semi_axes);
+        } = on_large_faces(&mesh, &seen(&mesh, &frame, &semi_axes), &frame, &semi_axes);
         assert!(!are_coarse);
         // Of an ellipse between an ellipsoid's ends.
         let cut = PI * semi_axes.y * semi_axes.z * (1.0 - 0.993 * 0.993);
@@ -309,13 +312,16 @@ mod tests {
             panic!("{closing:?}");
         };
         assert_relative_eq!(share, cut / area, max_relative = 0.05);
-        assert_eq!(closed_by_faces(&mesh, &frame, &semi_axes), closing);
+        assert_eq!(
+            closed_by_faces(&mesh, &seen(&mesh, &frame, &semi_axes)),
+            closing
+        );
         assert!(points.len() > 12, "{}", points.len());
         for point in &points {
             assert_relative_eq!(frame.to_local(point).x, 0.993 * 3.0, max_relative = 1e-9);
         }
-        let seen: Vec<Vector3<f64>> = points.iter().map(|point| frame.to_local(point)).collect();
-        let widest = seen.iter().map(|place| place.y.abs()).fold(0.0, f64::max);
+        let local: Vec<Vector3<f64>> = points.iter().map(|point| frame.to_local(point)).collect();
+        let widest = local.iter().map(|place| place.y.abs()).fold(0.0, f64::max);
         assert!(widest > 0.09, "{widest}");
     }
 
@@ -354,7 +360,12 @@ mod tests {
         mesh.triangles = row_between(240, 240, 480);
         mesh.triangles
             .extend(band(240, 0, 240).chain(band(40, 480, 520)));
-        assert!(on_large_faces(&mesh, &frame, &semi_axes).points.is_empty());
+        let seen = seen(&mesh, &frame, &semi_axes);
+        assert!(
+            on_large_faces(&mesh, &seen, &frame, &semi_axes)
+                .points
+                .is_empty()
+        );
     }
 
     #[test]
@@ -365,7 +376,12 @@ mod tests {
         };
         let semi_axes = Vector3::new(3.0, 1.0, 0.8);
         let mesh = Mesh::radial(16, |n| 1.0 / n.component_div(&semi_axes).norm());
-        assert!(on_large_faces(&mesh, &frame, &semi_axes).points.is_empty());
+        let seen = seen(&mesh, &frame, &semi_axes);
+        assert!(
+            on_large_faces(&mesh, &seen, &frame, &semi_axes)
+                .points
+                .is_empty()
+        );
     }
 
     #[test]

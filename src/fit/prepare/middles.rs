@@ -1,9 +1,8 @@
 //! The middles of a mesh's large faces, where a surface through the corners alone may ripple.
 
 use crate::mesh::{Mesh, edges};
-use crate::model::Frame;
 use crate::spread::median;
-use nalgebra::{Point3, Vector3};
+use nalgebra::{Matrix3, Point3, Vector3};
 use std::f64::consts::PI;
 
 /// Edges that are seen at less than this angle (radians), half the shortest wave of any estimate, have no ripples between their ends.
@@ -28,17 +27,17 @@ pub(crate) struct Middle {
     pub(crate) bulge: f64,
 }
 
-/// Those of large faces between whose corners an estimate could ripple.
-pub(super) fn middles(mesh: &Mesh, frame: &Frame, semi_axes: &Vector3<f64>) -> Vec<Middle> {
-    let seen = |at: u32| {
-        let local = frame.to_local(&mesh.vertices[at as usize]);
-        local.component_div(semi_axes).normalize()
-    };
+/// Those of large faces between whose corners an estimate could ripple, in the grain's axes; `seen` are the
+/// [directions](super::facets::seen) of the vertices.
+pub(super) fn middles(mesh: &Mesh, seen: &[Vector3<f64>], axes: &Matrix3<f64>) -> Vec<Middle> {
     let width = |corners: &[u32; 3]| {
-        let lengths = edges(corners).map(|[from, to]| (seen(from) - seen(to)).norm());
-        lengths.into_iter().fold(0.0, f64::max)
+        let length = |[from, to]: [u32; 2]| (seen[from as usize] - seen[to as usize]).norm();
+        edges(corners).map(length).into_iter().fold(0.0, f64::max)
     };
     let widths: Vec<f64> = mesh.triangles.iter().map(width).collect();
+    if widths.iter().all(|width| *width <= FINEST) {
+        return Vec::new();
+    }
     let usual = median(&mut widths.clone()).unwrap_or(0.0);
     let least = FINEST.max(LARGE * usual);
     if widths.iter().all(|width| *width <= least) {
@@ -57,7 +56,7 @@ pub(super) fn middles(mesh: &Mesh, frame: &Frame, semi_axes: &Vector3<f64>) -> V
         let off = off.map(|(&at, corner)| normals[at as usize].dot(&(corner - place)).abs());
         Some(Middle {
             place: place.into(),
-            normal: frame.axes.tr_mul(&crossed.try_normalize(0.0)?),
+            normal: axes.tr_mul(&crossed.try_normalize(0.0)?),
             share: crossed.norm() / area,
             width,
             bulge: off.sum::<f64>() / 6.0,
@@ -72,16 +71,14 @@ pub(super) fn middles(mesh: &Mesh, frame: &Frame, semi_axes: &Vector3<f64>) -> V
 mod tests {
     use super::*;
     use approx::assert_relative_eq;
-    use nalgebra::Matrix3;
 
     #[test]
     fn a_ball_bulges_as_far_over_the_middles_as_they_lie_within_it() {
-        let frame = Frame {
-            centre: Point3::origin(),
-            axes: Matrix3::identity(),
-        };
         let ball = |resolution: usize| Mesh::radial(resolution, |_| 2.0);
-        let of = |mesh: &Mesh| middles(mesh, &frame, &Vector3::repeat(2.0));
+        let of = |mesh: &Mesh| {
+            let seen = mesh.vertices.iter().map(|vertex| vertex.coords.normalize());
+            middles(mesh, &seen.collect::<Vec<_>>(), &Matrix3::identity())
+        };
         let (fine, coarse) = (ball(64), ball(16));
         assert!(of(&fine).is_empty() && of(&coarse).is_empty());
         // North of a gap coarse, and fine elsewhere.
