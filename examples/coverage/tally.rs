@@ -1,6 +1,6 @@
 //! How often intervals hold the truth.
 
-use grainform::report::FitReport;
+use grainform::report::{FitReport, ReportedScan};
 use grainform::scan::Scan;
 use grainform::{FitOptions, fit};
 use std::error::Error;
@@ -47,7 +47,7 @@ impl Tally {
         let Ok(fitted) = fit(scan, &options) else {
             return Ok(());
         };
-        let told = FitReport::new(String::new(), None, &fitted, &options, &[]);
+        let told = FitReport::new(ReportedScan::default(), &fitted, &options);
         let Some(errors) = told.standard_errors else {
             return Ok(());
         };

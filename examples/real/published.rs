@@ -1,7 +1,7 @@
 //! Default fits against what was published of the same grains.
 
 use crate::stats::mean_and_deviation;
-use grainform::report::FitReport;
+use grainform::report::{FitReport, ReportedScan};
 use grainform::scan::read_scan;
 use grainform::{FitOptions, fit};
 use std::collections::BTreeMap;
@@ -72,7 +72,7 @@ struct Found {
 fn measured(path: &Path) -> Result<[Found; MEASURES.len()], Box<dyn Error>> {
     let (scan, options) = (read_scan(path)?, FitOptions::default());
     let fitted = fit(&scan, &options)?;
-    let report = FitReport::new(String::new(), None, &fitted, &options, &[]);
+    let report = FitReport::new(ReportedScan::default(), &fitted, &options);
     let whole = || format!("{}: not seen whole", path.display());
     let size = report.dimensions.ok_or_else(whole)?;
     let errors = report.standard_errors.as_ref();

@@ -7,7 +7,7 @@ use crate::digits::plural;
 use std::collections::BTreeSet;
 
 /// What figures depend on, of how grains are fitted.
-const FITTED_BY: [&str; 5] = ["tolerance", "segments", "largest", "extrapolate", "version"];
+const FITTED_BY: [&str; 4] = ["tolerance", "segments", "largest", "version"];
 
 /// What is odd about a comparison of two lots: whole sentences.
 pub(crate) fn doubts(first: &Lot, second: &Lot) -> Vec<String> {

@@ -5,7 +5,9 @@ use super::journal::Row;
 use crate::export::{SaveError, save_grain, save_mesh};
 use crate::fit::{Context, FitOptions, Fitted, fit_scan, whole_or_largest};
 use crate::model::Surface;
-use crate::report::{FitReport, Measure, MeasureReport, Unit, Withheld, by_reason, sentences};
+use crate::report::{
+    FitReport, Measure, MeasureReport, ReportedScan, Unit, Withheld, by_reason, sentences,
+};
 use crate::scan::Scan;
 use serde_json::Value;
 use std::error::Error;
@@ -42,9 +44,8 @@ impl Settings {
         let unit = self.unit.map_or("header".into(), |unit| unit.to_string());
         let segments = segments.map_or("adaptive".into(), |segments| segments.to_string());
         format!(
-            "tolerance={tolerance:?} segments={segments} largest={} extrapolate={} unit={unit} max_bytes={} only={}",
+            "tolerance={tolerance:?} segments={segments} largest={} unit={unit} max_bytes={} only={}",
             self.largest,
-            self.fit.extrapolate,
             self.max_bytes,
             names.join(",")
         )
@@ -165,9 +166,12 @@ pub(super) fn told(error: &dyn Error) -> String {
 fn row(fitted: &Fitted, of_scan: &OfScan, settings: &Settings) -> Row {
     let OfScan { warnings, unit } = of_scan;
     let survey = fitted.survey();
-    let (name, options) = (String::new(), &settings.fit);
-    let fit = FitReport::with_survey(name, None, fitted, &survey, options, warnings);
-    let withheld = Withheld::of(&fitted.grain, options.extrapolate);
+    let reported = ReportedScan {
+        warnings: warnings.clone(),
+        ..ReportedScan::default()
+    };
+    let withheld = Withheld::of(&fitted.grain, false);
+    let fit = FitReport::with_survey(reported, fitted, &survey, &settings.fit, &withheld);
     let measured = MeasureReport::of_model(String::new(), &survey, &settings.measures, &withheld);
     // A number that JSON has not is null.
     let told = serde_json::to_value(&measured).unwrap_or(Value::Null);

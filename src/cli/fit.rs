@@ -17,7 +17,6 @@ pub(super) fn run(args: FitArgs, console: Console) -> Result<()> {
     let started = Instant::now();
     let fitting = &args.fitting;
     let options = FitOptions {
-        extrapolate: args.extrapolate,
         exhaustive: args.exhaustive,
         ..fitting.settle(console)?
     };
@@ -52,8 +51,7 @@ pub(super) fn run(args: FitArgs, console: Console) -> Result<()> {
     let ScanFit {
         mut fitted,
         scan,
-        scan_warnings,
-        unit,
+        reported,
         mut seconds,
     } = fit_scan(fitting, &options, &progress)?;
     let is_told = fitting.json || !console.is_quiet();
@@ -61,8 +59,12 @@ pub(super) fn run(args: FitArgs, console: Console) -> Result<()> {
     if args.output.is_some() {
         fitted.grain = fitted.grain_with_errors();
     }
-    let mut report =
-        is_told.then(|| FitReport::new(fitting.name(), unit, &fitted, &options, &scan_warnings));
+    let unit = reported.unit;
+    let report_of = match args.extrapolate {
+        true => FitReport::extrapolated,
+        false => FitReport::new,
+    };
+    let mut report = is_told.then(|| report_of(reported, &fitted, &options));
     let before = started.elapsed().as_secs_f64();
     if args.writes() {
         progress.stage("Writing");

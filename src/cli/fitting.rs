@@ -6,7 +6,7 @@ use super::progress::Progress;
 use super::streams::say;
 use super::{inputs, threads};
 use crate::fit::{self, FitOptions, Fitted, Kind, Stage, Work, whole_or_largest};
-use crate::report::{Seconds, Unit, escaped};
+use crate::report::{ReportedScan, Seconds, escaped};
 use crate::scan::Scan;
 use anyhow::{Context, Result, bail};
 use std::time::Instant;
@@ -15,8 +15,7 @@ use std::time::Instant;
 pub(super) struct ScanFit {
     pub(super) fitted: Fitted,
     pub(super) scan: Scan,
-    pub(super) scan_warnings: Vec<String>,
-    pub(super) unit: Option<Unit>,
+    pub(super) reported: ReportedScan,
     pub(super) seconds: Seconds,
 }
 
@@ -79,8 +78,11 @@ pub(super) fn fit_scan(
     fitted.warnings.extend(others_left_out);
     Ok(ScanFit {
         fitted,
-        scan_warnings: scan.warnings.clone(),
-        unit: inputs::unit_of(&scan, args.unit),
+        reported: ReportedScan {
+            input: name,
+            unit: inputs::unit_of(&scan, args.unit),
+            warnings: scan.warnings.clone(),
+        },
         scan,
         seconds: Seconds {
             read,

@@ -14,8 +14,8 @@ use crate::page::{
     BenchPart, GrainPart, LotPart, MeasureRow, Page, SearchPart, Subject, write_page,
 };
 use crate::report::{
-    FitReport, Measure, MeasureReport, SearchReport, Unit, Withheld, by_reason, escaped, sentences,
-    short,
+    FitReport, Measure, MeasureReport, ReportedScan, SearchReport, Unit, Withheld, by_reason,
+    escaped, sentences, short,
 };
 use crate::scan::Scan;
 use anyhow::{Context, Result, bail};
@@ -151,7 +151,8 @@ impl<'a> Input<'a> {
             "no page shows it; measure it, or write its mesh",
         )?;
         let survey = Survey::of_grain(&grain, Scheme::Exact);
-        let (told, missing) = measured(&survey, &grain, args.extrapolate, args.unit);
+        let withheld = Withheld::of(&grain, args.extrapolate);
+        let (told, missing) = measured(&survey, &withheld, args.unit);
         let guess = grain.unseen().filter(|_| args.extrapolate);
         let guess = guess.map(|unseen| format!("Of {name}, {unseen}."));
         let warnings = guess.into_iter().chain(missing).collect();
@@ -181,7 +182,7 @@ impl<'a> Input<'a> {
         let scan = inputs::parse_scan(path, &bytes, &args.input, args.unit)?;
         let unit = inputs::unit_of(&scan, args.unit);
         let (scan, left_out) = whole_or_largest(scan, args.largest);
-        let options = FitOptions::default().with_extrapolate(args.extrapolate);
+        let options = FitOptions::default();
         let failed = || format!("cannot fit {name}");
         let fitted = fit_scan(&scan, &options, &FitContext::default()).with_context(failed);
         let mut fitted = inputs::explained(fitted, &scan)?;
@@ -196,9 +197,15 @@ impl<'a> Input<'a> {
             false => None,
         };
         let survey = fitted.survey();
-        let told = FitReport::with_survey(name.clone(), unit, &fitted, &survey, &options, &[]);
+        let reported = ReportedScan {
+            input: name.clone(),
+            unit,
+            ..ReportedScan::default()
+        };
+        let withheld = Withheld::of(&fitted.grain, args.extrapolate);
+        let told = FitReport::with_survey(reported, &fitted, &survey, &options, &withheld);
         let mut warnings = sentences(scan.warnings(), &fitted.warnings, unit);
-        let (measured, missing) = measured(&survey, &fitted.grain, args.extrapolate, unit);
+        let (measured, missing) = measured(&survey, &withheld, unit);
         warnings.extend(missing);
         let errors = measured.standard_errors.as_ref();
         let measures = MeasureRow::of(&measured.measures, errors, unit);
@@ -222,12 +229,10 @@ impl<'a> Input<'a> {
 /// All measures of a grain, and those that cannot be had or are withheld, as sentences.
 fn measured(
     survey: &Survey,
-    grain: &Grain,
-    is_extrapolated: bool,
+    withheld: &Withheld,
     unit: Option<Unit>,
 ) -> (MeasureReport, Vec<String>) {
-    let withheld = Withheld::of(grain, is_extrapolated);
-    let report = MeasureReport::of_model(String::new(), survey, &Measure::ALL, &withheld);
+    let report = MeasureReport::of_model(String::new(), survey, &Measure::ALL, withheld);
     let report = report.in_unit(unit);
     let missing = by_reason(&report.not_measured).into_iter();
     let sentences = missing.map(|(names, reason)| format!("Not measured: {names}; {reason}."));
@@ -244,7 +249,11 @@ fn search(scan: &Scan, name: &str) -> Result<SearchPart> {
         ..FitOptions::default()
     };
     let fitted = fit_scan(scan, &options, &FitContext::default())?;
-    Ok((&SearchReport::new(name.into(), None, &fitted, &options, &[])).into())
+    let reported = ReportedScan {
+        input: name.into(),
+        ..ReportedScan::default()
+    };
+    Ok((&SearchReport::new(reported, &fitted, &options)).into())
 }
 
 /// Fits all families of models on one thread.

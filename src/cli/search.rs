@@ -25,12 +25,11 @@ pub(super) fn run(args: SearchArgs, console: Console) -> Result<()> {
     let progress = console.progress();
     let ScanFit {
         fitted,
-        scan_warnings,
-        unit,
+        reported,
         mut seconds,
         ..
     } = fit_scan(fitting, &options, &progress)?;
-    let mut report = SearchReport::new(fitting.name(), unit, &fitted, &options, &scan_warnings);
+    let mut report = SearchReport::new(reported, &fitted, &options);
     if let Some(path) = &args.csv {
         outputs::write(path, |mut file| Ok(report.write_csv(&mut file)?))?;
     }

@@ -20,11 +20,7 @@ pub(super) fn run(
     options: &FitOptions,
     console: Console,
 ) -> Result<()> {
-    let without_options = FitOptions {
-        extrapolate: args.extrapolate,
-        ..FitOptions::default()
-    };
-    if args.harmonics.is_some() || *options != without_options {
+    if args.harmonics.is_some() || *options != FitOptions::default() {
         bail!(
             "superquadrics have neither segments, degrees, mirrors nor harmonics: leave these options away, or \
              --surface"

@@ -4,7 +4,7 @@ use super::outcome::Fitted;
 use super::prepare::ReferenceKind;
 use super::warning::FitWarning;
 use crate::measure::{MassProperties, extents_of_points};
-use crate::model::{Contradicted, NoInterval, Surface, Unseen};
+use crate::model::{Contradicted, NoStandardErrors, Surface, Unseen};
 
 /// By how much area or volume may differ from those of the polyhedron through the points that a surface was fitted to. With
 /// standard errors, of 28 scans of grains and stones it is 1.8 % and 2.6 % at most; without, of cones, boxes and the like
@@ -63,7 +63,7 @@ impl Fitted {
         ];
         (area.max(volume) > TOLD).then_some(())?;
         let errors = self.errors_of_points(&told, &survey.dimensions().ok()?);
-        matches!(errors, Err(NoInterval::Unresolved { .. }))
+        matches!(errors, Err(NoStandardErrors::Unresolved { .. }))
             .then_some(FitWarning::BeyondFaces { area, volume })
     }
 
@@ -87,7 +87,7 @@ impl Fitted {
         let told = survey.properties().ok()?;
         self.beyond(&told)?;
         match self.errors_of_points(&told, &survey.dimensions().ok()?) {
-            Err(NoInterval::Hole { half_angle }) => Unseen::hole(half_angle, self.points),
+            Err(NoStandardErrors::Hole { half_angle }) => Unseen::hole(half_angle, self.points),
             _ => None,
         }
     }
@@ -136,7 +136,7 @@ impl Fitted {
             _ if !has_faces && self.reaches_beyond(self.largest_difference()) => false,
             Ok(_) => true,
             // Where there is another reason, a polyhedron between points may be as wrong.
-            Err(reason) => !has_faces && !matches!(reason, NoInterval::Unresolved { .. }),
+            Err(reason) => !has_faces && !matches!(reason, NoStandardErrors::Unresolved { .. }),
         };
         (!is_vouched).then_some(found)
     }
@@ -164,8 +164,8 @@ mod tests {
     use crate::fit::{FitOptions, FitWarning, Fitted, fit};
     use crate::mesh::Mesh;
     use crate::model::{
-        Family, NoInterval, StandardErrors, StarGrain, StarSurface, Superquadric, Surface, Unseen,
-        Whole,
+        Family, NoStandardErrors, StandardErrors, StarGrain, StarSurface, Superquadric, Surface,
+        Unseen, Whole,
     };
     use crate::scan::Scan;
     use crate::shapes::{Body, Sampling, SynthOptions, synthesize};
@@ -306,7 +306,7 @@ mod tests {
         };
         assert!(!reaches(0.2) && reaches(0.5));
         // Whatever keeps it from errors.
-        fitted.errors = Some(Err(NoInterval::Neck));
+        fitted.errors = Some(Err(NoStandardErrors::Neck));
         fitted.measured = None;
         assert!(fitted.contradicted().is_some());
     }
@@ -318,10 +318,10 @@ mod tests {
         let mut fitted = fit(&scan, &FitOptions::default()).unwrap();
         fitted.reference.area *= 0.8;
         assert_eq!(fitted.contradicted(), None);
-        fitted.errors = Some(Err(NoInterval::Neck));
+        fitted.errors = Some(Err(NoStandardErrors::Neck));
         assert_eq!(fitted.contradicted(), None);
         let kurtosis = 9.0;
-        fitted.errors = Some(Err(NoInterval::Unresolved { kurtosis }));
+        fitted.errors = Some(Err(NoStandardErrors::Unresolved { kurtosis }));
         assert!(fitted.contradicted().unwrap().area.is_some());
         fitted.points = 200;
         assert_eq!(fitted.contradicted(), None);

@@ -5,7 +5,7 @@ use super::outcome::Fitted;
 use super::scatter::{FAR, scatter};
 use super::warning::FitWarning;
 use crate::measure::{Deviation, feet};
-use crate::model::{Grain, NoInterval, StarSurface, Surface};
+use crate::model::{Grain, NoStandardErrors, StarSurface, Surface};
 use crate::scan::Scan;
 use crate::sphere::cube_grid;
 use nalgebra::{Point3, Vector3};
@@ -64,7 +64,7 @@ impl Fitted {
             return self;
         }
         self.warnings.extend(missed);
-        self.errors = Some(Err(NoInterval::NotFollowed));
+        self.errors = Some(Err(NoStandardErrors::NotFollowed));
         self.search.noise = None;
         self.edged = None;
         Self {
@@ -286,10 +286,10 @@ mod tests {
         assert!(star.errors.is_none() && star.search.noise.is_some());
         let found = missed(&star, &scan, &options);
         let without = star.without_errors_if_local(found, &scan);
-        assert_eq!(without.errors, Some(Err(NoInterval::NotFollowed)));
+        assert_eq!(without.errors, Some(Err(NoStandardErrors::NotFollowed)));
         assert_eq!(without.search.noise, None);
         let fitted = crate::fit::fit(&scan, &options).unwrap();
         assert!(matches!(fitted.kind, KindChoice::NoPositions(_)));
-        assert_eq!(fitted.errors, Some(Err(NoInterval::NotFollowed)));
+        assert_eq!(fitted.errors, Some(Err(NoStandardErrors::NotFollowed)));
     }
 }

@@ -36,9 +36,6 @@ pub struct FitOptions {
     pub max_segments: Option<usize>,
     /// Error that is good enough.
     pub tolerance: Tolerance,
-    /// Tell figures of the whole surface where much of it was not seen, with the errors of a guess. The fit is the same:
-    /// what is told of it ([`FitReport`](crate::report::FitReport)) differs.
-    pub extrapolate: bool,
     /// Fit every candidate, also those that cannot win any more. The choice is the same.
     pub exhaustive: bool,
 }
@@ -54,7 +51,6 @@ impl Default for FitOptions {
             max_degree: None,
             max_segments: None,
             tolerance: Tolerance::Auto,
-            extrapolate: false,
             exhaustive: false,
         }
     }
@@ -201,14 +197,6 @@ impl FitOptions {
     /// The same with another [`tolerance`](Self::tolerance).
     pub fn with_tolerance(self, tolerance: Tolerance) -> Self {
         Self { tolerance, ..self }
-    }
-
-    /// The same, [telling guesses](Self::extrapolate) or not.
-    pub fn with_extrapolate(self, extrapolate: bool) -> Self {
-        Self {
-            extrapolate,
-            ..self
-        }
     }
 
     /// The same, fitting [every candidate](Self::exhaustive) or not.

@@ -11,7 +11,7 @@ use super::prepare::ReferenceKind;
 use super::scatter::scatter;
 use super::sound::{self, Off, not_followed};
 use super::warning::FitWarning;
-use crate::model::{Grain, InvalidGrain, NoInterval, PositionGrain, Surface};
+use crate::model::{Grain, InvalidGrain, NoStandardErrors, PositionGrain, Surface};
 use crate::scan::Scan;
 
 /// How many times farther held-out points are told to be than points from the surfaces through their neighbours. Of twenty clouds
@@ -71,8 +71,8 @@ pub(super) fn positioned(
     };
     let not_followed = not_followed(&residuals, radius, off).filter(|_| !may_be_stray);
     let errors = match not_followed {
-        _ if are_few(&fit, grain.coefficient_count()) => Err(NoInterval::FewPoints),
-        Some(_) => Err(NoInterval::NotFollowed),
+        _ if are_few(&fit, grain.coefficient_count()) => Err(NoStandardErrors::FewPoints),
+        Some(_) => Err(NoStandardErrors::NotFollowed),
         None => fit.errors,
     };
     let mut warnings = fit.warnings;

@@ -17,9 +17,9 @@ use super::errors_record::{ErrorsRecord, LocalErrorsRecord};
 use super::grain::Kind;
 use super::superquadric::PartRecord;
 use super::{
-    Blended, Contradicted, Family, Frame, Grain, InvalidGrain, Mirrored, NoInterval, Position,
-    PositionGrain, Segmented, StandardErrors, StarGrain, Stretch, SuperquadricGrain, Surface,
-    Unseen, Whole,
+    Blended, Contradicted, Family, Frame, Grain, InvalidGrain, Mirrored, NoStandardErrors,
+    Position, PositionGrain, Segmented, StandardErrors, StarGrain, Stretch, SuperquadricGrain,
+    Surface, Unseen, Whole,
 };
 use crate::sphere::{AngularPartition, CoverError, Symmetry};
 use flate2::Crc;
@@ -75,7 +75,7 @@ struct GrainFile {
     standard_errors: Option<ErrorsRecord>,
     /// Why there are none, in their place.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    no_standard_errors: Option<NoInterval>,
+    no_standard_errors: Option<NoStandardErrors>,
     /// Standard errors of the surface in 864 cells of directions, where they are known.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     local_errors: Option<LocalErrorsRecord>,
@@ -185,7 +185,7 @@ pub fn grain_to_json(grain: &Grain) -> String {
         contradicted: grain.contradicted(),
         standard_errors: grain.standard_errors().ok().map(Into::into),
         no_standard_errors: (grain.standard_errors().err())
-            .filter(|why| *why != NoInterval::NotTold),
+            .filter(|why| *why != NoStandardErrors::NotTold),
         local_errors: grain.local_errors().map(LocalErrorsRecord::of),
         ..surface
     };
@@ -292,7 +292,7 @@ pub fn grain_from_json(text: &str) -> Result<Grain, ModelError> {
     let grain = file.grain()?;
     let is_edited = |checksum| GrainFile::of_surface(&grain).checksum_of_surface() != checksum;
     if checksum.is_some_and(is_edited) {
-        let edited = grain.with_standard_errors(Err(NoInterval::Edited));
+        let edited = grain.with_standard_errors(Err(NoStandardErrors::Edited));
         return Ok(edited.with_unseen(unseen).with_contradicted(contradicted));
     }
     Ok(grain
@@ -304,10 +304,10 @@ pub fn grain_from_json(text: &str) -> Result<Grain, ModelError> {
 
 impl GrainFile {
     /// The standard errors, or why there are none.
-    fn standard_errors(&mut self) -> Result<Result<StandardErrors, NoInterval>, ModelError> {
+    fn standard_errors(&mut self) -> Result<Result<StandardErrors, NoStandardErrors>, ModelError> {
         let told = match (self.standard_errors.take(), self.no_standard_errors) {
             (Some(errors), None) => Ok(StandardErrors::from(errors)),
-            (None, why) => Err(why.unwrap_or(NoInterval::NotTold)),
+            (None, why) => Err(why.unwrap_or(NoStandardErrors::NotTold)),
             (Some(_), Some(_)) => return Err(ModelError::StandardErrors),
         };
         let is_sound = match &told {

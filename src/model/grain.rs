@@ -1,8 +1,9 @@
 //! The fitted grain, of whichever kind.
 
 use super::{
-    Contradicted, Frame, LocalError, LocalErrors, NoInterval, Node, PositionGrain, StandardErrors,
-    StarGrain, SuperquadricGrain, Surface, SurfaceElement, SurfaceJet, Tiling, Unseen,
+    Contradicted, Frame, LocalError, LocalErrors, NoStandardErrors, Node, PositionGrain,
+    StandardErrors, StarGrain, SuperquadricGrain, Surface, SurfaceElement, SurfaceJet, Tiling,
+    Unseen,
 };
 use crate::mesh::Mesh;
 use crate::sphere::{Symmetry, unit};
@@ -16,7 +17,7 @@ pub struct Grain {
     kind: Kind,
     unseen: Option<Unseen>,
     contradicted: Option<Contradicted>,
-    standard_errors: Result<StandardErrors, NoInterval>,
+    standard_errors: Result<StandardErrors, NoStandardErrors>,
     local_errors: Option<LocalErrors>,
 }
 
@@ -113,9 +114,9 @@ impl Grain {
 
     /// The grain with standard errors of its figures, or why there are none. Of errors that are not finite or below zero
     /// there are none.
-    pub fn with_standard_errors(self, found: Result<StandardErrors, NoInterval>) -> Self {
+    pub fn with_standard_errors(self, found: Result<StandardErrors, NoStandardErrors>) -> Self {
         let standard_errors = match found {
-            Ok(errors) if !errors.is_sound() => Err(NoInterval::NotFinite),
+            Ok(errors) if !errors.is_sound() => Err(NoStandardErrors::NotFinite),
             found => found,
         };
         Self {
@@ -127,8 +128,8 @@ impl Grain {
     /// Standard errors of its figures.
     ///
     /// # Errors
-    /// [`NoInterval`] where there are none: [`NoInterval::NotTold`] where nobody has told them.
-    pub fn standard_errors(&self) -> Result<StandardErrors, NoInterval> {
+    /// [`NoStandardErrors`] where there are none: [`NoStandardErrors::NotTold`] where nobody has told them.
+    pub fn standard_errors(&self) -> Result<StandardErrors, NoStandardErrors> {
         self.standard_errors
     }
 
@@ -184,7 +185,7 @@ impl From<Kind> for Grain {
             kind,
             unseen: None,
             contradicted: None,
-            standard_errors: Err(NoInterval::NotTold),
+            standard_errors: Err(NoStandardErrors::NotTold),
             local_errors: None,
         }
     }

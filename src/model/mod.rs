@@ -47,7 +47,7 @@ pub use position::{Position, PositionDerivatives};
 pub use position_grain::PositionGrain;
 pub use published::{PublishedExpansion, Region};
 pub use segmented::Segmented;
-pub use standard_errors::{NoInterval, StandardErrors};
+pub use standard_errors::{NoStandardErrors, StandardErrors};
 pub use star_grain::StarGrain;
 pub use star_surface::{Derivatives, Radial, StarSurface};
 pub use stretch::Stretch;

@@ -69,7 +69,7 @@ impl StandardErrors {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 #[non_exhaustive]
-pub enum NoInterval {
+pub enum NoStandardErrors {
     /// No point lies in a cap of directions of this half-angle, in radians.
     Hole {
         /// Half-angle in radians, in the stretched space.
@@ -110,7 +110,7 @@ pub enum NoInterval {
     Scheme,
 }
 
-impl NoInterval {
+impl NoStandardErrors {
     /// Whether its numbers can be those of a surface.
     pub(super) fn is_sound(&self) -> bool {
         match *self {

@@ -1,6 +1,7 @@
 //! What `grainform search` tells: every candidate.
 
 use super::rule::rule;
+use super::scan::ReportedScan;
 use super::unit::Unit;
 use super::warning::sentences;
 use super::{ReferenceRecord, Seconds};
@@ -68,14 +69,13 @@ pub struct CandidateRecord {
 }
 
 impl SearchReport {
-    /// The report of a search, for the options it was made with; `scan_warnings` are the reader's.
-    pub fn new(
-        input: String,
-        unit: Option<Unit>,
-        fitted: &Fitted,
-        options: &FitOptions,
-        scan_warnings: &[String],
-    ) -> Self {
+    /// The report of a search, for the options it was made with.
+    pub fn new(scan: ReportedScan, fitted: &Fitted, options: &FitOptions) -> Self {
+        let ReportedScan {
+            input,
+            unit,
+            warnings,
+        } = scan;
         let search = &fitted.search;
         Self {
             input,
@@ -93,7 +93,7 @@ impl SearchReport {
                 .is_none()
                 .then(|| fitted.reference.into()),
             seconds: Seconds::default(),
-            warnings: sentences(scan_warnings, &fitted.warnings, unit),
+            warnings: sentences(&warnings, &fitted.warnings, unit),
         }
     }
 

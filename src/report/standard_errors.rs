@@ -1,7 +1,7 @@
 //! Standard errors of figures, or why there are none.
 
 use super::measure::records::{Dimensions, rows};
-use crate::model::{NoInterval, StandardErrors};
+use crate::model::{NoStandardErrors, StandardErrors};
 use nalgebra::Matrix3;
 use serde::Serialize;
 
@@ -46,7 +46,7 @@ impl StandardErrorsRecord {
 /// What a report says of the errors of its figures, given the grain's own axes: these, or why there are none, half a sentence. `None` is that of no
 /// figures.
 pub(super) fn recorded(
-    errors: Option<Result<StandardErrors, NoInterval>>,
+    errors: Option<Result<StandardErrors, NoStandardErrors>>,
     axes: &Matrix3<f64>,
 ) -> (Option<StandardErrorsRecord>, Option<String>) {
     match errors {

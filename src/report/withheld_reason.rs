@@ -2,7 +2,7 @@
 
 use super::number::percent;
 use crate::measure::share_of_area;
-use crate::model::{Contradicted, NoInterval, Unseen};
+use crate::model::{Contradicted, NoStandardErrors, Unseen};
 use std::fmt;
 
 impl fmt::Display for Unseen {
@@ -35,7 +35,7 @@ impl fmt::Display for Contradicted {
     }
 }
 
-impl fmt::Display for NoInterval {
+impl fmt::Display for NoStandardErrors {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
             Self::Hole { half_angle } => write!(

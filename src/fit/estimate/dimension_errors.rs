@@ -24,7 +24,7 @@ use super::plateau::Plateau;
 use super::posterior::Conditioned;
 use super::tips::Tips;
 use crate::fit::figures::{INERTIA, by_size, squares_by_size};
-use crate::fit::hole::Holes;
+use crate::fit::holes::Holes;
 use crate::fit::turn::{OF_RANGE, TURNS, by_inertia};
 use crate::measure::{PrincipalInertia, are_apart};
 use crate::sphere::HarmonicBasis;

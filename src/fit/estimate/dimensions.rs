@@ -17,7 +17,7 @@ use super::cloud::Cloud;
 use super::left_out::LeftOut;
 use super::outcome::Estimate;
 use crate::farthest::Farthest;
-use crate::fit::hole::Holes;
+use crate::fit::holes::Holes;
 use crate::measure::support_near;
 use crate::model::{Radial, StarSurface, Whole};
 use nalgebra::{Matrix3, Vector3};

@@ -32,10 +32,9 @@ use super::texture::hidden_slopes;
 use super::unresolved::{is_rough, kurtosis};
 use crate::fit::close_pairs;
 use crate::fit::figures::{Figures, INTEGRALS, derivatives, list, mass};
-use crate::fit::gaps::random_gap;
-use crate::fit::hole::Holes;
+use crate::fit::holes::{Holes, random_gap};
 use crate::fit::turn::entry_variance;
-use crate::model::{NoInterval, StandardErrors};
+use crate::model::{NoStandardErrors, StandardErrors};
 use crate::vectorize::dot;
 use nalgebra::SMatrix;
 use std::f64::consts::PI;
@@ -48,12 +47,15 @@ impl Estimate {
     /// Standard errors of the figures that are told of the grain; nothing is computed before this is called.
     ///
     /// # Errors
-    /// [`NoInterval`] where they could not be trusted.
-    pub(in crate::fit) fn errors(&self, told: &Figures) -> Result<StandardErrors, NoInterval> {
+    /// [`NoStandardErrors`] where they could not be trusted.
+    pub(in crate::fit) fn errors(
+        &self,
+        told: &Figures,
+    ) -> Result<StandardErrors, NoStandardErrors> {
         let holes = self.holes();
         let half_angle = holes.largest;
         if half_angle > LARGEST_WITH_ERRORS.max(random_gap(self.cloud.len())) {
-            return Err(NoInterval::Hole { half_angle });
+            return Err(NoStandardErrors::Hole { half_angle });
         }
         let known = || self.known_errors(holes);
         of_figures(self.derived.errors.get_or_init(known), told)
@@ -63,19 +65,19 @@ impl Estimate {
     pub(in crate::fit) fn errors_beside_holes(
         &self,
         told: &Figures,
-    ) -> Result<StandardErrors, NoInterval> {
+    ) -> Result<StandardErrors, NoStandardErrors> {
         let known = || self.known_errors(&Holes::default());
         of_figures(self.derived.errors_beside_holes.get_or_init(known), told)
     }
 
-    fn known_errors(&self, holes: &Holes) -> Result<KnownErrors, NoInterval> {
+    fn known_errors(&self, holes: &Holes) -> Result<KnownErrors, NoStandardErrors> {
         let posterior = self.posterior();
         let residuals = posterior.residuals(&self.coefficients);
         let of_mean_weight = self.cloud.of_mean_weight(&residuals);
         let is_rough = is_rough(&of_mean_weight);
         if self.hides_edges(is_rough) {
             let kurtosis = kurtosis(&of_mean_weight);
-            return Err(NoInterval::Unresolved { kurtosis });
+            return Err(NoStandardErrors::Unresolved { kurtosis });
         }
         let left_out = LeftOut::new(self, &posterior, &residuals, is_rough);
         let left_out = (is_rough || left_out.stand_out).then_some(left_out);
@@ -86,7 +88,7 @@ impl Estimate {
         let slopes = hidden + blur.slopes;
         let beside = (left_out.as_ref(), holes);
         let known = known(self, &posterior, &residuals, beside, slopes);
-        let known = known.ok_or(NoInterval::NotFinite)?;
+        let known = known.ok_or(NoStandardErrors::NotFinite)?;
         let all_over = off.hypot(blur.swelling);
         let between = 0.5 * known.figures.area * self.slopes_between(&residuals);
         Ok(KnownErrors {
@@ -112,9 +114,9 @@ impl Estimate {
 
 /// The standard errors of figures by what is known.
 fn of_figures(
-    known: &Result<KnownErrors, NoInterval>,
+    known: &Result<KnownErrors, NoStandardErrors>,
     told: &Figures,
-) -> Result<StandardErrors, NoInterval> {
+) -> Result<StandardErrors, NoStandardErrors> {
     let known = known.as_ref().map_err(|reason| *reason)?;
     Ok(known.errors(told))
 }

@@ -6,9 +6,8 @@ use super::known_errors::KnownErrors;
 use super::posterior::{Conditioned, Posterior};
 use super::spectrum::Spectrum;
 use super::sums::Sums;
-use crate::fit::gaps::random_gap;
-use crate::fit::hole::Holes;
-use crate::model::NoInterval;
+use crate::fit::holes::{Holes, random_gap};
+use crate::model::NoStandardErrors;
 use crate::sphere::HarmonicBasis;
 use crate::vectorize::dot;
 use nalgebra::Vector3;
@@ -53,9 +52,9 @@ pub(super) struct Derived {
     /// The largest holes between the points.
     pub(super) holes: OnceLock<Holes>,
     /// What is known of errors, or why nothing is.
-    pub(super) errors: OnceLock<Result<KnownErrors, NoInterval>>,
+    pub(super) errors: OnceLock<Result<KnownErrors, NoStandardErrors>>,
     /// The same with what holes hide only as far as the prior tells it.
-    pub(super) errors_beside_holes: OnceLock<Result<KnownErrors, NoInterval>>,
+    pub(super) errors_beside_holes: OnceLock<Result<KnownErrors, NoStandardErrors>>,
 }
 
 /// Points of which patches were made.

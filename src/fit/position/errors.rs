@@ -36,10 +36,10 @@ use super::least_squares::values;
 use super::voxels::Hidden;
 use crate::fit::close_pairs;
 use crate::fit::figures::{INERTIA, INTEGRALS, derivatives, form, mass, unlist};
-use crate::fit::hole::Holes;
+use crate::fit::holes::Holes;
 use crate::fit::linear::BlockFactor;
 use crate::fit::neighbours::Neighbours;
-use crate::model::{NoInterval, Position, StandardErrors};
+use crate::model::{NoStandardErrors, Position, StandardErrors};
 use nalgebra::{SMatrix, SVector, Vector3};
 use std::f64::consts::PI;
 
@@ -78,9 +78,12 @@ impl Solved<'_> {
     }
 
     /// The standard errors of a surface's figures, of which voxels hide so much.
-    pub(super) fn errors(&self, hidden: Option<&Hidden>) -> Result<StandardErrors, NoInterval> {
+    pub(super) fn errors(
+        &self,
+        hidden: Option<&Hidden>,
+    ) -> Result<StandardErrors, NoStandardErrors> {
         let functionals =
-            Functionals::new(self.functions, self.surface).ok_or(NoInterval::NotFinite)?;
+            Functionals::new(self.functions, self.surface).ok_or(NoStandardErrors::NotFinite)?;
         let feet = self.feet(self.surface);
         let distances = self.distances(&feet);
         let covariance = self.covariance(&functionals, &distances);

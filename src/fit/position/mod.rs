@@ -31,7 +31,7 @@ use super::options::FitOptions;
 use super::prepare::Reference;
 use super::samples::Samples;
 use super::warning::FitWarning;
-use crate::model::{Frame, NoInterval, Position, StandardErrors};
+use crate::model::{Frame, NoStandardErrors, Position, StandardErrors};
 use crate::scan::Scan;
 use levels::{Found, Levels};
 use local_faces::LocalFaces;
@@ -72,7 +72,7 @@ pub struct PositionFit {
     /// Whether neither fewer cells nor rougher ones would leave a surface that is sound.
     pub(super) is_hopeless: bool,
     /// Standard errors of its figures.
-    pub errors: Result<StandardErrors, NoInterval>,
+    pub errors: Result<StandardErrors, NoStandardErrors>,
     /// What it was fitted to.
     pub(crate) fitted_to: Samples,
     /// What a user should know of the scan.

@@ -14,7 +14,7 @@ use crate::fit::context::{Cancelled, Context};
 use crate::fit::linear::BlockFactor;
 use crate::measure::sound_crossings;
 use crate::mesh::Mesh;
-use crate::model::{Frame, NoInterval, Position, PositionGrain, StandardErrors};
+use crate::model::{Frame, NoStandardErrors, Position, PositionGrain, StandardErrors};
 use crate::sphere::cube_grid;
 use nalgebra::{Matrix3, Point3, Vector3};
 
@@ -78,7 +78,7 @@ pub(super) struct Fitted {
     /// Whether the mesh is turned over anywhere.
     pub(super) is_folded: bool,
     /// Of its figures.
-    pub(super) errors: Result<StandardErrors, NoInterval>,
+    pub(super) errors: Result<StandardErrors, NoStandardErrors>,
     /// What voxels hide of it.
     pub(super) hidden: Option<Hidden>,
     /// Whether no fit to these faces will leave a sound surface.
@@ -270,7 +270,7 @@ impl<'a> Problem<'a> {
         let hidden = is_sound.then(|| solved.hidden_by_voxels()).flatten();
         let errors = match is_sound {
             true => solved.errors(hidden.as_ref()),
-            false => Err(NoInterval::Crossing),
+            false => Err(NoStandardErrors::Crossing),
         };
         Ok(Some(Fitted {
             is_hopeless: may_be_hopeless && shares.into_iter().any(is_far),

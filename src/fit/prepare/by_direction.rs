@@ -1,8 +1,8 @@
 //! The mesh that points draw as seen from a centre: the triangulation of their directions.
 
-use super::rounder::rounder;
 use super::strays::{Strays, find_strays};
 use crate::fit::error::FitError;
+use crate::fit::rounder::rounder;
 use crate::measure::{Unit, mesh_properties};
 use crate::mesh::Mesh;
 use crate::sphere::triangulate_directions;

@@ -1,16 +1,16 @@
 //! The surface that a scan draws: a closed mesh through its points, by its own faces or by the
 //! triangulation of their directions.
 
-use super::gap::Gap;
 use super::left_out::told;
 use super::middle::middle;
 use super::reference::ReferenceKind;
-use super::rounder::rounder_of_rod;
+use super::rod::rounder_of_rod;
 use super::scanned::ScannedSurface;
 use super::subdivided::made_by_subdivision;
 use super::thin::{Thinned, WHOLE_CLOUD, select, thin};
 use super::triangulated::from_directions;
 use crate::fit::error::FitError;
+use crate::fit::holes::Gap;
 use crate::fit::warning::FitWarning;
 use crate::fit::without::without;
 use crate::measure::{

@@ -2,7 +2,6 @@
 
 use super::averaged::averaged;
 use super::by_direction::one_surface;
-use super::gap::Gap;
 use super::layers::layers;
 use super::middle::middle;
 use super::pieces::Pieces;
@@ -13,6 +12,7 @@ use super::thin::{WHOLE_CLOUD, select};
 use super::together::{in_one_direction, neighbouring, together};
 use super::twins::merged;
 use crate::fit::error::FitError;
+use crate::fit::holes::Gap;
 use crate::fit::repeated::without_repeats;
 use crate::fit::warning::FitWarning;
 use crate::fit::without::without;

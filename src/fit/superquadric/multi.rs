@@ -16,7 +16,7 @@ use super::weighing::Weighing;
 use crate::fit::Residuals;
 use crate::fit::context::{Cancelled, Context};
 use crate::model::{
-    Frame, Grain, InvalidGrain, MultiSuperquadric, NoInterval, Part, SuperquadricGrain,
+    Frame, Grain, InvalidGrain, MultiSuperquadric, NoStandardErrors, Part, SuperquadricGrain,
 };
 use crate::scan::VoxelLattice;
 use nalgebra::{Point3, Vector3};
@@ -92,7 +92,7 @@ impl MultiFit {
     /// [`InvalidGrain`] if the frame was changed and is none.
     pub fn grain(&self) -> Result<Grain, InvalidGrain> {
         let grain: Grain = SuperquadricGrain::multi(self.frame, self.union.clone())?.into();
-        Ok(grain.with_standard_errors(Err(NoInterval::NotEstimated)))
+        Ok(grain.with_standard_errors(Err(NoStandardErrors::NotEstimated)))
     }
 }
 

@@ -12,7 +12,7 @@ use super::standard_errors::{ParameterErrors, covariance, standard_errors};
 use super::strays::strays;
 use crate::fit::Residuals;
 use crate::fit::context::Context;
-use crate::model::{Frame, Grain, InvalidGrain, NoInterval, Superquadric, SuperquadricGrain};
+use crate::model::{Frame, Grain, InvalidGrain, NoStandardErrors, Superquadric, SuperquadricGrain};
 use crate::scan::VoxelLattice;
 use nalgebra::Point3;
 use std::borrow::Cow;
@@ -49,7 +49,7 @@ impl SuperquadricFit {
     /// [`InvalidGrain`] if the frame was changed and is none.
     pub fn grain(&self) -> Result<Grain, InvalidGrain> {
         let grain: Grain = SuperquadricGrain::single(self.frame, self.shape)?.into();
-        Ok(grain.with_standard_errors(Err(NoInterval::NotEstimated)))
+        Ok(grain.with_standard_errors(Err(NoStandardErrors::NotEstimated)))
     }
 }
 

@@ -19,7 +19,7 @@ use super::{
 };
 use crate::Mesh;
 use crate::mesh::parts;
-use crate::model::{Grain, NoInterval, Radial, StandardErrors, StarSurface};
+use crate::model::{Grain, NoStandardErrors, Radial, StandardErrors, StarSurface};
 pub(crate) use body::Measured;
 use body::{Body, Inside};
 pub use error::SurveyError;
@@ -61,7 +61,7 @@ use std::fmt;
 pub struct Survey<'a> {
     body: Body<'a>,
     unit: Unit,
-    standard_errors: Result<StandardErrors, NoInterval>,
+    standard_errors: Result<StandardErrors, NoStandardErrors>,
     union: OnceCell<Option<SolidProperties>>,
     measured: OnceCell<Result<Measured, SurveyError>>,
     extents: OnceCell<Result<Extents, SurveyError>>,
@@ -95,7 +95,7 @@ impl<'a> Survey<'a> {
     pub fn of_grain(grain: &'a Grain, scheme: Scheme) -> Self {
         let standard_errors = match scheme {
             Scheme::Exact => grain.standard_errors(),
-            Scheme::FourTriangles => Err(NoInterval::Scheme),
+            Scheme::FourTriangles => Err(NoStandardErrors::Scheme),
         };
         Self::new(Body::grain(grain, scheme), standard_errors)
     }
@@ -111,7 +111,7 @@ impl<'a> Survey<'a> {
     /// Of a surface whose area, volume and moments are known, in its own frame.
     pub fn of_surface(surface: &'a dyn StarSurface, properties: MassProperties) -> Self {
         let body = Body::Known(Radial(surface), properties);
-        Self::new((body, Unit::OWN), Err(NoInterval::NotTold))
+        Self::new((body, Unit::OWN), Err(NoStandardErrors::NotTold))
     }
 
     /// Of a closed mesh of one body, wound counter-clockwise from outside.
@@ -126,19 +126,19 @@ impl<'a> Survey<'a> {
             return Err(SurveyError::Several { bodies });
         }
         let body = Body::mesh(mesh, Inside::Bodies(1));
-        let survey = Self::new(body, Err(NoInterval::Polyhedron));
+        let survey = Self::new(body, Err(NoStandardErrors::Polyhedron));
         survey.properties()?;
         Ok(survey)
     }
 
     /// Of what the faces of a scan enclose.
     pub fn of_scanned(scanned: &ScannedBody) -> Self {
-        Self::new(Body::scanned(scanned), Err(NoInterval::Polyhedron))
+        Self::new(Body::scanned(scanned), Err(NoStandardErrors::Polyhedron))
     }
 
     fn new(
         (body, unit): (Body<'a>, Unit),
-        standard_errors: Result<StandardErrors, NoInterval>,
+        standard_errors: Result<StandardErrors, NoStandardErrors>,
     ) -> Self {
         Self {
             body,
@@ -208,8 +208,8 @@ impl<'a> Survey<'a> {
     ///
     /// # Errors
     ///
-    /// [`NoInterval`] where it tells none, and of all but grains.
-    pub fn standard_errors(&self) -> Result<StandardErrors, NoInterval> {
+    /// [`NoStandardErrors`] where it tells none, and of all but grains.
+    pub fn standard_errors(&self) -> Result<StandardErrors, NoStandardErrors> {
         self.standard_errors
     }
 

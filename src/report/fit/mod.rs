@@ -8,12 +8,13 @@ pub(crate) use text::described_reference;
 use super::estimate::{EstimateRecord, EvaluationRecord};
 use super::measure::{Dimensions, Measure, MeasureReport, NotMeasured, Principal, Withheld};
 use super::rule::{kind_rule, rule};
+use super::scan::ReportedScan;
 use super::standard_errors::{StandardErrorsRecord, recorded};
 use super::unit::Unit;
 use super::warning::sentences;
 use crate::fit::{FitOptions, Fitted, LARGEST_OF_NOISE, Reference, Tolerance};
 use crate::measure::Survey;
-use crate::model::{NoInterval, StarGrain};
+use crate::model::{NoStandardErrors, StarGrain};
 use crate::sphere::Symmetry;
 use serde::Serialize;
 
@@ -164,42 +165,41 @@ pub struct Skipped {
 }
 
 impl FitReport {
-    /// The report of a fit, for the options it was made with; `scan_warnings` are the reader's.
-    pub fn new(
-        input: String,
-        unit: Option<Unit>,
-        fitted: &Fitted,
-        options: &FitOptions,
-        scan_warnings: &[String],
-    ) -> Self {
-        Self::with_survey(
-            input,
-            unit,
-            fitted,
-            &fitted.survey(),
-            options,
-            scan_warnings,
-        )
+    /// The report of a fit, for the options it was made with. Where much of the surface was not seen, figures of the whole are
+    /// withheld.
+    pub fn new(scan: ReportedScan, fitted: &Fitted, options: &FitOptions) -> Self {
+        let withheld = Withheld::of(&fitted.grain, false);
+        Self::with_survey(scan, fitted, &fitted.survey(), options, &withheld)
     }
 
-    /// The same, with a survey of the fitted grain, of which more may be asked: what is measured is measured once.
-    pub fn with_survey(
-        input: String,
-        unit: Option<Unit>,
+    /// The same with these figures, as guesses with the errors of guesses.
+    pub fn extrapolated(scan: ReportedScan, fitted: &Fitted, options: &FitOptions) -> Self {
+        let withheld = Withheld::of(&fitted.grain, true);
+        Self::with_survey(scan, fitted, &fitted.survey(), options, &withheld)
+    }
+
+    /// The same with a survey of the fitted grain, of which more may be asked (what is measured is measured once), and with what
+    /// is not to be told of it.
+    pub(crate) fn with_survey(
+        scan: ReportedScan,
         fitted: &Fitted,
         survey: &Survey,
         options: &FitOptions,
-        scan_warnings: &[String],
+        withheld: &Withheld,
     ) -> Self {
+        let ReportedScan {
+            input,
+            unit,
+            warnings,
+        } = scan;
         let search = &fitted.search;
         let symmetry = Some(fitted.grain.symmetry()).filter(|mirrors| *mirrors != Symmetry::NONE);
         let choice = search.choice();
-        let withheld = Withheld::of(&fitted.grain, options.extrapolate);
-        let told = MeasureReport::of_model(String::new(), survey, &FIGURES, &withheld);
+        let told = MeasureReport::of_model(String::new(), survey, &FIGURES, withheld);
         let figures = told.measures;
         let errors = (figures.may_have_errors()).then(|| fitted.standard_errors(survey));
         let (standard_errors, no_standard_errors) = recorded(errors, &survey.axes());
-        let is_noise = !matches!(errors, Some(Err(NoInterval::Unresolved { .. })));
+        let is_noise = !matches!(errors, Some(Err(NoStandardErrors::Unresolved { .. })));
         let noise = search.noise.filter(|_| is_noise);
         let evaluation = EvaluationRecord::new(&fitted.grain);
         let reference = fitted.grain.unseen().is_none().then_some(fitted.reference);
@@ -252,7 +252,7 @@ impl FitReport {
                 candidates: search.work.candidates_skipped,
                 segments: search.work.segments_skipped,
             },
-            warnings: sentences(scan_warnings, &fitted.warnings, unit),
+            warnings: sentences(&warnings, &fitted.warnings, unit),
         }
     }
 }

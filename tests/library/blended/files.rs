@@ -2,7 +2,7 @@
 
 use super::grains::{all, blended, blended_within, plain, ragged, segmented, turned, whole};
 use grainform::model::{
-    ModelError, NoInterval, StandardErrors, Stretch, grain_from_json, grain_to_json,
+    ModelError, NoStandardErrors, StandardErrors, Stretch, grain_from_json, grain_to_json,
 };
 use grainform::sphere::CubeCell;
 use grainform::{StarGrain, StarSurface, Surface};
@@ -282,20 +282,20 @@ fn standard_errors_are_kept_to_the_last_bit_or_why_there_are_none() {
     let half_angle = 0.1 + 0.2;
     for found in [
         Ok(known),
-        Err(NoInterval::Neck),
-        Err(NoInterval::NotEstimated),
-        Err(NoInterval::Hole { half_angle }),
-        Err(NoInterval::NotTold),
+        Err(NoStandardErrors::Neck),
+        Err(NoStandardErrors::NotEstimated),
+        Err(NoStandardErrors::Hole { half_angle }),
+        Err(NoStandardErrors::NotTold),
     ] {
         let text = grain_to_json(&grain().with_standard_errors(found));
         let loaded = grain_from_json(&text).expect("a model");
         assert_eq!(loaded.standard_errors(), found);
         assert_eq!(grain_to_json(&loaded), text);
     }
-    assert_eq!(grain().standard_errors(), Err(NoInterval::NotTold));
+    assert_eq!(grain().standard_errors(), Err(NoStandardErrors::NotTold));
     for area in [f64::NAN, f64::INFINITY, -1.0] {
         let spoilt = grain().with_standard_errors(Ok(StandardErrors { area, ..known }));
-        assert_eq!(spoilt.standard_errors(), Err(NoInterval::NotFinite));
+        assert_eq!(spoilt.standard_errors(), Err(NoStandardErrors::NotFinite));
     }
 }
 

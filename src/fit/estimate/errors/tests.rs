@@ -136,7 +136,7 @@ fn holes_and_edges_are_told() {
         let points = samples(&directions, |_| 1.0, 0.005);
         let found = estimated(&points, Vector3::repeat(1.0)).errors(&told);
         match found {
-            Err(NoInterval::Hole { half_angle }) => {
+            Err(NoStandardErrors::Hole { half_angle }) => {
                 assert!(is_hole && (half_angle.to_degrees() - degrees).abs() < 2.0);
             }
             other => assert!(!is_hole && other.is_ok(), "{degrees}: {other:?}"),
@@ -148,7 +148,7 @@ fn holes_and_edges_are_told() {
             let points = samples(&fibonacci(1538), |n| surface.radius(n), noise);
             let found = estimated(&points, Vector3::repeat(1.0)).errors(&told);
             assert!(
-                matches!(found, Err(NoInterval::Unresolved { .. })),
+                matches!(found, Err(NoStandardErrors::Unresolved { .. })),
                 "{body} {noise}: {found:?}"
             );
         }
@@ -212,7 +212,7 @@ fn bodies_with_flat_sides_have_no_errors_beside_their_edges() {
     let estimate = estimated(&points, Vector3::repeat(1.0));
     let found = estimate.errors(&best(&estimate).figures);
     assert!(
-        matches!(found, Err(NoInterval::Unresolved { .. })),
+        matches!(found, Err(NoStandardErrors::Unresolved { .. })),
         "{found:?}"
     );
 }

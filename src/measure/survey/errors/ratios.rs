@@ -111,7 +111,8 @@ mod tests {
 
     #[test]
     fn without_errors_of_sizes_there_are_none_of_ratios() {
-        let grain = egg([0.0; 5], 0.0).with_standard_errors(Err(crate::model::NoInterval::NotTold));
+        let grain =
+            egg([0.0; 5], 0.0).with_standard_errors(Err(crate::model::NoStandardErrors::NotTold));
         let survey = Survey::of_grain(&grain, Scheme::Exact);
         assert_eq!(survey.form_errors(), Ok(None));
         assert_eq!(survey.sphericity_errors(), Ok(None));

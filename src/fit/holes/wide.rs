@@ -1,9 +1,9 @@
 //! Holes between the points of a scan that are wide in space, as far apart as points are round them: what chance leaves between few
 //! points on the flat sides of a thin plate is not.
 
-use super::rounder::rounder;
-use crate::fit::gaps::random_gap;
+use super::empty_caps::random_gap;
 use crate::fit::neighbours::Neighbours;
+use crate::fit::rounder::rounder;
 use crate::mesh::{Mesh, solid_angle};
 use crate::sphere::triangulate_directions;
 use crate::spread::median;

@@ -1,6 +1,6 @@
 //! The largest gap of a cloud: how much of the sphere no point tells of.
 
-use super::neighbours::Neighbours;
+use crate::fit::neighbours::Neighbours;
 use crate::sphere::{compass, cube_grid};
 use nalgebra::Vector3;
 use std::f64::consts::PI;
@@ -18,18 +18,18 @@ const FIRST_STEP: f64 = 0.1;
 const LEAST_STEP: f64 = 1e-3;
 
 /// Half-angle of the largest cap without any of these unit vectors, in radians; pi if there are none.
-pub(crate) fn largest_gap(directions: &[Vector3<f64>]) -> f64 {
+pub(in crate::fit) fn largest_gap(directions: &[Vector3<f64>]) -> f64 {
     largest_cap(directions).0
 }
 
 /// Half-angle and middle of the largest cap without any of these unit vectors.
-pub(crate) fn largest_cap(directions: &[Vector3<f64>]) -> (f64, Vector3<f64>) {
+pub(super) fn largest_cap(directions: &[Vector3<f64>]) -> (f64, Vector3<f64>) {
     let cap = Gaps::new(directions).largest(1).pop();
     cap.unwrap_or((0.0, Vector3::z()))
 }
 
 /// How far places all over the sphere are from the nearest of some unit vectors.
-pub(crate) struct Gaps<'a> {
+pub(super) struct Gaps<'a> {
     directions: &'a [Vector3<f64>],
     neighbours: Neighbours,
     /// Angles, the largest first, and the places.
@@ -37,7 +37,7 @@ pub(crate) struct Gaps<'a> {
 }
 
 impl<'a> Gaps<'a> {
-    pub(crate) fn new(directions: &'a [Vector3<f64>]) -> Self {
+    pub(super) fn new(directions: &'a [Vector3<f64>]) -> Self {
         let mut gaps = Self {
             directions,
             neighbours: Neighbours::new(directions),
@@ -57,7 +57,7 @@ impl<'a> Gaps<'a> {
     }
 
     /// Half-angle and middle of the largest cap without a direction, of the largest one elsewhere, and so on, so many at most.
-    pub(crate) fn largest(&self, most: usize) -> Vec<(f64, Vector3<f64>)> {
+    pub(super) fn largest(&self, most: usize) -> Vec<(f64, Vector3<f64>)> {
         let mut caps: Vec<(f64, Vector3<f64>)> = Vec::new();
         for _ in 0..most {
             let is_elsewhere = |(_, n): &(f64, Vector3<f64>)| {
@@ -83,7 +83,7 @@ impl<'a> Gaps<'a> {
     /// Of n random directions the share of those places round which a cap of the share s of the sphere is empty is exp(-n s). It is
     /// taken to be exp(-(n s / a)^k), with k and a by the half and by the quarter of places that lie farthest from all directions;
     /// of a lattice k is about 2.
-    pub(crate) fn evenness(&self) -> f64 {
+    pub(super) fn evenness(&self) -> f64 {
         let n = self.directions.len() as f64;
         let share_at = |part: usize| {
             let clearance = self.clearances[self.clearances.len() / part].0;
@@ -98,12 +98,12 @@ impl<'a> Gaps<'a> {
 
 /// Half-angle, in radians, of a cap of which random directions leave one empty with a few percent: with the share
 /// (ln n + 5) / n of the sphere.
-pub(crate) fn random_gap(points: usize) -> f64 {
+pub(in crate::fit) fn random_gap(points: usize) -> f64 {
     gap(points, 1.0)
 }
 
 /// The same of directions that are spread more evenly, and leave so much less of the sphere.
-pub(crate) fn gap(points: usize, less: f64) -> f64 {
+pub(super) fn gap(points: usize, less: f64) -> f64 {
     let n = (points as f64).max(1.0);
     let share = (less * logarithm(n) / n).min(1.0);
     (1.0 - 2.0 * share).acos()

@@ -16,7 +16,7 @@
 //! Measured on clouds of eight smooth bodies whose tips were cut off, a hole of some ten degrees: area, volume and moments were
 //! up to 14 standard errors off. Of an almond whose pointed tip is missing over 9 degrees the length was so by 7, before the cone.
 
-use super::gaps::{Gaps, gap};
+use super::empty_caps::{Gaps, gap};
 use crate::sphere::tangents;
 use crate::spread::{median, upper_quartile};
 use nalgebra::Vector3;
@@ -44,9 +44,9 @@ const MOST: usize = 8;
 
 /// What so many random points would not leave empty.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Holes {
+pub(in crate::fit) struct Holes {
     /// Half-angle of the largest cap of directions without a point, chance or not, in radians.
-    pub(super) largest: f64,
+    pub(in crate::fit) largest: f64,
     holes: Vec<Hole>,
 }
 
@@ -64,7 +64,7 @@ struct Hole {
 
 impl Holes {
     /// Between points in these directions, of a surface with a place in each direction.
-    pub(super) fn new(
+    pub(in crate::fit) fn new(
         directions: &[Vector3<f64>],
         mut place: impl FnMut(&Vector3<f64>) -> Vector3<f64>,
     ) -> Self {
@@ -83,20 +83,20 @@ impl Holes {
         }
     }
 
-    pub(super) fn is_empty(&self) -> bool {
+    pub(in crate::fit) fn is_empty(&self) -> bool {
         self.holes.is_empty()
     }
 
     /// By how much the surface is uncertain to reach farther than `height` along a unit vector: the share of how much farther it does
     /// in the holes, if all that may be missing is.
-    pub(super) fn beyond(&self, towards: &Vector3<f64>, height: f64) -> f64 {
+    pub(in crate::fit) fn beyond(&self, towards: &Vector3<f64>, height: f64) -> f64 {
         let places = self.holes.iter().flat_map(|hole| &hole.farthest);
         let heights = places.map(|place| place.dot(towards) - height);
         SHARE * heights.fold(0.0, f64::max)
     }
 
     /// By how much the surface is uncertain in a direction, and the gradient of that.
-    pub(super) fn hidden(&self, n: &Vector3<f64>) -> (f64, Vector3<f64>) {
+    pub(in crate::fit) fn hidden(&self, n: &Vector3<f64>) -> (f64, Vector3<f64>) {
         let each = self.holes.iter().map(|hole| hole.hidden(n));
         let most = each.max_by(|one, other| one.0.total_cmp(&other.0));
         most.unwrap_or_default()

@@ -1,7 +1,7 @@
 //! The largest gap between the directions of a scan's points.
 
-use super::holes::{all_together, is_any_wide};
-use crate::fit::gaps::largest_cap;
+use super::empty_caps::largest_cap;
+use super::wide::{all_together, is_any_wide};
 use crate::fit::warning::FitWarning;
 use crate::mesh::Mesh;
 use crate::model::Unseen;
@@ -13,24 +13,24 @@ use nalgebra::{Point3, Vector3};
 const WIDE: f64 = 0.2;
 
 /// The largest cap of directions without points.
-pub(super) struct Gap {
+pub(in crate::fit) struct Gap {
     /// Angular radius.
-    pub(super) half_angle: f64,
+    pub(in crate::fit) half_angle: f64,
     direction: Vector3<f64>,
     /// Whether it is to be told.
     is_wide: bool,
     /// What was not seen, if it is large.
-    pub(super) unseen: Option<Unseen>,
+    pub(in crate::fit) unseen: Option<Unseen>,
     /// Whether that is no wider in space than points as far apart as those round it leave by chance. On the flat sides of a
     /// thin plate few points are many degrees apart, as seen from its middle.
-    pub(super) is_sparse: bool,
+    pub(in crate::fit) is_sparse: bool,
     /// Whether these are holes none of which is large: a fit may know the surface over each of them.
-    pub(super) is_many: bool,
+    pub(in crate::fit) is_many: bool,
 }
 
 impl Gap {
     /// That of the vertices of a closed mesh of about unit size, as seen from the middle of its area.
-    pub(super) fn new(mesh: &Mesh) -> Self {
+    pub(in crate::fit) fn new(mesh: &Mesh) -> Self {
         let centre = middle_of_area(mesh);
         let seen = |vertex: &Point3<f64>| (vertex - centre).try_normalize(0.0).unwrap_or_default();
         let directions: Vec<Vector3<f64>> = mesh.vertices.iter().map(seen).collect();
@@ -66,7 +66,7 @@ impl Gap {
     }
 
     /// What is to be told, if it is wide.
-    pub(super) fn warning(&self) -> Option<FitWarning> {
+    pub(in crate::fit) fn warning(&self) -> Option<FitWarning> {
         self.is_wide.then_some(FitWarning::Gap {
             half_angle: self.half_angle,
             direction: self.direction,

@@ -1,7 +1,7 @@
 //! When so much of a grain was not seen that it is told of, and what that does to its figures.
 
-use super::figures::Figures;
-use super::gaps::random_gap;
+use super::empty_caps::random_gap;
+use crate::fit::figures::Figures;
 use crate::model::{StandardErrors, Unseen};
 use std::f64::consts::PI;
 
@@ -15,7 +15,7 @@ const GUESS: f64 = 0.25;
 
 impl Unseen {
     /// A cap without points, if it is larger than is told of, and than those that few points leave by chance.
-    pub(crate) fn hole(half_angle: f64, points: usize) -> Option<Self> {
+    pub(in crate::fit) fn hole(half_angle: f64, points: usize) -> Option<Self> {
         let is_large = half_angle > LARGEST_WITH_FIGURES.max(random_gap(points));
         is_large.then_some(Self::Hole { half_angle })
     }
@@ -23,7 +23,7 @@ impl Unseen {
     /// Standard errors of figures with a guess in them: to those that the points tell of, if known, is added that the
     /// radius is off there. Area, volume, moments go with its powers; the centroid with the volume, three quarters of the
     /// radius away.
-    pub(super) fn errors(
+    pub(in crate::fit) fn errors(
         &self,
         told: &Figures,
         mean_radius: f64,
