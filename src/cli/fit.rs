@@ -8,7 +8,7 @@ use super::values::SurfaceArg;
 use super::{outputs, superquadric};
 use crate::digits::plural;
 use crate::fit::{FitOptions, Fitted, Seams};
-use crate::report::{FitReport, largest_loss, write_harmonics};
+use crate::report::{FitReport, largest_loss, write_harmonics, write_position_harmonics};
 use crate::sphere::Symmetry;
 use anyhow::{Result, bail};
 use std::time::Instant;
@@ -119,14 +119,22 @@ fn write_published(args: &FitArgs, fitted: &Fitted) -> Result<Option<f64>> {
     let Some(path) = &args.harmonics else {
         return Ok(None);
     };
-    let Some(star) = fitted.grain.star() else {
-        bail!(
-            "the published coefficients are those of a radius: leave --harmonics out, or fit one (--surface star)"
-        );
+    let loss = match (fitted.grain.star(), fitted.grain.position()) {
+        (Some(grain), _) => {
+            let published = grain.published();
+            outputs::write(path, |mut file| {
+                Ok(write_harmonics(grain, &published, &mut file)?)
+            })?;
+            largest_loss(&published)
+        }
+        (None, Some(grain)) => {
+            let published = grain.published();
+            outputs::write(path, |mut file| {
+                Ok(write_position_harmonics(grain, &published, &mut file)?)
+            })?;
+            largest_loss(published.as_flattened())
+        }
+        (None, None) => return Ok(None),
     };
-    let published = star.published();
-    outputs::write(path, |mut file| {
-        Ok(write_harmonics(star, &published, &mut file)?)
-    })?;
-    Ok(Some(largest_loss(&published)))
+    Ok(Some(loss))
 }

@@ -1,9 +1,7 @@
 //! Extents along axes.
 
 use super::oriented_box::{OrientedBox, oriented};
-use super::support::support_near;
 use crate::Mesh;
-use crate::model::Surface;
 use nalgebra::{Matrix3, Point3, Vector3};
 
 /// Extents of a mesh along three unit axes (columns of `axes`): the sides of the smallest box with
@@ -54,57 +52,5 @@ impl Extents {
             dimensions: Vector3::from(order.map(|i| along[i])),
             axes: Matrix3::from_columns(&order.map(|i| axes.column(i).into_owned())),
         }
-    }
-}
-
-/// A surface with places all over it.
-pub(super) struct Reach<'a> {
-    pub(super) surface: &'a dyn Surface,
-    /// Its mesh of the resolution [`RESOLUTION`], seen from its centre.
-    pub(super) mesh: &'a Mesh,
-}
-
-/// Cells per edge of the cube of directions of a mesh on which hull, spheres and outlines are found:
-/// 24 578 vertices. They lie on the surface, and what is between them is cut off by at most 1e-4 of
-/// the radius of curvature.
-pub(super) const RESOLUTION: usize = 64;
-
-impl Reach<'_> {
-    /// Extents along three unit axes, the columns: between the planes across an axis that the surface touches, found from the
-    /// vertices of its mesh that reach farthest. Error: rounding where it is smooth, 1e-12 on edges.
-    pub(super) fn extents(&self, axes: &Matrix3<f64>) -> Vector3<f64> {
-        let [low, high] = self.bounds(axes);
-        high - low
-    }
-
-    /// The smallest box with these axes that holds the surface, likewise.
-    pub(super) fn hold(&self, axes: &Matrix3<f64>) -> OrientedBox {
-        oriented(self.bounds(axes), axes)
-    }
-
-    fn bounds(&self, axes: &Matrix3<f64>) -> [Vector3<f64>; 2] {
-        let (directions, _) = self.surface.grid(RESOLUTION);
-        let centre = self.surface.frame().centre;
-        let reach = |towards: Vector3<f64>| {
-            let heights = self
-                .mesh
-                .vertices
-                .iter()
-                .map(|vertex| (vertex - centre).dot(&towards));
-            let higher = |best: (f64, usize), (i, height): (usize, f64)| match height > best.0 {
-                true => (height, i),
-                false => best,
-            };
-            let (height, farthest) = heights.enumerate().fold((f64::NEG_INFINITY, 0), higher);
-            let touched = support_near(self.surface, &towards, &directions[farthest])
-                .point
-                .dot(&towards);
-            centre.coords.dot(&towards) + touched.max(height)
-        };
-        let axis = |i: usize| axes.column(i).into_owned();
-        [
-            Vector3::from_fn(|i, _| -reach(-axis(i))),
-            Vector3::from_fn(|i, _| reach(axis(i))),
-        ]
     }
 }

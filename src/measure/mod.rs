@@ -33,6 +33,7 @@ mod oriented_box;
 mod outline;
 mod peaks;
 mod projection;
+mod reach;
 mod rings;
 mod roundness;
 mod sag;

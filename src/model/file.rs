@@ -26,6 +26,9 @@ use flate2::Crc;
 use nalgebra::{Matrix3, Point3, Vector3};
 use serde::{Deserialize, Serialize};
 
+/// The first version whose files tell the checksum of the surface that errors are those of.
+const FIRST_WITH_CHECKSUM: u32 = 8;
+
 /// The version of the file format that this library writes.
 const VERSION: u32 = 8;
 
@@ -288,10 +291,14 @@ pub fn grain_from_json(text: &str) -> Result<Grain, ModelError> {
     let standard_errors = file.standard_errors()?;
     let local_errors = file.local_errors.as_ref();
     let local_errors = local_errors.map(|record| record.read().ok_or(ModelError::LocalErrors));
-    let checksum = file.checksum;
+    let (version, checksum) = (file.version, file.checksum);
     let grain = file.grain()?;
-    let is_edited = |checksum| GrainFile::of_surface(&grain).checksum_of_surface() != checksum;
-    if checksum.is_some_and(is_edited) {
+    let has_errors = standard_errors.is_ok() || local_errors.is_some();
+    let is_edited = match checksum {
+        Some(checksum) => GrainFile::of_surface(&grain).checksum_of_surface() != checksum,
+        None => has_errors && version >= FIRST_WITH_CHECKSUM,
+    };
+    if is_edited {
         let edited = grain.with_standard_errors(Err(NoStandardErrors::Edited));
         return Ok(edited.with_unseen(unseen).with_contradicted(contradicted));
     }

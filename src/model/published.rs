@@ -1,6 +1,6 @@
-//! The coefficients as the dissertation publishes them: a_l^m of the real orthonormal harmonics.
+//! The coefficients as the dissertation publishes them, a_l^m of the real orthonormal harmonics, and those of positions likewise.
 
-use super::{Family, StarGrain};
+use super::{Family, PositionGrain, StarGrain};
 use crate::sphere::{
     AngleRectangle, AngularPartition, Cap, CapBasis, CubeCell, GaussLegendre, HarmonicBasis,
     Symmetry, coefficient_count,
@@ -8,7 +8,7 @@ use crate::sphere::{
 use nalgebra::Vector3;
 use std::f64::consts::TAU;
 
-/// An expansion r = sum of a_l^m Y_l^m in the real orthonormal harmonics.
+/// An expansion in the real orthonormal harmonics: r = sum of a_l^m Y_l^m, or one coordinate of positions.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PublishedExpansion {
     /// Where it holds, in the grain's own frame; of a grain that is [stretched](StarGrain::stretched), in
@@ -75,13 +75,44 @@ impl StarGrain {
         expansions
             .map(|(segment, own)| match place(segment) {
                 Some((region, cap)) => publish(&basis, &cap, own, region),
-                None => PublishedExpansion {
-                    region: Region::Rectangle(AngularPartition::new(1).rectangle(0)),
-                    coefficients: own.clone(),
-                    loss: 0.0,
-                },
+                None => PublishedExpansion::of_sphere(own.clone()),
             })
             .collect()
+    }
+}
+
+impl PositionGrain {
+    /// The same of x, y and z in the grain's own frame, for every cell: of the whole sphere these are the coefficients of SPHARM
+    /// (Brechbühler, Gerig, Kübler 1995).
+    pub fn published(&self) -> Vec<[PublishedExpansion; 3]> {
+        let position = self.position();
+        let basis = CapBasis::new(position.degree());
+        let expansions = position.coefficients().iter().enumerate();
+        expansions
+            .map(|(at, own)| {
+                std::array::from_fn(|axis| {
+                    let own: Vec<f64> = own.iter().skip(axis).step_by(3).copied().collect();
+                    match position.cover() {
+                        Some(cover) => {
+                            let (cell, margin) = (cover.cells()[at], cover.margin());
+                            publish(&basis, cover.cap(at), &own, Region::Cell { cell, margin })
+                        }
+                        None => PublishedExpansion::of_sphere(own),
+                    }
+                })
+            })
+            .collect()
+    }
+}
+
+impl PublishedExpansion {
+    /// One that is published as it is.
+    fn of_sphere(coefficients: Vec<f64>) -> Self {
+        Self {
+            region: Region::Rectangle(AngularPartition::new(1).rectangle(0)),
+            coefficients,
+            loss: 0.0,
+        }
     }
 }
 

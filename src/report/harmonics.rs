@@ -1,12 +1,13 @@
 //! The published coefficients a_l^m as CSV.
 
-use crate::model::{PublishedExpansion, Region, StarGrain, Stretch, Surface};
+use crate::model::{Frame, PositionGrain, PublishedExpansion, Region, StarGrain, Stretch, Surface};
 use crate::sphere::{AngleRectangle, Symmetry};
 use std::io::{self, Write};
 
-/// The largest loss of the conversion over all segments, in the scan's unit.
-pub fn largest_loss(segments: &[PublishedExpansion]) -> f64 {
-    segments.iter().fold(0.0, |most, s| most.max(s.loss))
+/// The largest loss of the conversion over all expansions, in the scan's unit.
+pub fn largest_loss<'a>(expansions: impl IntoIterator<Item = &'a PublishedExpansion>) -> f64 {
+    let losses = expansions.into_iter().map(|expansion| expansion.loss);
+    losses.fold(0.0, f64::max)
 }
 
 /// Writes what [`StarGrain::published`] gave as CSV, a row per coefficient. Lines at the head, marked with
@@ -19,48 +20,119 @@ pub fn write_harmonics(
     segments: &[PublishedExpansion],
     writer: &mut impl Write,
 ) -> io::Result<()> {
-    let frame = grain.frame();
-    let [x, y, z] = [0, 1, 2].map(|i| row(frame.axes.column(i).into_owned().into()));
-    let angles = "theta_min,theta_max,phi_min,phi_max";
-    let (how, columns) = match segments.first().map(|s| s.region) {
-        Some(Region::Cell { margin, .. }) => (blending(margin), "face,parts,row,column"),
-        Some(Region::Mirrored(symmetry)) => (mirroring(symmetry), angles),
-        _ => ("in each segment".into(), angles),
+    let Some(first) = segments.first() else {
+        return Ok(());
     };
-    write!(
-        writer,
-        "# radius r(theta, phi) = sum over l, m of a_l^m Y_l^m(theta, phi) {how}\n\
-         # Y_l^m: real and orthonormal on the unit sphere, without the Condon-Shortley phase;\n\
-         #   m > 0: sqrt(2) N P_l^m(cos theta) cos(m phi), m < 0: sqrt(2) N P_l^|m|(cos theta) \
-         sin(|m| phi)\n\
-         # theta from the grain's z axis, phi from its x axis towards its y axis, in radians\n\
-         {}\
-         # centre of the grain in the scan: {}\n\
-         # x axis of the grain in the scan: {x}\n\
-         # y axis of the grain in the scan: {y}\n\
-         # z axis of the grain in the scan: {z}\n\
-         # a and the centre are in the scan's unit\n\
-         # largest loss of the conversion: {:e} in the scan's unit\n\
-         segment,{columns},l,m,a\n",
-        stretching(grain.stretch()),
-        row(frame.centre.coords.into()),
-        largest_loss(segments),
-    )?;
+    let how = match first.region {
+        Region::Cell { margin, .. } => blending("r", margin),
+        Region::Mirrored(symmetry) => mirroring(symmetry),
+        Region::Rectangle(_) => "in each segment".into(),
+    };
+    let expansion =
+        format!("radius r(theta, phi) = sum over l, m of a_l^m Y_l^m(theta, phi) {how}");
+    let loss = largest_loss(segments);
+    let stretch = stretching(grain.stretch());
+    write_head(writer, &expansion, &stretch, &grain.frame(), loss)?;
+    writeln!(writer, "segment,{},l,m,a", first.region.columns())?;
     for (number, segment) in segments.iter().enumerate() {
-        let region = match segment.region {
-            Region::Rectangle(rectangle) => bounds(&rectangle),
-            Region::Mirrored(symmetry) => bounds(&symmetry.rectangle()),
-            Region::Cell { cell: c, .. } => {
-                format!("{},{},{},{}", c.face, c.parts, c.row, c.column)
-            }
-        };
+        let region = segment.region.row();
         for (index, a) in segment.coefficients.iter().enumerate() {
-            let l = index.isqrt();
-            let m = index as i64 - (l * (l + 1)) as i64;
+            let [l, m] = degree_and_order(index);
             writeln!(writer, "{number},{region},{l},{m},{a}")?;
         }
     }
     Ok(())
+}
+
+/// The same of what [`PositionGrain::published`] gave, with the coefficients of x, y and z in a row.
+///
+/// # Errors
+/// Those of the writer.
+pub fn write_position_harmonics(
+    grain: &PositionGrain,
+    segments: &[[PublishedExpansion; 3]],
+    writer: &mut impl Write,
+) -> io::Result<()> {
+    let Some([first, ..]) = segments.first() else {
+        return Ok(());
+    };
+    let how = match first.region {
+        Region::Cell { margin, .. } => blending("X", margin),
+        _ => "over the whole sphere".into(),
+    };
+    let expansion = format!(
+        "point X(theta, phi) = (x, y, z) = sum over l, m of (x, y, z)_l^m Y_l^m(theta, phi) {how}"
+    );
+    let point = "# X is seen from the centre of the grain along its axes; theta and phi are parameters, not the direction of X\n";
+    let loss = largest_loss(segments.as_flattened());
+    write_head(writer, &expansion, point, &grain.frame(), loss)?;
+    writeln!(writer, "segment,{},l,m,x,y,z", first.region.columns())?;
+    for (number, [x, y, z]) in segments.iter().enumerate() {
+        let region = x.region.row();
+        let coordinates = x
+            .coefficients
+            .iter()
+            .zip(&y.coefficients)
+            .zip(&z.coefficients);
+        for (index, ((x, y), z)) in coordinates.enumerate() {
+            let [l, m] = degree_and_order(index);
+            writeln!(writer, "{number},{region},{l},{m},{x},{y},{z}")?;
+        }
+    }
+    Ok(())
+}
+
+/// By which conventions to read what follows.
+fn write_head(
+    writer: &mut impl Write,
+    expansion: &str,
+    more: &str,
+    frame: &Frame,
+    loss: f64,
+) -> io::Result<()> {
+    let [x, y, z] = [0, 1, 2].map(|i| row(frame.axes.column(i).into_owned().into()));
+    write!(
+        writer,
+        "# {expansion}\n\
+         # Y_l^m: real and orthonormal on the unit sphere, without the Condon-Shortley phase;\n\
+         #   m > 0: sqrt(2) N P_l^m(cos theta) cos(m phi), m < 0: sqrt(2) N P_l^|m|(cos theta) \
+         sin(|m| phi)\n\
+         # theta from the grain's z axis, phi from its x axis towards its y axis, in radians\n\
+         {more}\
+         # centre of the grain in the scan: {}\n\
+         # x axis of the grain in the scan: {x}\n\
+         # y axis of the grain in the scan: {y}\n\
+         # z axis of the grain in the scan: {z}\n\
+         # coefficients and the centre are in the scan's unit\n\
+         # largest loss of the conversion: {loss:e} in the scan's unit\n",
+        row(frame.centre.coords.into()),
+    )
+}
+
+/// Degree and order of a harmonic by its index.
+fn degree_and_order(index: usize) -> [i64; 2] {
+    let l = index.isqrt() as i64;
+    [l, index as i64 - l * (l + 1)]
+}
+
+impl Region {
+    /// The names of what [`Self::row`] tells.
+    fn columns(&self) -> &'static str {
+        match self {
+            Self::Cell { .. } => "face,parts,row,column",
+            _ => "theta_min,theta_max,phi_min,phi_max",
+        }
+    }
+
+    fn row(&self) -> String {
+        match self {
+            Self::Rectangle(rectangle) => bounds(rectangle),
+            Self::Mirrored(symmetry) => bounds(&symmetry.rectangle()),
+            Self::Cell { cell: c, .. } => {
+                format!("{},{},{},{}", c.face, c.parts, c.row, c.column)
+            }
+        }
+    }
 }
 
 fn row(v: [f64; 3]) -> String {
@@ -97,11 +169,11 @@ fn mirroring(symmetry: Symmetry) -> String {
     )
 }
 
-/// How the expansions of cells make a radius.
-fn blending(margin: f64) -> String {
+/// How the expansions of cells make a radius or a point, by its name.
+fn blending(blended: &str, margin: f64) -> String {
     format!(
         "f of all cells, blended:\n\
-         #   r = sum of w f / sum of w over the cells, w = S(beta) S(gamma) on the half sphere of \
+         #   {blended} = sum of w f / sum of w over the cells, w = S(beta) S(gamma) on the half sphere of \
          the cell's face and 0 elsewhere;\n\
          #   face 2a + s: axis a (0: x, 1: y, 2: z), side s (0: +, 1: -); tan(beta) = n_b / |n_a|, \
          tan(gamma) = n_c / |n_a| with b, c the axes after a;\n\

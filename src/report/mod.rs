@@ -44,7 +44,7 @@ pub use estimate::{EstimateRecord, EvaluationRecord};
 #[cfg(feature = "cli")]
 pub(crate) use fit::described_reference;
 pub use fit::{FitReport, ReferenceRecord, Seconds, Skipped};
-pub use harmonics::{largest_loss, write_harmonics};
+pub use harmonics::{largest_loss, write_harmonics, write_position_harmonics};
 pub use hertz::HertzLaw;
 pub use measure::{
     BoxRecord, BoxSides, CurvatureRecord, Dimensions, EllipsoidRecord, FacesRecord, FillRecord,

@@ -1,23 +1,25 @@
 //! The published coefficients of a grain: the CSV and the formula in its header are enough to rebuild the
-//! radius. Nothing of the library's weights or bases is used here.
+//! radius, or the position of points. Nothing of the library's weights or bases is used here.
 
 use super::{folder, grain, json, number, succeed};
 use grainform::model::{Family, Stretch, Whole};
 use grainform::report::write_harmonics;
-use grainform::{StarGrain, StarSurface, Surface, model};
+use grainform::{Grain, StarGrain, StarSurface, Surface, model};
 use nalgebra::{Matrix3, Vector3};
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
-/// A cell as the CSV tells of it: face, parts, row, column and a_l^m by l and m. Of the whole sphere: angles.
+/// A cell as the CSV tells of it: face, parts, row, column and, by l and m, a_l^m or those of x, y and z. Of the whole sphere:
+/// angles.
 #[derive(Default)]
 struct Cell {
     place: [f64; 4],
-    coefficients: Vec<(usize, i64, f64)>,
+    coefficients: Vec<(usize, i64, Vector3<f64>)>,
 }
 
 /// What the CSV says.
 struct Published {
+    centre: Vector3<f64>,
     /// Rows: the grain's axes in the scan.
     axes: Matrix3<f64>,
     /// t.
@@ -52,12 +54,17 @@ fn read(text: &str) -> Published {
         let cell = cells.entry(whole(0)).or_default();
         cell.place = [1, 2, 3, 4].map(|i| columns[i].parse().expect("a number"));
         let m = columns[6].parse().expect("an order");
-        let a = columns[7].parse().expect("a coefficient");
-        cell.coefficients.push((whole(5), m, a));
+        let own = columns[7..]
+            .iter()
+            .map(|a| a.parse().expect("a coefficient"));
+        let own: Vec<f64> = own.chain([0.0; 2]).take(3).collect();
+        cell.coefficients
+            .push((whole(5), m, Vector3::from_vec(own)));
     }
     let is_blended = text.contains("S rises from 0 to 1 over ");
     let is_stretched = text.contains("by t = ");
     Published {
+        centre: Vector3::from_vec(numbers(after(text, "centre of the grain in the scan: "))),
         axes: Matrix3::from_rows(&[axis("x"), axis("y"), axis("z")]),
         stretch: match is_stretched {
             true => Vector3::from_column_slice(&numbers(after(text, "by t = "))[..3]),
@@ -112,7 +119,7 @@ fn profile(angle: f64, low: f64, high: f64, reach: f64) -> f64 {
 }
 
 impl Cell {
-    fn expansion(&self, n: &Vector3<f64>) -> f64 {
+    fn expansion(&self, n: &Vector3<f64>) -> Vector3<f64> {
         let terms = self.coefficients.iter();
         terms.map(|&(l, m, a)| a * harmonic(l, m, n)).sum()
     }
@@ -123,15 +130,23 @@ impl Published {
     fn radius(&self, n: &Vector3<f64>) -> f64 {
         let q = self.stretch.component_mul(&(self.axes * n));
         let local = q.normalize();
-        let radius = match self.margin {
-            Some(margin) => self.blend(margin, &local),
-            None => self.cells[0].expansion(&local),
-        };
-        radius / q.norm()
+        self.value(&local).x / q.norm()
     }
 
-    fn blend(&self, [margin, most]: [f64; 2], n: &Vector3<f64>) -> f64 {
-        let (mut sum, mut weights) = (0.0, 0.0);
+    /// The point of the scan over a parameter in the grain's own frame.
+    fn point(&self, n: &Vector3<f64>) -> Vector3<f64> {
+        self.centre + self.axes.transpose() * self.value(n)
+    }
+
+    fn value(&self, n: &Vector3<f64>) -> Vector3<f64> {
+        match self.margin {
+            Some(margin) => self.blend(margin, n),
+            None => self.cells[0].expansion(n),
+        }
+    }
+
+    fn blend(&self, [margin, most]: [f64; 2], n: &Vector3<f64>) -> Vector3<f64> {
+        let (mut sum, mut weights) = (Vector3::zeros(), 0.0);
         for cell in &self.cells {
             let [face, parts, row, column] = cell.place;
             let axis = face as usize / 2;
@@ -147,7 +162,7 @@ impl Published {
             };
             let weight = along((axis + 1) % 3, row) * along((axis + 2) % 3, column);
             if weight > 0.0 {
-                sum += weight * cell.expansion(n);
+                sum += cell.expansion(n) * weight;
                 weights += weight;
             }
         }
@@ -157,6 +172,11 @@ impl Published {
 
 /// Fits a grain of the repository; gives what was published and the model itself.
 fn publish(name: &str, options: &[&str]) -> (Published, StarGrain, f64) {
+    let (published, grain, radius) = publish_any(name, options);
+    (published, grain.star().cloned().unwrap(), radius)
+}
+
+fn publish_any(name: &str, options: &[&str]) -> (Published, Grain, f64) {
     let folder = folder();
     let scan = grain(name);
     let words = ["fit", &scan, "--harmonics", "a.csv", "-o", "m.json"];
@@ -164,9 +184,9 @@ fn publish(name: &str, options: &[&str]) -> (Published, StarGrain, f64) {
     let text = |name: &str| std::fs::read_to_string(folder.path().join(name)).unwrap();
     let published = read(&text("a.csv"));
     // The header has fewer digits than the report.
-    assert!((published.loss / number(&report, "harmonics_loss") - 1.0).abs() < 0.1);
+    let loss = number(&report, "harmonics_loss");
+    assert!((published.loss - loss).abs() <= 0.1 * loss);
     let grain = model::grain_from_json(&text("m.json")).unwrap();
-    let grain = grain.star().cloned().unwrap();
     (published, grain, number(&report, "mean_radius"))
 }
 
@@ -186,6 +206,24 @@ fn the_formula_in_the_header_gives_back_the_radius_of_a_blended_grain() {
                 off <= 2.0 * published.loss + 1e-13 * radius,
                 "{name} {options:?} {n}: {off} where {} is stated",
                 published.loss
+            );
+        }
+    }
+}
+
+#[test]
+fn the_formula_in_the_header_gives_back_the_points_of_positions() {
+    for options in [&["--segments", "1"][..], &["--segments", "24"]] {
+        let options = [options, &["--surface", "position"]].concat();
+        let (published, grain, radius) = publish_any("bean.ply", &options);
+        let position = grain.position().unwrap();
+        for n in grainform::sphere::cube_grid(9).0 {
+            let want = grain.frame().to_scan(&position.position().point(&n));
+            let off = (published.point(&n) - want.coords).norm();
+            let bound = 4.0 * published.loss + 1e-12 * radius;
+            assert!(
+                off <= bound,
+                "{options:?} {n}: {off} where {bound} is stated"
             );
         }
     }

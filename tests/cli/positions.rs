@@ -61,17 +61,6 @@ fn a_banana_is_fitted_measured_and_touched() {
     let refused = errors(&grainform(&folder, &contact));
     assert!(refused.contains("is curved by 0.5"), "{refused}");
     assert!(refused.contains("no force is vouched for"), "{refused}");
-
-    let words = [
-        "fit",
-        "banana.ply",
-        "--tolerance",
-        "0.5%",
-        "--harmonics",
-        "a.csv",
-    ];
-    let refused = errors(&grainform(&folder, &words));
-    assert!(refused.contains("leave --harmonics out"), "{refused}");
 }
 
 #[test]

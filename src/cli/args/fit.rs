@@ -38,7 +38,7 @@ pub(in crate::cli) struct FitArgs {
     #[arg(long, value_name = "OUT", help_heading = OUTPUT)]
     pub(in crate::cli) mesh: Option<PathBuf>,
 
-    /// Write the published coefficients a_l^m of every segment here
+    /// Write the published coefficients a_l^m of every segment here; of positions those of x, y and z
     #[arg(long, value_name = "OUT.csv", help_heading = OUTPUT)]
     pub(in crate::cli) harmonics: Option<PathBuf>,
 

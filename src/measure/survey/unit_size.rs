@@ -4,8 +4,9 @@ use super::Survey;
 use super::body::{Body, Measured};
 use super::error::SurveyError;
 use crate::Mesh;
-use crate::measure::extents::{Extents, RESOLUTION, Reach};
+use crate::measure::extents::Extents;
 use crate::measure::minimum_box::{LeastBoxes, least_boxes};
+use crate::measure::reach::{RESOLUTION, Reach};
 use crate::measure::sag::finer_resolution;
 use crate::measure::{
     Ball, EquivalentEllipsoid, MassProperties, OrientedBox, PrincipalInertia, SolidProperties,
@@ -134,7 +135,13 @@ impl Survey<'_> {
     }
 
     pub(super) fn unit_enclosing(&self) -> Result<Ball, SurveyError> {
-        let ball = || Ok(enclosing_ball(&self.hull()?.vertices)?);
+        let ball = || {
+            let hull = &self.hull()?.vertices;
+            Ok(match self.reach() {
+                Some(reach) => reach.enclosing_ball(hull)?,
+                None => enclosing_ball(hull)?,
+            })
+        };
         self.enclosing.get_or_init(ball).clone()
     }
 
@@ -168,10 +175,9 @@ impl Survey<'_> {
     }
 
     /// The surface, if it has a formula, and where it reaches to.
-    pub(super) fn reach(&self) -> Option<Reach<'_>> {
+    fn reach(&self) -> Option<Reach<'_>> {
         let surface = self.body.surface().ok()?;
-        let mesh = self.coarse_mesh();
-        Some(Reach { surface, mesh })
+        Some(Reach::new(surface, self.coarse_mesh()))
     }
 
     pub(super) fn hull(&self) -> Result<&Mesh, SurveyError> {
