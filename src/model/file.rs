@@ -291,6 +291,7 @@ pub fn grain_from_json(text: &str) -> Result<Grain, ModelError> {
     let standard_errors = file.standard_errors()?;
     let local_errors = file.local_errors.as_ref();
     let local_errors = local_errors.map(|record| record.read().ok_or(ModelError::LocalErrors));
+    let local_errors = local_errors.transpose()?;
     let (version, checksum) = (file.version, file.checksum);
     let grain = file.grain()?;
     let has_errors = standard_errors.is_ok() || local_errors.is_some();
@@ -306,7 +307,7 @@ pub fn grain_from_json(text: &str) -> Result<Grain, ModelError> {
         .with_unseen(unseen)
         .with_contradicted(contradicted)
         .with_standard_errors(standard_errors)
-        .with_local_errors(local_errors.transpose()?))
+        .with_local_errors(local_errors))
 }
 
 impl GrainFile {
