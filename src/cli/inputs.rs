@@ -102,7 +102,9 @@ pub(super) fn parse_scan(
         );
     }
     let format = input.format.map(|format| format.0);
-    Ok(parse_file(called(path), bytes, format)?)
+    let scan = parse_file(called(path), bytes, format)?;
+    check_unit(path, scan.unit(), unit)?;
+    Ok(scan)
 }
 
 /// Whether these are the bytes of a model, which has neither labels nor a format of scans.

@@ -121,6 +121,11 @@ pub enum ModelError {
     /// Not JSON of the expected form.
     #[error("not a grainform model: {0}; write one with `grainform fit SCAN -o MODEL.json`")]
     Form(#[from] serde_json::Error),
+    /// JSON that nowhere says that it is a model.
+    #[error(
+        "not a grainform model, but other JSON; write one with `grainform fit SCAN -o MODEL.json`"
+    )]
+    Foreign,
     /// JSON of some other program.
     #[error("not a grainform model: its format is {found:?}, not {FORMAT:?}")]
     Format {
@@ -272,7 +277,11 @@ impl PositionRecord {
 /// is not above zero everywhere, which is proved ([`StarGrain::least_radius`]), or its surface is folded
 /// ([`PositionGrain::check`]).
 pub fn grain_from_json(text: &str) -> Result<Grain, ModelError> {
-    let mut file: GrainFile = serde_json::from_str(text)?;
+    let file: Result<GrainFile, _> = serde_json::from_str(text);
+    let mut file = file.map_err(|error| match error.is_data() && !text.contains(FORMAT) {
+        true => ModelError::Foreign,
+        false => error.into(),
+    })?;
     if file.format != FORMAT {
         return Err(ModelError::Format { found: file.format });
     }

@@ -51,7 +51,7 @@ mod tests {
         assert!(matches!(
             empty,
             LoadError::Model {
-                source: ModelError::Form(_),
+                source: ModelError::Foreign,
                 ..
             }
         ));

@@ -50,9 +50,9 @@ impl Unit {
 }
 
 /// Units of headers in which no lengths are told here.
-const NOT_OFFERED: [&str; 2] = ["nm", "inch"];
+const NOT_OFFERED: [&str; 3] = ["nm", "dm", "inch"];
 
-/// Lengths are said to be in one unit, and the header of an image says another.
+/// Lengths are said to be in one unit, and the header of an image, or the heading of a table, says another.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("its header says that lengths are in {header}, and --unit that they are in {asked}: {}", self.advice())]
 pub struct UnitContradicted {
@@ -65,7 +65,7 @@ pub struct UnitContradicted {
 impl UnitContradicted {
     fn advice(&self) -> String {
         match NOT_OFFERED.contains(&&*self.header) {
-            true => "leave --unit out, or convert the image".into(),
+            true => "leave --unit out, or convert the scan".into(),
             false => format!("give --unit {}, or correct the header", self.header),
         }
     }
@@ -182,6 +182,6 @@ mod tests {
         assert!(told("mm").ends_with(
             "in mm, and --unit that they are in um: give --unit mm, or correct the header"
         ));
-        assert!(told("nm").ends_with("leave --unit out, or convert the image"));
+        assert!(told("nm").ends_with("leave --unit out, or convert the scan"));
     }
 }

@@ -16,6 +16,12 @@ const SMALLEST: f64 = 1e-100;
 /// anyone scans is some 1e-2 of its length.
 const FLAT: f64 = 1e-6;
 
+/// Points of which some is taken to be near most others.
+const LOOKED_AT: usize = 16;
+
+/// Of so many points one may be far from all others.
+const FEW: usize = 10;
+
 /// What points that passed the check span.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Span {
@@ -57,16 +63,22 @@ pub(crate) fn check(points: &[Point3<f64>]) -> Result<Span, ParseError> {
     Ok(Span { extent, flat })
 }
 
-/// The one point that is far from all others, if these are one place beside its distance.
+/// The few points that are far from all others, if these are one place beside their distances.
 fn far_away(points: &[Point3<f64>], extent: f64) -> Option<ParseError> {
-    // One of two points is not that one.
-    points.iter().take(2).find_map(|near| {
+    // Some of these is not among the few.
+    let step = points.len().div_ceil(LOOKED_AT);
+    points.iter().step_by(step).find_map(|near| {
         let all = points.iter().enumerate();
         let distances = all.map(|(point, place)| (point, (place - near).norm()));
         let mut far = distances.filter(|(_, distance)| *distance > FLAT * extent);
         let (point, distance) = far.next()?;
-        let is_alone = points.len() > 2 && far.next().is_none();
-        is_alone.then_some(ParseError::OneFarAway { point, distance })
+        let count = 1 + far.count();
+        let are_few = points.len() > 2 && count <= points.len().div_ceil(FEW);
+        are_few.then_some(ParseError::FarAway {
+            point,
+            count,
+            distance,
+        })
     })
 }
 
@@ -121,7 +133,7 @@ mod tests {
     }
 
     #[test]
-    fn one_point_far_from_a_body_is_named() {
+    fn a_few_points_far_from_a_body_are_named() {
         let body = [
             point![0.0, 0.0, 0.0],
             point![1.0, 0.0, 0.0],
@@ -132,11 +144,22 @@ mod tests {
             let mut points = body.to_vec();
             points.insert(at, point![-1e30, 0.0, 0.0]);
             let found = check(&points).unwrap_err();
-            let ParseError::OneFarAway { point, distance } = found else {
-                panic!("{found}");
+            let (count, distance) = (1, 1e30);
+            let expected = ParseError::FarAway {
+                point: at,
+                count,
+                distance,
             };
-            assert_eq!((point, distance), (at, 1e30));
+            assert_eq!(found, expected);
         }
+        let many =
+            |i: u32| Point3::from(Vector3::new(1.0, 2.0, 3.0).map(|x| f64::from(i) * x % 1.7));
+        let mut points: Vec<Point3<f64>> = (0..40).map(many).collect();
+        for at in [0, 7, 20] {
+            points[at] = point![1.7e38, 1.7e38, 1.7e38];
+        }
+        let told = check(&points).unwrap_err().to_string();
+        assert!(told.starts_with("point 0, one of 3 such, is "), "{told}");
     }
 
     #[test]

@@ -19,7 +19,7 @@ pub(super) fn coarse(points: &[Point3<f64>]) -> Option<String> {
         let mut coordinates = points.iter().flat_map(|point| point.iter());
         coordinates.all(|coordinate| f64::from(*coordinate as f32) == *coordinate)
     };
-    (step > COARSE * size && are_rounded()).then(|| {
+    (size > 0.0 && step > COARSE * size && are_rounded()).then(|| {
         let [step, size] = [step, size].map(|length| significant(length, 2));
         format!(
             "The coordinates have 32 bits, which so far from the origin are steps of {step}, and the scan is {size} wide: \

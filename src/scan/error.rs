@@ -51,7 +51,8 @@ pub enum ReadError {
     },
     /// The file is a fitted model.
     #[error(
-        "{} is no scan: it starts as a model does, which measure, mesh, report, contact, clump, export-dem and bed read",
+        "{} is no scan: it is JSON, as models are, which measure, mesh, report, contact, clump, export-dem and bed read; a scene of \
+         glTF is to be converted to PLY",
         path.display()
     )]
     Model {
@@ -246,15 +247,28 @@ pub enum ParseError {
         /// The coordinate.
         value: f64,
     },
-    /// All points but one are one place beside the distance of this one.
+    /// All points but a few are one place beside the distances of these.
     #[error(
-        "point {point} is {distance:e} away from all others, which are one place beside that; take it out, as what a scanner writes for no data"
+        "point {point}{} is {distance:e} away from all others, which are one place beside that; take such rows out, as what a scanner \
+         writes for no data", among(*.count)
     )]
-    OneFarAway {
-        /// The point, counted from zero.
+    FarAway {
+        /// The first such point, counted from zero.
         point: usize,
+        /// How many there are.
+        count: usize,
         /// Its distance, in the scan's unit.
         distance: f64,
+    },
+    /// What a heading says of the columns of x, y and z cannot be followed.
+    #[error("{place}: the heading {heading} {doubt}")]
+    Heading {
+        /// Where it is.
+        place: Place,
+        /// Its start, in quotes.
+        heading: String,
+        /// Why not.
+        doubt: HeadingDoubt,
     },
     /// All points coincide, or are so near that squares underflow.
     #[error(
@@ -290,5 +304,34 @@ impl ParseError {
                 warnings: warnings.to_vec(),
             },
         }
+    }
+}
+
+/// Why the heading of a table does not tell x, y and z.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum HeadingDoubt {
+    /// An axis has several columns, of which none belongs with those of the others.
+    #[error("names x, y or z more than once: name each once, or leave the other columns out")]
+    Twice,
+    /// The axes are told in several units.
+    #[error("tells x, y and z in several units ({}): write all in one", .0.join(", "))]
+    Units(
+        /// The units, `none` where an axis has none.
+        Vec<String>,
+    ),
+    /// A column is an angle.
+    #[error("names an angle ({0}): convert the columns to x, y and z, and name these")]
+    Angle(
+        /// Its name.
+        String,
+    ),
+}
+
+/// What follows the first of several points.
+fn among(count: usize) -> String {
+    match count {
+        1 => String::new(),
+        count => format!(", one of {count} such,"),
     }
 }

@@ -33,7 +33,7 @@ use nalgebra::Point3;
 
 pub(crate) use apart::apart;
 pub(crate) use drawn::{by_coordinates, drawn, indices_drawn};
-pub use error::{ParseError, Place, ReadError};
+pub use error::{HeadingDoubt, ParseError, Place, ReadError};
 use format::Format;
 pub(crate) use repeated::distinct;
 pub use source::{MAX_BYTES, read_bytes, read_stream};
@@ -157,7 +157,8 @@ impl Scan {
         self.scatter > 0.0
     }
 
-    /// The unit of lengths that the header of an image tells, such as `mm`; `None` where it tells none, as other files do.
+    /// The unit of lengths that the header of an image or the heading of a table tells, such as `mm`; `None` where it tells none, as
+    /// other files do.
     pub fn unit(&self) -> Option<&str> {
         self.unit.as_deref()
     }

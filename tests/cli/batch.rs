@@ -281,7 +281,7 @@ fn a_model_that_is_named_is_told_to_be_one() {
     .unwrap();
     grainform(&folder, &batch(&["m.json", "-o", "r"]));
     let reason = &rows(&folder.path().join("r/results.csv"))[0]["reason"];
-    let expected = "m.json is no scan: it starts as a model does, which measure, mesh, report, contact, clump, export-dem and bed read";
+    let expected = "m.json is no scan: it is JSON, as models are, which measure, mesh, report, contact, clump, export-dem and bed read; a scene of glTF is to be converted to PLY";
     assert_eq!(reason, expected);
     let fitted = errors(&grainform(&folder, &["fit", "m.json"]));
     assert_eq!(fitted, format!("error: {expected}\n"));

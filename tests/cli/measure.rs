@@ -324,7 +324,7 @@ fn a_model_is_no_scan_to_be_fitted() {
     succeed(&folder, &["fit", "s.ply", "-o", "m.json"]);
     let output = grainform(&folder, &["fit", "m.json"]);
     assert_eq!(output.status.code(), Some(2));
-    assert!(errors(&output).contains("is no scan: it starts as a model does"));
+    assert!(errors(&output).contains("is no scan: it is JSON, as models are"));
 }
 
 /// A fit writes what its scan did not see, and how well curvature is known.

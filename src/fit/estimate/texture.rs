@@ -146,6 +146,7 @@ mod tests {
     use super::super::spectrum::{NOISE, Spectrum, TEXTURE};
     use super::super::trial::{estimated, fibonacci, samples};
     use super::*;
+    use crate::shapes::Sampling;
     use approx::assert_relative_eq;
     use nalgebra::Vector3;
 
@@ -209,14 +210,22 @@ mod tests {
 
     #[test]
     fn a_tenth_of_the_noise_of_few_points_may_be_texture() {
-        let cloud = samples(&fibonacci(150), |_| 3.0, 0.01);
-        let mut estimate = estimated(&cloud, Vector3::repeat(3.0));
-        let smooth = Spectrum::with_amplitude([-100.0, 0.9, 1.2, 0.0]);
         let noise = 1e-2_f64;
-        estimate.spectrum = smooth;
-        estimate.spectrum.logarithms[NOISE] = noise.ln();
-        // 0.7 times the root of 150 is 8.6.
-        let expected = 0.1 * noise * noise * steepness(8);
-        assert_relative_eq!(hidden_slopes(&estimate), expected, max_relative = 1e-9);
+        let found = |directions: &[Vector3<f64>]| {
+            let cloud = samples(directions, |_| 3.0, 0.01);
+            let mut estimate = estimated(&cloud, Vector3::repeat(3.0));
+            estimate.spectrum = Spectrum::with_amplitude([-100.0, 0.9, 1.2, 0.0]);
+            estimate.spectrum.logarithms[NOISE] = noise.ln();
+            hidden_slopes(&estimate)
+        };
+        // 0.7 times the root of 150 is 8.6, and that of 650 is 17.8.
+        let expected = |degree| 0.1 * noise * noise * steepness(degree);
+        assert_relative_eq!(found(&fibonacci(150)), expected(8), max_relative = 1e-9);
+        let share = (1400.0 - 650.0) / (1400.0 - 200.0);
+        let of_even = found(&fibonacci(650));
+        assert_relative_eq!(of_even, share * expected(17), max_relative = 1e-9);
+        assert_eq!(found(&fibonacci(1500)), 0.0);
+        let random = Sampling::Random.directions(650, 0).unwrap();
+        assert_eq!(found(&random), 0.0);
     }
 }

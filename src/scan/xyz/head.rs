@@ -2,9 +2,10 @@
 
 use std::iter::Peekable;
 
-use super::names::named_axes;
+use super::names::{Axes, are_elsewhere, named_axes};
 use super::separator::Separator;
-use crate::scan::text::{Lines, integer, number};
+use crate::scan::error::{ParseError, Place};
+use crate::scan::text::{Lines, integer, number, quote};
 
 /// Names, and their units below.
 const MOST_HEADINGS: usize = 2;
@@ -16,10 +17,10 @@ const SEPARATOR_LINE: &[u8] = b"sep=";
 pub(super) struct Head<'a> {
     /// How many rows there are, where a line of one whole number tells (PTS).
     pub(super) count: Option<i64>,
-    /// Lines of words.
-    headings: Vec<&'a [u8]>,
-    /// Remarks without their marks.
-    remarks: Vec<&'a [u8]>,
+    /// Lines of words, and their numbers.
+    headings: Vec<(usize, &'a [u8])>,
+    /// Remarks without their marks, likewise.
+    remarks: Vec<(usize, &'a [u8])>,
 }
 
 impl<'a> Head<'a> {
@@ -28,11 +29,11 @@ impl<'a> Head<'a> {
         let mut head = Self::default();
         while let Some(&(line, row)) = lines.peek() {
             if let Some(text) = remark(row) {
-                head.remarks.push(text);
+                head.remarks.push((line, text));
             } else if is_count(row) && head.count.is_none() && head.headings.is_empty() {
                 head.count = integer(line, row.trim_ascii()).ok();
             } else if is_heading(row) && head.headings.len() < MOST_HEADINGS {
-                head.headings.push(row);
+                head.headings.push((line, row));
             } else {
                 break;
             }
@@ -42,17 +43,39 @@ impl<'a> Head<'a> {
     }
 
     /// The columns of x, y and z that a heading names or, where there is none, the last remark that does.
-    pub(super) fn axes(&self, separator: Separator, columns: usize) -> Option<[usize; 3]> {
+    ///
+    /// # Errors
+    /// [`ParseError::Heading`] where it cannot be told which ones are meant, or how.
+    pub(super) fn axes(
+        &self,
+        separator: Separator,
+        columns: usize,
+    ) -> Result<Option<Axes>, ParseError> {
         let headings = self.headings.iter();
         let remarks = self.remarks.iter().rev();
         let remarks = remarks.filter(|_| self.headings.is_empty());
         let mut lines = headings.chain(remarks);
-        lines.find_map(|line| named_axes(line, separator, columns))
+        let found = lines.find_map(|&(line, text)| {
+            let found = named_axes(text, separator, columns);
+            let found = found.map_err(|doubt| ParseError::Heading {
+                place: Place::Line(line),
+                heading: quote(text),
+                doubt,
+            });
+            found.transpose()
+        });
+        found.transpose()
     }
 
     /// The first line of words that is no remark.
     pub(super) fn heading(&self) -> Option<&'a [u8]> {
-        self.headings.first().copied()
+        self.headings.first().map(|(_, text)| *text)
+    }
+
+    /// A remark that names x, y and z, though not for the columns of the rows.
+    pub(super) fn unread(&self) -> Option<&'a [u8]> {
+        let mut remarks = self.remarks.iter().map(|(_, text)| *text);
+        remarks.find(|text| are_elsewhere(text))
     }
 }
 
@@ -60,7 +83,9 @@ impl<'a> Head<'a> {
 pub(super) fn remark(line: &[u8]) -> Option<&[u8]> {
     let line = line.trim_ascii();
     let start = &line[..line.len().min(SEPARATOR_LINE.len())];
-    if line.is_empty() || start.eq_ignore_ascii_case(SEPARATOR_LINE) {
+    // Below their tables spreadsheets write rows without a cell.
+    let is_empty = line.iter().all(|byte| matches!(byte, b',' | b';'));
+    if is_empty || start.eq_ignore_ascii_case(SEPARATOR_LINE) {
         return Some(&[]);
     }
     let marks: [&[u8]; 3] = [b"#", b"//", b"%"];

@@ -18,14 +18,15 @@ use super::error::ParseError;
 use super::text::{Lines, number, quote, unexpected};
 use crate::digits::plural;
 use head::{Head, remark};
-use names::named_columns;
+use names::{Axes, named_columns};
 use separator::Separator;
 
 pub(super) fn parse(bytes: &[u8]) -> Result<Scan, ParseError> {
     let mut warnings = Vec::new();
     match read(bytes, &mut warnings) {
-        Ok(points) => Ok(Scan {
+        Ok((points, unit)) => Ok(Scan {
             points,
+            unit,
             warnings,
             ..Scan::default()
         }),
@@ -33,21 +34,34 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Scan, ParseError> {
     }
 }
 
-/// The points; what is odd goes to the warnings, also where an error follows.
-fn read(bytes: &[u8], warnings: &mut Vec<String>) -> Result<Vec<Point3<f64>>, ParseError> {
+/// The points, and the unit that their heading tells; what is odd goes to the warnings, also where an error follows.
+fn read(
+    bytes: &[u8],
+    warnings: &mut Vec<String>,
+) -> Result<(Vec<Point3<f64>>, Option<String>), ParseError> {
     let mut lines = Lines::after(0, bytes).peekable();
     let head = Head::take(&mut lines);
     let Some(&(first_line, first)) = lines.peek() else {
-        return Ok(Vec::new());
+        return Ok((Vec::new(), None));
     };
     let separator = Separator::of(first);
     let columns = separator.split(first).count();
-    let named = head.axes(separator, columns);
     let names = head.heading().and_then(named_columns);
+    let named = match names {
+        // R names rows, too, and has no name for that column.
+        Some(names) if names + 1 == columns && first.trim_ascii_start().starts_with(b"\"") => {
+            let named = head.axes(separator, names)?;
+            named.map(|axes| Axes {
+                columns: axes.columns.map(|column| column + 1),
+                ..axes
+            })
+        }
+        _ => head.axes(separator, columns)?,
+    };
     if decimal_commas::cut_columns(lines.clone(), separator, columns, names.unwrap_or(0)) {
         return Err(unexpected(first_line, decimal_commas::EXPECTED, first));
     }
-    if let (None, Some(heading)) = (named, head.heading()) {
+    if let (None, Some(heading)) = (&named, head.heading()) {
         let heading = quote(heading);
         let odd = match names {
             Some(names) => format!("names {names} columns, but the first row has {columns}"),
@@ -57,12 +71,19 @@ fn read(bytes: &[u8], warnings: &mut Vec<String>) -> Result<Vec<Point3<f64>>, Pa
             "The heading {heading} {odd}; the first three were read."
         ));
     }
-    let axes = named.unwrap_or([0, 1, 2]);
+    if let (None, None, Some(remark)) = (&named, head.heading(), head.unread()) {
+        warnings.push(format!(
+            "The remark {} names x, y and z, but not as one of {columns} columns each; the first three were read.",
+            quote(remark)
+        ));
+    }
+    let is_named = named.is_some();
+    let axes = named.unwrap_or(Axes::FIRST);
     let rows = lines.filter(|(_, row)| remark(row).is_none());
     let mut points = Vec::new();
     let mut skipped = 0;
     for (line, row) in rows.clone() {
-        let point = match read_row(line, row, separator, columns, axes) {
+        let point = match read_row(line, row, separator, columns, axes.columns) {
             Ok(point) => point,
             Err(error) => {
                 let Some(expected) = decimal_commas::expected(row) else {
@@ -89,9 +110,7 @@ fn read(bytes: &[u8], warnings: &mut Vec<String>) -> Result<Vec<Point3<f64>>, Pa
         let others = rows.map(|(line, row)| read_row(line, row, separator, columns, [3, 4, 5]));
         others.filter_map(Result::ok).collect()
     };
-    if named.is_none()
-        && let Some(expected) = unnamed::expected(&points, columns, others)
-    {
+    if !is_named && let Some(expected) = unnamed::expected(&points, columns, others) {
         return Err(unexpected(first_line, expected, first));
     }
     let read = points.len() + skipped;
@@ -103,7 +122,7 @@ fn read(bytes: &[u8], warnings: &mut Vec<String>) -> Result<Vec<Point3<f64>>, Pa
             "The first line counts {count}, but the file has {rows}."
         ));
     }
-    Ok(points)
+    Ok((points, axes.unit))
 }
 
 fn read_row(
@@ -117,7 +136,10 @@ fn read_row(
     let mut found = 0;
     for (index, word) in separator.split(row).enumerate() {
         if let Some(axis) = axes.iter().position(|&axis| axis == index) {
-            point[axis] = Some(number(line, word)?);
+            point[axis] = Some(match word {
+                b"NA" => f64::NAN,
+                _ => number(line, word)?,
+            });
         }
         found += 1;
     }
@@ -360,6 +382,87 @@ mod tests {
         assert_eq!(first(&named), [0.5, 0.25, -1.0]);
         let grid = (0..9).map(|row| format!("{row} 0.5 0\n"));
         assert!(parse(grid.collect::<String>().as_bytes()).is_ok());
+    }
+
+    /// Rows of a ball behind a column.
+    fn behind(column: impl Fn(u32) -> f64) -> String {
+        let rows = (0..60).map(|row| {
+            let (sin, cos) = f64::from(row).sin_cos();
+            let z = f64::from(row).mul_add(0.03, -0.9);
+            format!("{} {cos:.4} {sin:.4} {z:.4}\n", column(row))
+        });
+        rows.collect()
+    }
+
+    #[test]
+    fn columns_of_numbers_and_times_are_no_coordinates() {
+        let columns: [fn(u32) -> f64; 6] = [
+            |row| f64::from(row) * 0.004,
+            |row| 1.7e9 + f64::from(row) * 0.1,
+            |row| f64::from(1 + row / 20),
+            |row| f64::from(60 - row),
+            |row| f64::from(10 * row + u32::from(row > 30)),
+            |row| f64::from(row + 100_000),
+        ];
+        for column in columns {
+            let told = parse(behind(column).as_bytes()).unwrap_err().to_string();
+            assert!(told.contains("from row to row"), "{told}");
+            let named = format!("# t x y z\n{}", behind(column));
+            assert_eq!(first(&named), [1.0, 0.0, -0.9]);
+        }
+        // Points in the order of x, in steps of all lengths.
+        let sorted = behind(|row| f64::from(row).powf(1.3));
+        assert!(parse(sorted.as_bytes()).is_ok());
+        let turning = behind(|row| f64::from(row % 30));
+        assert!(parse(turning.as_bytes()).is_ok());
+    }
+
+    #[test]
+    fn a_remark_that_names_axes_in_a_sentence_is_told() {
+        let rows = "1 2 3 7 8 9";
+        for remark in ["# seed 12, coordinates x y z", "# t x y z"] {
+            let scan = parse(format!("{remark}\n{rows}").as_bytes()).unwrap();
+            assert_eq!(scan.points[0], [1.0, 2.0, 3.0].into());
+            assert!(scan.warnings[0].contains("names x, y and z"), "{remark}");
+        }
+        for remark in ["# exported grain points: x y z", "# x y z", "# a sphere"] {
+            let scan = parse(format!("{remark}\n{rows}").as_bytes()).unwrap();
+            assert_eq!(scan.warnings, [""; 0], "{remark}");
+        }
+        assert_eq!(first("# Columns: t x y z\n7 1 2 3"), [1.0, 2.0, 3.0]);
+    }
+
+    #[test]
+    fn headings_tell_the_unit() {
+        let unit = |text: &str| parse(text.as_bytes()).unwrap().unit;
+        assert_eq!(unit("x_mm,y_mm,z_mm\n1,2,3"), Some("mm".into()));
+        let micro = "# X [\u{b5}m] Y [\u{b5}m] Z [\u{b5}m]\n1 2 3";
+        assert_eq!(unit(micro), Some("um".into()));
+        assert_eq!(unit("x (in),y (in),z (in)\n1,2,3"), Some("inch".into()));
+        assert_eq!(unit("x_px,y_px,z_px\n1,2,3"), None);
+        assert_eq!(unit("x,y,z\n1,2,3"), None);
+        let told = parse(b"# a cut\nx_mm,y_mm,z_um\n1,2,3")
+            .unwrap_err()
+            .to_string();
+        let expected =
+            "line 2: the heading `x_mm,y_mm,z_um` tells x, y and z in several units (mm, um)";
+        assert!(told.starts_with(expected), "{told}");
+    }
+
+    #[test]
+    fn rows_may_be_named_and_lack_values() {
+        let named = "\"z\" \"y\" \"x\"\n\"a1\" 3 2 1";
+        assert_eq!(first(named), [1.0, 2.0, 3.0]);
+        let scan = parse(b"x,y,z\n1,2,3\nNA,NA,NA\n,,\n;;\n4,5,6\n").unwrap();
+        assert_eq!(scan.points.len(), 2);
+        assert!(scan.warnings[0].starts_with("Dropped 1 row "));
+    }
+
+    #[test]
+    fn a_table_of_three_long_rows_is_transposed() {
+        let row = "0.5 1.5 ".repeat(30);
+        let told = parse(format!("{row}\n{row}\n{row}\n").as_bytes()).unwrap_err();
+        assert!(told.to_string().contains("transpose"), "{told}");
     }
 
     #[test]
