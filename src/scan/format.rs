@@ -1,7 +1,7 @@
 //! Which format the bytes are in. The content decides; the extension only where it does not.
 
 use super::error::ParseError;
-use super::text::{Lines, number, words};
+use super::text::{Lines, number};
 use super::{obj, stl};
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -13,7 +13,7 @@ pub(super) enum Format {
 }
 
 /// Starts of files that are often taken for scans: what they are, and what to do.
-const FOREIGN: [(&[u8], &str, &str); 32] = [
+const FOREIGN: [(&[u8], &str, &str); 34] = [
     (b"\x1f\x8b", "gzip data", UNPACK),
     (b"BZh", "bzip2 data", UNPACK),
     (b"\xfd7zXZ", "xz data", UNPACK),
@@ -33,9 +33,11 @@ const FOREIGN: [(&[u8], &str, &str); 32] = [
         "a web page or XML",
         "download the file itself or convert it to PLY",
     ),
-    (b"OFF", "an OFF mesh", CONVERT),
-    (b"COFF", "an OFF mesh", CONVERT),
-    (b"NOFF", "an OFF mesh", CONVERT),
+    (b"OFF\n", "an OFF mesh", CONVERT),
+    (b"OFF\r", "an OFF mesh", CONVERT),
+    (b"OFF ", "an OFF mesh", CONVERT),
+    (b"COFF\n", "an OFF mesh", CONVERT),
+    (b"NOFF\n", "an OFF mesh", CONVERT),
     (b"glTF", "a glTF model", CONVERT),
     (b"LASF", "a LAS point cloud", CONVERT),
     (b"ASTM-E57", "an E57 point cloud", CONVERT),
@@ -148,8 +150,9 @@ fn begins_with_row(bytes: &[u8]) -> bool {
     let mut lines = Lines::after(0, bytes).map(|(_, line)| line.trim_ascii());
     let first = lines.find(|line| !line.is_empty() && !line.starts_with(b"#"));
     first.is_some_and(|line| {
-        let mut words = words(line);
-        words.clone().count() >= 3 && words.all(|word| number(0, word).is_ok())
+        let is_between = |byte: &u8| byte.is_ascii_whitespace() || matches!(byte, b',' | b';');
+        let words = line.split(is_between).filter(|word| !word.is_empty());
+        words.clone().count() >= 3 && words.clone().all(|word| number(0, word).is_ok())
     })
 }
 

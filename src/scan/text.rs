@@ -39,7 +39,7 @@ impl<'a> Iterator for Lines<'a> {
 }
 
 /// The words of a line, between blanks.
-pub(super) fn words(line: &[u8]) -> impl Iterator<Item = &[u8]> + Clone {
+pub(super) fn words(line: &[u8]) -> impl Iterator<Item = &[u8]> {
     line.split(u8::is_ascii_whitespace)
         .filter(|word| !word.is_empty())
 }

@@ -2,9 +2,9 @@
 
 use std::iter::Peekable;
 
-use super::names::{Axes, are_elsewhere, named_axes};
+use super::columns::{Axes, angle, are_elsewhere, named_axes, units_below};
 use super::separator::Separator;
-use crate::scan::error::{ParseError, Place};
+use crate::scan::error::{HeadingDoubt, ParseError, Place};
 use crate::scan::text::{Lines, integer, number, quote};
 
 /// Names, and their units below.
@@ -42,7 +42,8 @@ impl<'a> Head<'a> {
         head
     }
 
-    /// The columns of x, y and z that a heading names or, where there is none, the last remark that does.
+    /// The columns of x, y and z that a heading names or, where there is none, the last remark that does, in the unit that it tells, or
+    /// a line of units beside it.
     ///
     /// # Errors
     /// [`ParseError::Heading`] where it cannot be told which ones are meant, or how.
@@ -54,17 +55,35 @@ impl<'a> Head<'a> {
         let headings = self.headings.iter();
         let remarks = self.remarks.iter().rev();
         let remarks = remarks.filter(|_| self.headings.is_empty());
-        let mut lines = headings.chain(remarks);
-        let found = lines.find_map(|&(line, text)| {
+        for &(line, text) in headings.chain(remarks) {
             let found = named_axes(text, separator, columns);
-            let found = found.map_err(|doubt| ParseError::Heading {
-                place: Place::Line(line),
-                heading: quote(text),
-                doubt,
-            });
-            found.transpose()
-        });
-        found.transpose()
+            if let Some(axes) = found.map_err(|doubt| doubtful(line, text, doubt))? {
+                return self.with_unit(axes, separator).map(Some);
+            }
+        }
+        let angle =
+            (self.headings.iter()).find_map(|(line, text)| Some((line, text, angle(text)?)));
+        match angle {
+            Some((line, text, angle)) => Err(doubtful(*line, text, HeadingDoubt::Angle(angle))),
+            None => Ok(None),
+        }
+    }
+
+    /// Columns with the unit that a line of units tells.
+    fn with_unit(&self, axes: Axes, separator: Separator) -> Result<Axes, ParseError> {
+        if axes.unit.is_some() {
+            return Ok(axes);
+        }
+        for &(line, text) in &self.headings {
+            let unit = units_below(text, separator, axes.columns);
+            if let Some(unit) = unit.map_err(|doubt| doubtful(line, text, doubt))? {
+                return Ok(Axes {
+                    unit: Some(unit),
+                    ..axes
+                });
+            }
+        }
+        Ok(axes)
     }
 
     /// The first line of words that is no remark.
@@ -76,6 +95,14 @@ impl<'a> Head<'a> {
     pub(super) fn unread(&self) -> Option<&'a [u8]> {
         let mut remarks = self.remarks.iter().map(|(_, text)| *text);
         remarks.find(|text| are_elsewhere(text))
+    }
+}
+
+fn doubtful(line: usize, heading: &[u8], doubt: HeadingDoubt) -> ParseError {
+    ParseError::Heading {
+        place: Place::Line(line),
+        heading: quote(heading),
+        doubt,
     }
 }
 

@@ -40,7 +40,7 @@ pub(super) fn expected(
     if columns > 3 && (counts_rows(points) || counts(points) || goes_on_evenly(points)) {
         return Some(
             "coordinates in the first three columns, but the first one counts the rows, or goes on from row to row as numbers or \
-             times do: take it out, or name the columns in a first line such as `id x y z`",
+             times do: take it out, or name the columns in a first line such as `id x y z`, or `x y z value` if it is x",
         );
     }
     if columns >= WITH_NORMALS && are_normals(points) && !are_normals(&others()) {
