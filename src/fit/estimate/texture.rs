@@ -15,6 +15,8 @@
 //! a percent of the girth) of 1500 to 6000 points, clean and with .5 % noise: their area was larger than told by 2 to 53
 //! standard errors; with this allowance by less than 2.5 of 21 of 24, by 4.2 of the roughest. Of 40 to 180 points of 25
 //! bodies areas were more than 3 standard errors off in 13 of 59, 12 at most, where without the last allowance it was 27 and 91.
+//! Of 30 particles of NIST at 642 even points, without noise, they were up to 15 standard errors off, RMS 4.3, before even points
+//! counted as few, and .6 since.
 
 use super::cloud::Cloud;
 use super::outcome::{Estimate, LAST_DEGREES};
