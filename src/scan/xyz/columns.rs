@@ -121,7 +121,8 @@ fn without_title(heading: &[u8]) -> &[u8] {
 /// Whether words between blanks are those of a sentence, or numbers among them.
 fn is_sentence(line: &[u8]) -> bool {
     text::words(line).any(|word| {
-        let ends_a_part = word.ends_with(b":") || word.ends_with(b",") || word.ends_with(b".");
+        let is_stopped = word.ends_with(b".") && !word.eq_ignore_ascii_case(b"no.");
+        let ends_a_part = word.ends_with(b":") || word.ends_with(b",") || is_stopped;
         let lower = word.to_ascii_lowercase();
         let is_of_sentence = OF_SENTENCES.iter().any(|other| lower == other.as_bytes());
         ends_a_part || is_of_sentence || text::number(0, word).is_ok()

@@ -296,6 +296,10 @@ fn headings_tell_the_unit() {
 fn rows_may_be_named_and_lack_values() {
     let named = "\"z\" \"y\" \"x\"\n\"a1\" 3 2 1";
     assert_eq!(first(named), [1.0, 2.0, 3.0]);
+    let labelled = "name,x,y,z\n\"grain, a\",1,2,3";
+    assert_eq!(first(labelled), [1.0, 2.0, 3.0]);
+    let labelled = "name x y z\n\"grain a\" 1 2 3";
+    assert_eq!(first(labelled), [1.0, 2.0, 3.0]);
     let scan = parse(b"x,y,z\n1,2,3\nNA,NA,NA\n,,\n;;\n4,5,6\n").unwrap();
     assert_eq!(scan.points.len(), 2);
     assert!(scan.warnings[0].starts_with("Dropped 1 row "));
