@@ -2,7 +2,7 @@
 
 use std::iter::Peekable;
 
-use super::columns::{Axes, angle, are_elsewhere, named_axes, units_below};
+use super::columns::{Axes, angle, are_elsewhere, named_axes, named_columns, units_below};
 use super::separator::Separator;
 use crate::scan::error::{HeadingDoubt, ParseError, Place};
 use crate::scan::text::{Lines, integer, number, quote};
@@ -43,15 +43,30 @@ impl<'a> Head<'a> {
     }
 
     /// The columns of x, y and z that a heading names or, where there is none, the last remark that does, in the unit that it tells, or
-    /// a line of units beside it.
+    /// a line of units beside it. `first` is the first row.
     ///
     /// # Errors
     /// [`ParseError::Heading`] where it cannot be told which ones are meant, or how.
     pub(super) fn axes(
         &self,
+        first: &[u8],
         separator: Separator,
         columns: usize,
     ) -> Result<Option<Axes>, ParseError> {
+        // R names rows, too, and has no name for that column.
+        let are_rows_named = self
+            .named_columns()
+            .is_some_and(|names| names + 1 == columns)
+            && first.trim_ascii_start().starts_with(b"\"");
+        let shift = usize::from(are_rows_named);
+        let named = self.axes_of(separator, columns - shift)?;
+        Ok(named.map(|axes| Axes {
+            columns: axes.columns.map(|column| column + shift),
+            ..axes
+        }))
+    }
+
+    fn axes_of(&self, separator: Separator, columns: usize) -> Result<Option<Axes>, ParseError> {
         let headings = self.headings.iter();
         let remarks = self.remarks.iter().rev();
         let remarks = remarks.filter(|_| self.headings.is_empty());
@@ -86,15 +101,29 @@ impl<'a> Head<'a> {
         Ok(axes)
     }
 
-    /// The first line of words that is no remark.
-    pub(super) fn heading(&self) -> Option<&'a [u8]> {
-        self.headings.first().map(|(_, text)| *text)
+    /// How many columns the first line of words names that is no remark, if it names those of x, y and z among them.
+    pub(super) fn named_columns(&self) -> Option<usize> {
+        named_columns(self.headings.first()?.1)
     }
 
-    /// A remark that names x, y and z, though not for the columns of the rows.
-    pub(super) fn unread(&self) -> Option<&'a [u8]> {
-        let mut remarks = self.remarks.iter().map(|(_, text)| *text);
-        remarks.find(|text| are_elsewhere(text))
+    /// What is odd about the names of columns, where none of these is taken.
+    pub(super) fn unread(&self, columns: usize) -> Option<String> {
+        let Some((_, heading)) = self.headings.first() else {
+            let mut remarks = self.remarks.iter();
+            let (_, remark) = remarks.find(|(_, text)| are_elsewhere(text))?;
+            return Some(format!(
+                "The remark {} names x, y and z, but not each of the {columns} columns; the first three were read.",
+                quote(remark)
+            ));
+        };
+        let odd = match self.named_columns() {
+            Some(names) => format!("names {names} columns, but the first row has {columns}"),
+            None => "does not name the columns x, y and z".into(),
+        };
+        let heading = quote(heading);
+        Some(format!(
+            "The heading {heading} {odd}; the first three were read."
+        ))
     }
 }
 

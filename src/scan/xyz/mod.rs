@@ -16,9 +16,9 @@ use nalgebra::Point3;
 
 use super::Scan;
 use super::error::ParseError;
-use super::text::{Lines, number, quote, unexpected};
+use super::text::{Lines, number, unexpected};
 use crate::digits::plural;
-use columns::{Axes, named_columns};
+use columns::Axes;
 use head::{Head, remark};
 use separator::Separator;
 
@@ -47,36 +47,13 @@ fn read(
     };
     let separator = Separator::of(first);
     let columns = separator.split(first).count();
-    let names = head.heading().and_then(named_columns);
-    let named = match names {
-        // R names rows, too, and has no name for that column.
-        Some(names) if names + 1 == columns && first.trim_ascii_start().starts_with(b"\"") => {
-            let named = head.axes(separator, names)?;
-            named.map(|axes| Axes {
-                columns: axes.columns.map(|column| column + 1),
-                ..axes
-            })
-        }
-        _ => head.axes(separator, columns)?,
-    };
-    if decimal_commas::cut_columns(lines.clone(), separator, columns, names.unwrap_or(0)) {
+    let named = head.axes(first, separator, columns)?;
+    let names = head.named_columns().unwrap_or(0);
+    if decimal_commas::cut_columns(lines.clone(), separator, columns, names) {
         return Err(unexpected(first_line, decimal_commas::EXPECTED, first));
     }
-    if let (None, Some(heading)) = (&named, head.heading()) {
-        let heading = quote(heading);
-        let odd = match names {
-            Some(names) => format!("names {names} columns, but the first row has {columns}"),
-            None => "does not name the columns x, y and z".into(),
-        };
-        warnings.push(format!(
-            "The heading {heading} {odd}; the first three were read."
-        ));
-    }
-    if let (None, None, Some(remark)) = (&named, head.heading(), head.unread()) {
-        warnings.push(format!(
-            "The remark {} names x, y and z, but not as one of {columns} columns each; the first three were read.",
-            quote(remark)
-        ));
+    if named.is_none() {
+        warnings.extend(head.unread(columns));
     }
     let is_named = named.is_some();
     let axes = named.unwrap_or(Axes::FIRST);
