@@ -189,8 +189,14 @@ mod tests {
         let passes = passes * (signal / 0.5).min(1.0);
         let found = hidden_slopes(&estimate);
         assert_relative_eq!(found, kept * finer + passes, max_relative = 1e-9);
-        // Points that tell half of it, and find nothing, say that there is none.
+        // Points that tell half of it find by noise alone what this one finds: no more than chance may hide is kept.
         estimate.unlearnt.fill(0.5);
+        let kept = 2.0 * (2.0 / count).sqrt();
+        let signal = kept * texture * texture_fall(24, 31) * points / (4.0 * PI * noise * noise);
+        let passes = 0.49 * points * noise * noise * (signal / 0.5).min(1.0);
+        let found = hidden_slopes(&estimate);
+        assert_relative_eq!(found, kept * finer + passes, max_relative = 1e-9);
+        // Where they find nothing, there is none.
         estimate.coefficients.fill(0.0);
         assert_eq!(hidden_slopes(&estimate), 0.0);
         estimate.unlearnt.fill(1.0);

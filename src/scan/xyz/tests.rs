@@ -61,6 +61,10 @@ fn remarks_name_the_columns_too() {
         let text = format!("{remark}\n1 2 3 7 8 9");
         assert_eq!(first(&text), [1.0, 2.0, 3.0], "{remark}");
     }
+    assert_eq!(
+        first("# w x y z\neast north up w\n1 2 3 7"),
+        [1.0, 2.0, 3.0]
+    );
     let heading = "# x y z w\nw x y z\n7 1 2 3";
     assert_eq!(first(heading), [1.0, 2.0, 3.0]);
 }

@@ -37,7 +37,7 @@ pub(super) fn expected(
             "a row for each point, but these are a few rows of many numbers: transpose the table",
         );
     }
-    if columns > 3 && (counts_rows(points) || counts(points) || goes_on_evenly(points)) {
+    if columns > 3 && (counts(points) || goes_on_evenly(points)) {
         return Some(
             "coordinates in the first three columns, but the first one counts the rows, or goes on from row to row as numbers or \
              times do: take it out, or name the columns in a first line such as `id x y z`, or `x y z value` if it is x",
@@ -49,15 +49,6 @@ pub(super) fn expected(
         );
     }
     None
-}
-
-/// Whether the first coordinate is the number of its row, from 0 or 1 on.
-fn counts_rows(points: &[Point3<f64>]) -> bool {
-    let first = points.first().map_or(f64::NAN, |point| point.x);
-    let mut rows = points.iter().enumerate();
-    points.len() >= LEAST_ROWS
-        && (first == 0.0 || first == 1.0)
-        && rows.all(|(row, point)| point.x == first + row as f64)
 }
 
 /// Whether the first coordinates are whole numbers that never turn back, beside others that are not.

@@ -52,6 +52,7 @@ fn of_several_columns_of_an_axis_those_of_one_unit_count() {
         ("X (mm),Y,Z", [0, 1, 2], None),
         ("X (inches),Y (in),Z_inch", [0, 1, 2], Some("inch")),
         ("x_px,y_px,z_px", [0, 1, 2], None),
+        ("x_px,y_px,z_px,x,y,z", [3, 4, 5], None),
         ("X [\u{b5}m] Y [um] Z [\u{3bc}m]", [0, 1, 2], Some("um")),
     ] {
         let axes = axes_of(heading).unwrap().unwrap();
