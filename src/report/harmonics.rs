@@ -33,15 +33,7 @@ pub fn write_harmonics(
     let loss = largest_loss(segments);
     let stretch = stretching(grain.stretch());
     write_head(writer, &expansion, &stretch, &grain.frame(), loss)?;
-    writeln!(writer, "segment,{},l,m,a", first.region.columns())?;
-    for (number, segment) in segments.iter().enumerate() {
-        let region = segment.region.row();
-        for (index, a) in segment.coefficients.iter().enumerate() {
-            let [l, m] = degree_and_order(index);
-            writeln!(writer, "{number},{region},{l},{m},{a}")?;
-        }
-    }
-    Ok(())
+    write_rows(writer, ["a"], segments.as_chunks().0)
 }
 
 /// The same of what [`PositionGrain::published`] gave, with the coefficients of x, y and z in a row.
@@ -66,20 +58,7 @@ pub fn write_position_harmonics(
     let point = "# X is seen from the centre of the grain along its axes; theta and phi are parameters, not the direction of X\n";
     let loss = largest_loss(segments.as_flattened());
     write_head(writer, &expansion, point, &grain.frame(), loss)?;
-    writeln!(writer, "segment,{},l,m,x,y,z", first.region.columns())?;
-    for (number, [x, y, z]) in segments.iter().enumerate() {
-        let region = x.region.row();
-        let coordinates = x
-            .coefficients
-            .iter()
-            .zip(&y.coefficients)
-            .zip(&z.coefficients);
-        for (index, ((x, y), z)) in coordinates.enumerate() {
-            let [l, m] = degree_and_order(index);
-            writeln!(writer, "{number},{region},{l},{m},{x},{y},{z}")?;
-        }
-    }
-    Ok(())
+    write_rows(writer, ["x", "y", "z"], segments)
 }
 
 /// By which conventions to read what follows.
@@ -109,10 +88,27 @@ fn write_head(
     )
 }
 
-/// Degree and order of a harmonic by its index.
-fn degree_and_order(index: usize) -> [i64; 2] {
-    let l = index.isqrt() as i64;
-    [l, index as i64 - l * (l + 1)]
+/// The names of the columns, and a row per coefficient, or per one of each of several expansions in the same region.
+fn write_rows<const C: usize>(
+    writer: &mut impl Write,
+    names: [&str; C],
+    segments: &[[PublishedExpansion; C]],
+) -> io::Result<()> {
+    let region = segments.as_flattened().first().map(|first| &first.region);
+    let place = region.map_or("", Region::columns);
+    writeln!(writer, "segment,{place},l,m,{}", names.join(","))?;
+    for (number, expansions) in segments.iter().enumerate() {
+        let place = expansions[0].region.row();
+        for index in 0..expansions[0].coefficients.len() {
+            let l = index.isqrt();
+            let m = index as i64 - (l * (l + 1)) as i64;
+            let values = expansions
+                .each_ref()
+                .map(|own| own.coefficients[index].to_string());
+            writeln!(writer, "{number},{place},{l},{m},{}", values.join(","))?;
+        }
+    }
+    Ok(())
 }
 
 impl Region {

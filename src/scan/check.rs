@@ -111,14 +111,19 @@ mod tests {
 
     use super::*;
 
-    #[test]
-    fn points_of_a_body_pass_with_their_extent() {
-        let points = [
+    /// Corners of a tetrahedron.
+    fn body() -> [Point3<f64>; 4] {
+        [
             point![0.0, 0.0, 0.0],
             point![1.0, 0.0, 0.0],
             point![0.0, 3.0, 0.0],
             point![0.0, 0.0, 2.0],
-        ];
+        ]
+    }
+
+    #[test]
+    fn points_of_a_body_pass_with_their_extent() {
+        let points = body();
         let flat = false;
         assert_eq!(check(&points), Ok(Span { extent: 3.0, flat }));
         assert!(check(&points[..3]).unwrap().flat);
@@ -134,12 +139,7 @@ mod tests {
 
     #[test]
     fn a_few_points_far_from_a_body_are_named() {
-        let body = [
-            point![0.0, 0.0, 0.0],
-            point![1.0, 0.0, 0.0],
-            point![0.0, 3.0, 0.0],
-            point![0.0, 0.0, 2.0],
-        ];
+        let body = body();
         for at in [0, 1, 4] {
             let mut points = body.to_vec();
             points.insert(at, point![-1e30, 0.0, 0.0]);

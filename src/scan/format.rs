@@ -1,7 +1,7 @@
 //! Which format the bytes are in. The content decides; the extension only where it does not.
 
 use super::error::ParseError;
-use super::text::{Lines, number};
+use super::text::{Lines, cells, number};
 use super::{obj, stl};
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -150,9 +150,7 @@ fn begins_with_row(bytes: &[u8]) -> bool {
     let mut lines = Lines::after(0, bytes).map(|(_, line)| line.trim_ascii());
     let first = lines.find(|line| !line.is_empty() && !line.starts_with(b"#"));
     first.is_some_and(|line| {
-        let is_between = |byte: &u8| byte.is_ascii_whitespace() || matches!(byte, b',' | b';');
-        let words = line.split(is_between).filter(|word| !word.is_empty());
-        words.clone().count() >= 3 && words.clone().all(|word| number(0, word).is_ok())
+        cells(line).count() >= 3 && cells(line).all(|cell| number(0, cell).is_ok())
     })
 }
 

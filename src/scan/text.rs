@@ -44,6 +44,12 @@ pub(super) fn words(line: &[u8]) -> impl Iterator<Item = &[u8]> {
         .filter(|word| !word.is_empty())
 }
 
+/// What stands between blanks, commas and semicolons.
+pub(super) fn cells(line: &[u8]) -> impl Iterator<Item = &[u8]> {
+    line.split(|byte| byte.is_ascii_whitespace() || matches!(byte, b',' | b';'))
+        .filter(|cell| !cell.is_empty())
+}
+
 /// A number, perhaps not finite.
 pub(super) fn number(line: usize, word: &[u8]) -> Result<f64, ParseError> {
     std::str::from_utf8(word)

@@ -96,11 +96,8 @@ pub(super) fn named_columns(heading: &[u8]) -> Option<usize> {
 
 /// Whether x, y and z stand in a line that is not read for the columns of rows, and not first.
 pub(super) fn are_elsewhere(line: &[u8]) -> bool {
-    let is_between = |byte: &u8| byte.is_ascii_whitespace() || matches!(byte, b',' | b';');
-    let words = without_title(line)
-        .split(is_between)
-        .filter(|word| !word.is_empty());
-    let found: Vec<_> = words.map(|word| Name::of(word).axis()).collect();
+    let cells = text::cells(without_title(line));
+    let found: Vec<_> = cells.map(|cell| Name::of(cell).axis()).collect();
     let at = |axis| {
         found
             .iter()
