@@ -55,6 +55,7 @@ pub mod scan;
 pub mod shapes;
 pub mod sphere;
 mod spread;
+mod unit;
 mod vectorize;
 
 pub use export::save_grain;

@@ -104,6 +104,7 @@ pub(super) fn grain(
             fitted.grain.with_standard_errors(errors)
         }
     };
+    fitted.grain = fitted.grain.with_unit(of_scan.unit.clone());
     if let Some(path) = &outputs.model {
         save_grain(path, &fitted.grain)?;
     }

@@ -64,7 +64,11 @@ pub enum FolderError {
         path: PathBuf,
     },
     /// The state is cut, or one that the bed cannot come into.
-    #[error("no bed can go on from {}: choose another folder, or remove it", path.display())]
+    #[error(
+        "no bed can go on from {}: it is cut, or its grains lie where they cannot come to, or are faster than they can become; choose \
+         another folder, or remove it",
+        path.display()
+    )]
     Broken {
         /// The file.
         path: PathBuf,

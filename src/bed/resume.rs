@@ -5,8 +5,9 @@ use super::link::Key;
 use super::settle::{Bed, State};
 use super::wall::Wall;
 
-/// How much more energy than at the start a state may have, for steps are not exact.
-const GAINED: f64 = 1.01;
+/// Energy that a state may have, as a share of that at the start. Steps are not exact, and without damping grains whose parts overlap
+/// gain a third and more.
+const MOST_ENERGY: f64 = 3.0;
 
 /// How far the length of a quaternion may be from one.
 const TURN_TOLERANCE: f64 = 1e-6;
@@ -33,12 +34,16 @@ impl Bed {
         let is_own = order(&state.bodies) == own && order(&state.listed) == own && are_there;
         let is_possible = || [&state.bodies, &state.listed].map(|bodies| self.can_be_at(bodies));
         match is_own && is_possible() == [true; 2] {
-            true => Self::with_state(self.settings, self.kinds, self.walls, state).ok(),
+            true => {
+                let began_with = self.began_with;
+                let bed = Self::with_state(self.settings, self.kinds, self.walls, state).ok()?;
+                Some(Self { began_with, ..bed })
+            }
             false => None,
         }
     }
 
-    /// Whether the grains are all within the container and have no more energy than where they began.
+    /// Whether the grains are all within the container and have no more energy than they can come to.
     fn can_be_at(&self, bodies: &[Body]) -> bool {
         let is_inside = bodies.iter().all(|body| {
             let reach = self.kinds[body.kind].reach;
@@ -46,7 +51,7 @@ impl Bed {
             is_turn && self.walls.iter().all(|wall| is_before(wall, body, reach))
         });
         // Written so that NaN fails.
-        is_inside && self.energy_of(bodies) <= GAINED * self.energy_of(self.bodies())
+        is_inside && self.energy_of(bodies) <= MOST_ENERGY * self.began_with
     }
 }
 

@@ -23,6 +23,8 @@ pub struct Bed {
     pub(super) law: Law,
     /// Seconds of a step.
     pub(super) step: f64,
+    /// Joules of motion and height at the start.
+    pub(super) began_with: f64,
     /// Metres by which pairs are listed before they touch.
     pub(super) skin: f64,
     pub(super) state: State,
@@ -138,11 +140,13 @@ impl Bed {
             placed: placed.collect(),
             shares: Vec::new(),
             loads: vec![Load::default(); state.bodies.len()],
+            began_with: 0.0,
             settings,
             kinds,
             walls,
             state,
         };
+        bed.began_with = bed.energy_of(bed.bodies());
         bed.share();
         bed.sum();
         Ok(bed)
@@ -204,6 +208,11 @@ impl Bed {
             scale += kind.mass * self.settings.gravity * 2.0 * kind.radius;
         }
         energy / scale
+    }
+
+    /// Energy of motion and height, as a share of that at the start: above one only where forces do not keep energy.
+    pub fn energy_left(&self) -> f64 {
+        self.energy_of(self.bodies()) / self.began_with
     }
 
     /// Kinetic energy and that of height of these grains, in joules.

@@ -22,12 +22,13 @@ pub(super) fn run(args: ClumpArgs, console: Console) -> Result<()> {
     let progress = console.progress();
     progress.stage("Reading");
     let solid = solid::read(&args.path, &args.input, args.unit)?;
+    let unit = inputs::unit_of(solid.unit.as_deref(), args.unit);
     progress.stage("Finding spheres");
     let name = inputs::name(&args.path);
     let found = clump(&solid.mesh, &solid.properties, args.spheres.target())
         .with_context(|| format!("cannot make a clump of {name}"))?;
-    let report = ClumpReport::new(name, &found, args.unit, solid.warnings)
-        .with_volume_error(solid.volume_error);
+    let report =
+        ClumpReport::new(name, &found, unit, solid.warnings).with_volume_error(solid.volume_error);
     if let Some(path) = &args.output {
         write(path, &report)?;
     }

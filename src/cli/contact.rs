@@ -7,7 +7,7 @@ use crate::contact::{Touch, TouchError, touch};
 use crate::model::Grain;
 use crate::report::{ContactReport, Load, TouchRecord, Withheld};
 use anyhow::{Context, Result, anyhow, bail};
-use nalgebra::Vector3;
+use nalgebra::{Vector2, Vector3};
 use std::path::Path;
 
 pub(super) fn run(args: ContactArgs, console: Console) -> Result<()> {
@@ -20,49 +20,61 @@ pub(super) fn run(args: ContactArgs, console: Console) -> Result<()> {
 }
 
 fn contact(args: &ContactArgs) -> Result<ContactReport> {
-    let (Some(unit), Some(indentation_um), Some(modulus_mpa)) =
-        (args.unit, args.indentation_um, args.youngs_modulus_mpa)
+    let (Some(indentation_um), Some(modulus_mpa)) = (args.indentation_um, args.youngs_modulus_mpa)
     else {
-        bail!("a force needs --unit, --indentation-um and --youngs-modulus-mpa");
+        bail!("a force needs --indentation-um and --youngs-modulus-mpa");
     };
     if !(indentation_um > 0.0 && indentation_um.is_finite()) {
         bail!("the indentation must be above zero, not {indentation_um} um");
     }
+    let effective_modulus_pa = args.effective_modulus_pa(modulus_mpa)?;
+    if inputs::is_stream(&args.model) && args.other.as_deref().is_some_and(inputs::is_stream) {
+        bail!("standard input holds one model: read the other from a file");
+    }
+    let read = |path: &Path| -> Result<Grain> {
+        inputs::parse_model(path, &inputs::read(path, &args.limit)?, args.unit)
+    };
+    let grain = read(&args.model)?;
+    let other = args.other.as_deref().map(read).transpose()?;
+    let both = args.other.as_deref().zip(other.as_ref());
+    let models = std::iter::once((args.model.as_path(), &grain)).chain(both);
+    let Some(unit) = inputs::unit_of_all(models, args.unit)? else {
+        bail!("a force needs --unit, for the models do not tell theirs");
+    };
     if let Some(radius) = args.edge_radius.filter(|r| !(*r > 0.0 && r.is_finite())) {
         bail!("the radius that rounds an edge must be above zero, not {radius} {unit}");
     }
     let load = Load {
         unit,
-        effective_modulus_pa: args.effective_modulus_pa(modulus_mpa)?,
+        effective_modulus_pa,
         indentation_um,
     };
-    if inputs::is_stream(&args.model) && args.other.as_deref().is_some_and(inputs::is_stream) {
-        bail!("standard input holds one model: read the other from a file");
-    }
     let mut doubts = Vec::new();
-    let mut touched = |path: &Path, towards: &Vector3<f64>| {
-        let grain = inputs::parse_model(path, &inputs::read(path, &args.limit)?)?;
+    let mut touched = |path: &Path, grain: Grain, towards: &Vector3<f64>| {
         doubts.extend(Withheld::of(&grain, false).sentences(&inputs::name(path)));
         touched(inputs::name(path), grain, towards, args.edge_radius)
     };
-    let (first, one) = touched(&args.model, &args.towards)?;
-    let (second, two) = match &args.other {
-        Some(path) => Some(touched(path, &args.other_towards)?),
-        None => None,
-    }
-    .unzip();
+    let (first, one) = touched(&args.model, grain, &args.towards)?;
+    let second = args.other.as_deref().zip(other);
+    let second = second.map(|(path, grain)| touched(path, grain, &args.other_towards));
+    let (second, two) = second.transpose()?.unzip();
     let mut touches = std::iter::once(&first).chain(&second);
     if args.edge_radius.is_some() && touches.all(|touch| touch.edge_radius.is_none()) {
         bail!(
             "--edge-radius rounds an edge, and there is none where the bodies touch: leave it out"
         );
     }
-    let over = |reaches| {
-        let of_other = two.as_ref().map(|body: &Touched| body.over(reaches));
-        [one.over(reaches), of_other.unwrap_or_default()]
-    };
     let angle = args.angle_deg.to_radians();
-    let mut report = ContactReport::new(first, second, angle, &load, over)?;
+    // The second body is seen from outside: its directions turn the other way.
+    let turned = |aside: &Vector2<f64>| {
+        let (sin, cos) = angle.sin_cos();
+        Vector2::new(cos * aside.x + sin * aside.y, sin * aside.x - cos * aside.y)
+    };
+    let gap = |aside: &Vector2<f64>| {
+        let of_other = two.as_ref().map(|body: &Touched| body.over(&turned(aside)));
+        one.over(aside) + of_other.unwrap_or_default()
+    };
+    let mut report = ContactReport::new(first, second, angle, &load, gap)?;
     if !(report.normal_force_n.is_finite() && report.normal_stiffness_n_per_m.is_finite()) {
         bail!("the force of an indentation of {indentation_um} um is beyond the range of numbers");
     }
@@ -77,8 +89,8 @@ struct Touched {
 }
 
 impl Touched {
-    fn over(&self, reaches: [f64; 2]) -> [f64; 2] {
-        self.touch.curvatures_over(&self.grain, reaches)
+    fn over(&self, aside: &Vector2<f64>) -> f64 {
+        self.touch.curvature_over(&self.grain, aside)
     }
 }
 

@@ -5,7 +5,7 @@ use super::console::Console;
 use super::fitting::{ScanFit, fit_scan, say_stats};
 use super::streams::put_json;
 use super::values::SurfaceArg;
-use super::{outputs, superquadric};
+use super::{inputs, outputs, superquadric};
 use crate::digits::plural;
 use crate::fit::{FitOptions, Fitted, Seams};
 use crate::report::{FitReport, largest_loss, write_harmonics, write_position_harmonics};
@@ -57,7 +57,9 @@ pub(super) fn run(args: FitArgs, console: Console) -> Result<()> {
     let is_told = fitting.json || !console.is_quiet();
     progress.stage("Measuring");
     if args.output.is_some() {
-        fitted.grain = fitted.grain_with_errors();
+        fitted.grain = fitted
+            .grain_with_errors()
+            .with_unit(inputs::told_unit(&scan, fitting.unit));
     }
     let unit = reported.unit;
     let report_of = match args.extrapolate {

@@ -80,7 +80,7 @@ pub(super) fn fit_scan(
         fitted,
         reported: ReportedScan {
             input: name,
-            unit: inputs::unit_of(&scan, args.unit),
+            unit: inputs::unit_of(scan.unit(), args.unit),
             warnings: scan.warnings.clone(),
         },
         scan,

@@ -47,9 +47,16 @@ pub(super) fn read(path: &Path, limit: &LimitArgs) -> Result<Vec<u8>> {
     })
 }
 
-/// The unit of a scan's lengths: the one asked for, or what the header of an image says.
-pub(super) fn unit_of(scan: &Scan, asked: Option<Unit>) -> Option<Unit> {
-    asked.or_else(|| scan.unit()?.parse().ok())
+/// The unit of lengths: the one asked for, or the one that the file of a scan or a model tells.
+pub(super) fn unit_of(told: Option<&str>, asked: Option<Unit>) -> Option<Unit> {
+    asked.or_else(|| told?.parse().ok())
+}
+
+/// The unit that a model of a scan keeps: the one asked for, or what the scan's file tells, known here or not.
+pub(super) fn told_unit(scan: &Scan, asked: Option<Unit>) -> Option<String> {
+    asked
+        .map(|unit| unit.to_string())
+        .or_else(|| scan.unit().map(str::to_owned))
 }
 
 /// The scan in a file or in standard input, its lengths in this unit.
@@ -77,10 +84,10 @@ pub(super) fn parse_labels(
     Ok(volume)
 }
 
-/// Refuses a unit beside a header that says another.
-pub(super) fn check_unit(path: &Path, header: Option<&str>, unit: Option<Unit>) -> Result<()> {
+/// Refuses a unit beside a file that tells another.
+pub(super) fn check_unit(path: &Path, told: Option<&str>, unit: Option<Unit>) -> Result<()> {
     let failed = || format!("cannot use {}", name(path));
-    unit.map_or(Ok(()), |unit| unit.check(header))
+    unit.map_or(Ok(()), |unit| unit.check(told))
         .with_context(failed)
 }
 
@@ -127,8 +134,32 @@ pub(super) fn explained<T>(done: Result<T>, scan: &Scan) -> Result<T> {
     done.map_err(|error| anyhow!(scan.explained(sentence(&error))))
 }
 
-/// The grain in the bytes of a model file.
-pub(super) fn parse_model(path: &Path, bytes: &[u8]) -> Result<Grain> {
-    grain_from_json(&String::from_utf8_lossy(bytes))
-        .map_err(|error| anyhow!("cannot read a model from {}: {error}", name(path)))
+/// The grain in the bytes of a model file, its lengths in this unit.
+pub(super) fn parse_model(path: &Path, bytes: &[u8], unit: Option<Unit>) -> Result<Grain> {
+    let grain = grain_from_json(&String::from_utf8_lossy(bytes))
+        .map_err(|error| anyhow!("cannot read a model from {}: {error}", name(path)))?;
+    check_unit(path, grain.unit(), unit)?;
+    Ok(grain)
+}
+
+/// The unit of models, which must be one; where none is asked for, the one that they tell.
+pub(super) fn unit_of_all<'a>(
+    models: impl IntoIterator<Item = (&'a Path, &'a Grain)>,
+    asked: Option<Unit>,
+) -> Result<Option<Unit>> {
+    let mut told: Option<(&Path, &str)> = None;
+    for (path, grain) in models {
+        let Some(unit) = grain.unit() else {
+            continue;
+        };
+        match told {
+            Some((first, other)) if other != unit => bail!(
+                "{} has its lengths in {other}, and {} in {unit}: convert one of the scans, and fit it again",
+                name(first),
+                name(path)
+            ),
+            _ => told = Some((path, unit)),
+        }
+    }
+    Ok(unit_of(told.map(|(_, unit)| unit), asked))
 }

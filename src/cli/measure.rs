@@ -32,11 +32,11 @@ fn measure(args: &MeasureArgs) -> Result<MeasureReport> {
     };
     let bytes = inputs::read(path, &args.input.limit)?;
     if inputs::is_model(path, &bytes, &args.input)? {
-        let grain = inputs::parse_model(path, &bytes)?;
+        let grain = inputs::parse_model(path, &bytes, args.unit)?;
         let survey = Survey::of_grain(&grain, args.scheme.0);
         let withheld = Withheld::of(&grain, args.extrapolate);
         let report = MeasureReport::of_model(input, &survey, only, &withheld);
-        return Ok(report.in_unit(args.unit));
+        return Ok(report.in_unit(inputs::unit_of(grain.unit(), args.unit)));
     }
     if args.scheme.0 != Scheme::Exact {
         bail!("{input} is a scan: integration schemes are for models; leave --scheme out");
@@ -51,7 +51,7 @@ fn measure_scan(
     only: &[Measure],
     scan: &Scan,
 ) -> Result<MeasureReport> {
-    let unit = inputs::unit_of(scan, args.unit);
+    let unit = inputs::unit_of(scan.unit(), args.unit);
     if scan.is_flat() {
         bail!("cannot measure {input}: all points lie in one plane, they do not enclose a body");
     }

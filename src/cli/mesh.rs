@@ -49,7 +49,7 @@ pub(super) fn run(args: MeshArgs, console: Console) -> Result<()> {
     let bytes = inputs::read(&args.model, &args.limit)?;
     let progress = console.progress();
     progress.stage("Meshing");
-    let grain = inputs::parse_model(&args.model, &bytes)?;
+    let grain = inputs::parse_model(&args.model, &bytes, None)?;
     let mut doubts = Withheld::of(&grain, false).sentences(&inputs::name(&args.model));
     let resolution = args.meshing.resolution.into();
     let (vertices, triangles) = match format {

@@ -6,11 +6,12 @@ use super::values::{LawArg, PoseArg};
 use super::{inputs, outputs, solid};
 use crate::annotate::{self, ContactFrame};
 use crate::contact::{
-    ContactBody, RegionError, TOLD, VolumeLaw, contact_gaps, contact_regions, reach, union_contacts,
+    ContactBody, RegionError, TOLD, VolumeLaw, contact_gaps, contact_regions, is_one_inside, reach,
+    union_contacts,
 };
 use crate::export::{Detail, MeshFormat};
 use crate::measure::{grain_properties, solid_properties};
-use crate::model::{Frame, Grain, SuperquadricGrain, Surface};
+use crate::model::{Frame, Grain, MultiSuperquadric, SuperquadricGrain, Surface};
 use crate::report::{GapRecord, HertzLaw, NormalLaw, PlacedReport, RegionsReport, Unit, Withheld};
 use anyhow::{Context, Result, anyhow, bail};
 use nalgebra::{Isometry3, Point3, Translation3};
@@ -24,7 +25,7 @@ pub(super) fn run(args: &ContactArgs, pose: &PoseArg, console: Console) -> Resul
     let missing = || anyhow!("--pose-b places a second body: name its model after the first");
     let other = args.other.as_deref().ok_or_else(missing)?;
     let read = |path: &Path| -> Result<Grain> {
-        inputs::parse_model(path, &inputs::read(path, &args.limit)?)
+        inputs::parse_model(path, &inputs::read(path, &args.limit)?, args.unit)
     };
     let output = (args.mesh.as_deref(), outputs::MESH);
     let paths = [args.model.as_path(), other];
@@ -32,7 +33,8 @@ pub(super) fn run(args: &ContactArgs, pose: &PoseArg, console: Console) -> Resul
     let written = args.mesh.as_deref().map(outputs::name);
     let grains = [read(&args.model)?, read(other)?];
     let names = [inputs::name(&args.model), inputs::name(other)];
-    let law = law(args, &grains)?;
+    let unit = inputs::unit_of_all(paths.into_iter().zip(&grains), args.unit)?;
+    let law = law(args, unit, &grains)?;
     let hertz = match &law {
         Some(NormalLaw::Hertz(hertz)) => Some(hertz),
         _ => None,
@@ -44,7 +46,15 @@ pub(super) fn run(args: &ContactArgs, pose: &PoseArg, console: Console) -> Resul
         None => !is_deep || is_hidden,
         Some(_) => hertz.is_some() && is_hidden,
     };
-    if is_by_proof && let Some(mut report) = of_unions(&grains, &names, args.unit, pose, hertz) {
+    let not_told = || format!("cannot tell the contact of {} and {}", names[0], names[1]);
+    if is_by_proof && let Some(placed) = placed_unions(&grains, pose) {
+        let bodies = placed.each_ref().map(|(union, frame)| (*union, frame));
+        if is_deep && is_one_inside(bodies[0], bodies[1]) {
+            return Err(RegionError::Inside).with_context(not_told);
+        }
+        let touches = union_contacts(bodies[0], bodies[1]);
+        let [one, two] = names;
+        let mut report = PlacedReport::new(one, two, unit, &touches, bodies, hertz);
         doubts.extend(is_deep.then(|| DEEP.into()));
         let touches = report.touches.iter();
         let frames = touches.map(|touch| frame(touch.point, touch.normal));
@@ -53,17 +63,16 @@ pub(super) fn run(args: &ContactArgs, pose: &PoseArg, console: Console) -> Resul
         return console.tell(&report, args.json, written, &report.warnings);
     }
     for (grain, name) in grains.iter().zip(&names) {
-        let what = "its contacts are told beside another union only, and not by --law volume";
+        let what = "its contacts are told beside other superquadrics only, and not by --law volume";
         solid::is_seen_whole(grain, name, what)?;
     }
     let bodies = grains.each_ref().map(|grain| ContactBody::new(grain));
     let [first, second] = &bodies;
     let told = contact_regions(first, second, &moved(pose))
         .and_then(|found| Ok((found, gaps(&bodies, &grains, &moved(pose))?)));
-    let (found, gaps) =
-        told.with_context(|| format!("cannot tell the contact of {} and {}", names[0], names[1]))?;
+    let (found, gaps) = told.with_context(not_told)?;
     let [one, two] = names;
-    let mut report = RegionsReport::new(one, two, args.unit, &found, gaps, law.as_ref());
+    let mut report = RegionsReport::new(one, two, unit, &found, gaps, law.as_ref());
     report.warnings.extend(doubts);
     let frames = report
         .regions
@@ -148,26 +157,18 @@ fn is_deep(grains: &[Grain; 2], pose: &PoseArg) -> bool {
             .any(|middle| holds(two, &pose.inverse_transform_point(middle)))
 }
 
-/// The touches of two unions of superquadrics, if they are that.
-fn of_unions(
-    grains: &[Grain; 2],
-    names: &[String; 2],
-    unit: Option<Unit>,
+/// Two unions of superquadrics, if they are that, and where they are.
+fn placed_unions<'a>(
+    [first, second]: &'a [Grain; 2],
     pose: &PoseArg,
-    law: Option<&HertzLaw>,
-) -> Option<PlacedReport> {
-    let [first, second] = grains;
+) -> Option<[(&'a MultiSuperquadric, Frame); 2]> {
     let [one, two] = [first.superquadric()?, second.superquadric()?];
     let frame = second.frame();
     let moved = Frame {
         centre: pose.turn * frame.centre + pose.aside,
         axes: pose.turn.to_rotation_matrix() * frame.axes,
     };
-    let frame = first.frame();
-    let bodies = [(one.body(), &frame), (two.body(), &moved)];
-    let touches = union_contacts(bodies[0], bodies[1]);
-    let [one, two] = names.clone();
-    Some(PlacedReport::new(one, two, unit, &touches, bodies, law))
+    Some([(one.body(), first.frame()), (two.body(), moved)])
 }
 
 /// What is not to be relied on of either grain.
@@ -178,11 +179,13 @@ fn doubts(grains: &[Grain; 2], names: &[String; 2]) -> Vec<String> {
 }
 
 /// The law by which forces are told, if they are asked for.
-fn law(args: &ContactArgs, grains: &[Grain; 2]) -> Result<Option<NormalLaw>> {
-    let (unit, modulus) = match (args.unit, args.youngs_modulus_mpa, args.law) {
+fn law(args: &ContactArgs, unit: Option<Unit>, grains: &[Grain; 2]) -> Result<Option<NormalLaw>> {
+    let (unit, modulus) = match (unit, args.youngs_modulus_mpa, args.law) {
         (Some(unit), Some(modulus), _) => (unit, modulus),
         (_, None, None) => return Ok(None),
-        _ => bail!("a force needs --unit and --youngs-modulus-mpa"),
+        _ => bail!(
+            "a force needs --youngs-modulus-mpa, and --unit where the models do not tell theirs"
+        ),
     };
     let effective_modulus_pa = args.effective_modulus_pa(modulus)?;
     let metres_per_unit = unit.metres();

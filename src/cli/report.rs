@@ -144,7 +144,8 @@ impl<'a> Input<'a> {
         let Self {
             path, name, bytes, ..
         } = self;
-        let grain = inputs::parse_model(path, &bytes)?;
+        let grain = inputs::parse_model(path, &bytes, args.unit)?;
+        let unit = inputs::unit_of(grain.unit(), args.unit);
         solid::is_seen_whole(
             &grain,
             &name,
@@ -152,12 +153,12 @@ impl<'a> Input<'a> {
         )?;
         let survey = Survey::of_grain(&grain, Scheme::Exact);
         let withheld = Withheld::of(&grain, args.extrapolate);
-        let (told, missing) = measured(&survey, &withheld, args.unit);
+        let (told, missing) = measured(&survey, &withheld, unit);
         let guess = grain.unseen().filter(|_| args.extrapolate);
         let guess = guess.map(|unseen| format!("Of {name}, {unseen}."));
         let warnings = guess.into_iter().chain(missing).collect();
-        let measures = MeasureRow::of(&told.measures, told.standard_errors.as_ref(), args.unit);
-        draw(args, &name, &grain, None, args.unit)?;
+        let measures = MeasureRow::of(&told.measures, told.standard_errors.as_ref(), unit);
+        draw(args, &name, &grain, None, unit)?;
         let mut facts = vec![("model", plural(grain.coefficient_count(), "coefficient"))];
         facts.extend(no_errors(told.no_standard_errors));
         facts.push(hash);
@@ -165,7 +166,7 @@ impl<'a> Input<'a> {
             name,
             grain: &grain,
             scan: None,
-            unit: args.unit,
+            unit,
             facts,
             measures,
             warnings,
@@ -180,7 +181,7 @@ impl<'a> Input<'a> {
             path, name, bytes, ..
         } = self;
         let scan = inputs::parse_scan(path, &bytes, &args.input, args.unit)?;
-        let unit = inputs::unit_of(&scan, args.unit);
+        let unit = inputs::unit_of(scan.unit(), args.unit);
         let (scan, left_out) = whole_or_largest(scan, args.largest);
         let options = FitOptions::default();
         let failed = || format!("cannot fit {name}");

@@ -22,6 +22,8 @@ pub(super) struct Solid {
     pub(super) properties: MassProperties,
     /// Standard error of the volume, where a model tells it.
     pub(super) volume_error: Option<f64>,
+    /// The unit of its lengths that the file tells.
+    pub(super) unit: Option<String>,
     /// The model, if it is one; of points without faces, what is fitted to them.
     pub(super) grain: Option<Grain>,
     /// What is odd about a scan, or not to be relied on of a model: whole sentences.
@@ -33,7 +35,7 @@ pub(super) fn read(path: &Path, input: &InputArgs, unit: Option<Unit>) -> Result
     let name = inputs::name(path);
     let bytes = inputs::read(path, &input.limit)?;
     if inputs::is_model(path, &bytes, input)? {
-        return of_grain(inputs::parse_model(path, &bytes)?, &name);
+        return of_grain(inputs::parse_model(path, &bytes, unit)?, &name);
     }
     let scan = inputs::parse_scan(path, &bytes, input, unit)?;
     let found = match scanned_body(&scan) {
@@ -56,6 +58,7 @@ fn of_grain(grain: Grain, name: &str) -> Result<Solid> {
         volume_error: grain.standard_errors().ok().map(|errors| errors.volume),
         mesh: grain.mesh(RESOLUTION),
         warnings: doubts(&grain, name),
+        unit: grain.unit().map(str::to_owned),
         grain: Some(grain),
     })
 }
@@ -89,6 +92,7 @@ fn of_faces(scanned: ScannedBody, scan: &Scan, name: &str) -> Result<Solid> {
         mesh: scanned.mesh,
         properties,
         volume_error: None,
+        unit: scan.unit().map(str::to_owned),
         grain: None,
         warnings: scan.warnings.iter().cloned().chain(crossing).collect(),
     })
@@ -102,6 +106,7 @@ fn of_points(scan: &Scan, name: &str, unit: Option<Unit>) -> Result<Solid> {
     warnings.extend(guess(&grain, name));
     Ok(Solid {
         warnings,
+        unit: scan.unit().map(str::to_owned),
         ..of_grain(grain, name)?
     })
 }

@@ -23,13 +23,15 @@ pub(super) fn run(args: SplitArgs, console: Console) -> Result<()> {
     let bytes = inputs::read(&args.scan, &args.input.limit)?;
     let failed = || format!("cannot split {name}");
     let volume = inputs::parse_labels(&args.scan, &bytes, &args.input, args.unit)?;
-    let found = match &volume {
+    let mut unit = volume.as_ref().and_then(Volume::unit).map(str::to_owned);
+    let mut found = match &volume {
         Some(volume) => {
             progress.stage("Telling the grains apart");
             split_labels(volume, args.input.label).with_context(failed)?
         }
         None => {
             let scan = inputs::parse_scan(&args.scan, &bytes, &args.input, args.unit)?;
+            unit = inputs::told_unit(&scan, args.unit);
             progress.stage("Telling the grains apart");
             let found = match args.uncut {
                 true => split_uncut(&scan),
@@ -48,7 +50,8 @@ pub(super) fn run(args: SplitArgs, console: Console) -> Result<()> {
     let files: Vec<String> = (1..=found.grains.len())
         .map(|number| file_name(number, extension))
         .collect();
-    for (grain, file) in found.grains.iter().zip(&files) {
+    for (grain, file) in found.grains.iter_mut().zip(&files) {
+        grain.scan.unit.clone_from(&unit);
         let path = args.output.join(file);
         match (&volume, &grain.voxels) {
             (Some(volume), Some(body)) => write_voxels(&volume.alone(body), &path)?,
@@ -56,7 +59,8 @@ pub(super) fn run(args: SplitArgs, console: Console) -> Result<()> {
         }
     }
     drop(progress);
-    let mut report = SplitReport::new(name, &found, files).in_unit(args.unit);
+    let unit = inputs::unit_of(unit.as_deref(), args.unit);
+    let mut report = SplitReport::new(name, &found, files).in_unit(unit);
     let of_volume = volume.iter().flat_map(|volume| volume.warnings());
     report.warnings.splice(0..0, of_volume.cloned());
     report

@@ -33,6 +33,8 @@ pub(super) fn run(
     }
     let progress = console.progress();
     let (grain, scan, mut report) = fitted(args, form)?;
+    let unit = inputs::unit_of(scan.unit(), args.fitting.unit);
+    let grain = grain.with_unit(inputs::told_unit(&scan, args.fitting.unit));
     if args.png.is_some() {
         solid::is_seen_whole(
             &grain,
@@ -46,7 +48,7 @@ pub(super) fn run(
     report.warnings.extend(outputs::write_grain(args, &grain)?);
     if let Some(path) = &args.png {
         let title = format!("{}: {} points", args.fitting.name(), scan.points().len());
-        outputs::write_picture(path, &grain, Some(&scan), title, args.fitting.unit)?;
+        outputs::write_picture(path, &grain, Some(&scan), title, unit)?;
     }
     drop(progress);
     let files = [&args.output, &args.mesh, &args.png];
@@ -69,7 +71,8 @@ fn fitted_to(
     scan: &Scan,
     others_left_out: Vec<FitWarning>,
 ) -> Result<(Grain, SuperquadricReport)> {
-    let (name, unit) = (args.fitting.name(), args.fitting.unit);
+    let name = args.fitting.name();
+    let unit = inputs::unit_of(scan.unit(), args.fitting.unit);
     let failed = || format!("cannot fit {name}");
     let prepared = PreparedScan::new(scan, FitOptions::default().symmetry);
     let (points, of_fit) = match (&prepared, form) {

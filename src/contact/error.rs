@@ -58,10 +58,16 @@ pub enum ContactError {
     },
     /// The gap is curved in its middle as it is not over the contact.
     #[error(
-        "where the surfaces touch, the gap between them is curved far more than over the rest of the contact, as beside an edge, \
-         where curvature has no bound: by the whole contact the force would be {} times as large, so Hertz's theory does not hold; \
-         choose another place, a model that rounds the edge (fit --segments 1), or, where the shared volume is told, --law volume",
-        significant(*times, 2)
+        "where the surfaces touch, the gap between them is curved far {} over the rest of the contact, as {}: by the whole contact \
+         the force would be {} times as large, so Hertz's theory does not hold; choose another place, {}",
+        if *times > 1.0 { "more than" } else { "less than" },
+        if *times > 1.0 { "beside an edge" } else { "on a flat side" },
+        significant(*times, 2),
+        if *times > 1.0 {
+            "a model that rounds the edge (fit --segments 1), or, where the shared volume is told, --law volume"
+        } else {
+            "a smaller indentation, or, where the shared volume is told, --law volume"
+        }
     )]
     Edge {
         /// How many times the force is that curvatures over the contact tell.

@@ -31,7 +31,8 @@ mod volume_law;
 
 pub(crate) use convex::SAME_NORMAL;
 pub use convex::{
-    ConvexContact, ConvexPair, ConvexStatus, Method, UnionContact, Warm, union_contacts,
+    ConvexContact, ConvexPair, ConvexStatus, Method, UnionContact, Warm, is_one_inside,
+    union_contacts,
 };
 pub use edge::{EdgeError, TangentCap};
 pub use error::{ContactError, LARGEST_RATIO};

@@ -9,62 +9,67 @@ use crate::sphere::tangents;
 use nalgebra::{Matrix2, Vector2, Vector3};
 
 impl Touch {
-    /// Curvatures of the surface that was touched along its two principal directions, each from the place touched to the
-    /// places that lie so far to both sides of it. Those of the cap where an edge was rounded.
-    pub fn curvatures_over(
-        &self,
-        surface: &(impl Surface + ?Sized),
-        reaches: [f64; 2],
-    ) -> [f64; 2] {
+    /// Curvature of the surface that was touched, from the place touched to the one that lies so far `aside` of it, along its two
+    /// principal directions. That of the cap where an edge was rounded.
+    pub fn curvature_over(&self, surface: &(impl Surface + ?Sized), aside: &Vector2<f64>) -> f64 {
         match self.cap {
-            Some(_) => self.principal,
-            None => over(surface, &self.direction, &self.directions, reaches),
+            Some(_) => {
+                let squares = aside.component_mul(aside);
+                squares.dot(&Vector2::from(self.principal)) / squares.sum()
+            }
+            None => over(
+                surface,
+                &self.direction,
+                &self.directions[0].cross(&self.directions[1]),
+                &(self.directions[0] * aside.x + self.directions[1] * aside.y),
+            ),
         }
     }
 }
 
 impl UnionContact {
-    /// Principal curvatures over the contact, out to these reaches, of the parts of both unions that touch.
-    pub fn curvatures_over(
+    /// How the gap between the parts of both unions that touch is curved, from the contact to so far `aside` of it, along the
+    /// principal directions of the first.
+    pub fn curvature_over(
         &self,
         bodies: [(&MultiSuperquadric, &Frame); 2],
-        reaches: [f64; 2],
-    ) -> [[f64; 2]; 2] {
+        aside: &Vector2<f64>,
+    ) -> f64 {
         let found = self.curvatures(bodies);
-        [0, 1].map(|body| {
+        let [first, second] = found[0].directions;
+        let aside = first * aside.x + second * aside.y;
+        let of = |body: usize| {
             let (part, end) = self.end(bodies, body);
-            let own = |v: Vector3<f64>| part.frame.axes.tr_mul(&v);
+            let own = |v: &Vector3<f64>| part.frame.axes.tr_mul(v);
             let n = part.frame.to_local(&end).normalize();
-            let directions = found[body].directions.map(own);
-            over(&Radial(&part.shape), &n, &directions, reaches)
-        })
+            over(
+                &Radial(&part.shape),
+                &n,
+                &own(&found[body].normal),
+                &own(&aside),
+            )
+        };
+        of(0) + of(1)
     }
 }
 
-/// Curvatures of the circles through the place in the direction `n`, tangential to the surface there, and the places so far
-/// to either side of it along two principal `directions`, which with the normal make a right-handed frame: the mean of both sides.
+/// Curvature of the circle through the place in the direction `n`, tangential to the surface there, and the place so far `aside` of
+/// it. `normal`: of the surface, outwards.
 fn over(
     surface: &(impl Surface + ?Sized),
     n: &Vector3<f64>,
-    directions: &[Vector3<f64>; 2],
-    reaches: [f64; 2],
-) -> [f64; 2] {
-    let normal = directions[0].cross(&directions[1]);
+    normal: &Vector3<f64>,
+    aside: &Vector3<f64>,
+) -> f64 {
     let (place, slopes) = surface.place_and_slopes(n);
     let steps = tangents(n);
     let slopes = steps.map(|step| slopes * step);
     let first = Matrix2::from_fn(|i, j| slopes[i].dot(&slopes[j]));
     let inverse = first.try_inverse().unwrap_or_else(Matrix2::zeros);
-    let curvature = |along: Vector3<f64>| {
-        let turn = inverse * Vector2::from(slopes.map(|slope| slope.dot(&along)));
-        let aside = (n + steps[0] * turn.x + steps[1] * turn.y).normalize();
-        let way = surface.place(&aside) - place;
-        -2.0 * way.dot(&normal) / way.norm_squared()
-    };
-    [0, 1].map(|i| {
-        let along = directions[i] * reaches[i];
-        0.5 * (curvature(along) + curvature(-along))
-    })
+    let turn = inverse * Vector2::from(slopes.map(|slope| slope.dot(aside)));
+    let there = (n + steps[0] * turn.x + steps[1] * turn.y).normalize();
+    let way = surface.place(&there) - place;
+    -2.0 * way.dot(normal) / way.norm_squared()
 }
 
 #[cfg(test)]
@@ -82,19 +87,23 @@ mod tests {
             semi_axes: Vector3::repeat(2.0),
         };
         let touched = touch(&Radial(&ball), &Vector3::new(1.0, 2.0, 3.0), None).unwrap();
-        let found = touched.curvatures_over(&Radial(&ball), [0.1, 0.7]);
-        assert_relative_eq!(found[0], 0.5, max_relative = 1e-12);
-        assert_relative_eq!(found[1], 0.5, max_relative = 1e-12);
+        for aside in [Vector2::new(0.1, 0.0), Vector2::new(-0.3, 0.7)] {
+            let found = touched.curvature_over(&Radial(&ball), &aside);
+            assert_relative_eq!(found, 0.5, max_relative = 1e-12);
+        }
     }
 
     /// Of an ellipsoid whose lower half is half as high: curved by a / c² = 1 above and 4 below.
     #[test]
-    fn both_sides_count_where_curvature_jumps() {
+    fn curvature_may_jump_from_one_side_to_the_other() {
         let halves = Superquadric::poly8([[1.0; 2], [2.0; 2], [1.0, 0.5]], 2.0, 2.0).unwrap();
         let touched = touch(&Radial(&halves), &Vector3::x(), None).unwrap();
-        let found = touched.curvatures_over(&Radial(&halves), [1e-3; 2]);
-        assert_relative_eq!(found[0], 2.5, max_relative = 1e-5);
-        assert_relative_eq!(found[1], 0.25, max_relative = 1e-5);
+        let along = |aside: Vector2<f64>| touched.curvature_over(&Radial(&halves), &(aside * 1e-3));
+        let mut steep = [along(Vector2::x()), along(-Vector2::x())];
+        steep.sort_by(f64::total_cmp);
+        assert_relative_eq!(steep[0], 1.0, max_relative = 1e-5);
+        assert_relative_eq!(steep[1], 4.0, max_relative = 1e-5);
+        assert_relative_eq!(along(Vector2::y()), 0.25, max_relative = 1e-5);
     }
 
     /// A grain of one superquadric of semi-axes 1.
@@ -126,19 +135,13 @@ mod tests {
             ..Frame::SCAN
         };
         let bodies = [(&edge, &frame), (&ball, &above)];
-        let found = touch.curvatures_over(bodies, [1e-3, 4e-3]);
-        assert_relative_eq!(
-            found[0][0],
-            2.0 / 1e-3_f64.sqrt() / 1.5,
-            max_relative = 5e-3
-        );
-        assert_relative_eq!(
-            found[0][1],
-            2.0 / 4e-3_f64.sqrt() / 1.5,
-            max_relative = 5e-3
-        );
-        assert_relative_eq!(found[1][0], 1.0, max_relative = 1e-9);
+        let gap = |aside: &Vector2<f64>| touch.curvature_over(bodies, aside);
+        for (aside, distance) in [(Vector2::x(), 1e-3_f64), (-Vector2::y(), 4e-3)] {
+            let aside = aside * distance;
+            let expected = 1.0 + 2.0 / distance.sqrt() / 1.5;
+            assert_relative_eq!(gap(&aside), expected, max_relative = 5e-3);
+        }
         let known = KnownContact::at(&touch.curvatures(bodies), None).unwrap();
-        assert!(known.times(found).unwrap() > 5.0);
+        assert!(known.times(touch.overlap, gap).unwrap() > 5.0);
     }
 }

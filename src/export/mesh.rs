@@ -91,7 +91,7 @@ pub(super) fn write_detailed_ply(
     check(mesh, f64::MAX)?;
     count("vertices", mesh.vertices.len())?;
     let has_normals = detail.has_normals(mesh);
-    writer.write_all(super::points::ply_header(mesh.vertices.len(), None).as_bytes())?;
+    writer.write_all(super::points::ply_header(mesh.vertices.len(), &[]).as_bytes())?;
     let normals = ["nx", "ny", "nz"].into_iter().filter(|_| has_normals);
     for name in normals.chain(detail.fields(mesh).map(|field| field.name)) {
         writeln!(writer, "property double {name}")?;

@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use nalgebra::Point3;
 
 use super::WriteError;
-use crate::scan::{SplitGrain, clump};
+use crate::scan::{SplitGrain, clump, unit_remark};
 
 /// Writes a binary little-endian PLY of points with 64-bit coordinates.
 ///
@@ -13,27 +13,29 @@ use crate::scan::{SplitGrain, clump};
 ///
 /// [`WriteError`]: a coordinate that is not finite, or a failing writer.
 pub fn write_points_ply(points: &[Point3<f64>], writer: &mut impl Write) -> Result<(), WriteError> {
-    write_cloud(points, None, writer)
+    write_cloud(points, &[], writer)
 }
 
 /// Writes the points of one grain of a [split](crate::scan::split) as [`write_points_ply`] does. Where it was cut from a clump, a
-/// comment says from how many, of which those who read the file are warned.
+/// comment says from how many, of which those who read the file are warned; another tells the unit, where the scan does.
 ///
 /// # Errors
 ///
 /// Those of [`write_points_ply`].
 pub fn write_split_grain(grain: &SplitGrain, writer: &mut impl Write) -> Result<(), WriteError> {
-    let comment = grain.cut.map(|cut| clump::remark(cut.grains));
-    write_cloud(grain.scan.points(), comment.as_deref(), writer)
+    let of_clump = grain.cut.map(|cut| clump::remark(cut.grains));
+    let of_unit = grain.scan.unit().map(unit_remark::remark);
+    let comments: Vec<String> = of_clump.into_iter().chain(of_unit).collect();
+    write_cloud(grain.scan.points(), &comments, writer)
 }
 
 fn write_cloud(
     points: &[Point3<f64>],
-    comment: Option<&str>,
+    comments: &[String],
     writer: &mut impl Write,
 ) -> Result<(), WriteError> {
     check(points, f64::MAX)?;
-    writer.write_all(ply_header(points.len(), comment).as_bytes())?;
+    writer.write_all(ply_header(points.len(), comments).as_bytes())?;
     writer.write_all(b"end_header\n")?;
     Ok(write_rows(points, writer)?)
 }
@@ -52,10 +54,13 @@ pub fn write_points_xyz(points: &[Point3<f64>], writer: &mut impl Write) -> Resu
 }
 
 /// The header of a PLY up to the end of its element `vertex`.
-pub(super) fn ply_header(points: usize, comment: Option<&str>) -> String {
-    let comment = comment.map_or(String::new(), |comment| format!("comment {comment}\n"));
+pub(super) fn ply_header(points: usize, comments: &[String]) -> String {
+    let comments = comments
+        .iter()
+        .map(|comment| format!("comment {comment}\n"));
+    let comments: String = comments.collect();
     format!(
-        "ply\nformat binary_little_endian 1.0\ncomment written by grainform\n{comment}\
+        "ply\nformat binary_little_endian 1.0\ncomment written by grainform\n{comments}\
          element vertex {points}\nproperty double x\nproperty double y\nproperty double z\n"
     )
 }

@@ -38,6 +38,12 @@ pub fn fit_scan(
     options: &FitOptions,
     context: &Context<'_>,
 ) -> Result<Fitted, FitError> {
+    let mut fitted = of_kind(scan, options, context)?;
+    fitted.grain = fitted.grain.with_unit(scan.unit().map(str::to_owned));
+    Ok(fitted)
+}
+
+fn of_kind(scan: &Scan, options: &FitOptions, context: &Context<'_>) -> Result<Fitted, FitError> {
     options.check()?;
     let star = || {
         let fitted = PreparedScan::new(scan, options.symmetry)?.fit(options, context);

@@ -7,7 +7,9 @@
 //! points has another area or volume. Errors are passed over where the surface is not the one that they are of, by its `checksum`: of
 //! a file that was edited.
 //!
-//! Version 8 is written. Version 7 had no `checksum`; version 6 had no `local_errors` but `curvature_errors`, which told nothing of tips and are passed
+//! It may tell the `unit` of its lengths.
+//!
+//! Version 9 is written. Version 8 had no `unit`; version 7 had no `checksum`; version 6 had no `local_errors` but `curvature_errors`, which told nothing of tips and are passed
 //! over; version 5 had no standard errors but those of the curvature; version 4 no `unseen` and no
 //! `contradicted` either; version 3 no `position` and no `superquadrics` either; version 2 no `harmonics`, `stretch`,
 //! `margin` and `curvature_errors` either; version 1 had segments alone. All are read.
@@ -30,7 +32,7 @@ use serde::{Deserialize, Serialize};
 const FIRST_WITH_CHECKSUM: u32 = 8;
 
 /// The version of the file format that this library writes.
-const VERSION: u32 = 8;
+const VERSION: u32 = 9;
 
 /// The text that tells a model file from any other JSON.
 const FORMAT: &str = "grainform model";
@@ -44,6 +46,9 @@ const LARGEST_PARTITION: usize = 1024;
 struct GrainFile {
     format: String,
     version: u32,
+    /// The unit of lengths, if it is known.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    unit: Option<String>,
     /// Position of the centre in the scan.
     centre: [f64; 3],
     /// The grain's x, y and z axes in the scan.
@@ -189,6 +194,7 @@ pub fn grain_to_json(grain: &Grain) -> String {
         checksum: has_errors.then(|| surface.checksum_of_surface()),
         format: FORMAT.into(),
         version: VERSION,
+        unit: grain.unit().map(str::to_owned),
         unseen: grain.unseen(),
         contradicted: grain.contradicted(),
         standard_errors: grain.standard_errors().ok().map(Into::into),
@@ -297,12 +303,13 @@ pub fn grain_from_json(text: &str) -> Result<Grain, ModelError> {
     if contradicted.is_some_and(|contradicted| !contradicted.is_sound()) {
         return Err(ModelError::Contradicted);
     }
+    let unit = file.unit.take();
     let standard_errors = file.standard_errors()?;
     let local_errors = file.local_errors.as_ref();
     let local_errors = local_errors.map(|record| record.read().ok_or(ModelError::LocalErrors));
     let local_errors = local_errors.transpose()?;
     let (version, checksum) = (file.version, file.checksum);
-    let grain = file.grain()?;
+    let grain = file.grain()?.with_unit(unit);
     let has_errors = standard_errors.is_ok() || local_errors.is_some();
     let is_edited = match checksum {
         Some(checksum) => GrainFile::of_surface(&grain).checksum_of_surface() != checksum,

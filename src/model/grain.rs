@@ -19,6 +19,7 @@ pub struct Grain {
     contradicted: Option<Contradicted>,
     standard_errors: Result<StandardErrors, NoStandardErrors>,
     local_errors: Option<LocalErrors>,
+    unit: Option<String>,
 }
 
 /// The kinds of surfaces that are fitted.
@@ -85,6 +86,7 @@ impl Grain {
             kind,
             standard_errors: self.standard_errors.map(|errors| errors.times(factor)),
             local_errors: local_errors.map(|errors| errors.times(factor)),
+            unit: None,
             ..*self
         }
     }
@@ -146,6 +148,16 @@ impl Grain {
         self.local_errors.as_ref()
     }
 
+    /// The grain with the unit of its lengths, such as `mm`, where it is known.
+    pub fn with_unit(self, unit: Option<String>) -> Self {
+        Self { unit, ..self }
+    }
+
+    /// The unit of its lengths, such as `mm`: what the file of its scan said, or somebody who knew it.
+    pub fn unit(&self) -> Option<&str> {
+        self.unit.as_deref()
+    }
+
     /// The largest degree of its expansions; zero if it has none.
     pub fn degree(&self) -> usize {
         match &self.kind {
@@ -187,6 +199,7 @@ impl From<Kind> for Grain {
             contradicted: None,
             standard_errors: Err(NoStandardErrors::NotTold),
             local_errors: None,
+            unit: None,
         }
     }
 }

@@ -1,10 +1,11 @@
 //! What `grainform clump` tells, and saves.
 
+use super::labels::Labels;
 use super::number::{percent, short, triple, with_error};
-use super::unit::{Labels, Unit};
 use crate::clump::Clump;
 use crate::digits::plural;
 use crate::measure::Ball;
+use crate::unit::Unit;
 use serde::Serialize;
 use std::fmt;
 use std::io::{self, Write};

@@ -2,13 +2,13 @@
 
 use super::escape::escaped;
 use super::number::{PLACED_TO, place, short, with_error};
-use super::unit::Unit;
 use crate::contact::{
     ContactError, Correction, Curved, KnownContact, RelativeCurvature, Touch, reach,
 };
 use crate::digits::significant;
 use crate::model::{Grain, PositionGrain, StarGrain, Surface};
-use nalgebra::Vector3;
+use crate::unit::Unit;
+use nalgebra::{Vector2, Vector3};
 use serde::Serialize;
 use std::fmt;
 
@@ -123,7 +123,7 @@ pub(super) fn beside_hertz(
     Ok(deep.into_iter().chain(wide).collect())
 }
 
-/// From so many times the force on that curvatures over a contact tell, those in its middle tell none.
+/// Where the force by the gap over a contact is so many times that by its middle, or less than that by as much, the middle tells none.
 const EDGE: f64 = 1.5;
 
 /// What to know of a force that is so many `times` as large by what the contact is over all of it.
@@ -132,7 +132,7 @@ const EDGE: f64 = 1.5;
 ///
 /// [`ContactError::Edge`] where curvature is that of its middle alone.
 pub(super) fn beside_middle(times: f64) -> Result<Option<String>, ContactError> {
-    if times > EDGE {
+    if !(1.0 / EDGE..=EDGE).contains(&times) {
         return Err(ContactError::Edge { times });
     }
     Ok(((times - 1.0).abs() > UNCERTAIN).then(|| {
@@ -185,8 +185,8 @@ fn is_whole(grain: &Grain) -> bool {
 }
 
 impl ContactReport {
-    /// The report of a contact under a load, the bodies' first principal directions at `angle_rad` to each other; `over` tells
-    /// the curvatures of both over a contact that reaches so far along them ([`Touch::curvatures_over`]).
+    /// The report of a contact under a load, the bodies' first principal directions at `angle_rad` to each other; `gap` tells
+    /// how the gap between them is curved over the contact ([`KnownContact::times`]).
     ///
     /// # Errors
     ///
@@ -196,7 +196,7 @@ impl ContactReport {
         second: Option<TouchRecord>,
         angle_rad: f64,
         load: &Load,
-        over: impl Fn([f64; 2]) -> [[f64; 2]; 2],
+        gap: impl Fn(&Vector2<f64>) -> f64,
     ) -> Result<Self, ContactError> {
         let other = second.as_ref().map_or(Curved::PLANE, TouchRecord::curved);
         let known = KnownContact::new(first.curved(), other, angle_rad)?;
@@ -217,7 +217,7 @@ impl ContactReport {
             indentation,
             body,
         )?);
-        let times = known.times(over(relative.reaches(indentation)))?;
+        let times = known.times(indentation, gap)?;
         warnings.extend(beside_middle(times)?);
         match share {
             None => warnings.push(

@@ -15,6 +15,7 @@ mod estimate;
 mod fit;
 mod harmonics;
 mod hertz;
+mod labels;
 mod measure;
 mod number;
 mod placed;
@@ -29,10 +30,10 @@ mod superquadric_record;
 mod synth;
 mod tray;
 mod truth;
-mod unit;
 mod warning;
 mod withheld_reason;
 
+pub use crate::unit::{Unit, UnitContradicted};
 pub use bed::{BedKindRecord, BedMean, BedMeans, BedReport, BedRunRecord};
 pub use bed_inputs::{BedInputsRecord, BedInputsReport};
 pub use clump::{ClumpReport, ClumpSphere};
@@ -67,6 +68,5 @@ pub use superquadric_record::SuperquadricRecord;
 pub use synth::SynthReport;
 pub use tray::TrayReport;
 pub use truth::TruthRecord;
-pub use unit::{Unit, UnitContradicted};
 #[cfg(feature = "cli")]
 pub(crate) use warning::sentences;

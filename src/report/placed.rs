@@ -2,11 +2,12 @@
 
 use super::escape::escaped;
 use super::hertz::{HertzLaw, Overlap};
+use super::labels::Labels;
 use super::number::{PLACED_TO, place, short, triple};
-use super::unit::{Labels, Unit};
 use crate::contact::UnionContact;
 use crate::digits::plural;
 use crate::model::{Frame, MultiSuperquadric};
+use crate::unit::Unit;
 use serde::Serialize;
 use std::fmt;
 
@@ -71,8 +72,7 @@ impl PlacedReport {
                 errors: None,
                 depth_error: None,
                 times: &|known| {
-                    let reaches = known.relative().reaches(touch.overlap);
-                    known.times(touch.curvatures_over(bodies, reaches))
+                    known.times(touch.overlap, |aside| touch.curvature_over(bodies, aside))
                 },
             };
             let force = law.and_then(|law| law.force(&overlap, &mut warnings));

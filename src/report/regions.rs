@@ -3,11 +3,12 @@
 use super::contact::beyond_hertz;
 use super::escape::escaped;
 use super::hertz::{Force, HertzLaw, Overlap};
+use super::labels::Labels;
 use super::number::{PLACED_TO, place, triple, with_error};
 use super::placed::NO_ERRORS;
-use super::unit::{Labels, Unit};
 use crate::contact::{ContactPlace, ContactRegion, ContactRegions, VolumeLaw, told_depth};
 use crate::digits::plural;
+use crate::unit::Unit;
 use nalgebra::Vector3;
 use serde::Serialize;
 use std::collections::BTreeSet;

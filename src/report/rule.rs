@@ -1,10 +1,11 @@
 //! Why a candidate was chosen, in one sentence.
 
+use super::labels::Labels;
 use super::number::{round, short};
-use super::unit::{Labels, Unit};
 use crate::digits::plural;
 use crate::fit::{FitOptions, Fitted, KindChoice, Rival, Tolerance};
 use crate::sphere::Symmetry;
+use crate::unit::Unit;
 
 /// The rule of [`crate::fit`] as it decided here.
 pub(super) fn rule(fitted: &Fitted, options: &FitOptions, unit: Option<Unit>) -> String {

@@ -1,6 +1,6 @@
 //! The scan that a report is of.
 
-use super::unit::Unit;
+use crate::unit::Unit;
 
 /// A scan as reports name it.
 #[derive(Debug, Clone, Default, PartialEq)]

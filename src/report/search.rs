@@ -2,10 +2,10 @@
 
 use super::rule::rule;
 use super::scan::ReportedScan;
-use super::unit::Unit;
 use super::warning::sentences;
 use super::{ReferenceRecord, Seconds};
 use crate::fit::{Candidate, FitOptions, Fitted};
+use crate::unit::Unit;
 use serde::Serialize;
 use std::io::{self, Write};
 

@@ -1,10 +1,10 @@
 //! What `grainform split` tells.
 
 use super::number::{short, triple};
-use super::unit::Unit;
 use crate::digits::plural;
 use crate::scan::Split;
 use crate::scan::clump::MANY;
+use crate::unit::Unit;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt;

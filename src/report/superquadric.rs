@@ -2,14 +2,15 @@
 
 use super::ReferenceRecord;
 use super::escape::escaped;
+use super::labels::Labels;
 use super::measure::{Measure, NotMeasured, Withheld, by_reason};
 use super::number::{integrated, percent, short};
 use super::superquadric_record::SuperquadricRecord;
-use super::unit::{Labels, Unit};
 use crate::digits::plural;
 use crate::fit::{FitWarning, MultiFit, Reference, ReferenceKind, Residuals, SuperquadricFit};
 use crate::measure::{SolidProperties, superquadric_properties, union_properties};
 use crate::model::{Contradicted, Unseen};
+use crate::unit::Unit;
 use serde::Serialize;
 use std::fmt;
 

@@ -1,10 +1,11 @@
 //! Warnings as sentences.
 
+use super::labels::Labels;
 use super::number::{percent, short};
-use super::unit::{Labels, Unit};
 use crate::digits::{plural, significant};
 use crate::fit::{FitWarning, Rejection};
 use crate::measure::{FacesDefect, Fill, share_of_area};
+use crate::unit::Unit;
 use nalgebra::Vector3;
 use std::fmt;
 

@@ -22,6 +22,8 @@ mod split;
 mod stl;
 mod text;
 mod topology;
+pub(crate) mod unit_remark;
+mod unseen;
 mod volume;
 mod weld;
 mod xyz;

@@ -10,12 +10,13 @@ use nalgebra::Point3;
 use super::Scan;
 use super::error::{ParseError, Place};
 use super::polygon::Faces;
-use super::text::{Lines, coordinate, integer, unexpected, words};
+use super::text::{Lines, integer, number, unexpected, words};
+use super::unseen::drop_unseen;
 use crate::digits::plural;
 
 /// The words that OBJ files begin with; nothing else does.
-const KEYWORDS: [&[u8]; 10] = [
-    b"v", b"vn", b"vt", b"f", b"o", b"g", b"s", b"p", b"mtllib", b"usemtl",
+const KEYWORDS: [&[u8]; 11] = [
+    b"v", b"vn", b"vt", b"f", b"fo", b"o", b"g", b"s", b"p", b"mtllib", b"usemtl",
 ];
 
 /// Whether the first line that is no remark is one of OBJ.
@@ -38,7 +39,8 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Scan, ParseError> {
         let mut values = words(&line).take_while(|word| !word.starts_with(b"#"));
         match values.next() {
             Some(b"v") => scan.points.push(vertex(number, &line, values)?),
-            Some(b"f") => {
+            // `fo` is how the first programs wrote it.
+            Some(b"f" | b"fo") => {
                 corners.clear();
                 for value in values {
                     let index = corner(number, value, scan.points.len())?;
@@ -61,32 +63,29 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Scan, ParseError> {
         return Err(out_of_range(line, i64::from(index) + 1, scan.points.len()));
     }
     faces.give(&mut scan);
+    drop_unseen(&mut scan)?;
     Ok(scan)
 }
 
 /// The point of a line `v`. A fourth number that ends the line is a weight, by which the others are divided, or what a
 /// scanner put there, by which they are not: only 1 leaves no doubt. Where more follow they are a colour.
 fn vertex<'a>(
-    number: usize,
-    line: &[u8],
+    line: usize,
+    text: &[u8],
     values: impl Iterator<Item = &'a [u8]>,
 ) -> Result<Point3<f64>, ParseError> {
     let values: Vec<&[u8]> = values.collect();
     let [x, y, z, rest @ ..] = &values[..] else {
-        return Err(unexpected(number, "`v` and three numbers", line));
+        return Err(unexpected(line, "`v` and three numbers", text));
     };
-    let point = Point3::new(
-        coordinate(number, x)?,
-        coordinate(number, y)?,
-        coordinate(number, z)?,
-    );
+    let point = Point3::new(number(line, x)?, number(line, y)?, number(line, z)?);
     let &[weight] = rest else {
         return Ok(point);
     };
-    match coordinate(number, weight)? {
+    match number(line, weight)? {
         1.0 => Ok(point),
         weight => Err(ParseError::Weight {
-            place: Place::Line(number),
+            place: Place::Line(line),
             weight,
         }),
     }
@@ -150,7 +149,12 @@ mod tests {
 
     #[test]
     fn faces_may_be_polygons_relative_continued_and_ahead_of_their_points() {
-        for face in ["f 1 2 3 4", "f 1/1 2//2 3/3/3 4", "f 1 2 \\\n3 4"] {
+        for face in [
+            "f 1 2 3 4",
+            "fo 1 2 3 4",
+            "f 1/1 2//2 3/3/3 4",
+            "f 1 2 \\\n3 4",
+        ] {
             let expected = [[0, 1, 2], [0, 2, 3]];
             for text in [format!("{face}\n{POINTS}"), format!("{POINTS}{face}")] {
                 assert_eq!(
@@ -188,6 +192,24 @@ mod tests {
             let told = first(line).unwrap_err().to_string();
             assert!(told.starts_with("line 1:"), "{told}");
         }
+    }
+
+    #[test]
+    fn a_point_that_was_not_seen_is_dropped_unless_a_face_has_it() {
+        let text = format!("v nan nan nan\n{POINTS}f 2 3 4\n");
+        let scan = parse(text.as_bytes()).unwrap();
+        assert_eq!(
+            (scan.points.len(), &scan.triangles[..]),
+            (4, &[[0, 1, 2]][..])
+        );
+        assert!(
+            scan.warnings[0].starts_with("Dropped 1 point "),
+            "{:?}",
+            scan.warnings
+        );
+        let place = Place::Point(0);
+        let found = parse(format!("{text}f 1 2 3").as_bytes());
+        assert_eq!(found.unwrap_err(), ParseError::NotFinite { place });
     }
 
     #[test]

@@ -404,3 +404,40 @@ fn every_figure_of_a_fit_has_an_error() {
         .filter(|line| own.iter().any(|name| line.starts_with(name)));
     assert!(lines.all(is_told), "{text}");
 }
+
+/// Smoothing would make it what it is, and another when it is turned.
+#[test]
+fn an_outline_that_is_far_longer_than_wide_has_no_roundness() {
+    let folder = folder();
+    for (axes, is_told) in [("60,60,1", false), ("9,9,1", true)] {
+        succeed(
+            &folder,
+            &[
+                "synth",
+                "ellipsoid",
+                "--axes",
+                axes,
+                "--points",
+                "3000",
+                "-o",
+                "s.ply",
+            ],
+        );
+        let words = ["measure", "s.ply", "--only", "projections", "--extrapolate"];
+        let found = json(&folder, &words);
+        for outline in found["projections"].as_array().unwrap() {
+            let is_round = outline["along"] == "thickness";
+            assert_eq!(
+                outline["roundness"].is_number(),
+                is_round || is_told,
+                "{axes}: {outline}"
+            );
+        }
+        let text = succeed(&folder, &words);
+        assert_eq!(
+            text.matches(", roundness ").count(),
+            if is_told { 3 } else { 1 },
+            "{text}"
+        );
+    }
+}

@@ -194,3 +194,41 @@ fn a_body_that_so_few_parts_are_not_is_told_of() {
         "{warnings}"
     );
 }
+
+/// A union has no contact with what holds all of it.
+#[test]
+fn one_wholly_in_another_is_refused() {
+    let folder = elbow();
+    let ball = r#"{"format": "grainform model", "version": 5, "centre": [0, 0, 0],
+        "axes": [[1, 0, 0], [0, 1, 0], [0, 0, 1]], "superquadrics": [{"centre": [0, 0, 0],
+        "axes": [[1, 0, 0], [0, 1, 0], [0, 0, 1]], "n1": [2, 2], "n2": [[2, 2], [2, 2]],
+        "semi_axes": [[9, 9], [9, 9], [9, 9]]}]}"#;
+    std::fs::write(folder.path().join("ball.json"), ball).unwrap();
+    for (bodies, pose) in [
+        (["ball.json", "u.json"], "0,0,0,1,0,0,0"),
+        (["u.json", "ball.json"], "3,0,0,1,0,0,0"),
+        (["u.json", "u.json"], "0,0,0,1,0,0,0"),
+    ] {
+        let words = [&["contact"], &bodies[..], &["--pose-b", pose]].concat();
+        let output = grainform(&folder, &words);
+        assert_eq!(output.status.code(), Some(2), "{bodies:?}");
+        let told = errors(&output);
+        assert!(
+            told.contains("one body lies wholly inside the other"),
+            "{told}"
+        );
+    }
+    let touching = [
+        "contact",
+        "ball.json",
+        "u.json",
+        "--pose-b",
+        "7,0,0,1,0,0,0",
+    ];
+    assert!(
+        !json(&folder, &touching)["touches"]
+            .as_array()
+            .unwrap()
+            .is_empty()
+    );
+}

@@ -50,7 +50,10 @@ fn a_unit_labels_lengths_areas_and_volumes_and_is_in_the_json() {
     let load: Vec<&str> = load.split(' ').collect();
     let output = grainform(&folder, &[&["contact", "m.json"], &load[..]].concat());
     let told = errors(&output);
-    assert!(told.contains("expected um, mm, cm or m"), "{told}");
+    assert!(
+        told.contains("expected nm, um, mm, cm, dm, m or inch"),
+        "{told}"
+    );
     let load = [&load[..5], &["CM"]].concat();
     let contact = [&["contact", "m.json"], &load[..]].concat();
     assert_eq!(json(&folder, &contact)["unit"], "cm");
@@ -131,4 +134,90 @@ fn a_batch_tells_the_units_of_headers_and_no_mean_over_several() {
     let refused = grainform(&folder, &["compare", "mm", "um"]);
     assert_eq!(refused.status.code(), Some(2));
     assert!(errors(&refused).contains("lots in mm and um are not to be compared"));
+}
+
+/// A model keeps the unit that its scan's file told, or that it was fitted with, and no other is taken for it.
+#[test]
+fn a_model_keeps_its_unit() {
+    let folder = folder();
+    let bean = grain("bean.ply");
+    succeed(
+        &folder,
+        &["synth", "bean", "--points", "600", "-o", "s.xyz"],
+    );
+    let rows = std::fs::read_to_string(folder.path().join("s.xyz")).unwrap();
+    let rows: Vec<String> = rows.lines().map(|row| row.replace(' ', ",")).collect();
+    let table = |unit: &str| format!("x [{unit}],y [{unit}],z [{unit}]\n{}", rows.join("\n"));
+    std::fs::write(folder.path().join("um.csv"), table("um")).unwrap();
+    std::fs::write(folder.path().join("odd.csv"), table("1e-6 m")).unwrap();
+    for (words, unit) in [
+        (&["fit", "um.csv", "-o", "um.json"][..], "um"),
+        (
+            &[
+                "fit",
+                "um.csv",
+                "--surface",
+                "superquadric",
+                "-o",
+                "parts.json",
+            ],
+            "um",
+        ),
+        (&["fit", &bean, "--unit", "inch", "-o", "in.json"], "inch"),
+        (
+            &["batch", "um.csv", "--models", "-o", "r", "--only", "volume"],
+            "um",
+        ),
+    ] {
+        succeed(&folder, words);
+        let model = words
+            .iter()
+            .find(|word| word.ends_with(".json"))
+            .unwrap_or(&"r/models/um.json");
+        assert_eq!(json(&folder, &["measure", model])["unit"], unit, "{model}");
+        for command in ["measure", "clump"] {
+            let output = grainform(&folder, &[command, model, "--unit", "mm"]);
+            assert_eq!(output.status.code(), Some(2), "{command} {words:?}");
+            let told = errors(&output);
+            let expected =
+                format!("says itself that lengths are in {unit}, and --unit that they are in mm");
+            assert!(told.contains(&expected), "{told}");
+        }
+    }
+    succeed(&folder, &["split", "um.csv", "-o", "grains"]);
+    assert_eq!(
+        json(&folder, &["measure", "grains/grain_0001.ply"])["unit"],
+        "um"
+    );
+    let load = ["--indentation-um", "0.01", "--youngs-modulus-mpa", "200"];
+    let contact = [&["contact", "um.json"], &load[..]].concat();
+    let told = json(&folder, &contact);
+    assert_eq!(told["unit"], "um");
+    assert_eq!(
+        json(&folder, &[&contact[..], &["--unit", "um"]].concat()),
+        told
+    );
+    let both = [&contact[..2], &["in.json"], &contact[2..]].concat();
+    let told = errors(&grainform(&folder, &both));
+    assert!(
+        told.contains("um.json has its lengths in um, and in.json in inch"),
+        "{told}"
+    );
+    for command in [
+        &["export-dem", "--engine", "lammps"][..],
+        &["bed", "--box", "9,9"],
+    ] {
+        let rest = ["um.json", "--unit", "mm", "-o", "out", "--spheres", "3"];
+        let output = grainform(&folder, &[command, &rest[..]].concat());
+        assert!(
+            errors(&output).contains("says itself that lengths are in um"),
+            "{output:?}"
+        );
+    }
+    let output = grainform(&folder, &["measure", "odd.csv", "--unit", "mm"]);
+    assert!(
+        errors(&output).contains("says itself that lengths are in 1e-6 m"),
+        "{output:?}"
+    );
+    assert!(succeed(&folder, &["measure", "odd.csv"]).contains("in the scan's unit"));
 }

@@ -40,7 +40,7 @@ pub(in crate::cli) struct BedArgs {
     #[arg(long, value_name = "MESH")]
     pub(in crate::cli) walls: Option<PathBuf>,
 
-    /// Unit of all lengths here and in the models, and in the table of --sizes if that tells none: um, mm, cm or m
+    /// Unit of all lengths here and in the models, and in the table of --sizes if that tells none: nm, um, mm, cm, dm, m or inch
     #[arg(long, value_name = "UNIT")]
     pub(in crate::cli) unit: Unit,
 

@@ -37,7 +37,7 @@ pub(in crate::cli) struct BenchArgs {
     #[arg(long, help_heading = OUTPUT)]
     pub(in crate::cli) json: bool,
 
-    /// Unit of the scans' lengths, told in the object: um, mm, cm or m
+    /// Unit of the scans' lengths, told in the object: nm, um, mm, cm, dm, m or inch
     #[arg(long, value_name = "UNIT", requires_all = ["json", "scans"], help_heading = OUTPUT)]
     pub(in crate::cli) unit: Option<Unit>,
 

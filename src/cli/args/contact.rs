@@ -51,8 +51,8 @@ pub(in crate::cli) struct ContactArgs {
     #[arg(long, value_name = "LAW", requires = "pose_b")]
     pub(in crate::cli) law: Option<LawArg>,
 
-    /// Unit of the scans' lengths: um, mm, cm or m
-    #[arg(long, value_name = "UNIT", required_unless_present = "pose_b")]
+    /// Unit of the scans' lengths: nm, um, mm, cm, dm, m or inch; without it, what the models tell
+    #[arg(long, value_name = "UNIT")]
     pub(in crate::cli) unit: Option<Unit>,
 
     /// How far the bodies approach after they touch

@@ -36,7 +36,7 @@ pub(in crate::cli) struct ClumpArgs {
     #[arg(short, long, value_name = "FILE", help_heading = OUTPUT)]
     pub(in crate::cli) output: Option<PathBuf>,
 
-    /// Unit of the scan's lengths, told beside them: um, mm, cm or m
+    /// Unit of the scan's lengths, told beside them: nm, um, mm, cm, dm, m or inch
     #[arg(long, value_name = "UNIT", help_heading = OUTPUT)]
     pub(in crate::cli) unit: Option<Unit>,
 
@@ -104,7 +104,7 @@ pub(in crate::cli) struct ExportDemArgs {
     #[arg(short, long, value_name = "DIR", help_heading = OUTPUT)]
     pub(in crate::cli) output: PathBuf,
 
-    /// Unit of the scans' lengths: um, mm, cm or m
+    /// Unit of the scans' lengths: nm, um, mm, cm, dm, m or inch
     #[arg(long, value_name = "UNIT")]
     pub(in crate::cli) unit: Unit,
 

@@ -75,7 +75,7 @@ impl Cast {
             let bytes = inputs::read(path, &args.input.limit)?;
             // What is no model is refused as such.
             inputs::is_model(path, &bytes, &args.input)?;
-            let model = inputs::parse_model(path, &bytes)?;
+            let model = inputs::parse_model(path, &bytes, Some(args.unit))?;
             let convex = model.superquadric().ok_or_else(|| {
                 anyhow!(
                     "{name} is not made of convex parts: take --spheres, or fit --surface poly12 or multi to its scan \

@@ -26,4 +26,4 @@ mod union;
 pub use contact::{ConvexContact, ConvexStatus, Method, Warm};
 pub use pair::ConvexPair;
 pub(crate) use union::SAME_NORMAL;
-pub use union::{UnionContact, union_contacts};
+pub use union::{UnionContact, is_one_inside, union_contacts};

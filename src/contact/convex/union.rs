@@ -3,7 +3,8 @@
 use super::contact::ConvexStatus;
 use super::pair::ConvexPair;
 use crate::measure::Curvature;
-use crate::model::{Frame, MultiSuperquadric, Part};
+use crate::model::{Frame, MultiSuperquadric, Part, StarSurface};
+use crate::sphere::cube_grid;
 use nalgebra::{Point3, Vector3};
 
 /// Cosine of the largest angle between normals of one touch: 20 degrees.
@@ -94,6 +95,39 @@ pub fn union_contacts(
     kept
 }
 
+/// Whether one of two unions whose frames are of the same space lies wholly inside the other, seen in its surface's [`GRID`] places.
+pub fn is_one_inside(
+    first: (&MultiSuperquadric, &Frame),
+    second: (&MultiSuperquadric, &Frame),
+) -> bool {
+    let is_inside = |inner: (&MultiSuperquadric, &Frame),
+                     (outer, frame): (&MultiSuperquadric, &Frame)| {
+        surface(inner).all(|point| outer.gauge(&frame.to_local(&point)) <= 1.0 + ROUNDED)
+    };
+    is_inside(first, second) || is_inside(second, first)
+}
+
+/// Cells along each edge of the cube of directions from each part in which its surface is looked at.
+const GRID: usize = 16;
+
+/// Rounding of a gauge.
+const ROUNDED: f64 = 1e-9;
+
+/// Places on the surface of a union.
+fn surface<'a>(
+    (union, frame): (&'a MultiSuperquadric, &'a Frame),
+) -> impl Iterator<Item = Point3<f64>> + 'a {
+    let (directions, _) = cube_grid(GRID);
+    let places = union.parts().iter().flat_map(move |part| {
+        let place = |n: &Vector3<f64>| part.frame.to_scan(&(n * part.shape.radius(n)));
+        directions.iter().map(place).collect::<Vec<_>>()
+    });
+    let is_outside = |place: &Point3<f64>| union.gauge(&place.coords) >= 1.0 - ROUNDED;
+    places
+        .filter(is_outside)
+        .map(|place| frame.to_scan(&place.coords))
+}
+
 /// Whether contacts of parts of the same bodies, each a point and a unit normal, are one touch: the patch is that of a
 /// sphere of this radius at the deeper one's overlap.
 fn same_touch(
@@ -168,6 +202,23 @@ mod tests {
             let found = union_contacts((&plate, &at(0.0, 0.0, 0.0)), (&dimer, &above));
             assert_eq!(found.len(), expected, "{height}");
         }
+    }
+
+    #[test]
+    fn a_union_inside_another_is_known() {
+        let at_origin = at(0.0, 0.0, 0.0);
+        let dimer = union(&[
+            ([1.0; 3], at(-0.7, 0.0, 0.0)),
+            ([1.0; 3], at(0.7, 0.0, 0.0)),
+        ]);
+        let plate = union(&[([9.0, 9.0, 1.3], at_origin)]);
+        for (height, expected) in [(0.0, true), (0.2, true), (0.4, false), (5.0, false)] {
+            let placed = at(0.5, 0.0, height);
+            let bodies = [(&dimer, &placed), (&plate, &at_origin)];
+            assert_eq!(is_one_inside(bodies[0], bodies[1]), expected, "{height}");
+            assert_eq!(is_one_inside(bodies[1], bodies[0]), expected, "{height}");
+        }
+        assert!(is_one_inside((&dimer, &at_origin), (&dimer, &at_origin)));
     }
 
     #[test]

@@ -160,6 +160,8 @@ impl Cluster {
                 if is_fine && !is_closed {
                     return Err(RegionError::Unresolved);
                 }
+                // As sums and bodies are, not turned.
+                let placed = [0, 1].map(|side| self.patches[side].placed(bodies[side].pose));
                 let all = regions.iter().zip(&sums).map(|(region, sums)| {
                     let triangles = &region.triangles;
                     let farthest = Farthest::new(&self.patches, triangles, &crossing, &placed);

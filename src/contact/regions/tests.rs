@@ -379,15 +379,18 @@ fn balls_deep_in_each_other_are_as_deep_as_their_ends_are_apart() {
     let ball = ball(1.0);
     let ball = Radial(&ball);
     let body = ContactBody::new(&ball);
-    for distance in [1.0, 0.7, 0.5, 0.2] {
-        let pose = Isometry3::translation(0.0, 0.0, distance);
+    let oblique = Vector3::new(0.3, -0.5, 0.8).normalize();
+    let all = [1.0, 0.7, 0.5, 0.2]
+        .map(|distance| [Vector3::z(), Vector3::x(), oblique].map(|along| (distance, along)));
+    for &(distance, along) in all.as_flattened() {
+        let pose = Isometry3::from_parts((along * distance).into(), UnitQuaternion::identity());
         let found = contact_regions(&body, &body, &pose).unwrap();
         let [region] = &found.regions[..] else {
             panic!("{found:?}")
         };
         assert_relative_eq!(region.depth, 2.0 - distance, max_relative = 1e-9);
         let [first, second] = region.deepest.unwrap();
-        assert_relative_eq!(first, Point3::new(0.0, 0.0, 1.0), epsilon = 1e-9);
-        assert_relative_eq!(second.z, distance - 1.0, epsilon = 1e-9);
+        assert_relative_eq!(first.coords, along, epsilon = 1e-9);
+        assert_relative_eq!(second.coords, along * (distance - 1.0), epsilon = 1e-9);
     }
 }

@@ -85,6 +85,9 @@ function lotPart(lot, grid) {
   const texts = ['path', 'status', 'reason', 'hash', 'version', 'settings', 'unit', 'no_standard_errors', 'not_measured', 'warnings'];
   const numeric = lot.columns.filter((name) => !texts.includes(name) && all.some((row) => Number.isFinite(number(row, name))));
   const main = MAIN.filter((name) => numeric.includes(name));
+  // Across units no sizes are beside each other, and each row tells its own.
+  const comparable = lot.lengths ? numeric : main.filter((name) => !isSize(name));
+  const units = lot.lengths ? [] : ['unit'];
   const nameOf = (row) => lot.rows[row][lot.columns.indexOf('path')] || `row ${row + 1}`;
 
   // A grain in full, where a click leads to.
@@ -109,6 +112,7 @@ function lotPart(lot, grid) {
   shownRows = new Map(all.map((row) => [row, el('tr', { class: 'leads', click: () => lead(row) },
     draw ? el('td', {}, draw(row)) : [], el('td', { class: 'path' }, nameOf(row)),
     el('td', {}, lot.rows[row][lot.columns.indexOf('reason')] || lot.rows[row][lot.columns.indexOf('status')] || ''),
+    units.map((name) => el('td', {}, lot.rows[row][lot.columns.indexOf(name)] || '')),
     main.map((name) => el('td', { class: 'number' }, Number.isFinite(number(row, name)) ? told(number(row, name)) : '')))]));
   const sort = (name) => {
     order = { name, isUp: order.name === name ? !order.isUp : true };
@@ -124,12 +128,12 @@ function lotPart(lot, grid) {
   const head = (name, kind) => el('th', { class: `sorts ${kind}`, click: () => sort(name) }, name);
   appendAll(body, shownRows.values());
   const table = el('table', {}, el('thead', {}, el('tr', {}, draw ? el('th') : [], head('path', ''), el('th', {}, 'status'),
-    main.map((name) => head(name, 'number')))), body);
+    units.map((name) => el('th', {}, name)), main.map((name) => head(name, 'number')))), body);
 
   const plot = el('div', { class: 'row' });
   const pick = (chosen) => {
-    const made = el('select', { change: () => redraw() }, numeric.map((name) => el('option', { value: name }, name)));
-    made.value = numeric.includes(chosen) ? chosen : numeric[0];
+    const made = el('select', { change: () => redraw() }, comparable.map((name) => el('option', { value: name }, name)));
+    made.value = comparable.includes(chosen) ? chosen : comparable[0];
     return made;
   };
   const [x, y] = [pick('volume'), pick('sphericity.wadell')];
@@ -139,7 +143,7 @@ function lotPart(lot, grid) {
       points: all.map((row) => ({ x: number(row, x.value), y: number(row, y.value), label: nameOf(row), lead: () => lead(row) })),
     }),
     histogram('', all.map((row) => number(row, x.value)), x.value));
-  if (numeric.length) redraw();
+  if (comparable.length) redraw();
 
   const sides = ['length', 'width', 'thickness'].map((side) => `dimensions.${side}`);
   const zingg = sides.every((side) => numeric.includes(side)) ? scatter({
@@ -150,13 +154,13 @@ function lotPart(lot, grid) {
       return { x: thickness / width, y: width / length, label: nameOf(row), lead: () => lead(row) };
     }),
   }) : [];
-  const spread = main.filter((name) => lot.lengths || !isSize(name));
+  const spread = main.filter((name) => comparable.includes(name));
   const failed = all.filter((row) => lot.rows[row][lot.columns.indexOf('status')] === 'failed').length;
   return el('section', {}, el('h2', {}, lot.name),
     el('p', { class: 'note' }, `${all.length} scans, ${failed} of them without a result. A click on a heading sorts, one on a grain shows it. ${lot.lengths || ''}`),
     lot.warnings.map((warning) => el('p', { class: 'warning' }, warning)),
     el('div', { class: 'wide' }, table), detail,
-    numeric.length ? [el('h3', {}, 'Any two measures'), el('p', {}, 'across ', x, ' up ', y), plot] : [],
+    comparable.length ? [el('h3', {}, 'Any two measures'), el('p', {}, 'across ', x, ' up ', y), plot] : [],
     lot.truth ? [el('h3', {}, 'Beside the truth'), truthPart(lot, all, number, nameOf)] : [],
     el('h3', {}, 'Distributions'),
     el('div', { class: 'row' }, spread.slice(0, 8).map((name) => histogram(name, all.map((row) => number(row, name)), name)), zingg));

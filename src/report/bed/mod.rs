@@ -4,10 +4,11 @@ mod means;
 mod text;
 mod warnings;
 
-use super::unit::Unit;
 use crate::bed::{Bed, BedSettings, Fabric, Packing, packing};
+use crate::unit::Unit;
 pub use means::{BedMean, BedMeans};
 use serde::Serialize;
+use std::collections::BTreeSet;
 
 /// Beds of the same grains, each from another seed.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -55,6 +56,8 @@ pub struct BedRunRecord {
     pub seconds: f64,
     /// Steps of the simulation.
     pub steps: u64,
+    /// Energy of motion and height, as a share of that at the start.
+    pub energy_left: f64,
     /// How densely it is packed; without fractions where grains overlap too much, and beside a mesh, for it is not known
     /// how much of the container is room for grains.
     pub packing: Packing,
@@ -70,6 +73,7 @@ impl BedRunRecord {
             is_at_rest,
             seconds,
             steps,
+            energy_left: bed.energy_left(),
             packing: Packing::without_fractions(bed),
             fabric,
         };
@@ -78,6 +82,21 @@ impl BedRunRecord {
         }
         run
     }
+}
+
+/// Tells models of whose sizes none has a grain.
+fn without_grains(kinds: &[BedKindRecord]) -> impl Iterator<Item = String> {
+    let grains = |input: &str| -> usize {
+        let own = kinds.iter().filter(|kind| kind.input == input);
+        own.map(|kind| kind.grains).sum()
+    };
+    let inputs: BTreeSet<&str> = kinds.iter().map(|kind| kind.input.as_str()).collect();
+    inputs
+        .into_iter()
+        .filter(move |input| grains(input) == 0)
+        .map(|input| {
+            format!("The bed has no grain of {input}: its share of so few grains is none.")
+        })
 }
 
 impl BedReport {
@@ -95,14 +114,16 @@ impl BedReport {
             ..bed.settings().clone()
         };
         let has_mesh = bed.has_mesh();
-        let warnings = runs
+        let kinds: Vec<BedKindRecord> = kinds.collect();
+        let of_runs = runs
             .iter()
             .flat_map(|run| run.warnings(&settings, has_mesh));
+        let warnings = without_grains(&kinds).chain(of_runs).collect();
         Self {
             unit,
-            kinds: kinds.collect(),
+            kinds,
             means: BedMeans::of(&runs),
-            warnings: warnings.collect(),
+            warnings,
             settings,
             has_mesh,
             runs,

@@ -13,6 +13,9 @@ const USUAL_OVERLAP: f64 = 0.03;
 /// by as much as shapes differ.
 pub(super) const MOST_OVERLAP: f64 = 0.1;
 
+/// The largest energy of motion and height, as a share of that at the start, of which nothing is said: steps are not exact.
+const MOST_ENERGY: f64 = 1.01;
+
 impl BedRunRecord {
     /// Whether grains overlap so much that a packing fraction means nothing.
     pub(super) fn is_crushed(&self) -> bool {
@@ -34,6 +37,13 @@ impl BedRunRecord {
                 "The bed of seed {seed} is not at rest after {} s; its figures are those of a bed that moves: \
                  {what_helps}.",
                 short(self.seconds)
+            ));
+        }
+        if self.energy_left > MOST_ENERGY {
+            warnings.push(format!(
+                "The grains of the bed of seed {seed} have {:.0} % more energy than they began with, so its figures are not those of a \
+                 bed that fell: forces between grains whose parts overlap do not keep energy. --damping 0.01,0.01 takes it away.",
+                100.0 * (self.energy_left - 1.0)
             ));
         }
         let overlap = self.fabric.largest_overlap;

@@ -10,12 +10,12 @@ use super::measure::{Dimensions, Measure, MeasureReport, NotMeasured, Principal,
 use super::rule::{kind_rule, rule};
 use super::scan::ReportedScan;
 use super::standard_errors::{StandardErrorsRecord, recorded};
-use super::unit::Unit;
 use super::warning::sentences;
 use crate::fit::{FitOptions, Fitted, LARGEST_OF_NOISE, Reference, Tolerance};
 use crate::measure::Survey;
 use crate::model::{NoStandardErrors, StarGrain};
 use crate::sphere::Symmetry;
+use crate::unit::Unit;
 use serde::Serialize;
 
 /// The figures of the grain that are told.

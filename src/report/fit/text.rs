@@ -4,9 +4,9 @@ use super::{FitReport, ReferenceRecord};
 use crate::digits::plural;
 use crate::fit::ReferenceKind;
 use crate::report::escape::escaped;
+use crate::report::labels::Labels;
 use crate::report::measure::by_reason;
 use crate::report::number::{percent, short, with_error};
-use crate::report::unit::Labels;
 use crate::sphere::Symmetry;
 use std::fmt;
 

@@ -2,8 +2,8 @@
 
 use crate::digits::plural;
 use crate::measure::{Fill, ScannedBody, spikes};
+use crate::report::labels::Labels;
 use crate::report::number::short;
-use crate::report::unit::Labels;
 use serde::Serialize;
 use std::fmt;
 

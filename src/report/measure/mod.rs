@@ -19,10 +19,11 @@ pub use records::{
 };
 pub(crate) use withheld::{Withheld, by_reason};
 
+use super::labels::Labels;
 use super::standard_errors::{StandardErrorsRecord, recorded};
-use super::unit::{Labels, Unit};
 use crate::fit::{ReferenceKind, ScannedSurface};
 use crate::measure::{ScannedBody, Survey, SurveyError};
+use crate::unit::Unit;
 use serde::Serialize;
 use std::collections::BTreeMap;
 

@@ -51,9 +51,14 @@ pub struct OutlineFigures {
     pub solidity: f64,
     /// Perimeter of the convex hull over the perimeter.
     pub convexity: f64,
-    /// Mean radius of the corners over the inscribed radius.
-    pub roundness: f64,
+    /// Mean radius of the corners over the inscribed radius; `null` of outlines so thin that it would be that of the smoothing, and not
+    /// that of the same outline seen a little turned.
+    pub roundness: Option<f64>,
 }
+
+/// Smallest over largest Feret diameter of the thinnest outline that has a roundness: of ellipses 50 times as long as wide it
+/// changes by .001 when they are turned, of ones 200 times as long by .04.
+const THINNEST: f64 = 0.02;
 
 impl ProjectionRecord {
     pub(super) fn new(
@@ -88,7 +93,8 @@ impl OutlineFigures {
             width_to_length: outline.width_to_length().min(1.0),
             solidity: outline.solidity().min(1.0),
             convexity: outline.convexity().min(1.0),
-            roundness: outline.roundness.min(1.0),
+            roundness: (outline.width_to_length() >= THINNEST)
+                .then_some(outline.roundness.min(1.0)),
         }
     }
 
@@ -120,7 +126,7 @@ impl OutlineFigures {
             width_to_length: self.width_to_length * 2.0 * diameter,
             solidity: self.solidity * area,
             convexity: self.convexity * perimeter,
-            roundness,
+            roundness: self.roundness.and(Some(roundness)),
         }
     }
 }

@@ -6,8 +6,8 @@ use super::{
 };
 use crate::measure::{Convexity, CurvatureErrors, Distribution, Form, SideRatios, Sphericity};
 use crate::report::escape::escaped;
+use crate::report::labels::Labels;
 use crate::report::number::{integrated, triple, triples, with_error};
-use crate::report::unit::Labels;
 use std::fmt::{self, Write as _};
 
 /// Degrees of the spectrum that are shown.
@@ -321,12 +321,15 @@ fn outline(f: &mut String, seen: &ProjectionRecord, labels: Labels) -> fmt::Resu
         mm = labels.length()
     )?;
     let told = |of: fn(&OutlineFigures) -> f64| ratio(&seen.outline, of);
+    let errors = seen.outline.standard_errors.as_ref();
+    let roundness = seen.outline.figures.roundness;
+    let roundness = roundness.map(|told| number(told, errors.and_then(|off| off.roundness)));
     writeln!(
         f,
-        "              circularity {}, circle ratio {}, solidity {}, roundness {}",
+        "              circularity {}, circle ratio {}, solidity {}{}",
         told(|seen| seen.circularity),
         told(|seen| seen.circle_ratio),
         told(|seen| seen.solidity),
-        told(|seen| seen.roundness)
+        roundness.map_or(String::new(), |told| format!(", roundness {told}"))
     )
 }

@@ -11,9 +11,9 @@ use ply_rs::parser::{Parser, Reader};
 use ply_rs::ply::{ElementDef, Encoding, PropertyAccess, PropertyType, Version};
 
 use super::meaning;
-use crate::scan::clump;
 use crate::scan::error::{ParseError, Place};
 use crate::scan::text::{quote, unexpected, words};
+use crate::scan::{clump, unit_remark};
 
 /// Longest header, in bytes without the text of its remarks. Real ones stay below 10 kB; the
 /// limit keeps a hostile header from filling the memory.
@@ -33,6 +33,8 @@ pub(super) struct Header {
     pub(super) lines: usize,
     /// Whether the version is one that this reader was written for.
     pub(super) known_version: bool,
+    /// The unit of lengths that a comment tells.
+    pub(super) unit: Option<String>,
     /// What is odd: whole sentences.
     pub(super) warnings: Vec<String>,
 }
@@ -55,6 +57,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Header, ParseError> {
         if rewriter.push(index + 1, line.trim_ascii())? {
             let original = |line: usize| bytes.split(|&b| b == newline).nth(line - 1);
             let mut header = parse(&rewriter.text, body.min(bytes.len()), index + 1, original)?;
+            header.unit = rewriter.unit;
             header.warnings.extend(rewriter.warnings);
             return Ok(header);
         }
@@ -80,6 +83,7 @@ struct Rewriter {
     text: String,
     elements: HashSet<Vec<u8>>,
     properties: HashSet<Vec<u8>>,
+    unit: Option<String>,
     warnings: Vec<String>,
 }
 
@@ -97,8 +101,9 @@ impl Rewriter {
             }
             b"comment" | b"obj_info" => {
                 let remark = line.strip_prefix(b"comment ").unwrap_or_default();
-                let warning = str::from_utf8(remark).ok().and_then(clump::warning);
-                self.warnings.extend(warning);
+                let remark = str::from_utf8(remark).unwrap_or_default();
+                self.warnings.extend(clump::warning(remark));
+                self.unit = unit_remark::unit(remark).or(self.unit.take());
                 tokens = vec![b"comment"];
             }
             b"format" | b"end_header" => {}
@@ -188,6 +193,7 @@ fn parse<'a>(
         body,
         lines,
         known_version: header.version == Version { major: 1, minor: 0 },
+        unit: None,
         warnings,
     })
 }

@@ -8,10 +8,10 @@ mod header;
 mod meaning;
 mod spare;
 mod strips;
-mod unseen;
 
 use ply_rs::ply::Encoding;
 
+use super::unseen::drop_unseen;
 use super::{ParseError, Scan};
 
 pub(super) fn parse(bytes: &[u8]) -> Result<Scan, ParseError> {
@@ -20,7 +20,8 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Scan, ParseError> {
         Encoding::Ascii => ascii::read(bytes, &header)?,
         Encoding::BinaryLittleEndian | Encoding::BinaryBigEndian => binary::read(bytes, &header)?,
     };
-    unseen::drop_unseen(&mut scan)?;
+    drop_unseen(&mut scan)?;
+    scan.unit = header.unit;
     scan.warnings.extend(header.warnings);
     if !header.known_version {
         let warning = "The PLY version is not 1.0; the file was read as if it were.";

@@ -1,6 +1,6 @@
 //! Text STL: any case, any line ends, several solids, names of any content and encoding.
 //!
-//! Normals are passed over unread: writers fill them with zeros or NaN, and winding decides.
+//! Normals and colours are passed over unread: writers fill normals with zeros or NaN, and winding decides.
 
 use nalgebra::Point3;
 
@@ -24,7 +24,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<(Scan, Welder), ParseError> {
             let corners = rows.read_facet()?;
             scan.triangles
                 .push(corners.map(|corner| welder.add(corner)));
-        } else {
+        } else if !word.eq_ignore_ascii_case(b"color") {
             return Err(unexpected(line, "`facet`, `solid` or `endsolid`", row));
         }
     }
@@ -93,7 +93,9 @@ mod tests {
 
     #[test]
     fn every_solid_counts_and_names_may_be_keywords() {
-        let text = format!("solid facet\n{FACET}endsolid facet\nSolid\n{FACET}endsolid\n");
+        let text = format!(
+            "solid facet\ncolor 0.5 0.5 1\n{FACET}endsolid facet\nSolid\n{FACET}endsolid\n"
+        );
         for text in [
             text.clone(),
             text.replace('\n', "\r"),

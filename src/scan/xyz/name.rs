@@ -48,6 +48,9 @@ const UNITS: [(&str, &[&str]); 7] = [
     ("inch", &["in", "inches"]),
 ];
 
+/// ... units in which no lengths are told here, ...
+const OTHER_UNITS: [&str; 6] = ["km", "pm", "ft", "feet", "mil", "thou"];
+
 /// ... words that tell lengths from steps of an image, ...
 const WORLD: [&str; 3] = ["world", "physical", "real"];
 
@@ -78,8 +81,9 @@ pub(super) struct Name {
 impl Name {
     /// The words of a name, and its unit: those of `"X (mm)"` and of `x_mm` are `x` and `mm`.
     pub(super) fn of(name: &[u8]) -> Self {
-        let name = String::from_utf8_lossy(name).to_lowercase();
+        let name = String::from_utf8_lossy(name);
         let unit = in_brackets(&name);
+        let name = name.to_lowercase();
         let name = name.split(['(', '[']).next().unwrap_or_default();
         let words = name.split(|letter: char| !letter.is_alphanumeric());
         let words = words.filter(|word| !word.is_empty());
@@ -132,9 +136,9 @@ impl Name {
     }
 }
 
-/// Whether a unit is one of length.
+/// Whether a unit is one of length, known here or not.
 pub(super) fn is_length(unit: &str) -> bool {
-    UNITS.iter().any(|(name, _)| *name == unit)
+    !is_step(unit) && !WORLD.contains(&unit)
 }
 
 /// Whether a unit is a step of an image.
@@ -142,15 +146,28 @@ pub(super) fn is_step(unit: &str) -> bool {
     STEPS.contains(&unit)
 }
 
-/// The unit that stands in brackets.
+/// The unit that stands in brackets; as it is written where it is made of one of length, as `0.1 mm` and `m/s` are.
 pub(super) fn in_brackets(name: &str) -> Option<String> {
     let (_, unit) = name.split_once(['(', '['])?;
-    known_unit(unit.trim_end_matches([')', ']']).trim())
+    let unit = unit.trim_end_matches([')', ']']).trim();
+    known_unit(unit).or_else(|| is_of_length(unit).then(|| unit.to_owned()))
 }
 
-/// The unit that a word stands for. What is no UTF-8 is the \u{b5} of an older encoding.
+/// Whether a word in a text is a unit of length. The `in` of sentences is none.
+fn is_of_length(text: &str) -> bool {
+    let lower = text.to_lowercase();
+    let mut words = lower.split(|letter: char| !letter.is_alphabetic());
+    words.any(|word| {
+        let is_known = UNITS
+            .iter()
+            .any(|(name, others)| *name == word || others.contains(&word));
+        (is_known && word != "in") || OTHER_UNITS.contains(&word)
+    })
+}
+
+/// The unit that a word stands for. What is no UTF-8 is the \u{b5} of an older encoding; `Mm` would be a megametre.
 pub(super) fn known_unit(word: &str) -> Option<String> {
-    let word = word.to_lowercase();
+    let word = Some(word).filter(|word| *word != "Mm")?.to_lowercase();
     let word = word.replace(['\u{b5}', '\u{3bc}', char::REPLACEMENT_CHARACTER], "u");
     let is_meant =
         |(name, others): &&(&str, &[&str])| *name == word || others.contains(&word.as_str());

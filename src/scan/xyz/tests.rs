@@ -287,6 +287,11 @@ fn headings_tell_the_unit() {
     assert_eq!(unit(micro), Some("um".into()));
     assert_eq!(unit("x (in),y (in),z (in)\n1,2,3"), Some("inch".into()));
     assert_eq!(unit("x_px,y_px,z_px\n1,2,3"), None);
+    for odd in ["1e-6 m", "0.1 mm", "km", "Mm", "m/s"] {
+        let text = format!("x [{odd}],y [{odd}],z [{odd}]\n1,2,3");
+        assert_eq!(unit(&text).as_deref(), Some(odd));
+    }
+    assert_eq!(unit("x (in image),y (in image),z (in image)\n1,2,3"), None);
     assert_eq!(unit("x,y,z\n1,2,3"), None);
     let told = parse(b"# a cut\nx_mm,y_mm,z_um\n1,2,3")
         .unwrap_err()

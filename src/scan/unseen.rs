@@ -2,10 +2,10 @@
 //!
 //! Scanners that see on a grid write all of it: where nothing was seen, a point that is no number.
 
+use super::Scan;
+use super::error::{ParseError, Place};
 use crate::digits::plural;
 use crate::mesh::keep_vertices;
-use crate::scan::Scan;
-use crate::scan::error::{ParseError, Place};
 
 /// Drops points that are not finite, with a warning.
 ///
