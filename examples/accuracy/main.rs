@@ -17,7 +17,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     if std::env::args().any(|argument| argument == "curvature") {
         return curvature::print();
     }
-    println!("| body | points | sampling | noise | cells | coefficients | area | volume | RMS |");
+    println!(
+        "| body | points | sampling | noise | segments | coefficients | area | volume | RMS |"
+    );
     println!("|---|---|---|---|---|---|---|---|---|");
     for body in [Body::Bean, Body::Chickpea, Body::Maize] {
         for sampling in Sampling::ALL {

@@ -1,6 +1,6 @@
 //! The area of a polyhedron without the noise of its vertices.
 
-use super::Unit;
+use super::Scale;
 use crate::Mesh;
 use nalgebra::{Point3, Vector3};
 
@@ -8,8 +8,8 @@ use nalgebra::{Point3, Vector3};
 /// the vertices it is joined to. Of smooth bodies it is the same but for the square of the spacing; noise, which makes facets
 /// steep and their area large, is mostly gone. All triangles must name vertices that exist.
 pub(crate) fn smoothed_area(mesh: &Mesh) -> f64 {
-    let unit = Unit::of(mesh);
-    let mesh = unit.mesh(mesh);
+    let scale = Scale::of(mesh);
+    let mesh = scale.mesh(mesh);
     let Some(first) = mesh.vertices.first() else {
         return 0.0;
     };
@@ -44,7 +44,7 @@ pub(crate) fn smoothed_area(mesh: &Mesh) -> f64 {
         let [a, b, c] = corners.map(|corner| vertices[corner as usize]);
         0.5 * (b - a).cross(&(c - a)).norm()
     };
-    unit.area(mesh.triangles.iter().map(area).sum())
+    scale.area(mesh.triangles.iter().map(area).sum())
 }
 
 #[cfg(test)]

@@ -184,7 +184,7 @@ fn unsound_models_are_refused() {
     let text = to_json(&grain(1, 2));
     assert!(from_json("{}").is_err());
     assert!(from_json("solid grain").is_err());
-    assert!(from_json(&text.replace("\"version\": 8", "\"version\": 9")).is_err());
+    assert!(from_json(&text.replace("\"version\": 9", "\"version\": 10")).is_err());
     assert!(from_json(&text.replace("grainform model", "other model")).is_err());
     assert!(from_json(&text.replace("\"parts_per_angle\": 2", "\"parts_per_angle\": 3")).is_err());
     let one = to_json(&grain(1, 1));

@@ -12,7 +12,7 @@ use crate::fit::prepare::{
 };
 use crate::fit::repeated::without_repeats;
 use crate::fit::warning::FitWarning;
-use crate::measure::{Unit, equivalent_radius, mesh_properties};
+use crate::measure::{Scale, equivalent_radius, mesh_properties};
 use crate::mesh::{Mesh, keep_vertices};
 use crate::model::Frame;
 use crate::scan::{Scan, are_two_grains};
@@ -47,8 +47,8 @@ impl LocalFaces {
             kind,
             mut warnings,
         } = faces(scan)?;
-        let unit = Unit::of(&mesh);
-        let at_unit = unit.mesh(&mesh);
+        let scale = Scale::of(&mesh);
+        let at_unit = scale.mesh(&mesh);
         let Ok(properties) = mesh_properties(&at_unit) else {
             return Err(FitError::NoVolume);
         };
@@ -72,10 +72,10 @@ impl LocalFaces {
                 vertices,
                 triangles: Vec::new(),
             };
-            unit.mesh(&points).vertices.iter().map(place).collect()
+            scale.mesh(&points).vertices.iter().map(place).collect()
         });
         let vertices = at_unit.vertices.iter().map(place);
-        let radius = size * unit.length;
+        let radius = size * scale.length;
         Ok(Self {
             points,
             semi_axes: semi_axes / size,
@@ -83,14 +83,14 @@ impl LocalFaces {
                 .lattice
                 .map(|lattice| at_unit_frame.axes.tr_mul(&lattice.steps) / radius),
             frame: Frame {
-                centre: unit.point(&at_unit_frame.centre),
+                centre: scale.point(&at_unit_frame.centre),
                 ..at_unit_frame
             },
             radius,
             reference: Reference {
                 kind,
-                area: unit.area(properties.area),
-                volume: unit.volume(properties.volume),
+                area: scale.area(properties.area),
+                volume: scale.volume(properties.volume),
                 bulge: 0.0,
             },
             warnings,

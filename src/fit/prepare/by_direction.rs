@@ -3,7 +3,7 @@
 use super::strays::{Strays, find_strays};
 use crate::fit::error::FitError;
 use crate::fit::rounder::rounder;
-use crate::measure::{Unit, mesh_properties};
+use crate::measure::{Scale, mesh_properties};
 use crate::mesh::Mesh;
 use crate::sphere::triangulate_directions;
 use nalgebra::{Matrix3, Point3, Vector3};
@@ -52,7 +52,7 @@ fn seen(points: Vec<Point3<f64>>, centre: &Point3<f64>) -> Result<(Mesh, Strays)
 /// The vertices of a mesh about its centre, in a space in which its second moments are the same in all directions. `None` if
 /// it is flat.
 fn rounded(mesh: &Mesh, centre: &Point3<f64>) -> Option<Vec<Point3<f64>>> {
-    let inertia = mesh_properties(&Unit::of(mesh).mesh(mesh)).ok()?.inertia;
+    let inertia = mesh_properties(&Scale::of(mesh).mesh(mesh)).ok()?.inertia;
     let moments = Matrix3::from_diagonal_element(0.5 * inertia.trace()) - inertia;
     let (map, stretch) = rounder(moments)?;
     (FLATTEST * stretch < 1.0).then_some(())?;

@@ -46,7 +46,7 @@ pub(crate) use surface::usable;
 
 use super::error::FitError;
 use super::warning::FitWarning;
-use crate::measure::{MassProperties, Unit, mesh_properties};
+use crate::measure::{MassProperties, Scale, mesh_properties};
 use crate::mesh::{Mesh, relaxed, solid_angle};
 use crate::model::{Frame, Unseen};
 use crate::scan::Scan;
@@ -130,11 +130,11 @@ impl<'a> PreparedScan<'a> {
         symmetry: Symmetry,
     ) -> Result<Self, FitError> {
         // Moments go with the fifth power of the size, and would be the first to leave the range of numbers.
-        let unit = Unit::of(&surface.mesh);
-        let mesh = unit.mesh(&surface.mesh);
+        let scale = Scale::of(&surface.mesh);
+        let mesh = scale.mesh(&surface.mesh);
         let properties = mesh_properties(&mesh)
             .ok()
-            .filter(|properties| properties.volume > Unit::LEAST_VOLUME)
+            .filter(|properties| properties.volume > Scale::LEAST_VOLUME)
             .ok_or(FitError::NoVolume)?;
         // Steps of voxels face anywhere.
         let without_steps = scan
@@ -148,13 +148,13 @@ impl<'a> PreparedScan<'a> {
             &mut surface.warnings,
         )?;
         let frame = Frame {
-            centre: unit.point(&centre),
+            centre: scale.point(&centre),
             axes: match symmetry {
                 Symmetry::NONE => principal_axes(&mesh, &properties),
                 _ => Matrix3::identity(),
             },
         };
-        let semi_axes = semi_axes(&properties, &frame) * unit.length;
+        let semi_axes = semi_axes(&properties, &frame) * scale.length;
         let of_faces = surface.seen_faces().map(|faces| {
             let seen = seen(faces, &frame, &semi_axes);
             let middles = match surface.kind {
@@ -169,12 +169,12 @@ impl<'a> PreparedScan<'a> {
         let bulge = if has_large_faces { bulge(&mesh) } else { 0.0 };
         let reference = Reference {
             kind: surface.kind,
-            area: unit.area(properties.area),
-            volume: unit.volume(properties.volume),
-            bulge: unit.volume(bulge),
+            area: scale.area(properties.area),
+            volume: scale.volume(properties.volume),
+            bulge: scale.volume(bulge),
         };
         if !(reference.volume.is_normal() && reference.area.is_normal()) {
-            return Err(FitError::Scale { size: unit.length });
+            return Err(FitError::Scale { size: scale.length });
         }
         if !on_faces.points.is_empty() {
             surface.points.to_mut().extend(&on_faces.points);
@@ -183,7 +183,7 @@ impl<'a> PreparedScan<'a> {
             }
         }
         Ok(Self {
-            mean_radius: mean_radius(&mesh, &centre, surface.kind) * unit.length,
+            mean_radius: mean_radius(&mesh, &centre, surface.kind) * scale.length,
             semi_axes,
             frame,
             reference,

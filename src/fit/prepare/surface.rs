@@ -14,7 +14,7 @@ use crate::fit::holes::Gap;
 use crate::fit::warning::FitWarning;
 use crate::fit::without::without;
 use crate::measure::{
-    FacesDefect, Fill, SelfCrossing, Unit, even_places, scanned_body, self_crossing, without_dust,
+    FacesDefect, Fill, Scale, SelfCrossing, even_places, scanned_body, self_crossing, without_dust,
 };
 use crate::mesh::Mesh;
 use crate::model::Unseen;
@@ -241,7 +241,7 @@ fn filled(mesh: Mesh, fill: Option<Fill>) -> ScannedSurface<'static> {
         vertices: points.clone(),
         triangles: seen,
     };
-    let gap = Gap::new(&Unit::of(&faces).mesh(&faces)).warning();
+    let gap = Gap::new(&Scale::of(&faces).mesh(&faces)).warning();
     ScannedSurface {
         faces: Some(faces),
         warnings: fill

@@ -16,7 +16,7 @@ use crate::fit::holes::Gap;
 use crate::fit::repeated::without_repeats;
 use crate::fit::warning::FitWarning;
 use crate::fit::without::without;
-use crate::measure::Unit;
+use crate::measure::Scale;
 use crate::mesh::Mesh;
 use crate::scan::has_neck;
 use nalgebra::{Matrix3, Point3};
@@ -84,10 +84,10 @@ pub(super) fn from_directions(
     let strays = all - points.len();
     refuse_background(strays, all)?;
     refuse_second_surface(&cloud, &points)?;
-    let unit = Unit::of(&mesh);
-    let scaled = unit.mesh(&mesh);
-    let (gap, averaged) = (Gap::new(&scaled), averaged(&scaled, unit.length));
-    let layers = layers(&scaled.vertices, unit.length);
+    let scale = Scale::of(&mesh);
+    let scaled = scale.mesh(&mesh);
+    let (gap, averaged) = (Gap::new(&scaled), averaged(&scaled, scale.length));
+    let layers = layers(&scaled.vertices, scale.length);
     let strays = (strays > 0).then_some(FitWarning::Strays {
         strays,
         points: all,

@@ -11,7 +11,7 @@
 mod candidates;
 mod patches;
 
-use super::Unit;
+use super::Scale;
 use super::crossings::{all_crossings, is_clear};
 use crate::Mesh;
 use candidates::candidates;
@@ -94,8 +94,8 @@ fn share(of_one: f64) -> String {
 /// Where the surface of one body goes through itself; `None` if it does not, though it may touch itself. The mesh must be
 /// closed and of one part.
 pub(crate) fn self_crossing(mesh: &Mesh) -> Option<SelfCrossing> {
-    let unit = Unit::of(mesh);
-    let (mesh, volume, middle) = outwards(unit.mesh(mesh));
+    let scale = Scale::of(mesh);
+    let (mesh, volume, middle) = outwards(scale.mesh(mesh));
     let candidates = candidates(&mesh, &middle)?;
     let near = Mesh {
         vertices: mesh.vertices.clone(),
@@ -110,7 +110,7 @@ pub(crate) fn self_crossing(mesh: &Mesh) -> Option<SelfCrossing> {
     let (crossed, touching): (Vec<_>, Vec<_>) = pairs.into_iter().partition(is_crossed);
     let found = Patches::new(&mesh, &crossed, &touching).off(volume)?;
     Some(SelfCrossing {
-        place: unit.point(&found.place),
+        place: scale.point(&found.place),
         ..found
     })
 }

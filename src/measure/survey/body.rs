@@ -2,7 +2,7 @@
 
 use super::{Scheme, SurveyError};
 use crate::Mesh;
-use crate::measure::unit::Unit;
+use crate::measure::scale::Scale;
 use crate::measure::{
     MassProperties, ScannedBody, SolidProperties, four_triangles, grain_properties,
     mesh_properties, solid_properties,
@@ -40,21 +40,21 @@ pub(super) enum Inside {
 }
 
 impl<'a> Body<'a> {
-    pub(super) fn grain(grain: &Grain, scheme: Scheme) -> (Self, Unit) {
+    pub(super) fn grain(grain: &Grain, scheme: Scheme) -> (Self, Scale) {
         let (directions, _) = cube_grid(2);
         let places = grain.places(&directions).into_iter();
         let size = places.map(|place| place.norm()).fold(0.0, f64::max);
-        let unit = Unit::new(size, grain.frame().centre);
-        let resized = Box::new(grain.about_origin(1.0 / unit.length));
-        (Self::Grain(resized, scheme), unit)
+        let scale = Scale::new(size, grain.frame().centre);
+        let resized = Box::new(grain.about_origin(1.0 / scale.length));
+        (Self::Grain(resized, scheme), scale)
     }
 
-    pub(super) fn mesh(mesh: &Mesh, inside: Inside) -> (Self, Unit) {
-        let unit = Unit::of(mesh);
-        (Self::Mesh(unit.mesh(mesh), inside), unit)
+    pub(super) fn mesh(mesh: &Mesh, inside: Inside) -> (Self, Scale) {
+        let scale = Scale::of(mesh);
+        (Self::Mesh(scale.mesh(mesh), inside), scale)
     }
 
-    pub(super) fn scanned(scanned: &ScannedBody) -> (Self, Unit) {
+    pub(super) fn scanned(scanned: &ScannedBody) -> (Self, Scale) {
         let inside = match scanned.defect {
             Some(defect) => Inside::Unknown(defect.into()),
             None => Inside::Bodies(scanned.bodies),
@@ -104,7 +104,7 @@ impl<'a> Body<'a> {
         let figures = found.inertia.iter().chain(found.centroid.iter());
         let is_finite = found.area.is_finite() && figures.copied().all(f64::is_finite);
         // Written so that NaN fails.
-        if !(is_finite && found.area > 0.0 && found.volume > Unit::LEAST_VOLUME) {
+        if !(is_finite && found.area > 0.0 && found.volume > Scale::LEAST_VOLUME) {
             return Err(SurveyError::NotSolid);
         }
         Ok(Measured {

@@ -26,7 +26,7 @@ impl Survey<'_> {
         let surface = self.body.surface()?;
         Ok(self
             .curvature
-            .get_or_init(|| CurvatureStatistics::new(surface).in_unit(self.unit.length)))
+            .get_or_init(|| CurvatureStatistics::new(surface).in_unit(self.scale.length)))
     }
 
     /// Roundness: the mean, by area, of the radius of curvature 1/k at the corners over the radius R of the largest inscribed sphere, a

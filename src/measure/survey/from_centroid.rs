@@ -32,7 +32,7 @@ impl Survey<'_> {
     pub fn spectrum(&self) -> Result<Spectrum, SurveyError> {
         let elements = self.star_shaped()?;
         let found = self.spectrum.get_or_init(|| Spectrum::new(elements));
-        Ok(self.unit.spectrum(found.clone()))
+        Ok(self.scale.spectrum(found.clone()))
     }
 
     /// The radius seen from the centroid in harmonics up to a degree.
@@ -45,7 +45,7 @@ impl Survey<'_> {
             return Err(SurveyError::Degree { found: degree });
         }
         let found = RadialExpansion::new(&self.resolved(degree)?, degree);
-        Ok(self.unit.expansion(found))
+        Ok(self.scale.expansion(found))
     }
 
     /// The elements of a surface that is seen once in each direction from the centroid.

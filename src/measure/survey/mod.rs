@@ -11,7 +11,7 @@ use super::corners::Corners;
 use super::elements::Element;
 use super::extents::Extents;
 use super::minimum_box::LeastBoxes;
-use super::unit::Unit;
+use super::scale::Scale;
 use super::{
     Ball, Convexity, CurvatureStatistics, EquivalentEllipsoid, Form, MassProperties, OrientedBox,
     Outline, PrincipalInertia, ScannedBody, SideRatios, SolidProperties, Spectrum, Sphericity,
@@ -60,7 +60,7 @@ use std::fmt;
 #[derive(Clone)]
 pub struct Survey<'a> {
     body: Body<'a>,
-    unit: Unit,
+    scale: Scale,
     standard_errors: Result<StandardErrors, NoStandardErrors>,
     union: OnceCell<Option<SolidProperties>>,
     measured: OnceCell<Result<Measured, SurveyError>>,
@@ -111,7 +111,7 @@ impl<'a> Survey<'a> {
     /// Of a surface whose area, volume and moments are known, in its own frame.
     pub fn of_surface(surface: &'a dyn StarSurface, properties: MassProperties) -> Self {
         let body = Body::Known(Radial(surface), properties);
-        Self::new((body, Unit::OWN), Err(NoStandardErrors::NotTold))
+        Self::new((body, Scale::OWN), Err(NoStandardErrors::NotTold))
     }
 
     /// Of a closed mesh of one body, wound counter-clockwise from outside.
@@ -137,12 +137,12 @@ impl<'a> Survey<'a> {
     }
 
     fn new(
-        (body, unit): (Body<'a>, Unit),
+        (body, scale): (Body<'a>, Scale),
         standard_errors: Result<StandardErrors, NoStandardErrors>,
     ) -> Self {
         Self {
             body,
-            unit,
+            scale,
             standard_errors,
             union: OnceCell::new(),
             measured: OnceCell::new(),
@@ -169,7 +169,7 @@ impl<'a> Survey<'a> {
     ///
     /// When what is inside cannot be told, or nothing is.
     pub fn properties(&self) -> Result<MassProperties, SurveyError> {
-        Ok(self.unit.properties(self.unit_properties()?))
+        Ok(self.scale.properties(self.unit_properties()?))
     }
 
     /// Surface area.
@@ -201,7 +201,7 @@ impl<'a> Survey<'a> {
     pub fn mean_radius(&self) -> Result<f64, SurveyError> {
         let found = self.measured()?;
         let of_volume = || equivalent_radius(found.properties.volume);
-        Ok(self.unit.length * found.mean_radius.unwrap_or_else(of_volume))
+        Ok(self.scale.length * found.mean_radius.unwrap_or_else(of_volume))
     }
 
     /// Standard errors of area, volume, moments and dimensions, as the grain tells them.
@@ -243,7 +243,7 @@ impl<'a> Survey<'a> {
     ///
     /// As [`Self::inertia`].
     pub fn principal(&self) -> Result<PrincipalInertia, SurveyError> {
-        let principal = self.unit.principal(self.unit_principal()?);
+        let principal = self.scale.principal(self.unit_principal()?);
         in_range(principal, principal.moments.as_slice())
     }
 
@@ -253,7 +253,7 @@ impl<'a> Survey<'a> {
     ///
     /// As [`Self::properties`], or when there are several bodies.
     pub fn dimensions(&self) -> Result<Vector3<f64>, SurveyError> {
-        Ok(self.unit.vector(&self.unit_dimensions()?))
+        Ok(self.scale.vector(&self.unit_dimensions()?))
     }
 
     /// The axes of length, width and thickness, in the columns.
@@ -267,7 +267,7 @@ impl<'a> Survey<'a> {
     ///
     /// When there is no convex hull.
     pub fn minimum_box(&self) -> Result<OrientedBox, SurveyError> {
-        Ok(self.unit.oriented_box(self.unit_minimum_box()?))
+        Ok(self.scale.oriented_box(self.unit_minimum_box()?))
     }
 
     /// Ratios of the sides of the box of least volume.
@@ -294,7 +294,7 @@ impl<'a> Survey<'a> {
     ///
     /// When nothing is inside, or there are several bodies.
     pub fn inscribed(&self) -> Result<Ball, SurveyError> {
-        Ok(self.unit.ball(self.unit_inscribed()?))
+        Ok(self.scale.ball(self.unit_inscribed()?))
     }
 
     /// The smallest enclosing sphere.
@@ -303,7 +303,7 @@ impl<'a> Survey<'a> {
     ///
     /// When there is no convex hull.
     pub fn enclosing(&self) -> Result<Ball, SurveyError> {
-        Ok(self.unit.ball(self.unit_enclosing()?))
+        Ok(self.scale.ball(self.unit_enclosing()?))
     }
 
     /// Sphericity in its forms.
@@ -342,7 +342,7 @@ impl<'a> Survey<'a> {
     ///
     /// As [`Self::dimensions`].
     pub fn ellipsoid(&self) -> Result<EquivalentEllipsoid, SurveyError> {
-        Ok(self.unit.ellipsoid(self.unit_ellipsoid()?))
+        Ok(self.scale.ellipsoid(self.unit_ellipsoid()?))
     }
 
     /// Outlines seen along the axes of the [dimensions](Self::dimensions): along the length, the width and the thickness. The
@@ -358,7 +358,7 @@ impl<'a> Survey<'a> {
         let along = |i: usize, along: &'static str| {
             let found = project(self.mesh(), &axes.column(i).into_owned(), &centre);
             let outline = found.map_err(|source| SurveyError::Projection { along, source })?;
-            Ok(self.unit.outline(outline.checked()?))
+            Ok(self.scale.outline(outline.checked()?))
         };
         let seen = [along(0, "length"), along(1, "width"), along(2, "thickness")];
         let [length, width, thickness]: [Result<Outline, SurveyError>; 3] = seen;
@@ -369,7 +369,7 @@ impl<'a> Survey<'a> {
 impl fmt::Debug for Survey<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Survey")
-            .field("unit", &self.unit)
+            .field("scale", &self.scale)
             .field("measured", &self.measured)
             .finish_non_exhaustive()
     }

@@ -38,7 +38,7 @@ fn grains_of_all_kinds_are_the_same_to_the_last_bit_once_saved() {
     }
     for grain in grains {
         let text = to_json(&grain);
-        assert!(text.contains("\"version\": 8"));
+        assert!(text.contains("\"version\": 9"));
         let loaded = from_json(&text).expect("a model");
         assert_eq!(loaded.frame(), grain.frame());
         assert_eq!(loaded.stretch(), grain.stretch());
@@ -67,7 +67,7 @@ fn a_file_of_the_first_version_is_still_read() {
     let n = Vector3::new(0.0, 0.6, 0.8);
     assert!((grain.radius(&n) - 5.0).abs() < 1e-15);
     let again = to_json(&grain);
-    assert!(again.contains("\"version\": 8"));
+    assert!(again.contains("\"version\": 9"));
     assert_eq!(
         from_json(&again).expect("a model").coefficients(),
         grain.coefficients()
@@ -235,7 +235,7 @@ fn errors_of_the_curvature_in_older_files_are_passed_over() {
 #[test]
 fn other_versions_and_unknown_fields_are_refused() {
     let grain = blended(CubeCell::uniform(1), plain());
-    for version in [0, 9, 99] {
+    for version in [0, 10, 99] {
         let found = spoilt(&grain, |value| value["version"] = json!(version));
         assert!(
             matches!(found, Err(ModelError::Version { .. })),

@@ -52,7 +52,7 @@ impl Survey<'_> {
         let (Ok(errors), Some(places)) = (self.standard_errors(), self.known_places()) else {
             return Ok(None);
         };
-        let length = self.unit.length;
+        let length = self.scale.length;
         let [area, volume] = [errors.area / self.area()?, errors.volume / self.volume()?];
         let whole: f64 = places.iter().map(|place| place.area).sum();
         let mean_by = |value: &dyn Fn([f64; 2]) -> f64| {

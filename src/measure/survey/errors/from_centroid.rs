@@ -91,7 +91,7 @@ impl Survey<'_> {
         };
         let of_place = |seen: &Seen| seen.off.powi(2) * seen.patch * seen.solid_angle;
         let variance = seen.iter().map(of_place).sum::<f64>() / (4.0 * PI);
-        let variance = self.unit.area(variance);
+        let variance = self.scale.area(variance);
         let of_size = errors.volume / (3.0 * self.volume()?);
         let mean = found.power[0].sqrt();
         let share = variance.sqrt().hypot(mean * of_size) / mean;

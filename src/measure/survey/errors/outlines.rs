@@ -117,8 +117,8 @@ impl Survey<'_> {
                     .map(|(_, off)| off)
             };
             LocalError {
-                place: root_mean_square(on_rim().map(|off| off.place)) * self.unit.length,
-                curvature: root_mean_square(on_rim().map(|off| off.curvature)) / self.unit.length,
+                place: root_mean_square(on_rim().map(|off| off.place)) * self.scale.length,
+                curvature: root_mean_square(on_rim().map(|off| off.curvature)) / self.scale.length,
             }
         };
         Some([0, 1, 2].map(rim))

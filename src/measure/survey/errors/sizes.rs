@@ -56,8 +56,8 @@ impl Survey<'_> {
             .extents
             .zip_map(&apart, |side, apart| (side * share).hypot(apart));
         Ok(Some(BoxErrors {
-            extents: self.unit.vector(&sides),
-            volume: self.unit.volume(volume),
+            extents: self.scale.vector(&sides),
+            volume: self.scale.volume(volume),
         }))
     }
 
@@ -125,7 +125,7 @@ impl Survey<'_> {
         let places = directions.iter();
         let places = places.map(|n| Some(self.body.local_error(n)?.place));
         let places: Vec<f64> = places.collect::<Option<_>>()?;
-        Some(root_mean_square(places) * self.unit.length)
+        Some(root_mean_square(places) * self.scale.length)
     }
 }
 

@@ -47,7 +47,7 @@ impl Survey<'_> {
             .filter(is_touched)
             .map(|known| known.off.place);
         let error = root_mean_square(touched).hypot(OF_MESH * ball.radius);
-        Some(error * self.unit.length)
+        Some(error * self.scale.length)
     }
 }
 

@@ -16,13 +16,13 @@ const LARGEST_EXPONENT: f64 = 1020.0;
 
 /// The length and the place that a body's own unit and origin are.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Unit {
+pub(crate) struct Scale {
     /// Lengths at unit size times this are the body's: a power of two.
     pub(crate) length: f64,
     pub(crate) origin: Point3<f64>,
 }
 
-impl Unit {
+impl Scale {
     /// Least volume of a body of unit size, that is of one whose box is some two units long: a needle a hundred thousand
     /// times as long as thick. Points in one plane, rounded, have 1e-16.
     pub(crate) const LEAST_VOLUME: f64 = 1e-11;
