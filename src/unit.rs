@@ -61,7 +61,10 @@ impl Unit {
 
 /// Lengths are said to be in one unit, and the header of an image, the heading of a table, or a model, says another.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("it says itself that lengths are in {told}, and --unit that they are in {asked}: {}", self.advice())]
+#[error(
+    "it says itself that lengths are in {}, and --unit that they are in {asked}: {}",
+    told.escape_debug(), self.advice()
+)]
 pub struct UnitContradicted {
     /// The unit that the file tells.
     pub told: String,
@@ -151,5 +154,6 @@ mod tests {
             "in mm, and --unit that they are in um: give --unit mm, or correct the file"
         ));
         assert!(told("furlong").ends_with("leave --unit out, or convert the scan"));
+        assert!(told("\u{1b}[2J").contains("in \\u{1b}[2J, and"));
     }
 }

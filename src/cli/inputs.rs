@@ -154,9 +154,11 @@ pub(super) fn unit_of_all<'a>(
         };
         match told {
             Some((first, other)) if other != unit => bail!(
-                "{} has its lengths in {other}, and {} in {unit}: convert one of the scans, and fit it again",
+                "{} has its lengths in {}, and {} in {}: convert one of the scans, and fit it again",
                 name(first),
-                name(path)
+                other.escape_debug(),
+                name(path),
+                unit.escape_debug()
             ),
             _ => told = Some((path, unit)),
         }

@@ -86,7 +86,7 @@ pub(in crate::cli) struct BatchArgs {
     #[arg(long)]
     pub(in crate::cli) largest: bool,
 
-    /// Unit of the scans' lengths, told beside them: nm, um, mm, cm, dm, m or inch; without it, what the header of an image says
+    /// Unit of the scans' lengths, told beside them: nm, um, mm, cm, dm, m or inch; without it, what their files say
     #[arg(long, value_name = "UNIT", help_heading = OUTPUT)]
     pub(in crate::cli) unit: Option<Unit>,
 
@@ -157,7 +157,7 @@ pub(in crate::cli) struct ReportArgs {
     #[arg(long, help_heading = OUTPUT)]
     pub(in crate::cli) extrapolate: bool,
 
-    /// Unit of the scans' lengths, told beside them: nm, um, mm, cm, dm, m or inch; without it, what the header of an image says
+    /// Unit of the scans' lengths, told beside them: nm, um, mm, cm, dm, m or inch; without it, what their files say
     #[arg(long, value_name = "UNIT", help_heading = OUTPUT)]
     pub(in crate::cli) unit: Option<Unit>,
 

@@ -63,7 +63,7 @@ pub(in crate::cli) struct MeasureArgs {
     #[arg(long, value_name = "exact|four-triangles", default_value = "exact")]
     pub(in crate::cli) scheme: SchemeArg,
 
-    /// Unit of the scan's lengths, told beside them: nm, um, mm, cm, dm, m or inch; without it, what the header of an image says
+    /// Unit of the scan's lengths, told beside them: nm, um, mm, cm, dm, m or inch; without it, what its file says
     #[arg(long, value_name = "UNIT")]
     pub(in crate::cli) unit: Option<Unit>,
 

@@ -97,7 +97,7 @@ pub(in crate::cli) struct FittingArgs {
     #[arg(long, help_heading = OUTPUT)]
     pub(in crate::cli) stats: bool,
 
-    /// Unit of the scan's lengths, told beside them: nm, um, mm, cm, dm, m or inch; without it, what the header of an image says
+    /// Unit of the scan's lengths, told beside them: nm, um, mm, cm, dm, m or inch; without it, what its file says
     #[arg(long, value_name = "UNIT", help_heading = OUTPUT)]
     pub(in crate::cli) unit: Option<Unit>,
 

@@ -95,7 +95,8 @@ pub fn union_contacts(
     kept
 }
 
-/// Whether one of two unions whose frames are of the same space lies wholly inside the other, seen in its surface's [`GRID`] places.
+/// Whether one of two unions whose frames are of the same space lies wholly inside the other, for all that 1538 places of each
+/// part's surface tell.
 pub fn is_one_inside(
     first: (&MultiSuperquadric, &Frame),
     second: (&MultiSuperquadric, &Frame),

@@ -190,6 +190,7 @@ impl Volume {
     /// in: none is converted.
     fn in_unit(mut self, unit: Option<String>) -> Self {
         if let Some(unit) = unit.as_deref().filter(|unit| *unit != "mm") {
+            let unit = unit.escape_debug();
             let warning = format!("The image's lengths are in {unit}, as its header says.");
             self.warnings.push(warning);
         }
