@@ -81,10 +81,12 @@ impl KnownContact {
     }
 
     /// How many times the force of Hertz is that of an indentation by the gap over all of the contact, and not by its curvature
-    /// in the middle: that of the elliptic paraboloid which, where the patch is, is no more open than the gap within an ellipse
-    /// of the same second moments. `gap`: curvature of the gap, from the contact to so far aside of it
-    /// along the principal directions of the first body. It is known to 5 % of gaps that open as a power from 1.5 to 8 of the
-    /// distance, and to 3 % of ones that are curved up to a hundred times as much on one side as on the other.
+    /// in the middle: that of an elliptic paraboloid. At the size of the patch the gap and the paraboloid are as far open round
+    /// areas of the same second moments.
+    ///
+    /// `gap`: curvature of the gap, from the contact to so far aside of it along the principal directions of the first body. The
+    /// force is known to 5 % of gaps that open as a power from 1.5 to 8 of the distance, and to 3 % of ones that are curved up to a
+    /// hundred times as much on one side as on the other.
     ///
     /// # Errors
     ///

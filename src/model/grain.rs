@@ -284,3 +284,19 @@ impl Surface for Grain {
         self.surface().mesh(resolution)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::{Family, Whole, grain_from_json, grain_to_json};
+
+    #[test]
+    fn a_file_keeps_the_unit_and_files_before_version_9_have_none() {
+        let family = Family::Whole(Whole::new(vec![3.0]).unwrap());
+        let grain = Grain::from(StarGrain::new(Frame::SCAN, family).unwrap());
+        let text = grain_to_json(&grain.clone().with_unit(Some("mm".into())));
+        assert_eq!(grain_from_json(&text).unwrap().unit(), Some("mm"));
+        let without = grain_to_json(&grain).replace("\"version\": 9", "\"version\": 8");
+        assert_eq!(grain_from_json(&without).unwrap().unit(), None);
+    }
+}
