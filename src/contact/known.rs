@@ -238,6 +238,9 @@ pub fn told_depth(depth: f64, error: Option<f64>) -> Result<(), ContactError> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::model::{Radial, Surface};
+    use crate::shapes::Ellipsoid;
+    use nalgebra::{Rotation3, Vector3};
     use std::f64::consts::PI;
 
     fn sphere(error: f64) -> Curved {
@@ -274,6 +277,24 @@ mod tests {
         let both = force_share(sphere(0.005), Curved::PLANE, 0.001);
         let alone = force_share(sphere(0.005), Curved::PLANE, 0.0);
         assert!((both - alone.hypot(0.015)).abs() < 1e-12, "{both}");
+    }
+
+    #[test]
+    fn surfaces_that_are_turned_to_each_other_are_known_as_such() {
+        let ellipsoid = Ellipsoid {
+            semi_axes: Vector3::new(3.0, 2.0, 1.0),
+        };
+        let up = Vector3::z();
+        let one = Curvature::new(&up, &Radial(&ellipsoid).jet(&up));
+        for angle in [0.4, -0.4, 1.3] {
+            let turn = Rotation3::from_axis_angle(&Vector3::z_axis(), angle);
+            let mut two = one;
+            two.directions = one.directions.map(|along| turn * along);
+            let known = KnownContact::at(&[one, two], None).unwrap();
+            let expected = RelativeCurvature::new(one.principal, one.principal, angle).unwrap();
+            let off = known.relative().larger() / expected.larger() - 1.0;
+            assert!(off.abs() < 1e-12, "{angle}: {off}");
+        }
     }
 
     /// The force of a gap c r^n about an axis at an indentation, over E* (Sneddon 1965).

@@ -213,9 +213,10 @@ mod tests {
             ([1.0; 3], at(0.7, 0.0, 0.0)),
         ]);
         let plate = union(&[([9.0, 9.0, 1.3], at_origin)]);
+        let aside = at(20.0, 0.0, 0.0);
         for (height, expected) in [(0.0, true), (0.2, true), (0.4, false), (5.0, false)] {
-            let placed = at(0.5, 0.0, height);
-            let bodies = [(&dimer, &placed), (&plate, &at_origin)];
+            let placed = at(20.5, 0.0, height);
+            let bodies = [(&dimer, &placed), (&plate, &aside)];
             assert_eq!(is_one_inside(bodies[0], bodies[1]), expected, "{height}");
             assert_eq!(is_one_inside(bodies[1], bodies[0]), expected, "{height}");
         }
