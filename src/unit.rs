@@ -59,6 +59,14 @@ impl Unit {
     }
 }
 
+/// The unit that is told with figures and kept with a model: the one asked for, or what the file says, known here or not.
+#[cfg(feature = "cli")]
+pub(crate) fn asked_or_told(asked: Option<Unit>, told: Option<&str>) -> Option<String> {
+    asked
+        .map(|unit| unit.to_string())
+        .or_else(|| told.map(str::to_owned))
+}
+
 /// Lengths are said to be in one unit, and the header of an image, the heading of a table, or a model, says another.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error(

@@ -9,6 +9,7 @@ use crate::report::{
     FitReport, Measure, MeasureReport, ReportedScan, Unit, Withheld, by_reason, sentences,
 };
 use crate::scan::Scan;
+use crate::unit::asked_or_told;
 use serde_json::Value;
 use std::error::Error;
 use std::path::PathBuf;
@@ -148,10 +149,9 @@ fn fit(scan: Scan, settings: &Settings) -> Result<(Fitted, OfScan), String> {
     let mut fitted =
         fit_scan(&scan, &settings.fit, &context).map_err(|error| scan.explained(told(&error)))?;
     fitted.warnings.extend(left_out);
-    let asked = settings.unit.map(|unit| unit.to_string());
     let of_scan = OfScan {
         warnings: scan.warnings().to_vec(),
-        unit: asked.or(scan.unit().map(str::to_owned)),
+        unit: asked_or_told(settings.unit, scan.unit()),
     };
     Ok((fitted, of_scan))
 }

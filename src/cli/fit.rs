@@ -5,11 +5,12 @@ use super::console::Console;
 use super::fitting::{ScanFit, fit_scan, say_stats};
 use super::streams::put_json;
 use super::values::SurfaceArg;
-use super::{inputs, outputs, superquadric};
+use super::{outputs, superquadric};
 use crate::digits::plural;
 use crate::fit::{FitOptions, Fitted, Seams};
 use crate::report::{FitReport, largest_loss, write_harmonics, write_position_harmonics};
 use crate::sphere::Symmetry;
+use crate::unit::asked_or_told;
 use anyhow::{Result, bail};
 use std::time::Instant;
 
@@ -59,7 +60,7 @@ pub(super) fn run(args: FitArgs, console: Console) -> Result<()> {
     if args.output.is_some() {
         fitted.grain = fitted
             .grain_with_errors()
-            .with_unit(inputs::told_unit(&scan, fitting.unit));
+            .with_unit(asked_or_told(fitting.unit, scan.unit()));
     }
     let unit = reported.unit;
     let report_of = match args.extrapolate {

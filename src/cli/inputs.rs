@@ -52,13 +52,6 @@ pub(super) fn unit_of(told: Option<&str>, asked: Option<Unit>) -> Option<Unit> {
     asked.or_else(|| told?.parse().ok())
 }
 
-/// The unit that a model of a scan keeps: the one asked for, or what the scan's file tells, known here or not.
-pub(super) fn told_unit(scan: &Scan, asked: Option<Unit>) -> Option<String> {
-    asked
-        .map(|unit| unit.to_string())
-        .or_else(|| scan.unit().map(str::to_owned))
-}
-
 /// The scan in a file or in standard input, its lengths in this unit.
 pub(super) fn scan(path: &Path, input: &InputArgs, unit: Option<Unit>) -> Result<Scan> {
     parse_scan(path, &read(path, &input.limit)?, input, unit)

@@ -7,6 +7,7 @@ use crate::export::{save_mesh, write_split_grain};
 use crate::mesh::Mesh;
 use crate::report::SplitReport;
 use crate::scan::{Split, SplitGrain, Volume, split, split_labels, split_uncut};
+use crate::unit::asked_or_told;
 use anyhow::{Context, Result, bail};
 use std::path::Path;
 
@@ -31,7 +32,7 @@ pub(super) fn run(args: SplitArgs, console: Console) -> Result<()> {
         }
         None => {
             let scan = inputs::parse_scan(&args.scan, &bytes, &args.input, args.unit)?;
-            unit = inputs::told_unit(&scan, args.unit);
+            unit = asked_or_told(args.unit, scan.unit());
             progress.stage("Telling the grains apart");
             let found = match args.uncut {
                 true => split_uncut(&scan),

@@ -11,6 +11,7 @@ use crate::fit::{
 use crate::model::Grain;
 use crate::report::{FittedScan, SuperquadricReport, sentences};
 use crate::scan::Scan;
+use crate::unit::asked_or_told;
 use anyhow::{Context, Result, bail};
 
 /// Fits superquadrics and tells of them.
@@ -34,7 +35,7 @@ pub(super) fn run(
     let progress = console.progress();
     let (grain, scan, mut report) = fitted(args, form)?;
     let unit = inputs::unit_of(scan.unit(), args.fitting.unit);
-    let grain = grain.with_unit(inputs::told_unit(&scan, args.fitting.unit));
+    let grain = grain.with_unit(asked_or_told(args.fitting.unit, scan.unit()));
     if args.png.is_some() {
         solid::is_seen_whole(
             &grain,

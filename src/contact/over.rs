@@ -4,6 +4,7 @@
 //! of a superquadric whose exponent is below two curvature has no bound, and that of a point tells nothing of the force.
 
 use super::{Touch, UnionContact};
+use crate::measure::Curvature;
 use crate::model::{Frame, MultiSuperquadric, Radial, Surface};
 use crate::sphere::tangents;
 use nalgebra::{Matrix2, Vector2, Vector3};
@@ -29,13 +30,13 @@ impl Touch {
 
 impl UnionContact {
     /// How the gap between the parts of both unions that touch is curved, from the contact to so far `aside` of it, along the
-    /// principal directions of the first.
+    /// principal directions of the first. `found`: the [curvatures](Self::curvatures) there.
     pub fn curvature_over(
         &self,
         bodies: [(&MultiSuperquadric, &Frame); 2],
+        found: &[Curvature; 2],
         aside: &Vector2<f64>,
     ) -> f64 {
-        let found = self.curvatures(bodies);
         let [first, second] = found[0].directions;
         let aside = first * aside.x + second * aside.y;
         let of = |body: usize| {
@@ -135,13 +136,14 @@ mod tests {
             ..Frame::SCAN
         };
         let bodies = [(&edge, &frame), (&ball, &above)];
-        let gap = |aside: &Vector2<f64>| touch.curvature_over(bodies, aside);
+        let found = touch.curvatures(bodies);
+        let gap = |aside: &Vector2<f64>| touch.curvature_over(bodies, &found, aside);
         for (aside, distance) in [(Vector2::x(), 1e-3_f64), (-Vector2::y(), 4e-3)] {
             let aside = aside * distance;
             let expected = 1.0 + 2.0 / distance.sqrt() / 1.5;
             assert_relative_eq!(gap(&aside), expected, max_relative = 5e-3);
         }
-        let known = KnownContact::at(&touch.curvatures(bodies), None).unwrap();
+        let known = KnownContact::at(&found, None).unwrap();
         assert!(known.times(touch.overlap, gap).unwrap() > 5.0);
     }
 }

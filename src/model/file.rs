@@ -17,28 +17,20 @@
 use super::cell_record::{CellRecord, of_cover, to_cover};
 use super::errors_record::{ErrorsRecord, LocalErrorsRecord};
 use super::grain::Kind;
+use super::model_error::{FORMAT, LARGEST_PARTITION, VERSION};
 use super::superquadric::PartRecord;
 use super::{
-    Blended, Contradicted, Family, Frame, Grain, InvalidGrain, Mirrored, NoStandardErrors,
-    Position, PositionGrain, Segmented, StandardErrors, StarGrain, Stretch, SuperquadricGrain,
-    Surface, Unseen, Whole,
+    Blended, Contradicted, Family, Frame, Grain, InvalidGrain, Mirrored, ModelError,
+    NoStandardErrors, Position, PositionGrain, Segmented, StandardErrors, StarGrain, Stretch,
+    SuperquadricGrain, Surface, Unseen, Whole,
 };
-use crate::sphere::{AngularPartition, CoverError, Symmetry};
+use crate::sphere::{AngularPartition, Symmetry};
 use flate2::Crc;
 use nalgebra::{Matrix3, Point3, Vector3};
 use serde::{Deserialize, Serialize};
 
 /// The first version whose files tell the checksum of the surface that errors are those of.
 const FIRST_WITH_CHECKSUM: u32 = 8;
-
-/// The version of the file format that this library writes.
-const VERSION: u32 = 9;
-
-/// The text that tells a model file from any other JSON.
-const FORMAT: &str = "grainform model";
-
-/// Parts per angle beyond which a file is refused.
-const LARGEST_PARTITION: usize = 1024;
 
 /// The file: every number in the scan's unit and frame.
 #[derive(Default, Serialize, Deserialize)]
@@ -117,73 +109,6 @@ struct PositionRecord {
     margin: Option<f64>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     harmonics: Option<Vec<f64>>,
-}
-
-/// Why a text is not a grain.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum ModelError {
-    /// Not JSON of the expected form.
-    #[error("not a grainform model: {0}; write one with `grainform fit SCAN -o MODEL.json`")]
-    Form(#[from] serde_json::Error),
-    /// JSON that nowhere says that it is a model.
-    #[error(
-        "not a grainform model, but other JSON; write one with `grainform fit SCAN -o MODEL.json`"
-    )]
-    Foreign,
-    /// JSON of some other program.
-    #[error("not a grainform model: its format is {found:?}, not {FORMAT:?}")]
-    Format {
-        /// The format named in the file.
-        found: String,
-    },
-    /// A version that this library does not know.
-    #[error(
-        "version {found} of the model format; this program reads up to version {VERSION}: update it"
-    )]
-    Version {
-        /// The version named in the file.
-        found: u32,
-    },
-    /// No segments, or more than any fit makes.
-    #[error("{found} parts per angle; from 1 to {LARGEST_PARTITION} are read")]
-    Partition {
-        /// Parts per angle named in the file.
-        found: usize,
-    },
-    /// No surface, or several.
-    #[error(
-        "the model is not sound: it must hold either `cells`, or `parts_per_angle` and `segments`, \
-         or `symmetry` and `coefficients`, or `harmonics`, or `position` with `cells` or `harmonics`, or `superquadrics`"
-    )]
-    Surface,
-    /// The errors of the surface are none.
-    #[error(
-        "the model is not sound: `local_errors` must hold 864 numbers of `place` and of `curvature`, none below zero"
-    )]
-    LocalErrors,
-    /// The standard errors are none.
-    #[error(
-        "the model is not sound: it must hold either `standard_errors`, finite numbers, none below zero, or \
-         `no_standard_errors`, the reason why there are none, or neither"
-    )]
-    StandardErrors,
-    /// What was not seen is none.
-    #[error(
-        "the model is not sound: `unseen` must hold a `hole` with a half-angle of 0 to pi, or what is `open`, with a share"
-    )]
-    Unseen,
-    /// What faces contradict is none.
-    #[error(
-        "the model is not sound: `contradicted` must hold the shares by which `area` and `volume` are off, above -1"
-    )]
-    Contradicted,
-    /// The cells do not tile the sphere.
-    #[error("the model is not sound: {0}")]
-    Cover(#[from] CoverError),
-    /// The parts do not make a grain.
-    #[error("the model is not sound: {0}")]
-    Invalid(#[from] InvalidGrain),
 }
 
 /// The JSON text of a grain.

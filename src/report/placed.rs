@@ -72,7 +72,9 @@ impl PlacedReport {
                 errors: None,
                 depth_error: None,
                 times: &|known| {
-                    known.times(touch.overlap, |aside| touch.curvature_over(bodies, aside))
+                    known.times(touch.overlap, |aside| {
+                        touch.curvature_over(bodies, &curvatures, aside)
+                    })
                 },
             };
             let force = law.and_then(|law| law.force(&overlap, &mut warnings));
