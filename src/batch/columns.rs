@@ -59,6 +59,21 @@ pub(super) const FIRST: [(&str, Kind); 21] = [
     ("warnings", Kind::Text),
 ];
 
+/// The measures by which grains are compared, as far as they are there, and whether they have a unit.
+pub(super) const MAIN: [(&str, bool); 11] = [
+    ("area", true),
+    ("volume", true),
+    ("dimensions.length", true),
+    ("dimensions.width", true),
+    ("dimensions.thickness", true),
+    ("form.elongation", false),
+    ("form.flatness", false),
+    ("sphericity.wadell", false),
+    ("roundness", false),
+    ("convexity.volume", false),
+    ("heldout_rms", true),
+];
+
 /// Whether a table with such columns may be one of `batch`.
 pub(super) fn are_results<'a>(names: impl Iterator<Item = &'a str> + Clone) -> bool {
     let [(scan, _), (status, _), ..] = FIRST;

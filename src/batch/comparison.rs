@@ -44,17 +44,17 @@ impl Comparison {
 
 /// Compares two lots by every measure that at least two grains of each have.
 pub(crate) fn compare(first: &Lot, second: &Lot) -> Vec<Comparison> {
-    let columns = first.names.iter().zip(&first.values);
+    let columns = first.names.iter().enumerate();
     columns
-        .filter_map(|(name, values)| {
+        .filter_map(|(own, name)| {
             let other = second.names.iter().position(|other| other == name)?;
-            of_measure(name, [values, &second.values[other]])
+            of_measure(name, [first.known(own), second.known(other)])
         })
         .collect()
 }
 
-fn of_measure(name: &str, values: [&[f64]; 2]) -> Option<Comparison> {
-    let lots = [sample(values[0])?, sample(values[1])?];
+fn of_measure(name: &str, values: [Vec<f64>; 2]) -> Option<Comparison> {
+    let lots = [sample(&values[0])?, sample(&values[1])?];
     let deviations = lots.map(|lot| lot.deviation);
     let difference = lots[1].mean - lots[0].mean;
     let scale = deviations[0].hypot(deviations[1]) / SQRT_2;
@@ -109,7 +109,7 @@ mod tests {
     fn lot(values: &[f64]) -> Lot {
         Lot {
             names: vec!["area".into()],
-            values: vec![values.into()],
+            values: vec![values.iter().copied().map(Some).collect()],
             ..Lot::default()
         }
     }

@@ -42,6 +42,7 @@ pub(crate) use grain::Settings;
 pub(crate) use inputs::{Inputs, check_folder, inputs};
 pub(crate) use left_over::model;
 pub(crate) use names::names;
+pub(crate) use outliers::{Outlier, outliers_of};
 pub(crate) use population::Population;
 pub(crate) use run::{Batch, Progress, Step, run};
 pub(crate) use saved::{RowKey, SavedModels};

@@ -1,7 +1,9 @@
 //! Grains that are worth a look.
 
+use super::columns::MAIN;
 use super::own_error::own_error;
 use super::statistics::median;
+use super::table::Lot;
 use crate::spread::PER_MEDIAN;
 use serde::Serialize;
 
@@ -30,6 +32,23 @@ pub(crate) struct Outlier {
     pub reason: String,
 }
 
+/// The grains of a lot that are unlike most others by one of its main measures.
+pub(crate) fn outliers_of(lot: &Lot) -> Vec<Outlier> {
+    let columns = MAIN
+        .iter()
+        .filter_map(|(name, _)| lot.names.iter().position(|own| own == name));
+    columns
+        .flat_map(|at| {
+            outliers(
+                &lot.names[at],
+                &lot.grains,
+                &lot.values[at],
+                &lot.errors[at],
+            )
+        })
+        .collect()
+}
+
 /// The grains that are unlike most others by a measure. Of each grain there are its path, its value, and the standard error of
 /// that, as far as they are known.
 pub(super) fn outliers(
@@ -48,7 +67,8 @@ pub(super) fn outliers(
         let value = values[at]?;
         let off = value - middle;
         let z = off / deviation;
-        let is_beyond_error = off.abs() > own_error(measure, value, errors[at]);
+        let error = errors.get(at).copied().flatten();
+        let is_beyond_error = off.abs() > own_error(measure, value, error);
         (z.abs() > OUTLYING && is_beyond_error).then(|| Outlier {
             path: paths[at].clone(),
             measure: measure.into(),

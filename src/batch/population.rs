@@ -1,6 +1,6 @@
 //! What the grains of a batch are like together.
 
-use super::columns::{Column, FIRST};
+use super::columns::{Column, FIRST, MAIN};
 use super::gaps::Gaps;
 use super::journal::Row;
 use super::outliers::{Outlier, outliers};
@@ -8,21 +8,6 @@ use super::statistics::{correlation, moments, quantile};
 use crate::digits::plural;
 use serde::Serialize;
 use std::collections::BTreeSet;
-
-/// The measures by which grains are compared, as far as they are there, and whether they have a unit.
-const MAIN: [(&str, bool); 11] = [
-    ("area", true),
-    ("volume", true),
-    ("dimensions.length", true),
-    ("dimensions.width", true),
-    ("dimensions.thickness", true),
-    ("form.elongation", false),
-    ("form.flatness", false),
-    ("sphericity.wadell", false),
-    ("roundness", false),
-    ("convexity.volume", false),
-    ("heldout_rms", true),
-];
 
 /// Quantiles that are told.
 const QUANTILES: [f64; 7] = [0.0, 0.05, 0.25, 0.5, 0.75, 0.95, 1.0];

@@ -22,8 +22,12 @@ use std::path::{Path, PathBuf};
 pub(crate) struct Lot {
     /// Names of the columns, in their order.
     pub names: Vec<String>,
-    /// What is known of the grains, a list for each column.
-    pub values: Vec<Vec<f64>>,
+    /// The grains: the paths of their scans.
+    pub grains: Vec<String>,
+    /// What is known of each grain, a list for each column.
+    pub values: Vec<Vec<Option<f64>>>,
+    /// The standard errors of these, as far as they are known.
+    pub errors: Vec<Vec<Option<f64>>>,
     /// What is known of fewer grains than were fitted.
     pub gaps: Gaps,
     /// How many rows are of scans without a result.
@@ -139,12 +143,14 @@ impl Lot {
         let not_measured = texts.get("not_measured").copied().unwrap_or_default();
         let is_known = |at: usize| cells[at].is_some();
         self.gaps.hear(is_known, not_measured.split(" | "));
+        self.grains
+            .push(texts.get("path").copied().unwrap_or_default().into());
         for (column, value) in cells.iter().enumerate() {
-            match value {
-                Some(value) if value.is_finite() => self.values[column].push(*value),
-                Some(_) => *self.unread.entry(self.names[column].clone()).or_default() += 1,
-                None => {}
+            let known = value.filter(|value| value.is_finite());
+            if value.is_some() && known.is_none() {
+                *self.unread.entry(self.names[column].clone()).or_default() += 1;
             }
+            self.values[column].push(known);
         }
     }
 
@@ -181,20 +187,36 @@ impl Lot {
         ))
     }
 
-    /// Leaves out what is no figure of a grain.
+    /// What is known of a column, of the grains of which it is.
+    pub(crate) fn known(&self, column: usize) -> Vec<f64> {
+        self.values[column].iter().flatten().copied().collect()
+    }
+
+    /// Leaves out what is no figure of a grain, and puts standard errors beside their figures.
     fn figures(mut self) -> Self {
         let is_figure = |name: &str| {
             let described = FIRST.iter().any(|(first, _)| *first == name);
             !described && !name.ends_with("_se")
         };
-        let columns = self.names.drain(..).zip(self.values.drain(..));
-        let told = columns.filter(|(name, values)| is_figure(name) && !values.is_empty());
-        let (names, values) = told.unzip();
-        Self {
-            names,
-            values,
-            ..self
-        }
+        let mut columns: BTreeMap<String, Vec<Option<f64>>> =
+            std::iter::zip(self.names.clone(), self.values).collect();
+        self.names.retain(|name| {
+            is_figure(name)
+                && columns
+                    .get(name)
+                    .is_some_and(|values| values.iter().any(Option::is_some))
+        });
+        self.errors = self
+            .names
+            .iter()
+            .map(|name| columns.remove(&format!("{name}_se")).unwrap_or_default())
+            .collect();
+        self.values = self
+            .names
+            .iter()
+            .map(|name| columns.remove(name).unwrap_or_default())
+            .collect();
+        self
     }
 }
 
@@ -359,7 +381,12 @@ mod tests {
             assert_eq!(lot.names, ["area", "roundness", "volume", "angularity"]);
             let volumes = vec![(1_u64 << 40) as f64, 5.0];
             let values = [vec![0.5], vec![3.0, -4.0], volumes, vec![0.5]];
-            assert_eq!(lot.values, values);
+            let known = (0..lot.names.len()).map(|column| lot.known(column));
+            assert_eq!(known.collect::<Vec<_>>(), values);
+            assert_eq!(lot.grains, ["a", "b"]);
+            assert_eq!(lot.values[0], [Some(0.5), None]);
+            assert_eq!(lot.errors[0], [Some(0.25), Some(0.75)]);
+            assert!(lot.errors[1].is_empty());
             assert_eq!(lot.unread.get("angularity"), Some(&1));
             let told = lot.gaps.sentence("").unwrap();
             assert!(told.contains("1 lacks area"), "{told}");

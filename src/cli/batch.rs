@@ -3,11 +3,12 @@
 use super::args::BatchArgs;
 use super::console::Console;
 use super::count::Count;
+use super::outliers::print_outliers;
 use super::{outputs, signals, threads};
 use crate::batch::{Batch, Inputs, Population, Settings, check_folder, inputs, run as run_batch};
 use crate::digits::plural;
 use crate::fit::FitOptions;
-use crate::report::{Measure, escaped, short};
+use crate::report::{Measure, short};
 use anyhow::Result;
 use comfy_table::{CellAlignment, Table, presets::NOTHING};
 use std::collections::BTreeSet;
@@ -17,7 +18,7 @@ use std::thread::available_parallelism;
 /// Cells along an edge of the cube of directions of a mesh.
 const RESOLUTION: usize = 64;
 
-/// Failures and outliers that are told on the terminal; the files have all.
+/// Failures that are told on the terminal; the files have all.
 const MOST_TOLD: usize = 20;
 
 /// Some scans have no result; all others are done.
@@ -173,15 +174,7 @@ fn tell(population: &Population, console: Console) -> Result<()> {
     }
     print(table, console)?;
 
-    let outliers = &population.outliers;
-    for outlier in outliers.iter().take(MOST_TOLD) {
-        let (path, reason) = (escaped(&outlier.path), &outlier.reason);
-        console.print(format_args!("worth a look: {path}, {reason}"))?;
-    }
-    match outliers.len().saturating_sub(MOST_TOLD) {
-        0 => Ok(()),
-        more => console.print(format_args!("and {more} more in summary.json")),
-    }
+    print_outliers(&population.outliers, "", "in summary.json", console)
 }
 
 fn print(mut table: Table, console: Console) -> Result<()> {

@@ -2,8 +2,9 @@
 
 use super::args::CompareArgs;
 use super::console::Console;
+use super::outliers::print_outliers;
 use super::streams::put_json;
-use crate::batch::{Comparison, compare, doubts, read_results};
+use crate::batch::{Comparison, Outlier, compare, doubts, outliers_of, read_results};
 use crate::report::short;
 use anyhow::{Result, bail};
 use comfy_table::{CellAlignment, Table, presets::NOTHING};
@@ -14,6 +15,8 @@ use std::collections::BTreeSet;
 #[derive(Serialize)]
 struct Compared {
     measures: Vec<Comparison>,
+    /// Of the first lot and of the second.
+    outliers: [Vec<Outlier>; 2],
     warnings: Vec<String>,
 }
 
@@ -51,6 +54,7 @@ pub(super) fn run(args: CompareArgs, console: Console) -> Result<()> {
     let compared = Compared {
         warnings: warnings.collect(),
         measures: compare(first, second),
+        outliers: [first, second].map(outliers_of),
     };
     if compared.measures.is_empty() {
         bail!(
@@ -109,6 +113,10 @@ pub(super) fn run(args: CompareArgs, console: Console) -> Result<()> {
          by chance alone.{below}",
         table.trim_fmt()
     ))?;
+    for (outliers, which) in compared.outliers.iter().zip(["first", "other"]) {
+        let of_lot = format!(" in the {which} lot");
+        print_outliers(outliers, &of_lot, "with --json", console)?;
+    }
     console.warn(&compared.warnings);
     Ok(())
 }

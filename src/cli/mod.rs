@@ -21,6 +21,7 @@ mod measure;
 mod mesh;
 mod negative;
 mod numbers;
+mod outliers;
 mod outputs;
 mod placed;
 mod progress;

@@ -2,6 +2,7 @@
 //! side out, and warns of what a closed surface of one body would not have.
 
 use super::Scan;
+use super::junctions::{junctions, parted};
 use super::mend::{flaps, repeats, wound_against};
 use super::topology::Topology;
 use super::weld::first_at_same_place;
@@ -21,6 +22,9 @@ pub(super) fn inspect(scan: &mut Scan) {
             topology = Topology::new(&scan.points, &scan.triangles, &own);
         }
         if !topology.closed {
+            topology = Topology::new(&scan.points, &scan.triangles, &same);
+        }
+        if topology.boundary_edges > 0 && part_at_junctions(scan, &same) {
             topology = Topology::new(&scan.points, &scan.triangles, &same);
         }
         if topology.branching_edges > 0 {
@@ -73,6 +77,24 @@ fn drop_repeated(scan: &mut Scan, same: &[u32]) -> bool {
         });
     }
     dropped > 0
+}
+
+/// Parts triangles along whose sides others have [corners](junctions).
+fn part_at_junctions(scan: &mut Scan, same: &[u32]) -> bool {
+    let found = junctions(&scan.points, &joined(&scan.triangles, same));
+    if found.is_empty() {
+        return false;
+    }
+    let along = |side: usize| found.get(&side).map_or(&[][..], Vec::as_slice);
+    let triangles = scan.triangles.iter().enumerate();
+    let parts = triangles
+        .flat_map(|(at, &corners)| parted(corners, [0, 1, 2].map(|side| along(3 * at + side))));
+    scan.triangles = parts.collect();
+    let sides = plural(found.len(), "side");
+    scan.warnings.push(format!(
+        "Parted {sides} of triangles at corners of others that lie along them (T-junctions)."
+    ));
+    true
 }
 
 /// Drops flaps if that closes the surface.

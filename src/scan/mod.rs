@@ -12,6 +12,7 @@ mod drawn;
 mod error;
 mod format;
 mod inspect;
+mod junctions;
 mod mend;
 mod obj;
 mod ply;
@@ -315,7 +316,8 @@ pub(crate) fn starts_as_model(bytes: &[u8]) -> bool {
 ///
 /// Points on a lattice that are the centres of the voxels of a grain, all or the outermost, become the boundary of these voxels, with a
 /// warning.
-/// Triangles with coinciding corners or that repeat others are dropped and a mesh wound inwards is turned outwards;
+/// Triangles with coinciding corners or that repeat others are dropped, those along whose sides others have corners are parted there,
+/// and a mesh wound inwards is turned outwards;
 /// these and whatever else is odd, such as holes or several bodies, leave a warning.
 ///
 /// # Errors

@@ -55,6 +55,44 @@ fn grains_without_a_unit_among_others_are_told() {
 }
 
 #[test]
+fn grains_unlike_the_rest_of_their_lot_are_named() {
+    let folder = folder();
+    let lot = |name: &str, last: &str| {
+        let volumes = ["1.5", "1.7", "1.6", "1.4", "1.5", "1.8", "1.6", "1.3", last];
+        let rows = volumes.iter().enumerate();
+        let rows = rows.map(|(at, volume)| format!("{at}.ply,ok,mm,{volume},2,.6\n"));
+        let table = format!(
+            "path,status,unit,volume,area,area_se\n{}",
+            rows.collect::<String>()
+        );
+        std::fs::write(
+            folder.path().join(name),
+            table.replace("7.ply,ok,mm,1.3,2,", "7.ply,ok,mm,1.3,2.5,"),
+        )
+        .unwrap();
+    };
+    lot("sound.csv", "1.5");
+    lot("edited.csv", "-40");
+    let report = json(&folder, &["compare", "sound.csv", "edited.csv"]);
+    assert_eq!(report["outliers"][0], serde_json::json!([]));
+    let outliers = report["outliers"][1].as_array().unwrap();
+    // An area that is off by less than its standard error is none.
+    assert_eq!(outliers.len(), 1);
+    assert_eq!(
+        (
+            outliers[0]["path"].as_str(),
+            outliers[0]["measure"].as_str()
+        ),
+        (Some("8.ply"), Some("volume"))
+    );
+    let told = succeed(&folder, &["compare", "edited.csv", "sound.csv"]);
+    assert!(
+        told.contains("worth a look in the first lot: 8.ply, its volume is"),
+        "{told}"
+    );
+}
+
+#[test]
 fn cells_that_hold_no_number_are_told_and_left_out() {
     let folder = folder();
     let lot = |name: &str, cells: [&str; 4]| {

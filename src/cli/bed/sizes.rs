@@ -30,7 +30,7 @@ impl Sizes {
         let named = lot.names.iter().position(|name| name == "volume");
         let lacking = lot.gaps.lacking("volume");
         let mut volumes = match (named, &lacking) {
-            (Some(at), _) => lot.values[at].clone(),
+            (Some(at), _) => lot.known(at),
             (None, Some(lacking)) => bail!("{shown} tells no volumes: {lacking}"),
             (None, None) => bail!("{shown} tells no volumes: run batch with --only volume"),
         };
