@@ -8,7 +8,7 @@ pub(crate) const PER_MEDIAN: f64 = 1.4826;
 /// Standard deviation of values round zero, told by the median of their sizes.
 pub(crate) fn robust_deviation(values: impl Iterator<Item = f64>) -> f64 {
     let mut sizes: Vec<f64> = values.map(f64::abs).collect();
-    PER_MEDIAN * median(&mut sizes).unwrap_or(0.0)
+    PER_MEDIAN * upper_median(&mut sizes).unwrap_or(0.0)
 }
 
 /// Standard deviations from the middle beyond which a value does not count.
@@ -64,7 +64,7 @@ pub(crate) fn principal(matrix: &Matrix3<f64>) -> Option<(Vector3<f64>, Matrix3<
 }
 
 /// The median, the upper one of two.
-pub(crate) fn median(values: &mut [f64]) -> Option<f64> {
+pub(crate) fn upper_median(values: &mut [f64]) -> Option<f64> {
     in_order(values, values.len() / 2)
 }
 
@@ -90,6 +90,16 @@ pub(crate) fn upper_quartile(values: &mut [f64]) -> Option<f64> {
     in_order(values, 3 * values.len() / 4)
 }
 
+/// The number below which a share of sorted ones lies, between neighbours by linear interpolation; of none zero.
+pub(crate) fn quantile(sorted: &[f64], share: f64) -> f64 {
+    let at = share * sorted.len().saturating_sub(1) as f64;
+    let (low, high) = (at.floor() as usize, at.ceil() as usize);
+    match (sorted.get(low), sorted.get(high)) {
+        (Some(one), Some(other)) => one + (other - one) * at.fract(),
+        _ => 0.0,
+    }
+}
+
 /// Of values that are not negative the one of which those that are less have half of the sum: many small ones hardly move it.
 pub(crate) fn middle_of_sum(mut values: Vec<f64>) -> Option<f64> {
     values.sort_unstable_by(f64::total_cmp);
@@ -109,8 +119,8 @@ mod tests {
     fn the_deviation_is_told_by_the_median_size() {
         let sizes = [3.0, -1.0, 2.0, -100.0, 0.5];
         assert_eq!(robust_deviation(sizes.into_iter()), 1.4826 * 2.0);
-        assert_eq!(median(&mut [4.0, 1.0, 3.0, 2.0]), Some(3.0));
-        assert_eq!(median(&mut []), None);
+        assert_eq!(upper_median(&mut [4.0, 1.0, 3.0, 2.0]), Some(3.0));
+        assert_eq!(upper_median(&mut []), None);
     }
 
     #[test]

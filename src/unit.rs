@@ -81,10 +81,10 @@ pub struct UnitContradicted {
 }
 
 impl UnitContradicted {
-    fn advice(&self) -> String {
+    fn advice(&self) -> &'static str {
         match self.told.parse::<Unit>() {
-            Ok(told) => format!("give --unit {told}, or correct the file"),
-            Err(_) => "leave --unit out, or convert the scan".into(),
+            Ok(_) => "leave --unit out, or correct the file",
+            Err(_) => "convert the scan, or correct the file",
         }
     }
 }
@@ -159,9 +159,9 @@ mod tests {
         }
         let told = |told| um.check(Some(told)).unwrap_err().to_string();
         assert!(told("mm").ends_with(
-            "in mm, and --unit that they are in um: give --unit mm, or correct the file"
+            "in mm, and --unit that they are in um: leave --unit out, or correct the file"
         ));
-        assert!(told("furlong").ends_with("leave --unit out, or convert the scan"));
+        assert!(told("furlong").ends_with("convert the scan, or correct the file"));
         assert!(told("\u{1b}[2J").contains("in \\u{1b}[2J, and"));
     }
 }

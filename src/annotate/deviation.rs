@@ -3,7 +3,7 @@
 use crate::measure::feet;
 use crate::model::Surface;
 use crate::scan::Scan;
-use crate::spread::median;
+use crate::spread::upper_median;
 use kiddo::{ImmutableKdTree, SquaredEuclidean};
 use nalgebra::{Point3, Vector3};
 use rayon::prelude::*;
@@ -117,7 +117,7 @@ impl ScanDeviation {
     fn typical_distance(&self) -> f64 {
         let last = |point: &Point3<f64>| self.near(point).last().map_or(0.0, |(_, far)| *far);
         let mut distances: Vec<f64> = self.points.par_iter().map(last).collect();
-        median(&mut distances).unwrap_or(0.0)
+        upper_median(&mut distances).unwrap_or(0.0)
     }
 }
 

@@ -4,8 +4,9 @@ use super::columns::{Column, FIRST, MAIN};
 use super::gaps::Gaps;
 use super::journal::Row;
 use super::outliers::{Outlier, outliers};
-use super::statistics::{correlation, moments, quantile};
+use super::statistics::{correlation, moments};
 use crate::digits::plural;
+use crate::spread::quantile;
 use serde::Serialize;
 use std::collections::BTreeSet;
 

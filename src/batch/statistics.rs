@@ -1,5 +1,7 @@
 //! What lists of numbers are like.
 
+use crate::spread::quantile;
+
 /// Mean and standard deviation (with n - 1).
 pub(super) fn moments(values: &[f64]) -> (f64, Option<f64>) {
     let count = values.len() as f64;
@@ -29,16 +31,6 @@ pub(super) fn median(values: impl Iterator<Item = f64>) -> f64 {
     let mut values: Vec<f64> = values.collect();
     values.sort_unstable_by(f64::total_cmp);
     quantile(&values, 0.5)
-}
-
-/// The number below which a share of sorted ones lies, between neighbours by linear interpolation; of none zero.
-pub(super) fn quantile(sorted: &[f64], share: f64) -> f64 {
-    let at = share * sorted.len().saturating_sub(1) as f64;
-    let (low, high) = (at.floor() as usize, at.ceil() as usize);
-    match (sorted.get(low), sorted.get(high)) {
-        (Some(one), Some(other)) => one + (other - one) * at.fract(),
-        _ => 0.0,
-    }
 }
 
 /// Correlation (Pearson) over the pairs of which both are known; none of fewer than three, or where one does not vary.

@@ -2,7 +2,7 @@
 
 use super::link::Link;
 use super::settle::Bed;
-use crate::spread::principal;
+use crate::spread::{principal, quantile};
 use nalgebra::Matrix3;
 use serde::Serialize;
 use std::collections::BTreeSet;
@@ -143,10 +143,9 @@ impl Forces {
     fn of(forces: &[f64]) -> Option<Self> {
         let last = *forces.last()?;
         let mean = forces.iter().sum::<f64>() / forces.len() as f64;
-        let at = |share: f64| forces[(share * (forces.len() - 1) as f64).round() as usize];
         (mean > 0.0).then(|| Self {
             mean,
-            quantiles: QUANTILES.map(|share| at(share) / mean),
+            quantiles: QUANTILES.map(|share| quantile(forces, share) / mean),
             largest: last / mean,
         })
     }

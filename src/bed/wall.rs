@@ -11,6 +11,9 @@ const OUTWARD_STEPS: usize = 20;
 /// Halvings of an edge of a triangle in search of its deepest point.
 const EDGE_HALVINGS: usize = 40;
 
+/// A gauge that is surely above one, whatever is lost to rounding.
+const OUTSIDE: f64 = 1.0 + 1e-9;
+
 /// Steps of Newton's iteration to the surface of a body.
 const SURFACE_STEPS: usize = 20;
 
@@ -129,15 +132,10 @@ fn on_triangle(corners: &[Point3<f64>; 3], shape: &Superquadric, frame: &Frame) 
     }
     let edges = [(a, b), (b, c), (c, a)];
     let local = edges.map(|(from, to)| [from, to].map(|point| frame.to_local(point)));
-    let on_edges = local.map(|edge| deepest_of_edge(shape, &edge));
-    let [first, second, third] = on_edges.map(|x| (shape.gauge_and_slope(&x), x));
+    let on_edges = local.iter().filter_map(|edge| deepest_of_edge(shape, edge));
+    let on_edges = on_edges.map(|x| (shape.gauge_and_slope(&x), x));
     let ((gauge, slope), x) =
-        [second, third]
-            .into_iter()
-            .fold(first, |least, next| match next.0.0 < least.0.0 {
-                true => next,
-                false => least,
-            });
+        on_edges.min_by(|((one, _), _), ((other, _), _)| one.total_cmp(other))?;
     let along = slope.try_normalize(0.0)?;
     if gauge >= 1.0 {
         return None;
@@ -148,19 +146,23 @@ fn on_triangle(corners: &[Point3<f64>; 3], shape: &Superquadric, frame: &Frame) 
     (overlap > 0.0).then(|| Touch::new(point, normal, overlap))
 }
 
-/// Where the gauge, which is convex, is least on an edge.
-fn deepest_of_edge(shape: &Superquadric, [from, to]: &[Vector3<f64>; 2]) -> Vector3<f64> {
+/// Where the gauge, which is convex, is least on an edge; `None` of one that its tangents show to lie outside.
+fn deepest_of_edge(shape: &Superquadric, [from, to]: &[Vector3<f64>; 2]) -> Option<Vector3<f64>> {
     let along = to - from;
     let [mut low, mut high] = [0.0, 1.0];
     for _ in 0..EDGE_HALVINGS {
         let middle = 0.5 * (low + high);
-        let (_, slope) = shape.gauge_and_slope(&(from + along * middle));
-        match slope.dot(&along) > 0.0 {
+        let (gauge, slope) = shape.gauge_and_slope(&(from + along * middle));
+        let rise = slope.dot(&along);
+        if gauge - rise.abs() * (middle - low) > OUTSIDE {
+            return None;
+        }
+        match rise > 0.0 {
             true => high = middle,
             false => low = middle,
         }
     }
-    from + along * (0.5 * (low + high))
+    Some(from + along * (0.5 * (low + high)))
 }
 
 /// How far it is from a point inside to the surface, along a unit vector on which the gauge rises.

@@ -38,6 +38,7 @@ fn contact(args: &ContactArgs) -> Result<ContactReport> {
     let other = args.other.as_deref().map(read).transpose()?;
     let both = args.other.as_deref().zip(other.as_ref());
     let models = std::iter::once((args.model.as_path(), &grain)).chain(both);
+    let models = models.map(|(path, grain)| (path, grain.unit()));
     let Some(unit) = inputs::unit_of_all(models, args.unit)? else {
         bail!("a force needs --unit, for the models do not tell theirs");
     };

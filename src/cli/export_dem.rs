@@ -9,8 +9,9 @@ use crate::clump::clump;
 use crate::engines::{AnmExpansion, Deck, Engine, GrainMaterial, InputFile, Kind, anm_files};
 use crate::measure::{SPECTRUM_DEGREE, Scheme, Survey};
 use crate::model::{Grain, Superquadric};
-use crate::report::{ClumpReport, short};
+use crate::report::{ClumpReport, Unit, short};
 use anyhow::{Context, Result, bail};
+use std::path::PathBuf;
 
 /// A body, what its input is called, and its name in the folder.
 struct Subject {
@@ -32,12 +33,17 @@ pub(super) fn run(args: ExportDemArgs, console: Console) -> Result<()> {
     let progress = console.progress();
     progress.stage("Reading");
     let subjects = read(&args)?;
+    let solids = subjects.iter().map(|subject| subject.solid.unit.as_deref());
+    let unit = inputs::needed_unit(
+        args.paths.iter().map(PathBuf::as_path).zip(solids),
+        args.unit,
+    )?;
     progress.stage("Finding spheres");
     let column;
     let (files, told) = match args.engine {
-        EngineArg::Anm => shapes(&args, &subjects)?,
+        EngineArg::Anm => shapes(unit, &subjects)?,
         EngineArg::Deck(engine) => {
-            let (deck, mut told) = deck(&args, &subjects)?;
+            let (deck, mut told) = deck(&args.deck, unit, &subjects)?;
             column = deck;
             told.extend(engine.remarks(&column));
             (engine.files(&column), told)
@@ -53,13 +59,10 @@ pub(super) fn run(args: ExportDemArgs, console: Console) -> Result<()> {
         console.warn(&subject.solid.warnings);
     }
     let folder = args.output.display();
-    let others = outputs::beside(&args.output, &files);
-    if !others.is_empty() {
-        console.warn(&[format!(
-            "{folder} also holds what this run did not write: {}.",
-            others.join(", ")
-        )]);
-    }
+    console.warn(&Vec::from_iter(outputs::beside(
+        &args.output,
+        files.iter().map(|file| &file.path),
+    )));
     console.wrote(&format!("{folder}: {} files", files.len()))
 }
 
@@ -77,7 +80,7 @@ fn read(args: &ExportDemArgs) -> Result<Vec<Subject>> {
             twins => format!("{stem}_{}", twins + 1),
         };
         subjects.push(Subject {
-            solid: solid::read(path, &args.input, Some(args.unit))?,
+            solid: solid::read(path, &args.input, args.unit)?,
             input: inputs::name(path),
             name,
         });
@@ -86,13 +89,13 @@ fn read(args: &ExportDemArgs) -> Result<Vec<Subject>> {
 }
 
 /// The deck, and what is lost by each clump.
-fn deck(args: &ExportDemArgs, subjects: &[Subject]) -> Result<(Deck, Vec<String>)> {
-    let metres = args.unit.metres();
-    let material = args.deck.material();
+fn deck(args: &DeckArgs, unit: Unit, subjects: &[Subject]) -> Result<(Deck, Vec<String>)> {
+    let metres = unit.metres();
+    let material = args.material();
     let density = material.density;
     let (mut kinds, mut told) = (Vec::new(), Vec::new());
     for Subject { solid, input, name } in subjects {
-        let found = clump(&solid.mesh, &solid.properties, args.deck.spheres.target())
+        let found = clump(&solid.mesh, &solid.properties, args.spheres.target())
             .with_context(|| format!("cannot make a clump of {input}"))?;
         let kind = Kind::new(name, &found, metres, density)
             .with_context(|| format!("cannot write {input} for an engine"))?
@@ -101,12 +104,12 @@ fn deck(args: &ExportDemArgs, subjects: &[Subject]) -> Result<(Deck, Vec<String>
             Some(shape) => kind.with_superquadric(&shape, metres),
             None => kind,
         });
-        let report = ClumpReport::new(input.clone(), &found, Some(args.unit), Vec::new())
+        let report = ClumpReport::new(input.clone(), &found, Some(unit), Vec::new())
             .with_volume_error(solid.volume_error);
         told.push(format!("grain         {name}\n{report}"));
     }
-    let grains = args.deck.grains.unwrap_or(GRAINS);
-    let seed = args.deck.seed.unwrap_or(SEED);
+    let grains = args.grains.unwrap_or(GRAINS);
+    let seed = args.seed.unwrap_or(SEED);
     Ok((Deck::column(kinds, grains, material, seed)?, told))
 }
 
@@ -124,6 +127,7 @@ impl DeckArgs {
             (self.friction.is_some(), "--friction"),
             (self.restitution.is_some(), "--restitution"),
         ];
+        let (_, contact) = rest.split_at(3);
         let (options, reason) = match engine {
             EngineArg::Deck(Engine::Lammps | Engine::Yade) => return None,
             EngineArg::Deck(Engine::Liggghts) => (
@@ -131,8 +135,8 @@ impl DeckArgs {
                 "the folder places the grains, and LIGGGHTS places them itself",
             ),
             EngineArg::Deck(Engine::MercuryDpm) => (
-                vec![seed, grains],
-                "the folder places the grains, and of MercuryDPM a driver does",
+                [&[seed, grains][..], contact].concat(),
+                "the folder tells where grains lie and how they touch, and of MercuryDPM a driver does",
             ),
             EngineArg::Anm => (
                 [&[seed, grains][..], &rest].concat(),
@@ -163,11 +167,8 @@ fn single(grain: &Grain) -> Option<Superquadric> {
 }
 
 /// Files of harmonics, and what is lost by each.
-fn shapes(
-    args: &ExportDemArgs,
-    subjects: &[Subject],
-) -> Result<(Vec<InputFile<'static>>, Vec<String>)> {
-    let metres = args.unit.metres();
+fn shapes(unit: Unit, subjects: &[Subject]) -> Result<(Vec<InputFile<'static>>, Vec<String>)> {
+    let metres = unit.metres();
     let (mut grains, mut told) = (Vec::new(), Vec::new());
     for Subject { solid, input, name } in subjects {
         let failed = || format!("cannot expand {input} about its centre of mass");
@@ -177,9 +178,8 @@ fn shapes(
         };
         let found = survey.expansion(SPECTRUM_DEGREE).with_context(failed)?;
         told.push(format!(
-            "grain         {name}\nharmonics     degree {SPECTRUM_DEGREE}, RMS {} {} from the grain",
-            short(found.rms),
-            args.unit
+            "grain         {name}\nharmonics     degree {SPECTRUM_DEGREE}, RMS {} {unit} from the grain",
+            short(found.rms)
         ));
         let real: Vec<f64> = found.coefficients.iter().map(|a| a * metres).collect();
         grains.push((name.clone(), AnmExpansion::from_real(&real)));

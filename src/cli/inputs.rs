@@ -135,14 +135,22 @@ pub(super) fn parse_model(path: &Path, bytes: &[u8], unit: Option<Unit>) -> Resu
     Ok(grain)
 }
 
-/// The unit of models, which must be one; where none is asked for, the one that they tell.
+/// The [unit of files](unit_of_all) where there must be one.
+pub(super) fn needed_unit<'a>(
+    files: impl IntoIterator<Item = (&'a Path, Option<&'a str>)>,
+    asked: Option<Unit>,
+) -> Result<Unit> {
+    unit_of_all(files, asked)?.context("give --unit: the unit of lengths is told by no input")
+}
+
+/// The unit of files, which must be one; where none is asked for, the one that they tell.
 pub(super) fn unit_of_all<'a>(
-    models: impl IntoIterator<Item = (&'a Path, &'a Grain)>,
+    files: impl IntoIterator<Item = (&'a Path, Option<&'a str>)>,
     asked: Option<Unit>,
 ) -> Result<Option<Unit>> {
     let mut told: Option<(&Path, &str)> = None;
-    for (path, grain) in models {
-        let Some(unit) = grain.unit() else {
+    for (path, unit) in files {
+        let Some(unit) = unit else {
             continue;
         };
         match told {
@@ -156,5 +164,15 @@ pub(super) fn unit_of_all<'a>(
             _ => told = Some((path, unit)),
         }
     }
-    Ok(unit_of(told.map(|(_, unit)| unit), asked))
+    let told = told.map(|(path, unit)| {
+        let failed = |expected| {
+            anyhow!(
+                "{} has its lengths in {}: {expected}; convert the scan",
+                name(path),
+                unit.escape_debug()
+            )
+        };
+        unit.parse().map_err(failed)
+    });
+    Ok(asked.or(told.transpose()?))
 }

@@ -179,13 +179,13 @@ pub(super) fn write_inputs(folder: &Path, files: &[InputFile<'_>]) -> Result<()>
     Ok(())
 }
 
-/// Names, in order, of what a folder holds beside the files that were written to it: an engine would run them too.
-pub(super) fn beside(folder: &Path, files: &[InputFile<'_>]) -> Vec<String> {
+/// A sentence of what a folder holds beside the files of a run: an engine would run them too.
+pub(super) fn beside(
+    folder: &Path,
+    files: impl Iterator<Item = impl AsRef<Path>> + Clone,
+) -> Option<String> {
     let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
-    let is_own = |path: &PathBuf| {
-        let mut own = files.iter().map(|file| folder.join(&file.path));
-        own.any(|own| own.starts_with(path))
-    };
+    let is_own = |path: &PathBuf| files.clone().any(|own| folder.join(own).starts_with(path));
     let others = entries
         .map(|entry| entry.path())
         .filter(|path| !is_own(path));
@@ -193,7 +193,13 @@ pub(super) fn beside(folder: &Path, files: &[InputFile<'_>]) -> Vec<String> {
         .filter_map(|path| Some(path.file_name()?.to_string_lossy().into_owned()))
         .collect();
     names.sort();
-    names
+    (!names.is_empty()).then(|| {
+        format!(
+            "{} also holds what this run did not write: {}.",
+            folder.display(),
+            names.join(", ")
+        )
+    })
 }
 
 /// What an output is called.

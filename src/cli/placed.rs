@@ -33,7 +33,10 @@ pub(super) fn run(args: &ContactArgs, pose: &PoseArg, console: Console) -> Resul
     let written = args.mesh.as_deref().map(outputs::name);
     let grains = [read(&args.model)?, read(other)?];
     let names = [inputs::name(&args.model), inputs::name(other)];
-    let unit = inputs::unit_of_all(paths.into_iter().zip(&grains), args.unit)?;
+    let unit = inputs::unit_of_all(
+        paths.into_iter().zip(grains.each_ref().map(Grain::unit)),
+        args.unit,
+    )?;
     let law = law(args, unit, &grains)?;
     let hertz = match &law {
         Some(NormalLaw::Hertz(hertz)) => Some(hertz),

@@ -18,6 +18,7 @@ pub(super) fn files(deck: &Deck) -> Vec<InputFile<'_>> {
         &first,
         "A driver that includes ClumpInput.h loads them by LoadClumps; older versions, with ClumpIO.h and load_clumps, take \
          the same files under names in lower case. Number of grains, box and contact are the driver's.",
+        "",
     ));
     files
 }

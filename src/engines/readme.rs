@@ -11,12 +11,24 @@ pub(super) fn runs(deck: &Deck, needs: &str, command: &str, files: &str) -> Inpu
     let first = format!(
         "{count} grains of {kinds} fall into a box: run {command} in this folder ({needs})."
     );
-    readme(deck, &first, files)
+    let material = &deck.material;
+    let rolling = match material.rolling_friction > 0.0 {
+        true => format!(", rolling friction {}", given(material.rolling_friction)),
+        false => String::new(),
+    };
+    let contact = format!(
+        ", Young's modulus {:e} Pa, Poisson's ratio {}, friction {}{rolling}, restitution {}",
+        material.youngs_modulus,
+        given(material.poissons_ratio),
+        given(material.friction),
+        given(material.restitution),
+    );
+    readme(deck, &first, files, &contact)
 }
 
-/// A README whose first two lines are given; what is not to be relied on of the grains ends it.
-pub(super) fn readme(deck: &Deck, first: &str, files: &str) -> InputFile<'static> {
-    let material = &deck.material;
+/// A README whose first two lines are given, and what follows the density; what is not to be relied on of the grains ends it.
+pub(super) fn readme(deck: &Deck, first: &str, files: &str, contact: &str) -> InputFile<'static> {
+    let density = given(deck.material.density);
     let doubts = deck.kinds.iter().flat_map(|kind| {
         let name = &kind.name;
         kind.doubts
@@ -26,13 +38,8 @@ pub(super) fn readme(deck: &Deck, first: &str, files: &str) -> InputFile<'static
     InputFile::new(
         "README",
         format!(
-            "{first}\n{files}\nSI units (m, kg, s); density {} kg/m³, Young's modulus {:e} Pa, Poisson's ratio {}, friction \
-             {}, restitution {}; mass and inertia are those of the grain, not sums over its spheres.\n{}",
-            given(material.density),
-            material.youngs_modulus,
-            given(material.poissons_ratio),
-            given(material.friction),
-            given(material.restitution),
+            "{first}\n{files}\nSI units (m, kg, s); density {density} kg/m³{contact}; mass and inertia are those of the grain, not \
+             sums over its spheres.\n{}",
             doubts.collect::<String>(),
         ),
     )

@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use nalgebra::Point3;
 
 use super::WriteError;
-use crate::scan::{SplitGrain, clump, unit_remark};
+use crate::scan::{SplitGrain, heap, unit_remark};
 
 /// Writes a binary little-endian PLY of points with 64-bit coordinates.
 ///
@@ -16,16 +16,16 @@ pub fn write_points_ply(points: &[Point3<f64>], writer: &mut impl Write) -> Resu
     write_cloud(points, &[], writer)
 }
 
-/// Writes the points of one grain of a [split](crate::scan::split) as [`write_points_ply`] does. Where it was cut from a clump, a
+/// Writes the points of one grain of a [split](crate::scan::split) as [`write_points_ply`] does. Where it was cut from a heap, a
 /// comment says from how many, of which those who read the file are warned; another tells the unit, where the scan does.
 ///
 /// # Errors
 ///
 /// Those of [`write_points_ply`].
 pub fn write_split_grain(grain: &SplitGrain, writer: &mut impl Write) -> Result<(), WriteError> {
-    let of_clump = grain.cut.map(|cut| clump::remark(cut.grains));
+    let of_heap = grain.cut.map(|cut| heap::remark(cut.grains));
     let of_unit = grain.scan.unit().map(unit_remark::remark);
-    let comments: Vec<String> = of_clump.into_iter().chain(of_unit).collect();
+    let comments: Vec<String> = of_heap.into_iter().chain(of_unit).collect();
     write_cloud(grain.scan.points(), &comments, writer)
 }
 

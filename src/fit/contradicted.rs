@@ -238,7 +238,7 @@ mod tests {
         fitted.reference.volume *= 1.02;
         assert_eq!(fitted.beyond_faces(), None);
         fitted.reference.area /= 1.02;
-        fitted.errors = Some(Ok(StandardErrors::NONE));
+        fitted.errors = Some(Ok(StandardErrors::ZERO));
         assert_eq!(fitted.beyond_faces(), None);
         fitted.errors = None;
         fitted.reference.kind = ReferenceKind::Directions;

@@ -64,7 +64,7 @@ mod tests {
     #[test]
     fn a_shell_on_one_half_moves_the_centroid() {
         let figures = Figures::SOME;
-        let errors = StandardErrors::NONE.with_shift(0.01, &figures);
+        let errors = StandardErrors::ZERO.with_shift(0.01, &figures);
         let radius = equivalent_radius(figures.volume);
         // A half ball's shell of thickness t has the first moment pi R³ t, over the volume 3/4 t.
         for error in &errors.centroid {
@@ -78,7 +78,7 @@ mod tests {
         let none = StandardErrors {
             volume: 0.24,
             centroid: Vector3::repeat(0.1),
-            ..StandardErrors::NONE
+            ..StandardErrors::ZERO
         };
         let found = none.with_scale(0.01, &told);
         assert_relative_eq!(found.area, 0.2);

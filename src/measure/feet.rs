@@ -1,6 +1,7 @@
 //! The points of a surface that lie nearest to given ones.
 
 use super::Curvature;
+use super::shortened::shortened;
 use crate::model::Surface;
 use kiddo::{ImmutableKdTree, SquaredEuclidean};
 use nalgebra::{Matrix2, Point3, Vector2, Vector3};
@@ -37,21 +38,22 @@ pub fn feet(surface: &(impl Surface + ?Sized), points: &[Point3<f64>]) -> Vec<Fo
     let (directions, _) = surface.grid(STARTS);
     let places = surface.places(&directions).into_iter();
     let places: Vec<[f64; 3]> = places.map(Into::into).collect();
-    let nowhere = |point: &Point3<f64>| Foot {
-        direction: directions[0],
-        distance: (point - centre).norm() * f64::NAN,
-    };
-    let Ok(tree) = ImmutableKdTree::<f64, 3>::new_from_slice(&places) else {
-        return points.iter().map(nowhere).collect();
+    let tree = ImmutableKdTree::<f64, 3>::new_from_slice(&places).ok();
+    let starts = |towards: &Vector3<f64>| -> Vec<usize> {
+        let query: [f64; 3] = (*towards).into();
+        let near = tree.iter().flat_map(|tree| {
+            tree.query(&query)
+                .nearest_n::<SquaredEuclidean<f64>>(TRIED)
+                .execute()
+        });
+        near.map(|hit| hit.item as usize).collect()
     };
     let foot = |point: &Point3<f64>| {
         let towards = point - centre;
-        let query: [f64; 3] = towards.into();
-        let near = tree.query(&query).nearest_n::<SquaredEuclidean<f64>>(TRIED);
-        let starts = near.execute().into_iter();
-        let feet = starts.map(|hit| descend(surface, &towards, directions[hit.item as usize]));
+        let from = |start: usize| descend(surface, &towards, directions[start]);
+        let feet = starts(&towards).into_iter().map(from);
         feet.min_by(|one, other| one.distance.abs().total_cmp(&other.distance.abs()))
-            .unwrap_or_else(|| nowhere(point))
+            .unwrap_or_else(|| from(0))
     };
     points.par_iter().map(foot).collect()
 }
@@ -62,12 +64,10 @@ fn descend(surface: &(impl Surface + ?Sized), point: &Vector3<f64>, mut n: Vecto
     let mut least = away(&n);
     for _ in 0..MAX_STEPS {
         let step = step(surface, point, &n);
-        let tried = [1.0, 0.5, 0.25, 0.1, 0.01].into_iter().find_map(|share| {
-            let next = (n + step * share).try_normalize(0.0)?;
-            let away = away(&next);
-            (away < least * (1.0 - LEAST_GAIN)).then_some((next, away))
-        });
-        match tried {
+        let gains = |next: &Vector3<f64>| {
+            Some(away(next)).filter(|away| *away < least * (1.0 - LEAST_GAIN))
+        };
+        match shortened(&n, &step, gains) {
             Some((next, away)) => (n, least) = (next, away),
             None => break,
         }

@@ -41,6 +41,7 @@ mod scale;
 mod scanned;
 mod seen;
 mod self_crossing;
+mod shortened;
 mod silhouette;
 mod slits;
 #[cfg(feature = "cli")]

@@ -1,6 +1,7 @@
 //! Where a surface reaches farthest in a direction: the point by which it touches a plane.
 
 use super::Curvature;
+use super::shortened::shortened;
 use crate::model::Surface;
 use crate::sphere::{compass, unit};
 use nalgebra::{Matrix3, Vector3};
@@ -131,12 +132,8 @@ fn newton(
             })
             .sum();
         let step = curvature.turn(&step);
-        let tried = [1.0, 0.5, 0.25, 0.1, 0.01].into_iter().find_map(|share| {
-            let next = (n + step * share).try_normalize(0.0)?;
-            let height = height(&next);
-            (height > highest).then_some((next, height))
-        });
-        match tried {
+        let gains = |next: &Vector3<f64>| Some(height(next)).filter(|height| *height > highest);
+        match shortened(&n, &step, gains) {
             Some((next, height)) => (n, highest) = (next, height),
             None => break,
         }

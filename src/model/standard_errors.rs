@@ -27,7 +27,7 @@ pub struct StandardErrors {
 
 impl StandardErrors {
     /// Of figures that are exact.
-    pub(crate) const NONE: Self = Self {
+    pub(crate) const ZERO: Self = Self {
         area: 0.0,
         volume: 0.0,
         centroid: Vector3::new(0.0, 0.0, 0.0),

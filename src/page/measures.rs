@@ -217,7 +217,7 @@ mod tests {
         let errors = StandardErrors {
             area: 0.25,
             dimensions: Vector3::new(0.75, 0.0, 0.0),
-            ..StandardErrors::NONE
+            ..StandardErrors::ZERO
         };
         let errors = StandardErrorsRecord::new(&errors, &Matrix3::identity());
         let rows = MeasureRow::of(&record, Some(&errors), None);

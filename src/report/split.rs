@@ -3,7 +3,7 @@
 use super::number::{short, triple};
 use crate::digits::plural;
 use crate::scan::Split;
-use crate::scan::clump::MANY;
+use crate::scan::heap::MANY;
 use crate::unit::Unit;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -22,7 +22,7 @@ pub struct SplitReport {
     pub distance: Option<f64>,
     /// The plane that the grains lay on; `null` where there is none.
     pub plane: Option<PlaneRecord>,
-    /// Clumps, or bodies of a mesh or of a segmented volume, that are too small for a grain.
+    /// Heaps, or bodies of a mesh or of a segmented volume, that are too small for a grain.
     pub dust: usize,
     /// Points of these; of a segmented volume their voxels.
     pub dust_points: usize,
@@ -61,9 +61,9 @@ pub struct SplitGrainRecord {
     pub label: Option<i64>,
     /// Number of points; of a segmented volume those between its voxels and others.
     pub points: usize,
-    /// The clump it was cut from, a number that grains of one clump share; `null` where it was not cut.
+    /// The heap it was cut from, a number that grains of one heap share; `null` where it was not cut.
     pub cut_from: Option<usize>,
-    /// Width of the widest neck at which that clump was cut, over that of the narrower side.
+    /// Width of the widest neck at which that heap was cut, over that of the narrower side.
     pub neck: Option<f64>,
     /// Whether it may be several that touch.
     pub may_touch: bool,
@@ -80,7 +80,7 @@ impl SplitReport {
                 file,
                 label: grain.label,
                 points: grain.scan.points().len(),
-                cut_from: grain.cut.map(|cut| cut.clump),
+                cut_from: grain.cut.map(|cut| cut.heap),
                 neck: grain.cut.map(|cut| cut.neck),
                 may_touch: grain.may_touch,
             })
@@ -99,10 +99,10 @@ impl SplitReport {
                 grain.file
             ),
         });
-        let clumps = clumps(&grains);
-        let warnings = cut_apart(&clumps)
+        let heaps = heaps(&grains);
+        let warnings = cut_apart(&heaps)
             .into_iter()
-            .chain(of_many(&clumps))
+            .chain(of_many(&heaps))
             .chain(small(split))
             .chain(touching);
         let warnings: Vec<String> = warnings.collect();
@@ -139,28 +139,28 @@ impl SplitReport {
 fn small(split: &Split) -> Option<String> {
     (split.small > split.grains.len()).then(|| {
         format!(
-            "{} clumps were left out as dust, for they are small beside what was kept: if that is a table or a box, take it out of \
+            "{} heaps were left out as dust, for they are small beside what was kept: if that is a table or a box, take it out of \
              the scan, and split again.",
             split.small
         )
     })
 }
 
-/// The width of the neck of each clump that was cut, and the grains that it became.
-fn clumps(grains: &[SplitGrainRecord]) -> Vec<(f64, Vec<&str>)> {
-    let mut clumps: BTreeMap<usize, (f64, Vec<&str>)> = BTreeMap::new();
+/// The width of the neck of each heap that was cut, and the grains that it became.
+fn heaps(grains: &[SplitGrainRecord]) -> Vec<(f64, Vec<&str>)> {
+    let mut heaps: BTreeMap<usize, (f64, Vec<&str>)> = BTreeMap::new();
     for grain in grains {
-        if let (Some(clump), Some(neck)) = (grain.cut_from, grain.neck) {
-            let (_, files) = clumps.entry(clump).or_insert((neck, Vec::new()));
+        if let (Some(heap), Some(neck)) = (grain.cut_from, grain.neck) {
+            let (_, files) = heaps.entry(heap).or_insert((neck, Vec::new()));
             files.push(&grain.file);
         }
     }
-    clumps.into_values().collect()
+    heaps.into_values().collect()
 }
 
 /// Which grains were cut apart, on what evidence, and what to do if one of them was cut in two.
-fn cut_apart(clumps: &[(f64, Vec<&str>)]) -> Option<String> {
-    let told: Vec<String> = clumps
+fn cut_apart(heaps: &[(f64, Vec<&str>)]) -> Option<String> {
+    let told: Vec<String> = heaps
         .iter()
         .map(|(neck, files)| format!("{} ({:.0} %)", files.join(" from "), 100.0 * neck))
         .collect();
@@ -173,13 +173,13 @@ fn cut_apart(clumps: &[(f64, Vec<&str>)]) -> Option<String> {
     })
 }
 
-/// Which grains come from clumps of more than two, whose necks lie close to each other.
-fn of_many(clumps: &[(f64, Vec<&str>)]) -> Option<String> {
-    let many = clumps.iter().filter(|(_, files)| files.len() >= MANY);
+/// Which grains come from heaps of more than two, whose necks lie close to each other.
+fn of_many(heaps: &[(f64, Vec<&str>)]) -> Option<String> {
+    let many = heaps.iter().filter(|(_, files)| files.len() >= MANY);
     let files: Vec<&str> = many.flat_map(|(_, files)| files.iter().copied()).collect();
     (!files.is_empty()).then(|| {
         format!(
-            "From clumps of three and more: {}. Such pieces may lack up to a tenth of their points, or have as many of \
+            "From heaps of three and more: {}. Such pieces may lack up to a tenth of their points, or have as many of \
              others, and one may be half a grain: their sizes are less certain than is told of them.",
             files.join(", ")
         )
@@ -212,7 +212,7 @@ impl fmt::Display for SplitReport {
         write!(
             f,
             "dust          {} of {dust} left out",
-            plural(self.dust, "clump")
+            plural(self.dust, "heap")
         )?;
         match self.distance {
             Some(distance) => write!(
@@ -231,25 +231,25 @@ mod tests {
 
     #[test]
     fn grains_of_clumps_of_three_are_told_beside_those_of_pairs() {
-        let grain = |file: &str, clump: Option<usize>| SplitGrainRecord {
+        let grain = |file: &str, heap: Option<usize>| SplitGrainRecord {
             file: file.into(),
             label: None,
             points: 100,
-            cut_from: clump,
-            neck: clump.map(|_| 0.4),
+            cut_from: heap,
+            neck: heap.map(|_| 0.4),
             may_touch: false,
         };
         let pair = ["a", "b"].map(|file| grain(file, Some(0)));
         let chain = ["c", "d", "e"].map(|file| grain(file, Some(1)));
         let alone = [grain("f", None)];
-        assert_eq!(of_many(&clumps(&[&pair[..], &alone].concat())), None);
+        assert_eq!(of_many(&heaps(&[&pair[..], &alone].concat())), None);
         let all = [&pair[..], &chain, &alone].concat();
-        let told = of_many(&clumps(&all)).unwrap();
+        let told = of_many(&heaps(&all)).unwrap();
         assert!(
-            told.starts_with("From clumps of three and more: c, d, e. Such"),
+            told.starts_with("From heaps of three and more: c, d, e. Such"),
             "{told}"
         );
-        let cut = cut_apart(&clumps(&all)).unwrap();
+        let cut = cut_apart(&heaps(&all)).unwrap();
         assert!(
             cut.contains("a from b (40 %), c from d from e (40 %)."),
             "{cut}"

@@ -6,11 +6,11 @@
 mod apart;
 pub(crate) mod check;
 mod close_gaps;
-pub(crate) mod clump;
 mod coarse;
 mod drawn;
 mod error;
 mod format;
+pub(crate) mod heap;
 mod inspect;
 mod junctions;
 mod mend;

@@ -1,6 +1,7 @@
 //! Beds from the command line: a mixture falls, is told, and goes on where it was.
 
 use super::{errors, folder, grain, grainform, json, names, succeed};
+use serde_json::Value;
 use std::fs;
 use std::process::Command;
 
@@ -399,4 +400,105 @@ fn lammps_settles_the_same_bed_and_it_is_told_alike() {
     ] {
         assert!(files.iter().any(|file| file == name), "{files:?}");
     }
+}
+
+#[test]
+fn the_unit_is_that_which_the_models_tell() {
+    let folder = folder();
+    for unit in ["mm", "um"] {
+        let body = [
+            "synth",
+            "ellipsoid",
+            "--axes",
+            "3,2,1.5",
+            "--points",
+            "800",
+            "-o",
+            "e.ply",
+        ];
+        succeed(&folder, &body);
+        let model = format!("{unit}.json");
+        succeed(
+            &folder,
+            &[
+                "fit",
+                "e.ply",
+                "--surface",
+                "superquadric",
+                "--unit",
+                unit,
+                "-o",
+                &model,
+            ],
+        );
+    }
+    let bed = |models: &[&str]| {
+        let rest = [
+            "--grains",
+            "3",
+            "--box",
+            "20,20",
+            "--seconds",
+            "0.001",
+            "-o",
+            "bed",
+            "--json",
+        ];
+        grainform(&folder, &[&["bed"], models, &rest].concat())
+    };
+    let report: Value = serde_json::from_slice(&bed(&["um.json"]).stdout).unwrap();
+    assert_eq!(report["unit"], "um");
+    let told = errors(&bed(&["um.json", "mm.json"]));
+    assert!(
+        told.contains("um.json has its lengths in um, and mm.json in mm: convert one"),
+        "{told}"
+    );
+}
+
+#[test]
+fn what_another_bed_left_in_the_folder_is_told() {
+    let folder = folder();
+    std::fs::create_dir(folder.path().join("bed")).unwrap();
+    std::fs::write(folder.path().join("bed/settled.dump"), "").unwrap();
+    let body = [
+        "synth",
+        "ellipsoid",
+        "--axes",
+        "3,2,1.5",
+        "--points",
+        "800",
+        "-o",
+        "e.ply",
+    ];
+    succeed(&folder, &body);
+    succeed(
+        &folder,
+        &[
+            "fit",
+            "e.ply",
+            "--surface",
+            "superquadric",
+            "--unit",
+            "mm",
+            "-o",
+            "m.json",
+        ],
+    );
+    let bed = [
+        "bed",
+        "m.json",
+        "--grains",
+        "3",
+        "--box",
+        "20,20",
+        "--seconds",
+        "0.001",
+        "-o",
+        "bed",
+    ];
+    let told = errors(&grainform(&folder, &bed));
+    assert!(
+        told.contains("bed also holds what this run did not write: settled.dump."),
+        "{told}"
+    );
 }

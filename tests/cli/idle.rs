@@ -45,14 +45,17 @@ fn what_is_of_scans_alone_is_refused_of_models() {
 fn what_an_engine_has_no_use_for_is_refused() {
     for (engine, options) in [
         ("liggghts", &["--seed"][..]),
-        ("mercurydpm", &["--seed", "--grains"]),
+        (
+            "mercurydpm",
+            &["--seed", "--grains", "--youngs-modulus-mpa", "--friction"],
+        ),
     ] {
         for option in options {
             let words =
                 format!("export-dem torus.obj --engine {engine} --unit mm -o dem {option} 1");
             idle(
                 &words,
-                &format!("{option} is for engines in which the folder places the grains"),
+                &format!("{option} is for engines in which the folder "),
             );
         }
     }

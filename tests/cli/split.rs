@@ -100,7 +100,7 @@ fn what_is_cut_apart_is_told_and_can_be_left_whole() {
     for (grain, is_told) in [("cut", false), ("of_three", true)] {
         let fitted = json(&folder, &["fit", &format!("{grain}/grain_0001.ply")]);
         let warnings = fitted["warnings"].to_string();
-        let told = warnings.contains("cut from a clump of 3:");
+        let told = warnings.contains("cut from a heap of 3:");
         assert_eq!(told, is_told, "{warnings}");
     }
     let report = json(&folder, &["split", "two.xyz", "-o", "whole", "--uncut"]);
@@ -158,7 +158,7 @@ fn grains_that_are_small_beside_a_table_are_told_and_a_scan_of_dust_is_refused()
     assert_eq!(report["dust"], 2);
     let told = report["warnings"][0].as_str().unwrap();
     assert!(
-        told.starts_with("2 clumps were left out as dust, for they are small"),
+        told.starts_with("2 heaps were left out as dust, for they are small"),
         "{told}"
     );
 

@@ -124,7 +124,7 @@ fn a_batch_tells_the_units_of_headers_and_no_mean_over_several() {
     assert!(told.contains(&format!("warning: {warning}\n")), "{told}");
     let output = grainform(&folder, &["report", "r", "-o", "r.html"]);
     assert!(errors(&output).contains("Lengths in r are in mm and um"));
-    let bed = "bed a.json --sizes r --spheres 3 --grains 9 --box 60,60 --unit mm -o bed";
+    let bed = "bed a.nrrd --sizes r --spheres 3 --grains 9 --box 60,60 --unit mm -o bed";
     let bed: Vec<&str> = bed.split(' ').collect();
     assert!(errors(&grainform(&folder, &bed)).contains("more than one unit"));
 

@@ -467,17 +467,17 @@ fn a_unit_that_the_header_contradicts_is_refused() {
         let told = errors(&output);
         assert!(!output.status.success(), "{words:?}");
         assert!(
-            told.contains("lengths are in um, and --unit that they are in mm: give --unit um"),
+            told.contains("lengths are in um, and --unit that they are in mm: leave --unit out"),
             "{words:?}: {told}"
         );
         assert!(output.stdout.is_empty(), "{words:?}");
     }
     let split = ["split", "um.nrrd", "-o", "grains", "--unit", "mm"];
-    assert!(errors(&grainform(&folder, &split)).contains("give --unit um"));
+    assert!(errors(&grainform(&folder, &split)).contains("leave --unit out"));
     let batch = ["batch", "um.nrrd", "-o", "r", "--unit", "mm", "--quiet"];
     assert!(!grainform(&folder, &batch).status.success());
     for row in super::batch::rows(&folder.path().join("r/results.csv")) {
-        assert!(row["reason"].contains("give --unit um"), "{row:?}");
+        assert!(row["reason"].contains("leave --unit out"), "{row:?}");
         assert_eq!(row["volume"], "");
     }
     let measure = ["measure", "um.nrrd", "--label", "4", "--only", "volume"];

@@ -40,9 +40,9 @@ pub(in crate::cli) struct BedArgs {
     #[arg(long, value_name = "MESH")]
     pub(in crate::cli) walls: Option<PathBuf>,
 
-    /// Unit of all lengths here and in the models, and in the table of --sizes if that tells none: nm, um, mm, cm, dm, m or inch
+    /// Unit of all lengths here and in the models, and in the table of --sizes if that tells none: nm, um, mm, cm, dm, m or inch [default: that which the models tell]
     #[arg(long, value_name = "UNIT")]
-    pub(in crate::cli) unit: Unit,
+    pub(in crate::cli) unit: Option<Unit>,
 
     /// Give all grains the volume of a sphere of this diameter [default: as they are]
     #[arg(long, value_name = "D", value_parser = length)]

@@ -104,9 +104,9 @@ pub(in crate::cli) struct ExportDemArgs {
     #[arg(short, long, value_name = "DIR", help_heading = OUTPUT)]
     pub(in crate::cli) output: PathBuf,
 
-    /// Unit of the scans' lengths: nm, um, mm, cm, dm, m or inch
+    /// Unit of the scans' lengths: nm, um, mm, cm, dm, m or inch [default: that which the models tell]
     #[arg(long, value_name = "UNIT")]
-    pub(in crate::cli) unit: Unit,
+    pub(in crate::cli) unit: Option<Unit>,
 
     #[command(flatten)]
     pub(in crate::cli) deck: DeckArgs,

@@ -3,10 +3,12 @@
 use super::sizes::Sizes;
 use crate::bed::GrainKind;
 use crate::cli::args::BedArgs;
-use crate::cli::{inputs, solid};
+use crate::cli::inputs;
+use crate::cli::solid::{self, Solid};
 use crate::clump::{ClumpTarget, clump};
 use crate::digits::plural;
-use crate::report::short;
+use crate::model::Grain;
+use crate::report::{Unit, short};
 use anyhow::{Context, Result, anyhow};
 use std::path::Path;
 
@@ -15,6 +17,8 @@ const SPHERES: usize = 10;
 
 /// The kinds of grains, each with the name of its input and its share.
 pub(super) struct Cast {
+    /// The unit of all lengths.
+    pub(super) unit: Unit,
     pub(super) names: Vec<String>,
     pub(super) kinds: Vec<GrainKind>,
     pub(super) shares: Vec<f64>,
@@ -24,11 +28,19 @@ pub(super) struct Cast {
 
 impl Cast {
     pub(super) fn new(args: &BedArgs) -> Result<Self> {
-        let metres = args.unit.metres();
+        let read = args
+            .grains
+            .iter()
+            .map(|grain| Shape::read(&grain.path, args));
+        let shapes: Vec<Shape> = read.collect::<Result<_>>()?;
+        let told = args.grains.iter().zip(&shapes);
+        let told = told.map(|(grain, shape)| (grain.path.as_path(), shape.unit()));
+        let unit = inputs::needed_unit(told, args.unit)?;
+        let metres = unit.metres();
         let sizes = match (&args.sizes, args.diameter) {
             (Some(path), _) => {
                 let most = args.count / args.grains.len();
-                Some(Sizes::read(path, args.unit, most)?)
+                Some(Sizes::read(path, unit, most)?)
             }
             (None, diameter) => diameter.map(|diameter| Sizes {
                 diameters: vec![diameter * metres],
@@ -36,6 +48,7 @@ impl Cast {
             }),
         };
         let mut cast = Self {
+            unit,
             names: Vec::new(),
             kinds: Vec::new(),
             shares: Vec::new(),
@@ -44,9 +57,9 @@ impl Cast {
         if let Some(sizes) = &sizes {
             cast.warnings.extend(sizes.remarks.clone());
         }
-        for grain in &args.grains {
+        for (grain, shape) in args.grains.iter().zip(shapes) {
             let name = inputs::name(&grain.path);
-            let own = cast.kind(&grain.path, args)?;
+            let own = cast.kind(&name, shape, args.density)?;
             let own_diameter = [2.0 * own.radius()];
             let diameters = match &sizes {
                 Some(sizes) => &sizes.diameters[..],
@@ -55,9 +68,11 @@ impl Cast {
             for diameter in diameters {
                 let kind = own.times(diameter / own_diameter[0]);
                 let told = short(diameter / metres);
-                cast.kinds.push(kind.with_context(|| {
-                    format!("{name} cannot have a diameter of {told} {}", args.unit)
-                })?);
+                cast.kinds.push(
+                    kind.with_context(|| {
+                        format!("{name} cannot have a diameter of {told} {unit}")
+                    })?,
+                );
                 cast.shares.push(grain.share / diameters.len() as f64);
                 cast.names.push(name.clone());
             }
@@ -65,27 +80,23 @@ impl Cast {
         Ok(cast)
     }
 
-    /// A model or a scan as a kind of grain.
-    fn kind(&mut self, path: &Path, args: &BedArgs) -> Result<GrainKind> {
-        let name = inputs::name(path);
-        let metres = args.unit.metres();
+    /// What was read as a kind of grain.
+    fn kind(&mut self, name: &str, shape: Shape, density: f64) -> Result<GrainKind> {
+        let metres = self.unit.metres();
         let failed = || format!("cannot make a grain of {name}");
-        let usual = args.engine.as_ref().map(|_| SPHERES);
-        let Some(spheres) = args.spheres.or(usual) else {
-            let bytes = inputs::read(path, &args.input.limit)?;
-            // What is no model is refused as such.
-            inputs::is_model(path, &bytes, &args.input)?;
-            let model = inputs::parse_model(path, &bytes, Some(args.unit))?;
-            let convex = model.superquadric().ok_or_else(|| {
-                anyhow!(
-                    "{name} is not made of convex parts: take --spheres, or fit --surface poly12 or multi to its scan \
-                     first"
-                )
-            })?;
-            self.warnings.extend(solid::doubts(&model, &name));
-            return GrainKind::new(convex.body(), metres, args.density).with_context(failed);
+        let (solid, spheres) = match shape {
+            Shape::Convex(model) => {
+                let convex = model.superquadric().ok_or_else(|| {
+                    anyhow!(
+                        "{name} is not made of convex parts: take --spheres, or fit --surface poly12 or multi to its scan \
+                         first"
+                    )
+                })?;
+                self.warnings.extend(solid::doubts(&model, name));
+                return GrainKind::new(convex.body(), metres, density).with_context(failed);
+            }
+            Shape::Clump(solid, spheres) => (solid, spheres),
         };
-        let solid = solid::read(path, &args.input, Some(args.unit))?;
         let found = clump(
             &solid.mesh,
             &solid.properties,
@@ -98,6 +109,38 @@ impl Cast {
             plural(found.spheres.len(), "sphere"),
             short(100.0 * found.rms / found.equivalent_radius())
         ));
-        GrainKind::of_clump(&found, metres, args.density).with_context(failed)
+        GrainKind::of_clump(&found, metres, density).with_context(failed)
+    }
+}
+
+/// What a grain of the bed is made of.
+enum Shape {
+    /// The convex parts of a model.
+    Convex(Box<Grain>),
+    /// So many spheres in what a model or a scan encloses.
+    Clump(Box<Solid>, usize),
+}
+
+impl Shape {
+    fn read(path: &Path, args: &BedArgs) -> Result<Self> {
+        let usual = args.engine.as_ref().map(|_| SPHERES);
+        if let Some(spheres) = args.spheres.or(usual) {
+            let solid = solid::read(path, &args.input, args.unit)?;
+            return Ok(Self::Clump(Box::new(solid), spheres));
+        }
+        let bytes = inputs::read(path, &args.input.limit)?;
+        // What is no model is refused as such.
+        inputs::is_model(path, &bytes, &args.input)?;
+        Ok(Self::Convex(Box::new(inputs::parse_model(
+            path, &bytes, args.unit,
+        )?)))
+    }
+
+    /// The unit that the file tells.
+    fn unit(&self) -> Option<&str> {
+        match self {
+            Self::Convex(model) => model.unit(),
+            Self::Clump(solid, _) => solid.unit.as_deref(),
+        }
     }
 }

@@ -21,6 +21,9 @@ use place::Place;
 use std::path::Path;
 use watch::Watch;
 
+/// What a bed that settles here writes in its folder.
+const OWN: [&str; 4] = ["state.json", "frames", "bed.vtk", "bed.png"];
+
 pub(super) fn run(args: BedArgs, console: Console) -> Result<()> {
     outputs::check_folder(&args.output)?;
     threads::start(args.threads, console)?;
@@ -32,15 +35,16 @@ pub(super) fn run(args: BedArgs, console: Console) -> Result<()> {
             u64::MAX
         );
     };
-    let metres = args.unit.metres();
     let Cast {
+        unit,
         names,
         kinds,
         shares,
         mut warnings,
     } = Cast::new(&args)?;
+    let metres = unit.metres();
     let mesh = match &args.walls {
-        Some(path) => Some(walls(path, &args, metres)?),
+        Some(path) => Some(walls(path, &args, unit)?),
         None => None,
     };
     let engine = match args.engine {
@@ -54,7 +58,7 @@ pub(super) fn run(args: BedArgs, console: Console) -> Result<()> {
             _ => args.output.join(format!("seed_{seed}")),
         };
         let settings = settings(&args, seed, metres);
-        let failed = |error| in_unit(error, args.unit);
+        let failed = |error| in_unit(error, unit);
         let (bed, run) = match engine {
             Some(engine) => {
                 let bed = Bed::loose(settings, kinds.clone(), &shares, None).map_err(failed)?;
@@ -71,7 +75,9 @@ pub(super) fn run(args: BedArgs, console: Console) -> Result<()> {
             }
             None => {
                 let bed = Bed::new(settings, kinds.clone(), &shares, mesh.as_ref());
-                settle(bed.map_err(failed)?, &path, metres, console)?
+                let done = settle(bed.map_err(failed)?, &path, metres, console)?;
+                warnings.extend(outputs::beside(&path, OWN.iter()));
+                done
             }
         };
         outputs::write_image(&path.join("bed.png"), &picture(&bed))?;
@@ -82,7 +88,7 @@ pub(super) fn run(args: BedArgs, console: Console) -> Result<()> {
         let report = BedInputsReport::new("LAMMPS", checked, warnings);
         return console.tell(&report, args.json, [], &report.warnings);
     };
-    let mut report = BedReport::new(names, args.unit, &bed, runs);
+    let mut report = BedReport::new(names, unit, &bed, runs);
     report.warnings.append(&mut warnings);
     let written = args.output.display().to_string();
     console.tell(&report, args.json, [written], &report.warnings)
@@ -131,10 +137,10 @@ fn in_unit(error: BedError, unit: Unit) -> anyhow::Error {
 }
 
 /// The faces of a mesh, in metres.
-fn walls(path: &Path, args: &BedArgs, metres: f64) -> Result<Mesh> {
+fn walls(path: &Path, args: &BedArgs, unit: Unit) -> Result<Mesh> {
     let bytes = inputs::read(path, &args.input.limit)?;
     let scan = crate::scan::parse_file(path, &bytes, None)?;
-    inputs::check_unit(path, scan.unit(), Some(args.unit))?;
+    inputs::check_unit(path, scan.unit(), Some(unit))?;
     if scan.triangles().is_empty() {
         return Err(anyhow!(
             "{} has no faces: walls need them",
@@ -142,7 +148,11 @@ fn walls(path: &Path, args: &BedArgs, metres: f64) -> Result<Mesh> {
         ));
     }
     Ok(Mesh {
-        vertices: scan.points().iter().map(|point| point * metres).collect(),
+        vertices: scan
+            .points()
+            .iter()
+            .map(|point| point * unit.metres())
+            .collect(),
         triangles: scan.triangles().to_vec(),
     })
 }

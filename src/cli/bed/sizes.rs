@@ -32,6 +32,9 @@ impl Sizes {
         let mut volumes = match (named, &lacking) {
             (Some(at), _) => lot.known(at),
             (None, Some(lacking)) => bail!("{shown} tells no volumes: {lacking}"),
+            (None, None) if lot.grains.is_empty() => {
+                bail!("{shown} tells no volumes, for it has no grain with a result")
+            }
             (None, None) => bail!("{shown} tells no volumes: run batch with --only volume"),
         };
         let lacking = lacking.map(|lacking| {

@@ -1,7 +1,7 @@
 //! Points that stand alone beside a surface, as scanners strew them: a crust that reaches out to them is closed round nothing.
 
 use super::cloud::spacings;
-use crate::spread::median;
+use crate::spread::upper_median;
 use nalgebra::Point3;
 
 /// Their neighbours are so many times as far off as those of the others are, which is told by the median. Along a stalk, or on a
@@ -14,7 +14,7 @@ const MOST: f64 = 0.05;
 /// The points that do not stand alone; `None` if all or too few do not.
 pub(in crate::fit) fn without_alone(points: &[Point3<f64>]) -> Option<Vec<Point3<f64>>> {
     let spacings = spacings(points);
-    let limit = ALONE * median(&mut spacings.clone())?;
+    let limit = ALONE * upper_median(&mut spacings.clone())?;
     let kept = points.iter().zip(spacings);
     let kept: Vec<Point3<f64>> = kept
         .filter(|(_, spacing)| *spacing <= limit)

@@ -1,7 +1,7 @@
 //! The points that a crust is made of, and how far it reaches from each.
 
 use crate::fit::neighbours::Neighbours;
-use crate::spread::{covariance, median, principal};
+use crate::spread::{covariance, principal, upper_median};
 use nalgebra::{Point3, Vector3};
 
 /// The spacing is the distance of a point's neighbour of this rank.
@@ -50,7 +50,7 @@ impl Cloud {
             .collect();
         let spacings = spacings_of(&places, &around);
         let squeezes = around.iter().map(|own| squeeze(&places, own)).collect();
-        let spacing = median(&mut spacings.clone()).unwrap_or(0.0);
+        let spacing = upper_median(&mut spacings.clone()).unwrap_or(0.0);
         Self {
             spacing,
             squeezes,
@@ -159,7 +159,7 @@ mod tests {
         let scale = |is_of_part: fn(&Point3<f64>) -> bool| {
             let all = cloud.points.iter().zip(&cloud.scales);
             let part = all.filter(|(point, _)| is_of_part(point));
-            median(&mut part.map(|(_, scale)| *scale).collect::<Vec<_>>()).unwrap()
+            upper_median(&mut part.map(|(_, scale)| *scale).collect::<Vec<_>>()).unwrap()
         };
         assert!(scale(|point| point.x < -0.1) < 1.1);
         let sparse = scale(|point| point.x > 0.1);

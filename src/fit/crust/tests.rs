@@ -1,7 +1,7 @@
 use super::*;
 use crate::measure::mesh_properties;
 use crate::shapes::{Curled, CurledOptions, synthesize_curled};
-use crate::spread::median;
+use crate::spread::upper_median;
 use approx::assert_relative_eq;
 
 fn points(body: Curled, count: usize, noise: f64) -> (Vec<Point3<f64>>, f64) {
@@ -53,7 +53,7 @@ fn points_that_are_much_sparser_in_one_half_have_a_surface_of_nearly_their_volum
     for body in [Curled::Banana, Curled::Mushroom] {
         let (all, volume) = points(body, 12_000, 0.002);
         let mut along: Vec<f64> = all.iter().map(|point| point.x).collect();
-        let middle = median(&mut along).unwrap();
+        let middle = upper_median(&mut along).unwrap();
         let is_kept = |at: usize, point: &Point3<f64>| point.x < middle || at.is_multiple_of(8);
         let kept = all.into_iter().enumerate();
         let kept: Vec<Point3<f64>> = kept

@@ -2,7 +2,7 @@
 //! points that stand alone are left out of each.
 
 use super::cloud::Cloud;
-use super::map::Rounder;
+use super::map::Stretched;
 use super::outcome::{LAST_DEGREES, last_power};
 use super::outliers::{ROUNDS, alone};
 use super::patches::Patches;
@@ -66,16 +66,16 @@ pub(super) struct Degrees {
 
 impl Degrees {
     pub(super) fn new(
-        rounder: Rounder,
+        stretched: Stretched,
         patches: Option<Patches>,
         first: usize,
         may_stand_alone: bool,
     ) -> Self {
-        let Rounder {
+        let Stretched {
             cloud,
             mut fit,
             outliers,
-        } = rounder;
+        } = stretched;
         let compared = fit.sums.degree();
         let mut degree = first;
         if is_small(cloud.len()) {

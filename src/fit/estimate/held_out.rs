@@ -6,6 +6,7 @@
 
 use super::outcome::Estimate;
 use crate::fit::prepare::Sample;
+use crate::spread::root_mean_square;
 
 impl Estimate {
     /// Error of predictions of a point from all others, as root mean square along the rays, in the scan's unit; of patches by the
@@ -16,10 +17,12 @@ impl Estimate {
     pub(crate) fn held_out(&self) -> f64 {
         let residuals = self.along_rays();
         if self.dense.is_none() {
-            return rms(residuals
-                .iter()
-                .zip(self.steady_spares())
-                .map(|(e, spare)| e / spare));
+            return root_mean_square(
+                residuals
+                    .iter()
+                    .zip(self.steady_spares())
+                    .map(|(e, spare)| e / spare),
+            );
         }
         let points = residuals.iter().zip(self.counts());
         let squares: f64 = points.map(|(e, count)| count * e * e).sum();
@@ -31,13 +34,13 @@ impl Estimate {
     /// samples that it was made from.
     pub(crate) fn held_out_of(&self, residuals: &[f64], samples: &[Sample]) -> f64 {
         if self.dense.is_some() {
-            return rms(self.without_largest(residuals)) / self.mean_spare();
+            return root_mean_square(self.without_largest(residuals)) / self.mean_spare();
         }
         let missed = self.along_rays().iter().zip(self.steady_spares());
         let more = missed.map(|(e, spare)| e / spare - e);
         let all = residuals.iter().zip(self.cloud.holds(samples));
         let own = all.filter(|(_, is_own)| *is_own);
-        rms(own.zip(more).map(|((e, _), more)| e + more))
+        root_mean_square(own.zip(more).map(|((e, _), more)| e + more))
     }
 
     /// The root mean square error of predictions along the normals by generalised cross-validation, that is with the mean of the
@@ -71,15 +74,6 @@ impl Estimate {
         sizes.truncate(left);
         sizes
     }
-}
-
-fn rms(errors: impl IntoIterator<Item = f64>) -> f64 {
-    let (mut squares, mut count) = (0.0, 0.0);
-    for error in errors {
-        squares += error * error;
-        count += 1.0;
-    }
-    f64::sqrt(squares / count)
 }
 
 #[cfg(test)]
@@ -149,7 +143,7 @@ mod tests {
             .iter()
             .zip(&clean)
             .map(|(scan, clean)| scan[3] - clean[3]);
-        let over = estimate.held_out() / rms(off);
+        let over = estimate.held_out() / root_mean_square(off);
         assert!((over - 1.0).abs() < 0.13, "{over}");
     }
 
@@ -164,7 +158,7 @@ mod tests {
         };
         for seed in 0..3 {
             let estimate = estimated(&scan(seed), axes);
-            let missed = rms(residuals(&estimate, &scan(seed + 10)));
+            let missed = root_mean_square(residuals(&estimate, &scan(seed + 10)));
             let over = estimate.held_out() / missed;
             assert!((over - 1.0).abs() < 0.25, "{seed}: {over}");
             let by_mean = estimate.held_out_by_mean() / missed;

@@ -47,7 +47,7 @@ const TIED: f64 = 0.03;
 const COMPARED_POINTS: usize = 2000;
 
 /// A cloud after the map under which its points are most likely.
-pub(super) struct Rounder {
+pub(super) struct Stretched {
     pub(super) cloud: Cloud,
     /// Its fit, of a low degree or the first.
     pub(super) fit: SpectrumFit,
@@ -57,20 +57,19 @@ pub(super) struct Rounder {
 
 /// A cloud after a map, and its fit.
 struct Mapped {
-    strength: f64,
     cloud: Cloud,
     fit: SpectrumFit,
 }
 
 /// Compares maps; `first` is the degree that the cloud is fitted at next.
-pub(super) fn rounder(
+pub(super) fn likeliest_stretch(
     samples: &[Sample],
     counts: Option<&[f64]>,
     axes: Vector3<f64>,
     first: usize,
     may_stand_alone: bool,
     context: &Context<'_>,
-) -> Result<Rounder, Cancelled> {
+) -> Result<Stretched, Cancelled> {
     let compared = first.min(compared_degree(samples.len()));
     let mean = (axes.x * axes.y * axes.z).cbrt();
     let stretch = |strength: f64| axes.map(|axis| (mean / axis).powf(strength));
@@ -85,11 +84,7 @@ pub(super) fn rounder(
             let part = (compared < first).then(|| cloud.every(every));
             let part = part.as_ref().unwrap_or(&cloud);
             let fit = fitted(part, compared, Spectrum::start());
-            Mapped {
-                strength,
-                cloud,
-                fit,
-            }
+            Mapped { cloud, fit }
         });
         maps.collect()
     };
@@ -99,10 +94,9 @@ pub(super) fn rounder(
         false => (maps_of(samples), 0),
     };
     tell_apart(&mut maps, compared, first, context)?;
-    let strength = best(&maps).strength;
-    let found = maps.into_iter().find(|map| map.strength == strength);
-    let Mapped { cloud, fit, .. } = found.expect("one of them is the best");
-    Ok(Rounder {
+    let best = best(&maps);
+    let Mapped { cloud, fit } = maps.swap_remove(best);
+    Ok(Stretched {
         cloud,
         fit,
         outliers,
@@ -118,7 +112,7 @@ fn without_outliers(
     let mut samples = Cow::Borrowed(samples);
     let mut outliers = 0;
     for _ in 0..ROUNDS {
-        let best = best(&maps);
+        let best = &maps[best(&maps)];
         let posterior = Posterior::with(&best.cloud, Arc::clone(&best.fit.sums));
         let alone = alone(&posterior, &best.fit);
         if alone.is_empty() {
@@ -177,12 +171,13 @@ fn fitted(cloud: &Cloud, degree: usize, start: Spectrum) -> SpectrumFit {
 
 /// Drops the maps that the best one is better than by more than this.
 fn keep(maps: &mut Vec<Mapped>, margin: f64) {
-    let close = best(maps).fit.cost + margin;
+    let close = maps[best(maps)].fit.cost + margin;
     maps.retain(|map| map.fit.cost <= close);
 }
 
-/// The first of those under which the points are most likely.
-fn best(maps: &[Mapped]) -> &Mapped {
-    let least = maps.iter().min_by(|a, b| a.fit.cost.total_cmp(&b.fit.cost));
-    least.expect("there is a map")
+/// Which is the first of those under which the points are most likely.
+fn best(maps: &[Mapped]) -> usize {
+    let cost = |at: usize| maps[at].fit.cost;
+    let least = |best, at| if cost(at) < cost(best) { at } else { best };
+    (1..maps.len()).fold(0, least)
 }

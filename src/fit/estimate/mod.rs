@@ -63,7 +63,7 @@ use crate::fit::without::without;
 use closer::closer;
 use cloud::Cloud;
 use degrees::{Degrees, first_degree};
-use map::rounder;
+use map::likeliest_stretch;
 use nalgebra::Vector3;
 use one_sided::one_sided;
 use outcome::{Dense, Derived};
@@ -141,7 +141,7 @@ fn by_degrees(
         None => (samples, None),
     };
     let first = first_degree(reduced.len());
-    let rounder = rounder(reduced, counts, axes, first, may_stand_alone, context)?;
+    let stretched = likeliest_stretch(reduced, counts, axes, first, may_stand_alone, context)?;
     let Degrees {
         mut cloud,
         patches,
@@ -149,7 +149,7 @@ fn by_degrees(
         mut fit,
         outliers,
         ..
-    } = Degrees::new(rounder, patches, first, may_stand_alone).searched(context)?;
+    } = Degrees::new(stretched, patches, first, may_stand_alone).searched(context)?;
     let dense = patches.map(|patches| correct(&mut cloud, &patches, &mut fit));
     let found = Estimate {
         cloud,

@@ -16,7 +16,7 @@ use super::outliers::{COMPANY, NEIGHBOURS};
 use super::unresolved::FLOOR;
 use crate::fit::neighbours::Neighbours;
 use crate::fit::prepare::Sample;
-use crate::spread::{biweight, median};
+use crate::spread::{biweight, upper_median};
 use nalgebra::Vector3;
 
 /// Rounds of leaving out.
@@ -120,7 +120,7 @@ fn far(residuals: &[f64], directions: &[Vector3<f64>], sides: &[i8]) -> Vec<Far>
         near.retain(|&other| other != at);
         let company = near.iter().filter(|&&other| sides[other] == side).count();
         let around = near.iter().map(|&other| residuals[other]);
-        let around = median(&mut around.collect::<Vec<_>>()).unwrap_or(0.0);
+        let around = upper_median(&mut around.collect::<Vec<_>>()).unwrap_or(0.0);
         Far {
             side,
             company,

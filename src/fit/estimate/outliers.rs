@@ -6,7 +6,7 @@ use super::posterior::Posterior;
 use super::spectrum_fit::SpectrumFit;
 use crate::fit::neighbours::Neighbours;
 use crate::fit::prepare::Sample;
-use crate::spread::{median, robust_deviation};
+use crate::spread::{robust_deviation, upper_median};
 use nalgebra::Vector3;
 use std::collections::HashMap;
 
@@ -102,7 +102,7 @@ fn outliers(directions: &[Vector3<f64>], residuals: &[f64]) -> Vec<usize> {
         .zip(residuals)
         .map(|(near, residual)| {
             let mut near: Vec<f64> = near.iter().map(|&other| residuals[other]).collect();
-            residual - median(&mut near).unwrap_or(0.0)
+            residual - upper_median(&mut near).unwrap_or(0.0)
         })
         .collect();
     let limit = (DEVIATIONS * robust_deviation(contrasts.iter().copied())).max(LEAST);

@@ -10,7 +10,7 @@ use super::posterior::MOST_FACTORED;
 use crate::buckets::Buckets;
 use crate::fit::prepare::Sample;
 use crate::sphere::CubeCell;
-use crate::spread::{covariance, median, robust_deviation};
+use crate::spread::{covariance, robust_deviation, upper_median};
 use nalgebra::{Matrix3, Vector3};
 use std::iter::once;
 
@@ -117,7 +117,7 @@ impl Patches {
         let mut spreads: Vec<f64> = some
             .map(|members| middle_and_spread(samples, members).1)
             .collect();
-        let usual = median(&mut spreads).unwrap_or(0.0);
+        let usual = upper_median(&mut spreads).unwrap_or(0.0);
         let every = patch_count(per_edge).div_ceil(TELLING_PATCHES);
         for (at, members) in cells.filter(|members| !members.is_empty()).enumerate() {
             patches.add(samples, members, usual, at.is_multiple_of(every));
@@ -255,7 +255,7 @@ fn mean_of(values: &[f64]) -> f64 {
 /// The median radius of a patch's points, and their standard deviation about it, told by the median.
 fn middle_and_spread(samples: &[Sample], members: &[u32]) -> (f64, f64) {
     let mut radii: Vec<f64> = members.iter().map(|&i| samples[i as usize][3]).collect();
-    let middle = median(&mut radii).unwrap_or(0.0);
+    let middle = upper_median(&mut radii).unwrap_or(0.0);
     (middle, robust_deviation(radii.iter().map(|r| r - middle)))
 }
 

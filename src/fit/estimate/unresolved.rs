@@ -28,7 +28,7 @@
 use super::outcome::{Estimate, last_power};
 use crate::fit::neighbours::Neighbours;
 use crate::sphere::CubeCell;
-use crate::spread::{covariance, median};
+use crate::spread::{covariance, upper_median};
 use nalgebra::Vector3;
 use std::f64::consts::PI;
 
@@ -139,7 +139,7 @@ impl Estimate {
         let places: Vec<Vector3<f64>> = cells.iter().map(CubeCell::middle).collect();
         let posterior = self.posterior();
         let mut variances = self.given(&posterior).directional_variances(&places);
-        median(&mut variances).unwrap_or(0.0).sqrt()
+        upper_median(&mut variances).unwrap_or(0.0).sqrt()
     }
 }
 

@@ -18,7 +18,7 @@
 
 use super::empty_caps::{Gaps, gap};
 use crate::sphere::tangents;
-use crate::spread::{median, upper_quartile};
+use crate::spread::{upper_median, upper_quartile};
 use nalgebra::Vector3;
 use std::f64::consts::{PI, TAU};
 use std::iter;
@@ -116,7 +116,7 @@ impl Hole {
         // A tip as far off as the hole is wide: steeper cones may not close at all.
         let missing = |tip: f64| (tip - end).min(rim.radius);
         let mut tips = rim.tips(&inner, &outer);
-        let cone = median(&mut tips).filter(|tip| tip.is_finite());
+        let cone = upper_median(&mut tips).filter(|tip| tip.is_finite());
         let cone = cone.map_or(0.0, missing);
         // Beside a corner lines from some sides meet the axis far above those from others.
         let most = upper_quartile(&mut tips).map_or(0.0, missing);

@@ -29,7 +29,7 @@ impl Unseen {
         mean_radius: f64,
         known: Option<StandardErrors>,
     ) -> StandardErrors {
-        let known = known.unwrap_or(StandardErrors::NONE);
+        let known = known.unwrap_or(StandardErrors::ZERO);
         let of_all = GUESS * self.share();
         let inertia = 5.0 * of_all * told.inertia.trace() / 3.0;
         StandardErrors {

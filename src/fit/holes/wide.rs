@@ -6,7 +6,7 @@ use crate::fit::neighbours::Neighbours;
 use crate::fit::rounder::rounder;
 use crate::mesh::{Mesh, solid_angle};
 use crate::sphere::triangulate_directions;
-use crate::spread::median;
+use crate::spread::upper_median;
 use nalgebra::{Matrix3, Point3, Vector3};
 use std::f64::consts::PI;
 
@@ -102,7 +102,7 @@ impl Holes {
         let mut distances: Vec<f64> = near
             .map(|other| self.distance(&self.places[other]))
             .collect();
-        median(&mut distances).unwrap_or(0.0)
+        upper_median(&mut distances).unwrap_or(0.0)
     }
 
     /// How far a point is from its neighbours.

@@ -6,7 +6,7 @@ use crate::fit::warning::FitWarning;
 use crate::mesh::{Mesh, edges, undirected};
 use crate::model::Frame;
 use crate::sphere::cube_grid;
-use crate::spread::median;
+use crate::spread::upper_median;
 use nalgebra::{Point3, Vector3};
 use std::collections::{HashMap, HashSet};
 use std::f64::consts::PI;
@@ -145,7 +145,7 @@ fn usual(triangles: &[[u32; 3]], vertices: usize, length: impl Fn([u32; 2]) -> f
     }
     let about = about.iter_mut();
     about
-        .map(|lengths| median(lengths).unwrap_or(0.0))
+        .map(|lengths| upper_median(lengths).unwrap_or(0.0))
         .collect()
 }
 

@@ -3,7 +3,7 @@
 //! A tip of a grain stands out as far, but its points lead down to it. An island has nothing between it and the surface: it is much
 //! farther from it than the surface's own points are from each other.
 
-use crate::spread::median;
+use crate::spread::upper_median;
 use nalgebra::Vector3;
 
 /// Points of the largest island.
@@ -78,8 +78,9 @@ impl Seen<'_> {
             let on_surface = others.filter(|&to| !island.contains(&to) && !jumps(beside, to));
             spacings.extend(on_surface.map(|to| self.distance(beside, to)));
         }
-        let is_on_nothing = median(&mut steps).is_some_and(|usual| step > ALONE * usual);
-        is_on_nothing && median(&mut spacings).is_some_and(|typical| nearest > FARTHER * typical)
+        let is_on_nothing = upper_median(&mut steps).is_some_and(|usual| step > ALONE * usual);
+        is_on_nothing
+            && upper_median(&mut spacings).is_some_and(|typical| nearest > FARTHER * typical)
     }
 
     fn distance(&self, from: usize, to: usize) -> f64 {

@@ -25,7 +25,7 @@ use crate::fit::rounder::rounder;
 use crate::fit::warning::FitWarning;
 use crate::scan::drawn;
 use crate::sphere::across;
-use crate::spread::{covariance, median};
+use crate::spread::{covariance, upper_median};
 use nalgebra::{Point3, Vector2, Vector3};
 use std::f64::consts::PI;
 
@@ -165,7 +165,7 @@ fn told_by(apart: impl Iterator<Item = Option<f64>>, least_share: f64) -> Option
     let apart: Vec<Option<f64>> = apart.collect();
     let looked_at = apart.len() as f64;
     let mut told: Vec<f64> = apart.into_iter().flatten().collect();
-    (told.len() as f64 > least_share * looked_at).then(|| median(&mut told))?
+    (told.len() as f64 > least_share * looked_at).then(|| upper_median(&mut told))?
 }
 
 /// Whether points of both layers lie among each other, as those of rows, steps and edges do not: in whatever direction neighbours

@@ -1,7 +1,7 @@
 //! The middles of a mesh's large faces, where a surface through the corners alone may ripple.
 
 use crate::mesh::{Mesh, edges};
-use crate::spread::median;
+use crate::spread::upper_median;
 use nalgebra::{Matrix3, Point3, Vector3};
 use std::f64::consts::PI;
 
@@ -38,7 +38,7 @@ pub(super) fn middles(mesh: &Mesh, seen: &[Vector3<f64>], axes: &Matrix3<f64>) -
     if widths.iter().all(|width| *width <= FINEST) {
         return Vec::new();
     }
-    let usual = median(&mut widths.clone()).unwrap_or(0.0);
+    let usual = upper_median(&mut widths.clone()).unwrap_or(0.0);
     let least = FINEST.max(LARGE * usual);
     if widths.iter().all(|width| *width <= least) {
         return Vec::new();

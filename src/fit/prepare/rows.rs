@@ -1,7 +1,7 @@
 //! Which points lie in a row, as one line of a scanner does.
 
 use crate::fit::neighbours::Neighbours;
-use crate::spread::{covariance, median, principal};
+use crate::spread::{covariance, principal, upper_median};
 use nalgebra::Vector3;
 
 /// Nearest points, the own one among them, that tell whether a point lies in a row; as many are the fewest that a row has.
@@ -22,7 +22,7 @@ pub(super) fn is_row(places: &[Vector3<f64>]) -> bool {
         across(&own.map(|at| places[at]).collect::<Vec<_>>())
     };
     let mut shares: Vec<f64> = places.iter().filter_map(around).collect();
-    median(&mut shares).is_some_and(|share| share < ACROSS)
+    upper_median(&mut shares).is_some_and(|share| share < ACROSS)
 }
 
 /// How much less points spread across the line along which they spread most.

@@ -3,7 +3,7 @@
 use super::islands::Seen;
 use crate::fit::slope::on_slope;
 use crate::mesh::Mesh;
-use crate::spread::{lower_quartile, median, robust_deviation};
+use crate::spread::{lower_quartile, robust_deviation, upper_median};
 use nalgebra::{Point3, Vector3};
 
 /// A point is a stray when its radius differs from the median of its neighbours' by more than this
@@ -65,7 +65,7 @@ pub(crate) fn find_strays(mesh: &Mesh, centre: &Point3<f64>) -> Strays {
             let mut others: Vec<f64> = around.iter().map(|&i| radii[i]).collect();
             let mut angles: Vec<f64> = around.iter().map(|&i| rays[own].angle(&rays[i])).collect();
             Comparison {
-                distance: (median(&mut angles).unwrap_or(0.0) / NEAR).max(1.0),
+                distance: (upper_median(&mut angles).unwrap_or(0.0) / NEAR).max(1.0),
                 ..compare(&mut others, radii[own])
             }
         })
@@ -175,7 +175,7 @@ impl Cloud {
 }
 
 fn compare(around: &mut [f64], radius: f64) -> Comparison {
-    let middle = median(around).unwrap_or(0.0);
+    let middle = upper_median(around).unwrap_or(0.0);
     if middle <= 0.0 {
         return Comparison {
             deviation: 0.0,
@@ -188,7 +188,7 @@ fn compare(around: &mut [f64], radius: f64) -> Comparison {
     }
     Comparison {
         deviation: (radius - middle).abs() / middle,
-        spread: median(around).unwrap_or(0.0),
+        spread: upper_median(around).unwrap_or(0.0),
         distance: 1.0,
     }
 }

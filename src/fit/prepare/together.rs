@@ -5,7 +5,7 @@
 
 use super::islands::LARGEST;
 use crate::fit::neighbours::Neighbours;
-use crate::spread::median;
+use crate::spread::upper_median;
 use nalgebra::{Point3, Vector3};
 
 /// A point is in company where so many others that stand apart are near it: of outliers strewn about a grain, a tenth as many as
@@ -134,7 +134,7 @@ impl Places {
         let asked = self.places.iter();
         let asked = asked.step_by(self.places.len().div_ceil(ASKED));
         let mut spacings: Vec<f64> = asked.map(|own| self.distance(own, NEIGHBOUR)).collect();
-        NEAR * median(&mut spacings).unwrap_or(0.0)
+        NEAR * upper_median(&mut spacings).unwrap_or(0.0)
     }
 
     /// How far a place is from so distant a neighbour, of which the first, if it is one of these, is itself; infinite if there are fewer.

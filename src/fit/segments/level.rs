@@ -6,7 +6,7 @@ use super::segment::{DegreeFit, Level, SegmentFit, Workspace};
 use crate::fit::candidate::{Candidate, Rejection};
 use crate::fit::prepare::Reference;
 use crate::sphere::coefficient_count;
-use crate::spread::median;
+use crate::spread::upper_median;
 use rayon::prelude::*;
 
 /// A candidate that misses a held-out sample, or tears at a seam, by more than this fraction of the
@@ -117,6 +117,6 @@ impl FittedLevel {
             .iter()
             .filter_map(|segment| segment.degrees.last()?.residual_variance)
             .collect();
-        median(&mut variances).unwrap_or(0.0)
+        upper_median(&mut variances).unwrap_or(0.0)
     }
 }

@@ -9,7 +9,7 @@ use super::cloud::Cloud;
 use super::least_squares::ROUNDING;
 use super::normal_equations::distances;
 use crate::fit::neighbours::Neighbours;
-use crate::spread::{median, robust_deviation};
+use crate::spread::{robust_deviation, upper_median};
 use nalgebra::Vector3;
 
 /// Neighbours by direction from the middle of the cloud.
@@ -41,7 +41,7 @@ pub(super) fn strays(cloud: &Cloud, bodies: &[Body]) -> Option<Vec<bool>> {
         off[at].abs() > limit && {
             let near = neighbours.nearest(&directions[at], NEIGHBOURS);
             let mut near: Vec<f64> = near.into_iter().map(|other| off[other]).collect();
-            let middle = median(&mut near).unwrap_or(0.0);
+            let middle = upper_median(&mut near).unwrap_or(0.0);
             let scatter = robust_deviation(near.into_iter().map(|other| other - middle));
             (off[at] - middle).abs() > limit.max(FAR * scatter)
         }

@@ -2,7 +2,7 @@
 
 use crate::mesh::Mesh;
 use crate::scan::each_edge;
-use crate::spread::median;
+use crate::spread::upper_median;
 use nalgebra::Vector3;
 use std::f64::consts::FRAC_PI_2;
 
@@ -125,7 +125,7 @@ pub(crate) fn spikes(mesh: &Mesh) -> usize {
             lengths.push(ahead.norm());
         }
     }
-    let long = LONG * median(&mut lengths).unwrap_or(0.0);
+    let long = LONG * upper_median(&mut lengths).unwrap_or(0.0);
     let is_peaked =
         |peak: &Peak| peak.triangles <= FAN && peak.angle < PEAKED && peak.shortest > long;
     if !peaks.iter().any(is_peaked) {

@@ -13,7 +13,7 @@ use ply_rs::ply::{ElementDef, Encoding, PropertyAccess, PropertyType, Version};
 use super::meaning;
 use crate::scan::error::{ParseError, Place};
 use crate::scan::text::{quote, unexpected, words};
-use crate::scan::{clump, unit_remark};
+use crate::scan::{heap, unit_remark};
 
 /// Longest header, in bytes without the text of its remarks. Real ones stay below 10 kB; the
 /// limit keeps a hostile header from filling the memory.
@@ -102,7 +102,7 @@ impl Rewriter {
             b"comment" | b"obj_info" => {
                 let remark = line.strip_prefix(b"comment ").unwrap_or_default();
                 let remark = str::from_utf8(remark).unwrap_or_default();
-                self.warnings.extend(clump::warning(remark));
+                self.warnings.extend(heap::warning(remark));
                 self.unit = unit_remark::unit(remark).or(self.unit.take());
                 tokens = vec![b"comment"];
             }

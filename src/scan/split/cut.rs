@@ -9,7 +9,7 @@ use crate::spread::covariance;
 use nalgebra::{Point3, Vector3};
 use std::f64::consts::PI;
 
-/// Cuts of one clump, at most so many one after the other.
+/// Cuts of one heap, at most so many one after the other.
 const MOST_CUTS: usize = 12;
 
 /// RMS distance of the points of a grain from its outline over its radius, at most. Of kernels it is below .06, of bodies
@@ -19,7 +19,7 @@ const FOLLOWED: f64 = 0.1;
 /// The same of smooth grains at most, among which no broad neck is looked for: of two that touch it is above .028.
 const SMOOTH: f64 = 0.015;
 
-/// Points of a part over those of the largest of its clump, at most, where it is no grain. Of pairs on trays it is .42 and more.
+/// Points of a part over those of the largest of its heap, at most, where it is no grain. Of pairs on trays it is .42 and more.
 const SLIVER: f64 = 0.1;
 
 /// Directions from the middle of a grain in which no points lie this near, in radians: of half a ball there are some of 63 degrees.
@@ -28,7 +28,7 @@ const UNSEEN: f64 = 45.0 * PI / 180.0;
 /// Cells along an edge of the cube of these directions.
 const LOOKED_AT: usize = 4;
 
-/// What is done at the necks of clumps.
+/// What is done at the necks of heaps.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Necks {
     Cut,
@@ -41,14 +41,14 @@ pub(super) struct Part {
     pub(super) may_touch: bool,
 }
 
-/// What a clump was cut into, and how wide the widest of the necks was beside the narrower of its sides.
+/// What a heap was cut into, and how wide the widest of the necks was beside the narrower of its sides.
 pub(super) struct Parts {
     pub(super) parts: Vec<Part>,
     pub(super) neck: f64,
 }
 
-/// Cuts a clump at its necks, one after the other.
-pub(super) fn cut(places: &[Point3<f64>], clump: Vec<u32>, distance: f64, necks: Necks) -> Parts {
+/// Cuts a heap at its necks, one after the other.
+pub(super) fn cut(places: &[Point3<f64>], heap: Vec<u32>, distance: f64, necks: Necks) -> Parts {
     let of = |points: &[u32]| -> Vec<Point3<f64>> {
         points.iter().map(|&i| places[i as usize]).collect()
     };
@@ -57,7 +57,7 @@ pub(super) fn cut(places: &[Point3<f64>], clump: Vec<u32>, distance: f64, necks:
         Necks::Keep => 0,
     };
     let (mut whole, mut waists, mut cuts) = (Vec::new(), Vec::new(), Vec::new());
-    let mut left = vec![clump];
+    let mut left = vec![heap];
     while let Some(points) = left.pop() {
         let own = of(&points);
         let neck = Neck::find(&own, distance).filter(Neck::is_waist);

@@ -47,11 +47,11 @@ impl Links {
         Some(Self { places, distance })
     }
 
-    /// The clumps that hang together by links of at most the distance, each in order.
+    /// The heaps that hang together by links of at most the distance, each in order.
     ///
     /// Points in one small cell are linked, and then the first points of the cells with their nearest ones: where points
     /// are dense along a line, the nearest ones of each point would all be on that line.
-    pub(super) fn clumps(&self) -> Vec<Vec<u32>> {
+    pub(super) fn heaps(&self) -> Vec<Vec<u32>> {
         let mut sets = DisjointSets::new(self.places.len());
         let mut firsts = HashMap::new();
         let origin = self.places[0];

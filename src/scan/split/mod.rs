@@ -45,7 +45,7 @@ pub struct Split {
     pub plane: Option<Plane>,
     /// Points on the plane, and beyond it.
     pub plane_points: usize,
-    /// Clumps, bodies of a mesh, or bodies of a segmented volume that are too small for a grain.
+    /// Heaps, bodies of a mesh, or bodies of a segmented volume that are too small for a grain.
     pub dust: usize,
     /// Points of these; of a segmented volume their voxels.
     pub dust_points: usize,
@@ -58,8 +58,8 @@ pub struct Split {
 impl Split {
     /// Places where grains that touched were cut apart.
     pub fn cuts(&self) -> usize {
-        let clumps = |grain: &SplitGrain| grain.cut.map(|cut| cut.clump);
-        let cut: Vec<usize> = self.grains.iter().filter_map(clumps).collect();
+        let heaps = |grain: &SplitGrain| grain.cut.map(|cut| cut.heap);
+        let cut: Vec<usize> = self.grains.iter().filter_map(heaps).collect();
         let distinct: BTreeSet<usize> = cut.iter().copied().collect();
         cut.len() - distinct.len()
     }
@@ -69,11 +69,11 @@ impl Split {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Cut {
-    /// The clump, a number that it shares with the other grains that were cut from it, and with none else.
-    pub clump: usize,
+    /// The heap, a number that it shares with the other grains that were cut from it, and with none else.
+    pub heap: usize,
     /// How many grains were cut from it.
     pub grains: usize,
-    /// Width of the widest neck at which the clump was cut, over that of the narrower of its sides.
+    /// Width of the widest neck at which the heap was cut, over that of the narrower of its sides.
     pub neck: f64,
 }
 
@@ -176,24 +176,20 @@ fn split_points(all: &[Point3<f64>], necks: Necks) -> Split {
     let places: Vec<Point3<f64>> = above.iter().map(|&i| points[i as usize]).collect();
     let links = Links::new(&places);
     let distance = links.as_ref().map(|links| links.distance);
-    let clumps = links.map_or_else(Vec::new, |links| links.clumps());
-    let sorted = by_size(clumps.into_iter(), LEAST_POINTS as f64, |clump| {
-        clump.len() as f64
+    let heaps = links.map_or_else(Vec::new, |links| links.heaps());
+    let sorted = by_size(heaps.into_iter(), LEAST_POINTS as f64, |heap| {
+        heap.len() as f64
     });
     let (dust, small) = (sorted.dust().count(), sorted.small.len());
     let cut: Vec<Parts> = sorted
         .grains
         .into_par_iter()
-        .map(|clump| cut(&places, clump, distance.unwrap_or(0.0), necks))
+        .map(|heap| cut(&places, heap, distance.unwrap_or(0.0), necks))
         .collect();
-    let cuts = cut.into_iter().enumerate().flat_map(|(clump, parts)| {
+    let cuts = cut.into_iter().enumerate().flat_map(|(heap, parts)| {
         let Parts { parts, neck } = parts;
         let grains = parts.len();
-        let cut = (grains > 1).then_some(Cut {
-            clump,
-            grains,
-            neck,
-        });
+        let cut = (grains > 1).then_some(Cut { heap, grains, neck });
         parts.into_iter().map(move |part| (part, cut))
     });
     let (grains, cuts): (Vec<Part>, Vec<Option<Cut>>) = cuts.unzip();

@@ -87,7 +87,7 @@ pub(super) struct Neck {
 }
 
 impl Neck {
-    /// The neck of a clump of points that are some distance apart, if its sections have one.
+    /// The neck of a heap of points that are some distance apart, if its sections have one.
     pub(super) fn find(points: &[Point3<f64>], distance: f64) -> Option<Self> {
         Self::with_sides(points, distance, LEAST_SIDE)
     }

@@ -9,7 +9,7 @@
 use super::links::{nearest, nearest_distance, sixth_distances};
 use crate::polygon_hull::{hull_area, polygon_hull};
 use crate::sphere::across;
-use crate::spread::{covariance, median, robust_deviation, root_mean_square};
+use crate::spread::{covariance, robust_deviation, root_mean_square, upper_median};
 use kiddo::ImmutableKdTree;
 use nalgebra::{Point3, Unit, Vector2, Vector3};
 use rand::{Rng, SeedableRng};
@@ -356,7 +356,7 @@ fn spacing_of(points: &[&Point3<f64>]) -> f64 {
         return 0.0;
     };
     let mut sixth = sixth_distances(&tree, &places, MOST_COMPARED);
-    median(&mut sixth).unwrap_or(0.0) / SIXTH
+    upper_median(&mut sixth).unwrap_or(0.0) / SIXTH
 }
 
 /// A tree of the places; none of none.

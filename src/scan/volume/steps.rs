@@ -1,6 +1,6 @@
 //! Places of points along an axis that are equal steps apart, as those of voxels are.
 
-use crate::spread::median;
+use crate::spread::upper_median;
 use nalgebra::{Point3, Vector3};
 
 /// Points that are looked at first, and the share of them that may differ in a coordinate: of other points nearly all do.
@@ -37,7 +37,7 @@ impl Steps {
         }
         let levels = levels(points.iter().map(level).collect());
         let mut gaps: Vec<f64> = levels.windows(2).map(|pair| pair[1] - pair[0]).collect();
-        let usual = median(&mut gaps)?;
+        let usual = upper_median(&mut gaps)?;
         let (&first, &last) = (levels.first()?, levels.last()?);
         parts.iter().find_map(|parts| {
             let step = (last - first) / ((last - first) * parts / usual).round();

@@ -213,7 +213,7 @@ mod tests {
             curvature: 1e-3,
         };
         let grain = Grain::from(peak)
-            .with_standard_errors(Ok(StandardErrors::NONE))
+            .with_standard_errors(Ok(StandardErrors::ZERO))
             .with_local_errors(LocalErrors::new(vec![error; cells.len()]));
         let survey = Survey::of_grain(&grain, Scheme::Exact);
         let found = survey.curvature().unwrap().mean().standard_deviation;

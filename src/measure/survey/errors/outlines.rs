@@ -267,7 +267,7 @@ mod tests {
         let moments = survey.principal().unwrap().moments;
         let errors = StandardErrors {
             inertia: Matrix3::from_element(0.05 * (moments.z - moments.y)),
-            ..StandardErrors::NONE
+            ..StandardErrors::ZERO
         };
         let (outlines, errors) = told(&grain.clone().with_standard_errors(Ok(errors)));
         let ratio = outlines[2].area / outlines[1].area;

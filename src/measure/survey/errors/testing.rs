@@ -23,7 +23,7 @@ pub(super) fn egg(percent: [f64; 5], surface: f64) -> Grain {
             .dimensions()
             .unwrap()
             .component_mul(&Vector3::new(length, width, thickness)),
-        ..StandardErrors::NONE
+        ..StandardErrors::ZERO
     };
     grain
         .with_standard_errors(Ok(errors))

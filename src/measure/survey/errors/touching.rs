@@ -65,7 +65,7 @@ mod tests {
             "axes": [[1, 0, 0], [0, 1, 0], [0, 0, 1]], "harmonics": [12, 0, 0, 0, 0, 0, 1, 0, 0]}"#;
         let figures = StandardErrors {
             dimensions: nalgebra::Vector3::new(length, 0.0, 0.0),
-            ..StandardErrors::NONE
+            ..StandardErrors::ZERO
         };
         let grain = grain_from_json(text).unwrap();
         let grain = grain.with_standard_errors(Ok(figures));
