@@ -17,6 +17,12 @@
 //!
 //! Error: that of the derivatives, times a few roundings.
 
+pub(super) mod corners;
+pub(super) mod kind;
+pub(super) mod peaks;
+pub(super) mod statistics;
+pub(super) mod unfollowed;
+
 use crate::model::SurfaceJet;
 use crate::sphere::tangents;
 use nalgebra::{Matrix2, Vector3};

@@ -5,9 +5,17 @@
 //! estimate on a smooth surface. A piece is done when its error is within its share, by solid angle, of the
 //! tolerance, so the errors add up to at most the tolerance; else it is cut in four.
 
+pub(super) mod elements;
+pub(super) mod four_triangles;
+pub(super) mod mass;
+pub(super) mod mesh;
+pub(super) mod nodes;
+pub(super) mod rings;
+pub(super) mod sums;
+
 use super::MassProperties;
-use super::rings::integrate_rings;
-use super::sums::{Integrals, MAX_EVALUATIONS, Sums};
+use rings::integrate_rings;
+use sums::{Integrals, MAX_EVALUATIONS, Sums};
 use crate::model::{Node, Parts, Piece, Radial, StarSurface, Surface, Tiling};
 use crate::sphere::{GaussLegendre, Symmetry};
 use std::f64::consts::PI;

@@ -1,11 +1,16 @@
 //! The outline of a body as seen from one side, and its shape in two dimensions.
 
-use super::bounds::{OutOfBounds, ratio};
-use super::clearance::largest_from;
+pub(super) mod projection;
+pub(super) mod roundness;
+pub(super) mod silhouette;
+pub(super) mod slits;
+
+use super::balls::clearance::largest_from;
+use super::balls::largest_ball::Obstacles;
+use super::balls::medial::{Foot, deepest};
 use super::convex_polygon::ConvexPolygon;
-use super::largest_ball::Obstacles;
-use super::medial::{Foot, deepest};
-use super::roundness::roundness;
+use super::descriptors::bounds::{OutOfBounds, ratio};
+use roundness::roundness;
 use super::triangle_tree::TriangleTree;
 use super::{Ball, enclosing_ball};
 use crate::mesh::{Mesh, polygon_winding_number};

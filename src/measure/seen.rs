@@ -1,6 +1,6 @@
 //! A surface as it is seen from a point within: elements so small that harmonics over the directions are resolved.
 
-use super::elements::{Element, surface_elements};
+use super::integrals::elements::{Element, surface_elements};
 use crate::model::{Parts, Piece, Surface};
 use crate::sphere::GaussLegendre;
 use nalgebra::Vector3;
@@ -72,8 +72,8 @@ fn span(elements: &[Element], order: usize) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::measure::rings::ring_nodes;
-    use crate::measure::spectrum::{SPECTRUM_DEGREE, Spectrum};
+    use crate::measure::descriptors::spectrum::{SPECTRUM_DEGREE, Spectrum};
+    use crate::measure::integrals::rings::ring_nodes;
     use crate::model::{Family, Frame, Radial, StarGrain, Stretch, Whole};
     use crate::shapes::Ellipsoid;
     use std::f64::consts::PI;

@@ -2,8 +2,8 @@
 
 use super::{Survey, SurveyError};
 use crate::measure::CurvatureStatistics;
-use crate::measure::bounds::ratio;
-use crate::measure::corners::Corners;
+use crate::measure::curvature::corners::Corners;
+use crate::measure::descriptors::bounds::ratio;
 
 impl Survey<'_> {
     /// Curvature over the whole surface of a grain.

@@ -1,8 +1,8 @@
 //! What is measured of the radius seen from the centroid, of bodies that it sees whole.
 
 use super::{Survey, SurveyError};
-use crate::measure::angularity::angularity;
-use crate::measure::elements::{Element, mesh_elements};
+use crate::measure::descriptors::angularity::angularity;
+use crate::measure::integrals::elements::{Element, mesh_elements};
 use crate::measure::seen::seen_elements;
 use crate::measure::{EXPANSION_DEGREE, RadialExpansion, SPECTRUM_DEGREE, Spectrum};
 use nalgebra::Point3;

@@ -7,10 +7,10 @@ mod errors;
 mod from_centroid;
 mod unit_size;
 
-use super::corners::Corners;
-use super::elements::Element;
-use super::extents::Extents;
-use super::minimum_box::LeastBoxes;
+use super::boxes::extents::Extents;
+use super::boxes::minimum_box::LeastBoxes;
+use super::curvature::corners::Corners;
+use super::integrals::elements::Element;
 use super::scale::Scale;
 use super::{
     Ball, Convexity, CurvatureStatistics, EquivalentEllipsoid, Form, MassProperties, OrientedBox,

@@ -4,10 +4,10 @@ use super::Survey;
 use super::body::{Body, Measured};
 use super::error::SurveyError;
 use crate::Mesh;
-use crate::measure::extents::Extents;
-use crate::measure::minimum_box::{LeastBoxes, least_boxes};
-use crate::measure::reach::{RESOLUTION, Reach};
-use crate::measure::sag::finer_resolution;
+use crate::measure::boxes::extents::Extents;
+use crate::measure::boxes::minimum_box::{LeastBoxes, least_boxes};
+use crate::measure::boxes::reach::{RESOLUTION, Reach};
+use crate::measure::boxes::sag::finer_resolution;
 use crate::measure::{
     Ball, EquivalentEllipsoid, MassProperties, OrientedBox, PrincipalInertia, SolidProperties,
     convex_hull, enclosing_ball, extents, inscribed_ball,

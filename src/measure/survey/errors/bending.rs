@@ -8,8 +8,8 @@ use super::chance::{Part, error_of_mean};
 use super::known::KnownPlace;
 use super::{Survey, SurveyError};
 use crate::measure::Distribution;
-use crate::measure::curvature_kind::{End, Kind};
-use crate::measure::curvature_statistics::is_convex;
+use crate::measure::curvature::kind::{End, Kind};
+use crate::measure::curvature::statistics::is_convex;
 use std::f64::consts::SQRT_2;
 
 /// Share of itself by which the total curvature of a grain may be off by quadrature.

@@ -3,8 +3,8 @@
 use super::known::KnownPlace;
 use super::{Survey, SurveyError};
 use crate::measure::Curvature;
-use crate::measure::curvature_kind::{End, Kind};
-use crate::measure::unfollowed::unfollowed;
+use crate::measure::curvature::kind::{End, Kind};
+use crate::measure::curvature::unfollowed::unfollowed;
 use nalgebra::Vector3;
 use std::f64::consts::{LN_2, SQRT_2};
 

@@ -3,7 +3,7 @@
 use super::chance::{Part, error_of_mean};
 use super::known::KnownPlace;
 use super::{OF_MESH, Survey, SurveyError};
-use crate::measure::roundness::smoothed;
+use crate::measure::outline::roundness::smoothed;
 use crate::measure::{Outline, ROUNDNESS_ORDER, are_apart};
 use crate::model::{LocalError, StandardErrors};
 use crate::spread::root_mean_square;

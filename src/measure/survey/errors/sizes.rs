@@ -1,7 +1,7 @@
 //! How well the least box, the ellipsoid of equal moments and the convex hull are known.
 
 use super::{OF_MESH, Survey, SurveyError};
-use crate::measure::minimum_box::{LeastBoxes, boxes_beside};
+use crate::measure::boxes::minimum_box::{LeastBoxes, boxes_beside};
 use crate::measure::{Convexity, SideRatios};
 use crate::sphere::cube_grid;
 use crate::spread::root_mean_square;
