@@ -5,22 +5,26 @@
 //! within the limit the one with fewer coefficients is kept, else the nearer one.
 //! Of voxels the position alone, for a radius follows their steps as if they were texture.
 
+pub(super) mod choice;
+pub(super) mod misfit;
+pub(super) mod rod;
+
 use super::context::Context;
 use super::error::FitError;
-use super::kind_choice::{KindChoice, Rival};
-use super::misfit::{
-    does_not_see, held_out_over_fitted, hidden_share, hides_much, is_hiding, missed,
-    normal_distances, stands_out,
-};
 use super::options::{FitOptions, Kind, Seams};
 use super::outcome::Fitted;
 use super::position::MOST_COEFFICIENTS;
 use super::positioned::positioned;
 use super::prepare::PreparedScan;
-use super::rod::rod;
 use super::warning::FitWarning;
 use crate::scan::Scan;
 use crate::sphere::Symmetry;
+use choice::{KindChoice, Rival};
+use misfit::{
+    does_not_see, held_out_over_fitted, hidden_share, hides_much, is_hiding, missed,
+    normal_distances, stands_out,
+};
+use rod::rod;
 use std::sync::OnceLock;
 
 /// A radius that hides area so counts as so many times farther off, when it is compared with positions.

@@ -11,54 +11,35 @@
 
 mod blended;
 mod candidate;
-mod close_pairs;
 mod context;
-mod contradicted;
 mod crust;
 mod dispatch;
 mod error;
 mod estimate;
 mod estimated;
-mod figures;
 mod holes;
 mod kind;
-mod kind_choice;
 mod linear;
-mod local_cells;
 mod mirrored;
-mod misfit;
-mod neighbours;
 mod options;
 mod outcome;
+mod points;
 mod position;
 mod positioned;
 mod prepare;
-mod quadric;
-mod repeated;
 mod rippled;
-mod rod;
-mod rounder;
-mod samples;
-mod scatter;
 mod segments;
-mod slope;
-mod sound;
-mod sparse;
-mod standard_errors;
 mod superquadric;
-mod turn;
-mod uncertainty;
 mod warning;
-mod without;
 
 pub use candidate::{Candidate, Rejection, Search, Work};
 pub use context::{Context, Stage};
 pub use error::FitError;
 pub use estimate::RadiusError;
+pub use kind::choice::{KindChoice, Rival};
 pub use kind::fit_scan;
-pub use kind_choice::{KindChoice, Rival};
+pub(crate) use kind::misfit::LARGEST_OF_NOISE;
 pub use mirrored::{DirectedSample, MirroredFitError, fit_mirrored};
-pub(crate) use misfit::LARGEST_OF_NOISE;
 pub use options::{
     FitOptions, Kind, MAX_CELLS, MAX_COEFFICIENTS, MAX_DEGREE, MAX_PARTS, MAX_WHOLE_DEGREE, Seams,
     Tolerance,

@@ -1,14 +1,24 @@
 //! What a fit gives.
 
+pub(super) mod bridged;
+pub(super) mod contradicted;
+pub(super) mod figures;
+pub(super) mod local_cells;
+pub(super) mod samples;
+pub(super) mod sound;
+pub(super) mod standard_errors;
+pub(super) mod turn;
+pub(super) mod uncertainty;
+
 use super::candidate::Search;
 use super::estimate::Estimate;
-use super::kind_choice::KindChoice;
+use super::kind::choice::KindChoice;
 use super::prepare::Reference;
-use super::samples::Samples;
 use super::warning::FitWarning;
 use crate::measure::{Measured, Scheme, Survey};
 use crate::model::{Grain, NoStandardErrors, StandardErrors, StarGrain};
 use nalgebra::Point3;
+use samples::Samples;
 
 /// A fitted grain and what is known of it.
 #[derive(Debug, Clone)]

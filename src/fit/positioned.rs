@@ -3,13 +3,13 @@
 use super::candidate::{Candidate, Search, Work};
 use super::context::Context;
 use super::error::FitError;
-use super::kind_choice::{KindChoice, Rival};
+use super::kind::choice::{KindChoice, Rival};
 use super::options::{FEWEST_CELLS, FitOptions, Seams};
+use super::outcome::sound::{self, Off, not_followed};
 use super::outcome::{Fitted, Residuals};
+use super::points::scatter::scatter;
 use super::position::{Distance, PositionFit, fit_position_if};
 use super::prepare::ReferenceKind;
-use super::scatter::scatter;
-use super::sound::{self, Off, not_followed};
 use super::warning::FitWarning;
 use crate::model::{Grain, InvalidGrain, NoStandardErrors, PositionGrain, Surface};
 use crate::scan::Scan;

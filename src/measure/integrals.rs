@@ -14,11 +14,11 @@ pub(super) mod rings;
 pub(super) mod sums;
 
 use super::MassProperties;
-use rings::integrate_rings;
-use sums::{Integrals, MAX_EVALUATIONS, Sums};
 use crate::model::{Node, Parts, Piece, Radial, StarSurface, Surface, Tiling};
 use crate::sphere::{GaussLegendre, Symmetry};
+use rings::integrate_rings;
 use std::f64::consts::PI;
+use sums::{Integrals, MAX_EVALUATIONS, Sums};
 
 /// What rounding lets be reached.
 const LEAST_TOLERANCE: f64 = 1e-14;

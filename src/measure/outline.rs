@@ -10,11 +10,11 @@ use super::balls::largest_ball::Obstacles;
 use super::balls::medial::{Foot, deepest};
 use super::convex_polygon::ConvexPolygon;
 use super::descriptors::bounds::{OutOfBounds, ratio};
-use roundness::roundness;
 use super::triangle_tree::TriangleTree;
 use super::{Ball, enclosing_ball};
 use crate::mesh::{Mesh, polygon_winding_number};
 use nalgebra::{Point3, Vector2, Vector3};
+use roundness::roundness;
 use std::f64::consts::PI;
 
 /// Edges from which circles of the medial axis are found, at most.

@@ -1,6 +1,6 @@
 //! The points that a crust is made of, and how far it reaches from each.
 
-use crate::fit::neighbours::Neighbours;
+use crate::fit::points::neighbours::Neighbours;
 use crate::spread::{covariance, principal, upper_median};
 use nalgebra::{Point3, Vector3};
 

@@ -13,7 +13,7 @@ mod field;
 mod voxels;
 
 use super::error::FitError;
-use super::neighbours::Neighbours;
+use super::points::neighbours::Neighbours;
 use crate::mesh::{Grid, Mesh, contour, part, parts};
 use crate::scan::drawn;
 pub(super) use alone::without_alone;

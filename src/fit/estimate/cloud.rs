@@ -1,7 +1,7 @@
 //! The points that an estimate rests on, in a space in which the grain is rounder.
 
+use crate::fit::points::without::without;
 use crate::fit::prepare::Sample;
-use crate::fit::without::without;
 use crate::sphere::{HarmonicBasis, coefficient_count};
 use nalgebra::Vector3;
 

@@ -33,7 +33,7 @@ use super::outcome::{Estimate, bending_variance, variance};
 use super::posterior::Posterior;
 use super::tips::{Missing, Tips};
 use super::unresolved::is_rough;
-use crate::fit::local_cells::{PER_CELL, Squares, directions, tensor};
+use crate::fit::outcome::local_cells::{PER_CELL, Squares, directions, tensor};
 use crate::measure::Curvature;
 use crate::model::{Family, LocalErrors, StarGrain, Surface, SurfaceJet};
 use crate::sphere::CubeCell;

@@ -23,7 +23,7 @@
 //! ```
 
 use super::outcome::{Estimate, slope_variance, variance};
-use crate::fit::figures::{INTEGRALS, PAIRS, list, unlist};
+use crate::fit::outcome::figures::{INTEGRALS, PAIRS, list, unlist};
 use crate::measure::Moments;
 use crate::sphere::RingGrid;
 use nalgebra::{SVector, Vector3};

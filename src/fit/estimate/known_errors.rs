@@ -1,7 +1,7 @@
 //! What is known of the errors of an estimate's figures, whichever surface stands for it.
 
-use crate::fit::figures::{Figures, INERTIA, INTEGRALS, MassList, unlist};
-use crate::fit::turn::entry_variance;
+use crate::fit::outcome::figures::{Figures, INERTIA, INTEGRALS, MassList, unlist};
+use crate::fit::outcome::turn::entry_variance;
 use crate::measure::{Moments, PrincipalInertia};
 use crate::model::StandardErrors;
 use nalgebra::{Matrix6, SMatrix, Vector3};

@@ -19,8 +19,8 @@
 use super::outcome::Estimate;
 use super::posterior::Posterior;
 use super::unresolved::FLOOR;
-use crate::fit::figures::{INTEGRALS, MassList};
-use crate::fit::neighbours::Neighbours;
+use crate::fit::outcome::figures::{INTEGRALS, MassList};
+use crate::fit::points::neighbours::Neighbours;
 use crate::vectorize::dot;
 use nalgebra::{SMatrix, Vector3};
 use std::cell::OnceCell;

@@ -14,7 +14,7 @@
 
 use super::outcome::Estimate;
 use super::posterior::{Conditioned, Posterior};
-use crate::fit::neighbours::Neighbours;
+use crate::fit::points::neighbours::Neighbours;
 use crate::model::StarGrain;
 use nalgebra::Vector3;
 

@@ -58,8 +58,8 @@ pub use local::RadiusError;
 pub(crate) use outcome::Estimate;
 
 use crate::fit::context::{Cancelled, Context};
+use crate::fit::points::without::without;
 use crate::fit::prepare::{Origin, Sample};
-use crate::fit::without::without;
 use closer::closer;
 use cloud::Cloud;
 use degrees::{Degrees, first_degree};

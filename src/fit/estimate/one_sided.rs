@@ -14,7 +14,7 @@ use super::cloud::Cloud;
 use super::outcome::Estimate;
 use super::outliers::{COMPANY, NEIGHBOURS};
 use super::unresolved::FLOOR;
-use crate::fit::neighbours::Neighbours;
+use crate::fit::points::neighbours::Neighbours;
 use crate::fit::prepare::Sample;
 use crate::spread::{biweight, upper_median};
 use nalgebra::Vector3;

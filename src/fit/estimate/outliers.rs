@@ -4,7 +4,7 @@ use super::cloud::Cloud;
 use super::outcome::{Estimate, spare};
 use super::posterior::Posterior;
 use super::spectrum_fit::SpectrumFit;
-use crate::fit::neighbours::Neighbours;
+use crate::fit::points::neighbours::Neighbours;
 use crate::fit::prepare::Sample;
 use crate::spread::{robust_deviation, upper_median};
 use nalgebra::Vector3;

@@ -21,7 +21,7 @@
 use super::cloud::Cloud;
 use super::outcome::{Estimate, LAST_DEGREES};
 use super::spectrum::texture_fall;
-use crate::fit::neighbours::Neighbours;
+use crate::fit::points::neighbours::Neighbours;
 use std::f64::consts::PI;
 
 /// Degree of the finest texture that counts as the shape's: waves of a 200th of the girth.

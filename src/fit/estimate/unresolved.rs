@@ -26,7 +26,7 @@
 //! of a bicone 4 %.
 
 use super::outcome::{Estimate, last_power};
-use crate::fit::neighbours::Neighbours;
+use crate::fit::points::neighbours::Neighbours;
 use crate::sphere::CubeCell;
 use crate::spread::{covariance, upper_median};
 use nalgebra::Vector3;

@@ -1,6 +1,6 @@
 //! The largest gap of a cloud: how much of the sphere no point tells of.
 
-use crate::fit::neighbours::Neighbours;
+use crate::fit::points::neighbours::Neighbours;
 use crate::sphere::{compass, cube_grid};
 use nalgebra::Vector3;
 use std::f64::consts::PI;

@@ -1,7 +1,7 @@
 //! When so much of a grain was not seen that it is told of, and what that does to its figures.
 
 use super::empty_caps::random_gap;
-use crate::fit::figures::Figures;
+use crate::fit::outcome::figures::Figures;
 use crate::model::{StandardErrors, Unseen};
 use std::f64::consts::PI;
 

@@ -2,8 +2,8 @@
 //! points on the flat sides of a thin plate is not.
 
 use super::empty_caps::random_gap;
-use crate::fit::neighbours::Neighbours;
-use crate::fit::rounder::rounder;
+use crate::fit::points::neighbours::Neighbours;
+use crate::fit::points::rounder::rounder;
 use crate::mesh::{Mesh, solid_angle};
 use crate::sphere::triangulate_directions;
 use crate::spread::upper_median;

@@ -5,7 +5,7 @@ mod feet;
 use super::on_mesh::OnMesh;
 use super::on_sphere::{middles, spherical_area};
 use super::voxels::Voxels;
-use crate::fit::neighbours::Neighbours;
+use crate::fit::points::neighbours::Neighbours;
 use crate::mesh::Mesh;
 use nalgebra::Vector3;
 use std::f64::consts::PI;

@@ -10,8 +10,8 @@ use super::ends::Ends;
 use super::functionals::{End, FIGURES, FigureVector, Functionals};
 use super::functions::Functions;
 use super::voxels::Hidden;
-use crate::fit::figures::{INERTIA, INTEGRALS, squares_by_size};
-use crate::fit::turn::{OF_RANGE, by_inertia, entry_variance};
+use crate::fit::outcome::figures::{INERTIA, INTEGRALS, squares_by_size};
+use crate::fit::outcome::turn::{OF_RANGE, by_inertia, entry_variance};
 use crate::measure::{PrincipalInertia, are_apart};
 use nalgebra::{Matrix6, SMatrix, Vector3};
 

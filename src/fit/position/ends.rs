@@ -12,7 +12,7 @@
 use super::cloud::Cloud;
 use super::functionals::End;
 use super::taper::beyond;
-use crate::fit::neighbours::Neighbours;
+use crate::fit::points::neighbours::Neighbours;
 use nalgebra::Vector3;
 use std::f64::consts::SQRT_2;
 

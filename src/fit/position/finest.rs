@@ -5,8 +5,8 @@
 //! points on the faces of a stone and of creased kernels, even or random, with noise of 0 to 1 %, areas were up to 5.2 standard errors
 //! short; with the area that such texture hides 2.8 once, and at most 1.8 of all others.
 
-use crate::fit::neighbours::Neighbours;
-use crate::fit::quadric::{NUMBERS, off_quadric};
+use crate::fit::points::neighbours::Neighbours;
+use crate::fit::points::quadric::{NUMBERS, off_quadric};
 use crate::sphere::tangents;
 use nalgebra::Vector3;
 

@@ -11,8 +11,8 @@
 
 use super::functions::Functions;
 use super::least_squares::{add_adjoint, no_sums};
-use crate::fit::figures::{INTEGRALS, list};
-use crate::fit::turn::TURNS;
+use crate::fit::outcome::figures::{INTEGRALS, list};
+use crate::fit::outcome::turn::TURNS;
 use crate::measure::{Curvature, Moments, PrincipalInertia, grain_properties, support};
 use crate::model::{Frame, Position, PositionDerivatives, PositionGrain, SurfaceJet, area_normal};
 use crate::sphere::GaussLegendre;

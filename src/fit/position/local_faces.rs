@@ -6,11 +6,11 @@ use super::map::Coarse;
 use super::voxels::Voxels;
 use crate::fit::crust::{surface_of_points, without_alone};
 use crate::fit::error::FitError;
+use crate::fit::points::repeated::without_repeats;
 use crate::fit::prepare::{
     Reference, ReferenceKind, closed_by_faces, principal_axes, scanned_surface, seen, semi_axes,
     usable,
 };
-use crate::fit::repeated::without_repeats;
 use crate::fit::warning::FitWarning;
 use crate::measure::{Scale, equivalent_radius, mesh_properties};
 use crate::mesh::{Mesh, keep_vertices};

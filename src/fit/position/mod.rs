@@ -26,10 +26,10 @@ mod voxels;
 
 use super::context::Context;
 use super::error::FitError;
-use super::kind_choice::Rival;
+use super::kind::choice::Rival;
 use super::options::FitOptions;
+use super::outcome::samples::Samples;
 use super::prepare::Reference;
-use super::samples::Samples;
 use super::warning::FitWarning;
 use crate::model::{Frame, NoStandardErrors, Position, StandardErrors};
 use crate::scan::Scan;

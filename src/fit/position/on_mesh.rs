@@ -1,6 +1,6 @@
 //! Places in the triangles of a mesh.
 
-use crate::fit::neighbours::Neighbours;
+use crate::fit::points::neighbours::Neighbours;
 use crate::mesh::Mesh;
 use nalgebra::Vector3;
 

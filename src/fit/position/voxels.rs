@@ -25,7 +25,7 @@ mod terrace;
 
 use super::functionals::{by_move_of, curvature};
 use super::functions::Functions;
-use crate::fit::figures::INTEGRALS;
+use crate::fit::outcome::figures::INTEGRALS;
 use crate::mesh::Mesh;
 use crate::model::{Position, area_normal};
 use crate::sphere::{CubeCell, GaussLegendre};

@@ -11,7 +11,7 @@
 //! bodies would show their sides only. So a point counts by the fourth power of the sine of the angle between the axis and its
 //! normal.
 
-use crate::fit::neighbours::Neighbours;
+use crate::fit::points::neighbours::Neighbours;
 use crate::fit::warning::FitWarning;
 use crate::measure::mesh_properties;
 use crate::mesh::{Bounds, Mesh};

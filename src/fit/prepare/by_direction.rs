@@ -2,7 +2,7 @@
 
 use super::strays::{Strays, find_strays};
 use crate::fit::error::FitError;
-use crate::fit::rounder::rounder;
+use crate::fit::points::rounder::rounder;
 use crate::measure::{Scale, mesh_properties};
 use crate::mesh::Mesh;
 use crate::sphere::triangulate_directions;

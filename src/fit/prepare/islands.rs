@@ -91,7 +91,7 @@ impl Seen<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fit::neighbours::Neighbours;
+    use crate::fit::points::neighbours::Neighbours;
     use crate::shapes::Sampling;
     use crate::sphere::triangulate_directions;
 

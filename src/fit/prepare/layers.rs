@@ -19,9 +19,9 @@
 //! Layers nearer than what neighbours scatter by are not told from noise, and those over a part of the body may be taken for dust. The
 //! outermost voxels of a body seem to lie in two layers as well, in one of six: they do not lie on a smooth surface either.
 
-use crate::fit::neighbours::Neighbours;
-use crate::fit::quadric::off_quadric;
-use crate::fit::rounder::rounder;
+use crate::fit::points::neighbours::Neighbours;
+use crate::fit::points::quadric::off_quadric;
+use crate::fit::points::rounder::rounder;
 use crate::fit::warning::FitWarning;
 use crate::scan::drawn;
 use crate::sphere::across;

@@ -10,7 +10,7 @@ use super::rows::is_row;
 use super::strays::LEAST_STRAY;
 use crate::disjoint_sets::DisjointSets;
 use crate::fit::holes::largest_gap;
-use crate::fit::neighbours::Neighbours;
+use crate::fit::points::neighbours::Neighbours;
 use crate::scan::drawn;
 use nalgebra::{Point3, Vector3};
 use std::cmp::Reverse;

@@ -1,7 +1,7 @@
 //! Where a rod is as wide in all directions.
 
 use super::thin::WHOLE_CLOUD;
-use crate::fit::rounder::rounder;
+use crate::fit::points::rounder::rounder;
 use nalgebra::{Matrix3, Point3};
 
 /// A body is a rod where its points reach so many times as far along it as across (standard deviations).

@@ -1,6 +1,6 @@
 //! Which points lie in a row, as one line of a scanner does.
 
-use crate::fit::neighbours::Neighbours;
+use crate::fit::points::neighbours::Neighbours;
 use crate::spread::{covariance, principal, upper_median};
 use nalgebra::Vector3;
 

@@ -1,7 +1,7 @@
 //! Points that stand apart from their neighbours: outliers of the scan.
 
 use super::islands::Seen;
-use crate::fit::slope::on_slope;
+use crate::fit::points::slope::on_slope;
 use crate::mesh::Mesh;
 use crate::spread::{lower_quartile, robust_deviation, upper_median};
 use nalgebra::{Point3, Vector3};
@@ -196,7 +196,7 @@ fn compare(around: &mut [f64], radius: f64) -> Comparison {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fit::neighbours::Neighbours;
+    use crate::fit::points::neighbours::Neighbours;
     use crate::shapes::Sampling;
     use crate::sphere::triangulate_directions;
 

@@ -11,8 +11,8 @@ use super::thin::{Thinned, WHOLE_CLOUD, select, thin};
 use super::triangulated::from_directions;
 use crate::fit::error::FitError;
 use crate::fit::holes::Gap;
+use crate::fit::points::without::without;
 use crate::fit::warning::FitWarning;
-use crate::fit::without::without;
 use crate::measure::{
     FacesDefect, Fill, Scale, SelfCrossing, even_places, scanned_body, self_crossing, without_dust,
 };

@@ -4,7 +4,7 @@
 //! Outliers lie anywhere, and so far from each other; the points of a surface have others of it about them.
 
 use super::islands::LARGEST;
-use crate::fit::neighbours::Neighbours;
+use crate::fit::points::neighbours::Neighbours;
 use crate::spread::upper_median;
 use nalgebra::{Point3, Vector3};
 

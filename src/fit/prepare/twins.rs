@@ -2,7 +2,7 @@
 //! registration. They share their noise, and a fit would take what is left between them for the noise of all.
 
 use crate::disjoint_sets::DisjointSets;
-use crate::fit::neighbours::Neighbours;
+use crate::fit::points::neighbours::Neighbours;
 use crate::scan::drawn;
 use nalgebra::{Point3, Vector3};
 

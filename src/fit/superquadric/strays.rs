@@ -8,7 +8,7 @@ use super::bodies::Body;
 use super::cloud::Cloud;
 use super::least_squares::ROUNDING;
 use super::normal_equations::distances;
-use crate::fit::neighbours::Neighbours;
+use crate::fit::points::neighbours::Neighbours;
 use crate::spread::{robust_deviation, upper_median};
 use nalgebra::Vector3;
 

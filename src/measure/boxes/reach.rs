@@ -85,7 +85,10 @@ impl<'a> Reach<'a> {
 
     /// The smallest ball that holds the surface, from the points of its hull. Error: 1e-6 where few peaks reach as far; of a body
     /// that is nearly a ball some 1e-5.
-    pub(in crate::measure) fn enclosing_ball(&self, hull: &[Point3<f64>]) -> Result<Ball, EnclosingBallError> {
+    pub(in crate::measure) fn enclosing_ball(
+        &self,
+        hull: &[Point3<f64>],
+    ) -> Result<Ball, EnclosingBallError> {
         let centre = self.surface.frame().centre;
         let mut held = hull.to_vec();
         let mut ball = enclosing_ball(&held)?;

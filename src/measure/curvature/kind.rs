@@ -10,7 +10,8 @@ pub(in crate::measure) enum Kind {
 }
 
 impl Kind {
-    pub(in crate::measure) const ALL: [Self; 4] = [Self::Mean, Self::Gaussian, Self::Larger, Self::Smaller];
+    pub(in crate::measure) const ALL: [Self; 4] =
+        [Self::Mean, Self::Gaussian, Self::Larger, Self::Smaller];
 
     pub(in crate::measure) fn of(self, [larger, smaller]: [f64; 2]) -> f64 {
         match self {
@@ -22,7 +23,11 @@ impl Kind {
     }
 
     /// How far it is off where the principal curvatures are, with these errors.
-    pub(in crate::measure) fn off(self, [larger, smaller]: [f64; 2], [one, other]: [f64; 2]) -> f64 {
+    pub(in crate::measure) fn off(
+        self,
+        [larger, smaller]: [f64; 2],
+        [one, other]: [f64; 2],
+    ) -> f64 {
         match self {
             Self::Mean => 0.5 * one.hypot(other),
             Self::Gaussian => (smaller * one).hypot(larger * other),

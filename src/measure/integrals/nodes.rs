@@ -152,7 +152,10 @@ fn cut(
 }
 
 /// Curvatures at nodes of the surface's own sphere.
-pub(in crate::measure) fn curved(surface: &(impl Surface + ?Sized), nodes: &[Node]) -> Vec<CurvedNode> {
+pub(in crate::measure) fn curved(
+    surface: &(impl Surface + ?Sized),
+    nodes: &[Node],
+) -> Vec<CurvedNode> {
     let of_chunk = |nodes: &[Node]| {
         let nodes: Vec<Node> = nodes.iter().map(|node| surface.node(*node)).collect();
         let directions: Vec<_> = nodes.iter().map(|(n, _)| *n).collect();

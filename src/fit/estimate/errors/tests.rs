@@ -4,8 +4,8 @@ mod textured;
 
 use super::*;
 use crate::fit::estimate::trial::{estimated, fibonacci, lens, samples};
-use crate::fit::figures::{INERTIA, unlist};
-use crate::fit::turn::by_inertia;
+use crate::fit::outcome::figures::{INERTIA, unlist};
+use crate::fit::outcome::turn::by_inertia;
 use crate::measure::{Moments, Survey};
 use crate::model::{Family, Frame, StarGrain};
 use crate::shapes::{Body, Sampling, SynthOptions, synthesize};

@@ -1,7 +1,7 @@
 use super::*;
 use crate::fit::estimate::cloud::Cloud;
 use crate::fit::estimate::spectrum::Spectrum;
-use crate::fit::figures::{derivatives, mass};
+use crate::fit::outcome::figures::{derivatives, mass};
 use crate::measure::grain_properties;
 use crate::model::{Family, Frame, StarGrain, Stretch, Whole};
 use crate::sphere::coefficient_count;

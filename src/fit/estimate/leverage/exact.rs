@@ -75,7 +75,7 @@ impl<'a> Exact<'a> {
 mod tests {
     use super::super::super::trial::{estimated, fibonacci, samples};
     use super::*;
-    use crate::fit::neighbours::Neighbours;
+    use crate::fit::points::neighbours::Neighbours;
     use nalgebra::Vector3;
 
     /// Of a box, along whose edges every point decides.

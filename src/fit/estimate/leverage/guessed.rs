@@ -5,7 +5,7 @@
 //! points near by, N per solid angle: as of an even cloud of that density, as sum of (2l + 1) w v_l / (N v_l + s^2) / 4 pi.
 
 use super::super::outcome::{Estimate, learnt};
-use crate::fit::neighbours::Neighbours;
+use crate::fit::points::neighbours::Neighbours;
 use crate::sphere::{HarmonicBasis, coefficient_count};
 use nalgebra::Vector3;
 use std::f64::consts::{FRAC_PI_2, PI};

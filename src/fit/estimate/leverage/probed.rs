@@ -7,7 +7,7 @@
 use super::super::outcome::Estimate;
 use super::super::posterior::sign;
 use super::exact::Exact;
-use crate::fit::neighbours::Neighbours;
+use crate::fit::points::neighbours::Neighbours;
 use nalgebra::Vector3;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;

@@ -2,7 +2,7 @@ use super::super::by_degrees;
 use super::super::trial::{fibonacci, samples};
 use super::*;
 use crate::fit::context::Context;
-use crate::fit::without::without;
+use crate::fit::points::without::without;
 use crate::shapes::Sampling;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;

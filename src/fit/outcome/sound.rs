@@ -1,9 +1,9 @@
 //! Whether what was fitted is a body, and that of the points.
 
-use super::error::FitError;
-use super::options::FitOptions;
-use super::outcome::{Fitted, Residuals};
-use super::warning::FitWarning;
+use crate::fit::error::FitError;
+use crate::fit::options::FitOptions;
+use crate::fit::outcome::{Fitted, Residuals};
+use crate::fit::warning::FitWarning;
 use crate::measure::grain_properties;
 use crate::model::{Grain, InvalidGrain};
 use crate::sphere::RingGrid;
@@ -48,7 +48,7 @@ const CLEARLY_FINE: f64 = 1.2;
 
 /// Refuses a radius that is not above zero everywhere, which is proved and not sampled, and a surface far from its
 /// points. With such a radius the volume and the moments are above zero too.
-pub(super) fn check(
+pub(in crate::fit) fn check(
     fitted: &Fitted,
     options: &FitOptions,
     is_rod: bool,
@@ -111,7 +111,7 @@ pub(super) fn check(
 
 /// What a point may be off a surface.
 #[derive(Clone, Copy, PartialEq)]
-pub(super) enum Off {
+pub(in crate::fit) enum Off {
     AlongRay,
     /// Along the normal.
     Point,
@@ -120,7 +120,11 @@ pub(super) enum Off {
 }
 
 /// How far the farthest point is from a surface, if something sticks out there.
-pub(super) fn not_followed(residuals: &Residuals, radius: f64, off: Off) -> Option<FitWarning> {
+pub(in crate::fit) fn not_followed(
+    residuals: &Residuals,
+    radius: f64,
+    off: Off,
+) -> Option<FitWarning> {
     let (largest, share) = (residuals.max, residuals.max / radius);
     let is_beyond_noise = off == Off::Point || largest > BEYOND_NOISE * residuals.rms;
     (share > NOT_FOLLOWED && is_beyond_noise).then_some(FitWarning::NotFollowed {
@@ -132,7 +136,7 @@ pub(super) fn not_followed(residuals: &Residuals, radius: f64, off: Off) -> Opti
 
 /// Refuses positions that are not the body: with a volume far beyond that of closed faces, or through a crust that points which
 /// were held out are far from.
-pub(super) fn check_positions(fitted: &Fitted) -> Result<(), FitError> {
+pub(in crate::fit) fn check_positions(fitted: &Fitted) -> Result<(), FitError> {
     if fitted.reference.kind.has_faces() {
         let times = fitted.survey().volume().unwrap_or(f64::NAN) / fitted.reference.volume;
         return match times > LARGEST_VOLUME {

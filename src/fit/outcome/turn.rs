@@ -13,13 +13,13 @@ use nalgebra::{Matrix3, Matrix6, SVector, Vector3};
 
 /// Standard error of an extent along such an axis, as a share of the range of extents that it may have: it may be told at one
 /// end of it and be at the other.
-pub(super) const OF_RANGE: f64 = 0.6;
+pub(in crate::fit) const OF_RANGE: f64 = 0.6;
 
 /// Steps of half a turn at which the extents along such axes are compared.
-pub(super) const TURNS: usize = 8;
+pub(in crate::fit) const TURNS: usize = 8;
 
 /// Variance of the entry i, j of the inertia tensor along its principal axes, by the covariance of its entries.
-pub(super) fn entry_variance(
+pub(in crate::fit) fn entry_variance(
     covariance: &Matrix6<f64>,
     axes: &Matrix3<f64>,
     i: usize,
@@ -31,7 +31,7 @@ pub(super) fn entry_variance(
 
 /// The derivative of the extent along the principal axis `i`, from whose one end to the other is `span`, by the entries of the
 /// inertia tensor; `sd` says how well an entry is known along the principal axes.
-pub(super) fn by_inertia(
+pub(in crate::fit) fn by_inertia(
     principal: &PrincipalInertia,
     i: usize,
     span: &Vector3<f64>,

@@ -1,6 +1,6 @@
 //! Why a grain is of its kind, a radius or positions.
 
-use super::error::FitError;
+use crate::fit::error::FitError;
 
 /// Why a grain is of its kind.
 #[derive(Debug, Clone, PartialEq)]

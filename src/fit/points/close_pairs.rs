@@ -47,7 +47,7 @@ struct Pair {
 }
 
 /// The mean square of the slopes of texture by how points lie off their places on a surface.
-pub(super) fn slopes(places: &[Vector3<f64>], off: &[Vector3<f64>]) -> f64 {
+pub(in crate::fit) fn slopes(places: &[Vector3<f64>], off: &[Vector3<f64>]) -> f64 {
     if places.len() < LEAST_POINTS {
         return 0.0;
     }

@@ -1,8 +1,8 @@
 //! Whether the polyhedron through the points contradicts what was fitted to them.
 
-use super::outcome::Fitted;
-use super::prepare::ReferenceKind;
-use super::warning::FitWarning;
+use crate::fit::outcome::Fitted;
+use crate::fit::prepare::ReferenceKind;
+use crate::fit::warning::FitWarning;
 use crate::measure::{MassProperties, extents_of_points};
 use crate::model::{Contradicted, NoStandardErrors, Surface, Unseen};
 
@@ -30,7 +30,7 @@ const RESOLUTION: usize = 32;
 
 impl Fitted {
     /// The same, of whose grain it is known what the polyhedron contradicts.
-    pub(super) fn beside_polyhedron(mut self) -> Self {
+    pub(in crate::fit) fn beside_polyhedron(mut self) -> Self {
         let is_closed = self.grain.unseen().is_none();
         let may_contradict = match self.reference.kind {
             ReferenceKind::Faces | ReferenceKind::Voxels => true,

@@ -1,6 +1,6 @@
 //! Whether the figures of a body can be told though there are holes between its points that chance or a fit may account for.
 
-use super::outcome::Fitted;
+use crate::fit::outcome::Fitted;
 
 /// Largest standard errors of area and volume, as shares of them, that vouch for what lies between the points. Of ellipsoids
 /// and plates without edges they are 0.002 to 0.9 %; of discs with edges, whose area is 7 to 21 % off, 1.2 to 3 %.
@@ -8,7 +8,7 @@ const LARGEST_ERROR: f64 = 0.01;
 
 impl Fitted {
     /// The same, as if all of the grain had been seen, if its standard errors vouch for that.
-    pub(super) fn between_points(mut self) -> Self {
+    pub(in crate::fit) fn between_points(mut self) -> Self {
         let unseen = self.grain.unseen();
         self.grain = self.grain.with_unseen(None);
         if !self.is_sure() {

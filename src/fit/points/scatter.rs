@@ -8,7 +8,7 @@ use nalgebra::{Matrix3, Vector3};
 
 /// So many times farther off than points scatter a radius does not follow a smooth body. Of stones and of bodies with edges
 /// it is 1.0 at most, of a mushroom 1.9, of a banana 35.
-pub(super) const FAR: f64 = 1.5;
+pub(in crate::fit) const FAR: f64 = 1.5;
 
 /// Points that are looked at, evenly spread along an axis; ...
 const MOST_LOOKED_AT: usize = 300;
@@ -18,7 +18,7 @@ const NEIGHBOURS: usize = 15;
 
 /// The root mean square distance of points from quadrics through their neighbours, in the scan's unit, as of single points:
 /// what a quadric takes up of their scatter is put back. `None` of fewer points than it takes.
-pub(super) fn scatter(places: &[Vector3<f64>]) -> Option<f64> {
+pub(in crate::fit) fn scatter(places: &[Vector3<f64>]) -> Option<f64> {
     let mut places = places.to_vec();
     places.sort_unstable_by(|one, other| by_coordinates(&(*one).into(), &(*other).into()));
     let neighbours = Neighbours::new(&places);

@@ -11,7 +11,7 @@ const OF_HALF: f64 = 0.75;
 
 impl StandardErrors {
     /// With all lengths of a grain of these figures known to such a share only, all together.
-    pub(super) fn with_scale(self, share: f64, figures: &Figures) -> Self {
+    pub(in crate::fit) fn with_scale(self, share: f64, figures: &Figures) -> Self {
         let [area, volume, moments] = [2.0, 3.0, 5.0].map(|power| power * share);
         let lacking = self.with_shares([area, volume, moments], figures);
         Self {

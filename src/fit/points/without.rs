@@ -1,7 +1,10 @@
 //! Leaving out some of many.
 
 /// The values but for those at ascending positions.
-pub(super) fn without<T: Copy>(values: &[T], left_out: impl IntoIterator<Item = usize>) -> Vec<T> {
+pub(in crate::fit) fn without<T: Copy>(
+    values: &[T],
+    left_out: impl IntoIterator<Item = usize>,
+) -> Vec<T> {
     let mut left_out = left_out.into_iter().peekable();
     let kept = values.iter().enumerate();
     let kept = kept.filter(|(at, _)| left_out.next_if_eq(at).is_none());

@@ -9,17 +9,17 @@ use nalgebra::{Matrix3, Vector3};
 const PLACES: usize = 2;
 
 /// Places of a cell.
-pub(super) const PER_CELL: usize = PLACES * PLACES;
+pub(in crate::fit) const PER_CELL: usize = PLACES * PLACES;
 
 /// Squares of errors.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Squares {
-    pub(super) place: f64,
-    pub(super) curvature: f64,
+pub(in crate::fit) struct Squares {
+    pub(in crate::fit) place: f64,
+    pub(in crate::fit) curvature: f64,
 }
 
 /// Directions of the space of the cells, those of a cell one after the other.
-pub(super) fn directions() -> Vec<Vector3<f64>> {
+pub(in crate::fit) fn directions() -> Vec<Vector3<f64>> {
     let along = || (0..PLACES).map(|i| (i as f64 + 0.5) / PLACES as f64);
     let cells = CubeCell::uniform(LocalErrors::PARTS);
     let places = |cell: &CubeCell| {
@@ -74,7 +74,7 @@ fn round(error: f64) -> f64 {
 }
 
 /// The curvature tensor: principal curvatures along their directions.
-pub(super) fn tensor(curvature: &Curvature) -> Matrix3<f64> {
+pub(in crate::fit) fn tensor(curvature: &Curvature) -> Matrix3<f64> {
     let along = |i: usize| {
         let direction = curvature.directions[i];
         direction * direction.transpose() * curvature.principal[i]

@@ -15,7 +15,7 @@ const MOST_SWEEPS: usize = 100;
 
 /// The value in a direction n if it is c.n with a constant vector c, as 1 / r is on a plane, by those of its neighbours: least
 /// squares, in which the nearer ones count more. `None` of fewer than three.
-pub(super) fn on_slope(n: &Vector3<f64>, near: &[(Vector3<f64>, f64)]) -> Option<f64> {
+pub(in crate::fit) fn on_slope(n: &Vector3<f64>, near: &[(Vector3<f64>, f64)]) -> Option<f64> {
     let distances = near.iter().map(|(other, _)| (other - n).norm());
     let farthest = distances.clone().fold(0.0, f64::max);
     if near.len() < LEAST || farthest == 0.0 {

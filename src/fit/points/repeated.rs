@@ -1,6 +1,6 @@
 //! Points without those that repeat others.
 
-use super::warning::FitWarning;
+use crate::fit::warning::FitWarning;
 use crate::scan::distinct;
 use nalgebra::Point3;
 use std::borrow::Cow;
@@ -9,7 +9,7 @@ use std::borrow::Cow;
 const OVER_AND_OVER: usize = 10;
 
 /// The points without repeats, and the place that is repeated most, where it is told.
-pub(super) fn without_repeats(
+pub(in crate::fit) fn without_repeats(
     points: Cow<'_, [Point3<f64>]>,
 ) -> (Cow<'_, [Point3<f64>]>, Option<FitWarning>) {
     let Some(distinct) = distinct(&points) else {
@@ -23,8 +23,8 @@ pub(super) fn without_repeats(
 
 #[cfg(test)]
 mod tests {
-    use super::super::{FitOptions, fit};
     use super::*;
+    use crate::fit::{FitOptions, fit};
     use crate::measure::grain_properties;
     use crate::scan::Scan;
     use crate::shapes::{Body, SynthOptions, synthesize};

@@ -1,12 +1,12 @@
 //! How far the figures of a fitted grain may be off: what the points leave open, and what they cannot tell.
 
-use super::estimate::RadiusError;
 use super::figures::Figures;
 use super::local_cells;
-use super::outcome::Fitted;
-use super::prepare::ReferenceKind;
 use super::samples::Samples;
-use super::warning::FitWarning;
+use crate::fit::estimate::RadiusError;
+use crate::fit::outcome::Fitted;
+use crate::fit::prepare::ReferenceKind;
+use crate::fit::warning::FitWarning;
 use crate::measure::{MassProperties, Survey};
 use crate::model::{Grain, NoStandardErrors, StandardErrors, Surface};
 use crate::sphere::unit;

@@ -13,32 +13,33 @@ use crate::measure::{MassProperties, Moments, PrincipalInertia, inertia};
 use nalgebra::{Matrix3, Point3, SMatrix, SVector, Vector3};
 
 /// Area, volume, three first moments and six second moments, as a list.
-pub(super) const INTEGRALS: usize = 11;
+pub(in crate::fit) const INTEGRALS: usize = 11;
 
 /// Second moments of the list: xx, yy, zz, yz, xz, xy.
-pub(super) const PAIRS: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (1, 2), (0, 2), (0, 1)];
+pub(in crate::fit) const PAIRS: [(usize, usize); 6] =
+    [(0, 0), (1, 1), (2, 2), (1, 2), (0, 2), (0, 1)];
 
 /// Figures of a grain along its own axes and from its own centre, in powers of the scan's unit.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Figures {
+pub(in crate::fit) struct Figures {
     /// Surface area.
-    pub(super) area: f64,
+    pub(in crate::fit) area: f64,
     /// Volume.
-    pub(super) volume: f64,
+    pub(in crate::fit) volume: f64,
     /// Centroid.
-    pub(super) centroid: Vector3<f64>,
+    pub(in crate::fit) centroid: Vector3<f64>,
     /// Inertia tensor about the centroid.
-    pub(super) inertia: Matrix3<f64>,
+    pub(in crate::fit) inertia: Matrix3<f64>,
     /// Principal moments of inertia, ascending.
-    pub(super) moments: Vector3<f64>,
+    pub(in crate::fit) moments: Vector3<f64>,
     /// Length, width and thickness: extents along the principal axes, the largest first.
-    pub(super) dimensions: Vector3<f64>,
+    pub(in crate::fit) dimensions: Vector3<f64>,
 }
 
 #[cfg(test)]
 impl Figures {
     /// Those of no body in particular.
-    pub(super) const SOME: Self = Self {
+    pub(in crate::fit) const SOME: Self = Self {
         area: 10.0,
         volume: 8.0,
         centroid: Vector3::new(0.0, 0.0, 0.0),
@@ -50,7 +51,7 @@ impl Figures {
 
 /// Which of the extents along the principal axes is the length, the width and the thickness: they are told by their size,
 /// which is not always that of the moments.
-pub(super) fn by_size(extents: &Vector3<f64>) -> [usize; 3] {
+pub(in crate::fit) fn by_size(extents: &Vector3<f64>) -> [usize; 3] {
     let mut order = [0, 1, 2];
     order.sort_by(|&one, &other| extents[other].total_cmp(&extents[one]));
     order
@@ -59,7 +60,10 @@ pub(super) fn by_size(extents: &Vector3<f64>) -> [usize; 3] {
 /// Squares of the standard errors of extents, the largest extent first, from those along each axis: of extents that are
 /// alike it is not known which is the larger, so that each may be any of them, and the longest found is one of those that are
 /// told too long.
-pub(super) fn squares_by_size(extents: &Vector3<f64>, squares: &Vector3<f64>) -> Vector3<f64> {
+pub(in crate::fit) fn squares_by_size(
+    extents: &Vector3<f64>,
+    squares: &Vector3<f64>,
+) -> Vector3<f64> {
     let of_rank = |i: usize| {
         let apart = |j: usize| (extents[j] - extents[i]).powi(2);
         let is_alike = |j: &usize| *j == i || apart(*j) < squares[*j] + squares[i];
@@ -72,19 +76,19 @@ pub(super) fn squares_by_size(extents: &Vector3<f64>, squares: &Vector3<f64>) ->
 }
 
 /// Area, volume, centroid and inertia as a list, in this order.
-pub(super) type MassList = SVector<f64, INTEGRALS>;
+pub(in crate::fit) type MassList = SVector<f64, INTEGRALS>;
 
 /// Where the inertia stands in the list, in the order of [`PAIRS`].
-pub(super) const INERTIA: usize = 5;
+pub(in crate::fit) const INERTIA: usize = 5;
 
 /// Area, volume, centroid and inertia, and the principal axes if these are finite.
-pub(super) fn mass(moments: &Moments) -> (MassProperties, Option<PrincipalInertia>) {
+pub(in crate::fit) fn mass(moments: &Moments) -> (MassProperties, Option<PrincipalInertia>) {
     let mass = moments.about_centroid(&Point3::origin());
     (mass, mass.principal())
 }
 
 /// The derivatives of area, volume, centroid and inertia (rows) by the integrals (columns).
-pub(super) fn derivatives(at: &Moments) -> SMatrix<f64, INTEGRALS, INTEGRALS> {
+pub(in crate::fit) fn derivatives(at: &Moments) -> SMatrix<f64, INTEGRALS, INTEGRALS> {
     let centroid = at.first / at.volume;
     let mut all = SMatrix::<f64, INTEGRALS, INTEGRALS>::zeros();
     for column in 0..INTEGRALS {
@@ -106,7 +110,7 @@ pub(super) fn derivatives(at: &Moments) -> SMatrix<f64, INTEGRALS, INTEGRALS> {
 }
 
 /// The derivative of u' I w by the entries of the inertia tensor I, in the order of [`PAIRS`].
-pub(super) fn form(u: &Vector3<f64>, w: &Vector3<f64>) -> SVector<f64, 6> {
+pub(in crate::fit) fn form(u: &Vector3<f64>, w: &Vector3<f64>) -> SVector<f64, 6> {
     SVector::from_fn(|at, _| match PAIRS[at] {
         (i, j) if i == j => u[i] * w[i],
         (i, j) => u[i] * w[j] + u[j] * w[i],
@@ -114,7 +118,7 @@ pub(super) fn form(u: &Vector3<f64>, w: &Vector3<f64>) -> SVector<f64, 6> {
 }
 
 /// Moments as a list.
-pub(super) fn list(moments: &Moments) -> SVector<f64, INTEGRALS> {
+pub(in crate::fit) fn list(moments: &Moments) -> SVector<f64, INTEGRALS> {
     let Moments {
         area,
         volume,
@@ -132,7 +136,7 @@ pub(super) fn list(moments: &Moments) -> SVector<f64, INTEGRALS> {
 }
 
 /// A list as moments.
-pub(super) fn unlist(list: &SVector<f64, INTEGRALS>) -> Moments {
+pub(in crate::fit) fn unlist(list: &SVector<f64, INTEGRALS>) -> Moments {
     let mut second = Matrix3::zeros();
     for (at, (i, j)) in PAIRS.into_iter().enumerate() {
         second[(i, j)] = list[5 + at];

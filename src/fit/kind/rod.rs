@@ -1,12 +1,12 @@
 //! A thin rod, where neither a radius nor positions can be fitted: rays graze its sides, so that along them noise is many times as
 //! large as across. It is looked at in a space in which it is as wide as long.
 
-use super::context::Context;
-use super::error::FitError;
-use super::options::FitOptions;
-use super::outcome::Fitted;
-use super::prepare::PreparedScan;
-use super::scatter::{FAR, scatter};
+use crate::fit::context::Context;
+use crate::fit::error::FitError;
+use crate::fit::options::FitOptions;
+use crate::fit::outcome::Fitted;
+use crate::fit::points::scatter::{FAR, scatter};
+use crate::fit::prepare::PreparedScan;
 use crate::measure::{Deviation, feet};
 use crate::model::Surface;
 use crate::scan::{Scan, drawn};

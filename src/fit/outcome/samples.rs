@@ -13,8 +13,8 @@
 //! The error of the distance also holds what the samples' scatter leaves open of the quadric. Of a cell the largest error counts, for
 //! such bends are narrow.
 
-use crate::fit::local_cells::{PER_CELL, Squares, of_cells, tensor};
-use crate::fit::neighbours::Neighbours;
+use crate::fit::outcome::local_cells::{PER_CELL, Squares, of_cells, tensor};
+use crate::fit::points::neighbours::Neighbours;
 use crate::measure::Curvature;
 use crate::model::{Grain, Surface};
 use nalgebra::{DMatrix, DVector, Matrix3, Point3, Vector3};
@@ -257,7 +257,7 @@ mod tests {
         samples.normals.retain(|_| *of_normals.next().unwrap());
         let grain = ball(1.0);
         let squares = samples.local_errors(&grain);
-        let errors = crate::fit::local_cells::errors(&squares, 0.1, &grain).unwrap();
+        let errors = crate::fit::outcome::local_cells::errors(&squares, 0.1, &grain).unwrap();
         let error = errors.at(&-Vector3::z()).curvature;
         assert!((error - 2.0_f64.sqrt()).abs() < 1e-2, "{error}");
         // Where they are near, the size of the grain is in doubt.

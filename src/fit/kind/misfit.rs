@@ -1,9 +1,9 @@
 //! Whether a radius misses its scan, and what is told of it then.
 
-use super::options::FitOptions;
-use super::outcome::Fitted;
-use super::scatter::{FAR, scatter};
-use super::warning::FitWarning;
+use crate::fit::options::FitOptions;
+use crate::fit::outcome::Fitted;
+use crate::fit::points::scatter::{FAR, scatter};
+use crate::fit::warning::FitWarning;
 use crate::measure::{Deviation, feet};
 use crate::model::{Grain, NoStandardErrors, StarSurface, Surface};
 use crate::scan::Scan;
@@ -193,7 +193,7 @@ pub(super) fn normal_distances(grain: &Grain, points: &[Point3<f64>]) -> Deviati
 mod tests {
     use super::*;
     use crate::fit::context::Context;
-    use crate::fit::kind_choice::KindChoice;
+    use crate::fit::kind::choice::KindChoice;
     use crate::fit::prepare::PreparedScan;
     use crate::shapes::{Body, Sampling, SynthOptions, synthesize};
     use crate::sphere::Symmetry;
