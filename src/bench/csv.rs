@@ -1,7 +1,7 @@
 //! All rows as one table.
 
 use super::{BenchReport, BenchScan};
-use std::fmt::Display;
+use csv::Writer;
 use std::io::{self, Write};
 
 /// Names of the columns: the fields of [`BenchScan`] and [`BenchRow`](super::BenchRow).
@@ -16,17 +16,18 @@ const COLUMNS: &str = "scan,points,hidden,noise,reference,family,degree,segments
 /// # Errors
 /// Those of the writer.
 pub fn write_csv(report: &BenchReport, writer: &mut impl Write) -> io::Result<()> {
-    writeln!(writer, "{COLUMNS}")?;
-    report
-        .scans
-        .iter()
-        .try_for_each(|scan| write_rows(scan, writer))
+    let mut table = Writer::from_writer(writer);
+    table.write_record(COLUMNS.split(','))?;
+    for scan in &report.scans {
+        write_rows(scan, &mut table)?;
+    }
+    table.flush()
 }
 
-fn write_rows(scan: &BenchScan, writer: &mut impl Write) -> io::Result<()> {
+fn write_rows(scan: &BenchScan, table: &mut Writer<impl Write>) -> csv::Result<()> {
     for row in &scan.rows {
         let cells = [
-            quoted(&scan.scan),
+            scan.scan.clone(),
             scan.points.to_string(),
             scan.hidden.to_string(),
             known(scan.noise),
@@ -49,17 +50,13 @@ fn write_rows(scan: &BenchScan, writer: &mut impl Write) -> io::Result<()> {
             row.volume_error.to_string(),
             known(row.rms_error),
             row.seam_jump.to_string(),
-            row.rejected.as_deref().map_or(String::new(), quoted),
+            row.rejected.clone().unwrap_or_default(),
         ];
-        writeln!(writer, "{}", cells.join(","))?;
+        table.write_record(cells)?;
     }
     Ok(())
 }
 
-fn known(value: Option<impl Display>) -> String {
+fn known(value: Option<impl ToString>) -> String {
     value.map_or(String::new(), |value| value.to_string())
-}
-
-fn quoted(text: &str) -> String {
-    format!("\"{}\"", text.replace('"', "\"\""))
 }

@@ -47,7 +47,7 @@ pub struct Clump {
     /// grain's unit: over places that the spheres were not fitted to.
     pub rms: f64,
     /// Volume of the clump over that of the grain, less one. The volume is good to 1e-4 of itself, see
-    /// [`union_volume`].
+    /// [`union_volume`](union_volume()).
     pub volume_error: f64,
 }
 

@@ -58,8 +58,8 @@ pub struct Fitted {
     pub(crate) edged: Option<Vec<Point3<f64>>>,
     /// Standard errors of a surface that has no estimate of its radius.
     pub(crate) errors: Option<Result<StandardErrors, NoStandardErrors>>,
-    /// Of points that may be the centres of voxels, the mean distance from one to the next; zero of others.
-    pub(crate) step: f64,
+    /// Of points that may be the centres of voxels, the mean distance from one to the next.
+    pub(crate) step: Option<f64>,
 }
 
 /// What an estimate says of itself. Lengths are in the scan's unit.

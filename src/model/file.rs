@@ -52,7 +52,7 @@ struct GrainFile {
     /// Overlapping cells of the faces of a cube, blended.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     cells: Option<Vec<CellRecord>>,
-    /// How far cells blend, in widths of a cell; absent where it is [`MARGIN`].
+    /// How far cells blend, in widths of a cell; absent where it is the usual one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     margin: Option<f64>,
     /// Parts per angle of independent segments: n_s is its square.

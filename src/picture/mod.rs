@@ -1,6 +1,6 @@
 //! Pictures of surfaces, points and lines without a window or a browser: a small software rasteriser.
 //!
-//! A [`Scene`] is seen by a [`Camera`] and [rendered](render) into an [`Image`], which takes labels and is written as
+//! A [`Scene`] is seen by a [`Camera`] and [rendered](mod@render) into an [`Image`], which takes labels and is written as
 //! PNG. Views are orthographic, so that a scale bar is right everywhere. It knows nothing of grains.
 
 mod camera;

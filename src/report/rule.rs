@@ -7,7 +7,7 @@ use crate::fit::{FitOptions, Fitted, KindChoice, Rival, Tolerance};
 use crate::sphere::Symmetry;
 use crate::unit::Unit;
 
-/// The rule of [`crate::fit`] as it decided here.
+/// The rule of [`crate::fit`](crate::fit()) as it decided here.
 pub(super) fn rule(fitted: &Fitted, options: &FitOptions, unit: Option<Unit>) -> String {
     let labels = Labels(unit);
     let length = |length: f64| format!("{}{}", short(length), labels.length());

@@ -7,7 +7,6 @@ use super::{ReferenceRecord, Seconds};
 use crate::fit::{Candidate, FitOptions, Fitted};
 use crate::unit::Unit;
 use serde::Serialize;
-use std::io::{self, Write};
 
 /// The candidates of a search and the choice.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -96,42 +95,6 @@ impl SearchReport {
             warnings: sentences(&warnings, &fitted.warnings, unit),
         }
     }
-
-    /// Writes the candidates as CSV: a line of names, then a row each, `chosen` 1 or 0; what is not known is empty.
-    ///
-    /// # Errors
-    /// Those of the writer.
-    pub fn write_csv(&self, writer: &mut impl Write) -> io::Result<()> {
-        writeln!(
-            writer,
-            "degree,segments,coefficients,area_error,volume_error,heldout_rms,estimate_rms,\
-             reduced_segments,chosen,rejected"
-        )?;
-        let number = |value: Option<f64>| value.map_or(String::new(), |value| value.to_string());
-        for (at, row) in self.candidates.iter().enumerate() {
-            writeln!(
-                writer,
-                "{},{},{},{},{},{},{},{},{},{}",
-                row.degree,
-                row.segments,
-                row.coefficients,
-                number(row.area_error),
-                number(row.volume_error),
-                number(row.heldout_rms),
-                number(row.estimate_rms),
-                row.reduced_segments,
-                u8::from(at == self.chosen),
-                quoted(row.rejected.as_deref()),
-            )?;
-        }
-        Ok(())
-    }
-}
-
-fn quoted(text: Option<&str>) -> String {
-    text.map_or(String::new(), |text| {
-        format!("\"{}\"", text.replace('"', "\"\""))
-    })
 }
 
 impl From<&Candidate> for CandidateRecord {

@@ -44,9 +44,9 @@ pub use split::{Cut, Plane, Split, SplitGrain, split, split_labels, split_uncut}
 pub(crate) use split::{are_two_grains, has_neck, voxels_have_neck};
 pub use topology::Topology;
 pub(crate) use topology::each_edge;
-use volume::Centres;
 #[cfg(feature = "cli")]
 pub(crate) use volume::Extent;
+use volume::{Centres, Voxels};
 pub use volume::{Volume, VolumeError, VoxelBody, VoxelLattice, parse_volume, voxel_file};
 
 /// What is told of points in one plane.
@@ -60,12 +60,10 @@ pub struct Scan {
     pub(crate) points: Vec<Point3<f64>>,
     pub(crate) triangles: Vec<[u32; 3]>,
     pub(crate) topology: Option<Topology>,
-    /// See [`Self::scatter`].
-    pub(crate) scatter: f64,
-    /// Of a surface between voxels, where these lie.
-    pub(crate) lattice: Option<VoxelLattice>,
-    /// Of points that may be the centres of voxels, the mean distance from one to the next; zero of others.
-    pub(crate) step: f64,
+    /// The voxels that the surface lies between.
+    pub(crate) voxels: Option<Voxels>,
+    /// Of points that may be the centres of voxels, the mean distance from one to the next.
+    pub(crate) step: Option<f64>,
     /// See [`Self::unit`].
     pub(crate) unit: Option<String>,
     pub(crate) warnings: Vec<String>,
@@ -150,14 +148,14 @@ impl Scan {
     }
 
     /// Standard deviation of the points from the surface, along its normals, that is known before any fit: of voxels
-    /// that by which they are coarse; zero where nothing is known.
-    pub fn scatter(&self) -> f64 {
-        self.scatter
+    /// that by which they are coarse; `None` where nothing is known.
+    pub fn scatter(&self) -> Option<f64> {
+        self.voxels.as_ref().map(|voxels| voxels.scatter)
     }
 
     /// Whether the faces lie between voxels.
     pub(crate) fn is_of_voxels(&self) -> bool {
-        self.scatter > 0.0
+        self.voxels.is_some()
     }
 
     /// The unit of lengths that the header of an image or the heading of a table tells, such as `mm`; `None` where it tells none, as
@@ -198,15 +196,15 @@ impl Scan {
 
     /// Takes faces between voxels for those of a segmented volume.
     fn look_for_voxels(&mut self) {
-        let Some((lattice, scatter)) = volume::between_voxels(self) else {
+        let Some(voxels) = volume::between_voxels(self) else {
             return;
         };
         self.warnings.push(format!(
             "The vertices lie half-way between voxels of {}, as marching cubes without grey values put them: the faces are \
              taken as those of a segmented volume.",
-            lattice.sides()
+            voxels.lattice.sides()
         ));
-        (self.lattice, self.scatter) = (Some(lattice), scatter);
+        self.voxels = Some(voxels);
     }
 
     /// Takes points that are the centres of voxels for the boundary of these.
@@ -220,12 +218,8 @@ impl Scan {
                      outermost voxels.",
                     lattice.sides()
                 ));
-                self.step = lattice
-                    .steps
-                    .column_iter()
-                    .map(|step| step.norm())
-                    .sum::<f64>()
-                    / 3.0;
+                let steps = lattice.steps.column_iter().map(|step| step.norm());
+                self.step = Some(steps.sum::<f64>() / 3.0);
             }
             None => {}
         }
@@ -236,14 +230,13 @@ impl Scan {
     /// their own.
     pub(crate) fn part(&self, mesh: Mesh) -> Self {
         let mut part = Self {
-            scatter: self.scatter,
-            lattice: self.lattice,
+            voxels: self.voxels,
             step: self.step,
             unit: self.unit.clone(),
             ..Self::of_mesh(mesh)
         };
         inspect::inspect(&mut part);
-        if part.lattice.is_none() {
+        if part.voxels.is_none() {
             part.look_for_voxels();
         }
         part
@@ -251,14 +244,14 @@ impl Scan {
 
     /// Of a segmented volume, where its voxels lie: the points are half-way between two of them. `None` of other scans.
     pub fn voxel_lattice(&self) -> Option<&VoxelLattice> {
-        self.lattice.as_ref()
+        self.voxels.as_ref().map(|voxels| &voxels.lattice)
     }
 
     /// Of a segmented volume, what the voxels of the grain take up: their number times the volume of one. `None` of other
     /// scans.
     pub fn voxel_volume(&self) -> Option<f64> {
-        let lattice = self.lattice.as_ref()?;
-        Some(lattice.volume(&self.points))
+        let volume = |lattice: &VoxelLattice| lattice.volume(&self.points);
+        self.voxel_lattice().map(volume)
     }
 
     /// Whether all points lie in one plane, or do not span one: they enclose nothing.

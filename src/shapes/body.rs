@@ -13,11 +13,11 @@ use thiserror::Error;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Body {
-    /// [`bean`].
+    /// [`bean`](bean()).
     Bean,
-    /// [`chickpea`].
+    /// [`chickpea`](chickpea()).
     Chickpea,
-    /// [`maize`].
+    /// [`maize`](maize()).
     Maize,
     /// A [`Sphere`].
     Sphere,

@@ -67,7 +67,7 @@ impl AzimuthFft {
             .expect("a real series, of the lengths that were planned");
     }
 
-    /// The transpose: the sums of values[t] cos(m phi_t) + i values[t] sin(m phi_t). Overwrites
+    /// The transpose: the sums of `values[t] cos(m phi_t) + i values[t] sin(m phi_t)`. Overwrites
     /// `values`.
     pub(crate) fn adjoint(
         &self,

@@ -1,7 +1,7 @@
 //! How well the surface of a grain is known from place to place.
 //!
 //! Where it is, is off by the [error of its radius](super::local) and, as squares, by a bump that is [missing](super::tips) and
-//! no chance, by what the points leave open of a wide one, by what a [hole](crate::fit::hole) may hide, and where residuals are no noise by how much the points near by are missed
+//! no chance, by what the points leave open of a wide one, by what a [hole](crate::fit::holes) may hide, and where residuals are no noise by how much the points near by are missed
 //! when they are [left out](super::left_out).
 //!
 //! The curvature of a surface is off by that of the difference between it and the estimate, which is known, and by that

@@ -7,7 +7,7 @@
 //! - what [ripples](super::plateau) have raised the ends of flat sides by, at both of them;
 //! - the mean square of what is [missing](super::tips) at the ends, as far as the points tell it: the prior is the same
 //!   everywhere, and takes the last of a beak or a tip for noise;
-//! - what the largest [holes](super::hole) may hide, at the end itself or where the body may reach farther;
+//! - what the largest [holes](crate::fit::holes) may hide, at the end itself or where the body may reach farther;
 //! - a share of what the surface has above the highest point, which the prior alone has drawn: of clean grains with a point of
 //!   half the points' spacing it is some 5 % wrong;
 //! - where residuals are no noise, by how much the points near the ends are missed when they are

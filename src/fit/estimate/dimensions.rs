@@ -3,7 +3,7 @@
 //!
 //! The extent along a unit axis a is h = a.(X+ - X-), X+ and X- the points that lie farthest along a and -a. To
 //! first order these points move along the surface, which does not change h: what does is the change of the radius in
-//! their fixed directions, and the [turn](crate::fit::turn) of the axis,
+//! their fixed directions, and the [turn](crate::fit::outcome::turn) of the axis,
 //!
 //! ```text
 //! dh = a.(dX+ - dX-) + (X+ - X-).da

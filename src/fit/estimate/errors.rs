@@ -7,7 +7,7 @@
 //!   value of the estimate;
 //! - allowances for what second order brings: half of the area's excess, for it rests on degrees that the points
 //!   do not tell; [texture](super::texture) between the points, what noise along the surface [blurs](super::blur) of
-//!   it, what is missing of a [rim](super::rims) or over a [hole](super::hole); those of the [extents](super::dimension_errors); the repulsion of nearly
+//!   it, what is missing of a [rim](super::rims) or over a [hole](crate::fit::holes); those of the [extents](super::dimension_errors); the repulsion of nearly
 //!   equal moments;
 //! - a floor, for rounding and quadrature.
 //!

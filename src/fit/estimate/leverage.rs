@@ -1,7 +1,7 @@
 //! Leverage of points: how much of each the estimate follows.
 //!
-//! It is [computed](exact::Exact) of few points, [probed](probed) of more whose matrix is factored, or whose residuals are no noise, and
-//! [guessed](guessed) of others, of which each matters little. What counts is 1 - h: the others miss a point by e / (1 - h)
+//! It is [computed](exact::Exact) of few points, [probed](mod@probed) of more whose matrix is factored, or whose residuals are no noise, and
+//! [guessed](mod@guessed) of others, of which each matters little. What counts is 1 - h: the others miss a point by e / (1 - h)
 //! that the estimate misses by e, a thousand times as much at the lone point on the tip of a spindle.
 
 mod exact;

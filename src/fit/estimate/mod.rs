@@ -6,7 +6,7 @@
 //!    ellipsoid that is like the grain; the parameters of both are those under which the points are most likely.
 //!    No degree has to be chosen: it is high enough when the last degrees carry nothing.
 //! 3. Points that stand alone are left out, and those that lie off the surface to one side, and the estimate is made again.
-//! 4. Where what it leaves of the points is detail, they are followed [more closely](closer), as far as others are then missed by less.
+//! 4. Where what it leaves of the points is detail, they are followed [more closely](mod@closer), as far as others are then missed by less.
 //! 5. Clouds of more than 30 000 points, and uneven ones of more than 3000, are reduced to patch means, with one correction.
 //!
 //! The posterior covariance says how well every functional of the radius is known.
@@ -75,7 +75,7 @@ use std::borrow::Cow;
 use std::sync::Arc;
 use stopping::SETTLED;
 
-/// Estimates the radius, and makes the estimate again without points that lie off it to [one side](one_sided). `axes`: semi-axes of
+/// Estimates the radius, and makes the estimate again without points that lie off it to [one side](one_sided()). `axes`: semi-axes of
 /// the ellipsoid of equal second moments, along the grain's own axes.
 pub(crate) fn estimate(
     samples: &[Sample],

@@ -26,7 +26,7 @@ pub(crate) struct SpectrumFit {
     pub(crate) sums: Arc<Sums>,
     /// The factored matrix, where it is factored.
     pub(crate) factor: Option<Arc<Factor>>,
-    /// Whether conjugate gradients for the mean were [hard](HARD), and the matrix is better factored.
+    /// Whether conjugate gradients for the mean were hard, and the matrix is better factored.
     pub(crate) is_hard: bool,
 }
 

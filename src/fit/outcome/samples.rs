@@ -65,7 +65,7 @@ impl Samples {
         }
     }
 
-    /// Squares of the errors of a surface that was fitted to these samples, in the [directions] of cells.
+    /// Squares of the errors of a surface that was fitted to these samples, in the directions of cells.
     pub(super) fn local_errors(&self, grain: &Grain) -> Vec<Squares> {
         let places: Vec<Vector3<f64>> = self.points.iter().map(|point| point.coords).collect();
         let neighbours = Neighbours::new(&places);

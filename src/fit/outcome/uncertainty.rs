@@ -74,7 +74,7 @@ impl Fitted {
             _ => 0.0,
         });
         // Half a step outwards, all over.
-        let outwards = self.step / 2.0 * told.area / (3.0 * told.volume);
+        let outwards = self.step.unwrap_or(0.0) / 2.0 * told.area / (3.0 * told.volume);
         of_points.fold(self.beside_faces(told).hypot(outwards), f64::hypot)
     }
 

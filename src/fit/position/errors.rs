@@ -16,10 +16,10 @@
 //!   as it is more than they scatter; and the same of the vertices alone, for the body bulges over faces that are chords;
 //!   and of points without faces the same by the area that is nearest to each, for where they are sparse each tells more;
 //! - of [voxels](super::voxels), that those inside are not the grain: flat sides may lie anywhere between two layers;
-//! - of points without faces what a [hole](crate::fit::hole) between them may hide;
+//! - of points without faces what a [hole](crate::fit::holes) between them may hide;
 //! - what is [not resolved](Solved::unresolved): a part of it is taken to have the same sign everywhere;
 //! - of the area what second order brings: ripples of noise that the surface has, and of the grain that it has not, and
-//!   texture between the points, as [pairs](crate::fit::close_pairs) that lie close together tell it, or as far as the
+//!   texture between the points, as [pairs](crate::fit::points::close_pairs) that lie close together tell it, or as far as the
 //!   surface carries [detail](super::finest) as fine as points resolve: then what it leaves of them may be more of it;
 //!
 //! Those of lengths are [elsewhere](super::dimension_errors).

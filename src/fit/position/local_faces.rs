@@ -80,7 +80,7 @@ impl LocalFaces {
             points,
             semi_axes: semi_axes / size,
             steps: scan
-                .lattice
+                .voxel_lattice()
                 .map(|lattice| at_unit_frame.axes.tr_mul(&lattice.steps) / radius),
             frame: Frame {
                 centre: scale.point(&at_unit_frame.centre),

@@ -2,8 +2,8 @@
 //! surfaces that no centre sees, and for those with steep sides.
 //!
 //! The faces, or those of a [crust](super::crust) around points, are [mapped](map) to the sphere, one to one. Then
-//! coordinates are fitted as functions on the sphere, in [rounds](rounds) that also move the directions; cells are
-//! [split](search) where the distance asks for it.
+//! coordinates are fitted as functions on the sphere, in [rounds] that also move the directions; cells are
+//! [split](mod@search) where the distance asks for it.
 
 mod cloud;
 mod dimension_errors;
@@ -122,7 +122,7 @@ pub(super) fn fit_position_if(
     let local = LocalFaces::new(scan)?;
     let radius = local.radius;
     let tolerance = options.tolerance.length(radius);
-    let limit = tolerance.max(OVER_SCATTER * scan.scatter);
+    let limit = tolerance.max(OVER_SCATTER * scan.scatter().unwrap_or(0.0));
     let is_worth = |coefficients: usize, rms: f64| {
         is_worth(Rival {
             coefficients,

@@ -93,8 +93,8 @@ pub struct PreparedScan<'a> {
     pub(super) middles: Vec<Middle>,
     /// Whether it is fitted as a thin rod.
     pub(super) is_rod: bool,
-    /// Of points that may be the centres of voxels, the mean distance from one to the next; zero of others.
-    pub(super) step: f64,
+    /// Of points that may be the centres of voxels, the mean distance from one to the next.
+    pub(super) step: Option<f64>,
     points: Cow<'a, [Point3<f64>]>,
     representatives: Option<Vec<Point3<f64>>>,
 }

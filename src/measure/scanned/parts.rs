@@ -57,7 +57,7 @@ fn sizes(scan: &Scan, mesh: &Mesh) -> Vec<Size> {
             volume += a.dot(&b.cross(&c)) / 6.0;
         }
         // The corners of voxels that their surface cuts off are most of a small hollow.
-        if let Some(lattice) = scan.lattice {
+        if let Some(lattice) = scan.voxel_lattice() {
             volume = lattice.volume(&own.vertices).copysign(volume);
         }
         Size {
@@ -79,7 +79,7 @@ pub(crate) fn without_dust(scan: &Scan) -> Option<(Scan, LeftOut)> {
     let area: f64 = sizes.iter().map(|size| size.area).sum();
     let outer: f64 = sizes.iter().map(|size| size.volume.max(0.0)).sum();
     let is_small = |size: &mut Size| {
-        let has_few = scan.lattice.is_some() || size.vertices as f64 <= DUST * vertices;
+        let has_few = scan.is_of_voxels() || size.vertices as f64 <= DUST * vertices;
         has_few && size.area <= DUST * area
     };
     let small: Vec<Size> = sizes.extract_if(.., is_small).collect();

@@ -4,9 +4,9 @@
 //! through itself it winds round places twice, or the wrong way: sums over its triangles then count these so many times,
 //! and add up area that is not on the outside.
 //!
-//! 1. [Triangles that may cross](candidates), from how the surface is seen from its middle.
+//! 1. [Triangles that may cross](mod@candidates), from how the surface is seen from its middle.
 //! 2. The pairs that do, by exact predicates.
-//! 3. The [patches](patches) between them, and how often the surface winds round the places on both sides of each.
+//! 3. The [patches] between them, and how often the surface winds round the places on both sides of each.
 
 mod candidates;
 mod patches;

@@ -33,7 +33,7 @@ use std::fmt;
 /// what others need is shared.
 ///
 /// Area, volume and moments of a grain are those of its formulas ([`grain_properties`]); its dimensions and
-/// the sides of its box are where its surface reaches to ([`support`](super::support)); convexity, spheres
+/// the sides of its box are where its surface reaches to ([`support`](super::support())); convexity, spheres
 /// and outlines are those of a mesh of it, good to 1e-4 where it is smooth. Of a mesh, everything is that of
 /// the polyhedron. Of unions of superquadrics area, volume and moments are those of [`solid_properties`]; of such that no
 /// centre sees whole all else is that of a mesh, good to 1e-3, and curvature is an error.

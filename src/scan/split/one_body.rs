@@ -13,7 +13,7 @@ const THIN_OF_VOXELS: f64 = 0.7;
 /// Points by which a neck is looked for in a scan of one body.
 const NECK_POINTS: usize = 4000;
 
-/// Whether a cloud without faces, taken for one body, has a neck at which [`split`] would cut it.
+/// Whether a cloud without faces, taken for one body, has a neck at which [`split`](super::split()) would cut it.
 pub(crate) fn has_neck(points: &[Point3<f64>]) -> bool {
     let drawn = evenly_drawn(points, NECK_POINTS);
     let waist = |times: f64| neck_of(&drawn, times).filter(Neck::is_waist);

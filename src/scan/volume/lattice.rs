@@ -184,7 +184,7 @@ mod tests {
             return None;
         };
         assert!(scan.topology().unwrap().closed && scan.warnings().len() == 1);
-        assert!(scan.scatter() > 0.0);
+        assert!(scan.scatter().unwrap() > 0.0);
         let mesh = Mesh {
             vertices: scan.points().to_vec(),
             triangles: scan.triangles().to_vec(),

@@ -28,6 +28,7 @@ pub use error::VolumeError;
 pub(crate) use extent::Extent;
 pub(super) use lattice::{Centres, centres};
 pub use voxel_lattice::VoxelLattice;
+pub(super) use voxel_lattice::Voxels;
 
 use super::check::check;
 use super::{ReadError, Scan, inspect, source};
@@ -346,8 +347,8 @@ impl Volume {
     }
 }
 
-/// Of closed faces whose vertices lie half-way between two voxels, where these lie, and how far the vertices are off the surface.
-pub(super) fn between_voxels(scan: &Scan) -> Option<(VoxelLattice, f64)> {
+/// The voxels between which closed faces lie, if their vertices are half-way between two.
+pub(super) fn between_voxels(scan: &Scan) -> Option<Voxels> {
     scan.topology.as_ref().filter(|topology| topology.closed)?;
     let lattice = half_way(&scan.points, &scan.triangles)?;
     let to_steps = lattice.steps.try_inverse()?;
@@ -356,7 +357,7 @@ pub(super) fn between_voxels(scan: &Scan) -> Option<(VoxelLattice, f64)> {
         *vertex = (to_steps * (*vertex - lattice.first)).into();
     }
     let scatter = scatter::scatter(&mesh, &lattice.steps);
-    Some((lattice, scatter))
+    Some(Voxels { lattice, scatter })
 }
 
 /// The boundary of the voxels of a grid as a scan.
@@ -374,9 +375,9 @@ fn voxel_scan(grid: &Grid, first: Point3<f64>, steps: &Matrix3<f64>) -> Result<S
     check(&mesh.vertices).map_err(|_| VolumeError::NoBody)?;
     let mut scan = Scan::of_mesh(mesh);
     inspect::inspect(&mut scan);
-    scan.scatter = scatter;
     let steps = *steps;
-    scan.lattice = Some(VoxelLattice { first, steps });
+    let lattice = VoxelLattice { first, steps };
+    scan.voxels = Some(Voxels { lattice, scatter });
     Ok(scan)
 }
 

@@ -16,6 +16,15 @@ pub struct VoxelLattice {
     pub steps: Matrix3<f64>,
 }
 
+/// The voxels that a surface lies between.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Voxels {
+    /// Where they lie.
+    pub(crate) lattice: VoxelLattice,
+    /// See [`Scan::scatter`](crate::scan::Scan::scatter).
+    pub(crate) scatter: f64,
+}
+
 impl VoxelLattice {
     /// The lengths of the steps, as text.
     pub(crate) fn sides(&self) -> String {

@@ -1,7 +1,7 @@
 //! Bodies that no centre sees whole: bananas, cups, mushrooms, hooks, and balls that are sheared at random.
 //!
 //! Each is a closed surface over the unit sphere, X(n), that never crosses itself, and each has a volume in closed form
-//! or converged: bodies of revolution, straight or [bent](bent), and a ball moved by [shears](sheared), which keep
+//! or converged: bodies of revolution, straight or [bent], and a ball moved by [shears](sheared), which keep
 //! volumes.
 
 mod bent;

@@ -61,7 +61,7 @@ impl<const WIDTH: usize> Places<WIDTH> {
         }
     }
 
-    /// values[i] = the function on the grid in direction i.
+    /// `values[i]` = the function on the grid in direction i.
     pub(super) fn interpolate(&self, points: &[f64], values: &mut [f64]) {
         vectorize(
             #[inline(always)]
