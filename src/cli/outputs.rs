@@ -136,7 +136,7 @@ const ROUNDED: f64 = 0.01;
 
 /// Tells of a mesh that its format rounds.
 pub(super) fn rounded(format: MeshFormat, mesh: &Mesh) -> Option<String> {
-    let share = format.rounding(mesh);
+    let share = rounding(format, mesh);
     (share > ROUNDED).then(|| {
         format!(
             "STL holds seven digits of a coordinate, and the scan lies so far from its origin that these move the corners of the mesh by up \
@@ -144,6 +144,20 @@ pub(super) fn rounded(format: MeshFormat, mesh: &Mesh) -> Option<String> {
             100.0 * share
         )
     })
+}
+
+/// By how much coordinates of a mesh are rounded at most, as a share of the mean edge of its triangles: those of STL have 24
+/// binary digits, and far from its origin few are left for the body.
+fn rounding(format: MeshFormat, mesh: &Mesh) -> f64 {
+    if format != MeshFormat::Stl {
+        return 0.0;
+    }
+    let place = |corner: u32| mesh.vertices[corner as usize];
+    let edges = mesh.triangles.iter();
+    let edges = edges.map(|corners| (place(corners[1]) - place(corners[0])).norm());
+    let farthest = mesh.vertices.iter().map(|vertex| vertex.coords.amax());
+    let rounding = farthest.fold(0.0, f64::max) * f64::from(f32::EPSILON) / 2.0;
+    rounding * mesh.triangles.len() as f64 / edges.sum::<f64>()
 }
 
 /// Draws the portrait of a grain into a PNG file.
@@ -231,5 +245,29 @@ fn list(extensions: &[&str]) -> String {
         [one] => (*one).into(),
         [most @ .., last] => format!("{} or {last}", most.join(", ")),
         [] => String::new(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::Vector3;
+
+    #[test]
+    fn stl_rounds_what_is_far_from_its_origin() {
+        let mut mesh = Mesh::radial(8, |_| 1.0);
+        assert!(rounding(MeshFormat::Stl, &mesh) < 1e-6);
+        let offset = Vector3::x() * 1e6;
+        mesh.vertices
+            .iter_mut()
+            .for_each(|vertex| *vertex += offset);
+        // Numbers near a million in 24 binary digits are a sixteenth apart.
+        let written = |x: f64| f64::from(x as f32);
+        let moved = mesh.vertices.iter().map(|v| (written(v.x) - v.x).abs());
+        let most = moved.fold(0.0, f64::max);
+        let edge = 0.2;
+        let share = rounding(MeshFormat::Stl, &mesh) * edge / most;
+        assert!((0.7..2.5).contains(&share), "{share}");
+        assert_eq!(rounding(MeshFormat::Ply, &mesh), 0.0);
     }
 }

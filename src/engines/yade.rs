@@ -47,123 +47,29 @@ pub(super) fn files(deck: &Deck) -> Vec<InputFile<'_>> {
     ]
 }
 
+/// The script, after the numbers that it is given.
 fn script(deck: &Deck) -> String {
     let material = &deck.material;
     let step = deck.time_step();
-    format!(
-        r#"# Clumps fall into a box and come to rest. SI units: m, kg, s, J.
-import csv
-import os
-import sys
-from math import atan, pi, sqrt
-from yade import utils
-
-floor = {width:e}, {depth:e}
-rest = {rest:e}  # kinetic energy below which all are at rest
-density = {density:e}
-
-
-def rows(name):
-    with open(name) as file:
-        return list(csv.DictReader(file))
-
-
-def numbers(row, names):
-    return [float(row[name]) for name in names.split()]
-
-
-def material(density):
-    return O.materials.append(FrictMat(
-        young={young:e}, poisson={poisson:e}, frictionAngle=atan({friction:e}), density=density))
-
-
-kinds = {{row["kind"]: numbers(row, "mass ixx iyy izz") for row in rows("kinds.csv")}}
-spheres = {{name: [] for name in kinds}}
-for row in rows("spheres.csv"):
-    spheres[row["kind"]].append(numbers(row, "x y z r"))
-
-# Spheres that touch weigh next to nothing; six that touch nothing carry mass and inertia.
-light = material({light:e} * density)
-carriers = {{}}
-for name, (mass, *moments) in kinds.items():
-    size = 0.01 * sqrt(min(moments) / mass)
-    own = material(mass / 6 / (4 / 3 * pi * size**3))
-    sum_of_squares = 1.5 / mass * sum(moments) - 1.8 * size**2
-    arms = [sqrt(sum_of_squares - 3 / mass * i + 1.2 * size**2) for i in moments]
-    carriers[name] = (own, size, arms)
-
-walls = material(density)
-O.bodies.append([utils.wall(at, axis, material=walls)
-                 for at, axis in ((0, 0), (floor[0], 0), (0, 1), (floor[1], 1), (0, 2))])
-clumps = []
-for row in rows("grains.csv"):
-    name = row["kind"]
-    centre = Vector3(*numbers(row, "x y z"))
-    turn = Quaternion(*numbers(row, "qw qx qy qz"))
-    members = [utils.sphere(centre + turn * Vector3(x, y, z), r, material=light) for x, y, z, r in spheres[name]]
-    own, size, arms = carriers[name]
-    for axis in range(3):
-        for sign in (1, -1):
-            arm = Vector3(0, 0, 0)
-            arm[axis] = sign * arms[axis]
-            members.append(utils.sphere(centre + turn * arm, size, material=own, mask=0))
-    clump, ids = O.bodies.appendClumped(members, discretization=0)
-    clumps.append(clump)
-    # What damping at contacts takes for the mass.
-    for body in ids:
-        O.bodies[body].state.mass = kinds[name][0]
-
-O.engines = [
-    ForceResetter(),
-    InsertionSortCollider([Bo1_Sphere_Aabb(), Bo1_Wall_Aabb()], verletDist={skin:e}),
-    InteractionLoop(
-        [Ig2_Sphere_Sphere_ScGeom(), Ig2_Wall_Sphere_ScGeom()],
-        [Ip2_FrictMat_FrictMat_MindlinPhys(en={restitution:e}, es={restitution:e})],
-        [Law2_ScGeom_MindlinPhys_Mindlin()]),
-    NewtonIntegrator(damping=0, gravity=(0, 0, -{GRAVITY}), exactAsphericalRot=True),
-]
-O.dt = {step:e}
-
-
-def energy():
-    total = 0
-    for clump in clumps:
-        state = O.bodies[clump].state
-        spin = state.ori.conjugate() * state.angVel
-        total += 0.5 * state.mass * state.vel.squaredNorm()
-        total += 0.5 * sum(state.inertia[i] * spin[i]**2 for i in range(3))
-    return total
-
-
-first = O.bodies[clumps[0]].state
-print("first grain: mass %.9e kg, centre %.9e %.9e %.9e m, moments %.9e %.9e %.9e kg m2" % (
-    first.mass, *first.pos, *sorted(first.inertia)))
-O.run({falling}, True)
-while energy() >= rest and O.iter < {most}:
-    O.run(500, True)
-lost = sum(1 for clump in clumps if not (0 < O.bodies[clump].state.pos[2]
-           and all(0 < O.bodies[clump].state.pos[axis] < floor[axis] for axis in (0, 1))))
-print("%s: kinetic energy %e J, %d grains, %d lost, %d steps" % (
-    "at rest" if energy() < rest else "not at rest", energy(), len(clumps), lost, O.iter))
-with open("settled.csv", "w") as file:
-    file.write("x,y,z,r\n")
-    for body in O.bodies:
-        if isinstance(body.shape, Sphere) and body.mask:
-            file.write("%.9e,%.9e,%.9e,%.9e\n" % (*body.state.pos, body.shape.radius))
-sys.stdout.flush()
-os._exit(0)
-"#,
-        width = deck.floor[0],
-        depth = deck.floor[1],
-        rest = deck.rest_energy(),
-        density = material.density,
-        young = material.youngs_modulus,
-        poisson = material.poissons_ratio,
-        friction = material.friction,
-        restitution = material.restitution,
-        light = LIGHT,
-        skin = 0.3 * deck.least_radius(),
-        falling = (deck.fall() / step) as usize,
-        most = (deck.seconds / step) as usize,
-    )
+    let [width, depth] = deck.floor;
+    let mut script =
+        String::from("# Clumps fall into a box and come to rest. SI units: m, kg, s, J.\n");
+    let _ = writeln!(script, "floor = {width:e}, {depth:e}");
+    for (name, value) in [
+        ("rest", deck.rest_energy()),
+        ("density", material.density),
+        ("young", material.youngs_modulus),
+        ("poisson", material.poissons_ratio),
+        ("friction", material.friction),
+        ("restitution", material.restitution),
+        ("gravity", GRAVITY),
+        ("light_share", LIGHT),
+        ("skin", 0.3 * deck.least_radius()),
+        ("step", step),
+    ] {
+        let _ = writeln!(script, "{name} = {value:e}");
+    }
+    let [falling, most] = [deck.fall(), deck.seconds].map(|seconds| (seconds / step) as usize);
+    let _ = writeln!(script, "falling = {falling}\nmost = {most}\n");
+    script + include_str!("yade/settle.py")
 }

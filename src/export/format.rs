@@ -32,20 +32,6 @@ impl MeshFormat {
         extension.parse().ok()
     }
 
-    /// By how much coordinates of a mesh are rounded at most, as a share of the mean edge of its triangles: those of STL have 24
-    /// binary digits, and far from its origin few are left for the body.
-    pub fn rounding(self, mesh: &Mesh) -> f64 {
-        if self != Self::Stl {
-            return 0.0;
-        }
-        let place = |corner: u32| mesh.vertices[corner as usize];
-        let edges = mesh.triangles.iter();
-        let edges = edges.map(|corners| (place(corners[1]) - place(corners[0])).norm());
-        let farthest = mesh.vertices.iter().map(|vertex| vertex.coords.amax());
-        let rounding = farthest.fold(0.0, f64::max) * f64::from(f32::EPSILON) / 2.0;
-        rounding * mesh.triangles.len() as f64 / edges.sum::<f64>()
-    }
-
     /// Writes a mesh in this format.
     ///
     /// # Errors
@@ -95,7 +81,6 @@ impl FromStr for MeshFormat {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use nalgebra::Vector3;
 
     #[test]
     fn a_name_may_have_letters_of_either_case() {
@@ -105,23 +90,5 @@ mod tests {
             assert_eq!(MeshFormat::of(&path), Some(MeshFormat::Stl));
         }
         assert!("xyz".parse::<MeshFormat>().is_err());
-    }
-
-    #[test]
-    fn stl_rounds_what_is_far_from_its_origin() {
-        let mut mesh = Mesh::radial(8, |_| 1.0);
-        assert!(MeshFormat::Stl.rounding(&mesh) < 1e-6);
-        let offset = Vector3::x() * 1e6;
-        mesh.vertices
-            .iter_mut()
-            .for_each(|vertex| *vertex += offset);
-        // Numbers near a million in 24 binary digits are a sixteenth apart.
-        let written = |x: f64| f64::from(x as f32);
-        let moved = mesh.vertices.iter().map(|v| (written(v.x) - v.x).abs());
-        let most = moved.fold(0.0, f64::max);
-        let edge = 0.2;
-        let share = MeshFormat::Stl.rounding(&mesh) * edge / most;
-        assert!((0.7..2.5).contains(&share), "{share}");
-        assert_eq!(MeshFormat::Ply.rounding(&mesh), 0.0);
     }
 }
