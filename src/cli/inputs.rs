@@ -52,6 +52,15 @@ pub(super) fn unit_of(told: Option<&str>, asked: Option<Unit>) -> Option<Unit> {
     asked.or_else(|| told?.parse().ok())
 }
 
+/// What is said of a model whose unit is not known here.
+pub(super) fn foreign_unit(grain: &Grain, name: &str) -> Option<String> {
+    let told = grain.unit().filter(|told| told.parse::<Unit>().is_err())?;
+    Some(format!(
+        "{name} says that its lengths are in {}, and so are its figures: no unit is told with them.",
+        told.escape_debug()
+    ))
+}
+
 /// The scan in a file or in standard input, its lengths in this unit.
 pub(super) fn scan(path: &Path, input: &InputArgs, unit: Option<Unit>) -> Result<Scan> {
     parse_scan(path, &read(path, &input.limit)?, input, unit)

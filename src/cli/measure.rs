@@ -35,7 +35,9 @@ fn measure(args: &MeasureArgs) -> Result<MeasureReport> {
         let grain = inputs::parse_model(path, &bytes, args.unit)?;
         let survey = Survey::of_grain(&grain, args.scheme.0);
         let withheld = Withheld::of(&grain, args.extrapolate);
-        let report = MeasureReport::of_model(input, &survey, only, &withheld);
+        let foreign = inputs::foreign_unit(&grain, &input);
+        let mut report = MeasureReport::of_model(input, &survey, only, &withheld);
+        report.warnings.extend(foreign);
         return Ok(report.in_unit(inputs::unit_of(grain.unit(), args.unit)));
     }
     if args.scheme.0 != Scheme::Exact {

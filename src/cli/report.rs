@@ -156,7 +156,8 @@ impl<'a> Input<'a> {
         let (told, missing) = measured(&survey, &withheld, unit);
         let guess = grain.unseen().filter(|_| args.extrapolate);
         let guess = guess.map(|unseen| format!("Of {name}, {unseen}."));
-        let warnings = guess.into_iter().chain(missing).collect();
+        let foreign = inputs::foreign_unit(&grain, &name);
+        let warnings = guess.into_iter().chain(missing).chain(foreign).collect();
         let measures = MeasureRow::of(&told.measures, told.standard_errors.as_ref(), unit);
         draw(args, &name, &grain, None, unit)?;
         let mut facts = vec![("model", plural(grain.coefficient_count(), "coefficient"))];

@@ -67,6 +67,7 @@ fn of_grain(grain: Grain, name: &str) -> Result<Solid> {
 pub(super) fn doubts(grain: &Grain, name: &str) -> Vec<String> {
     let mut doubts = Withheld::of(grain, false).sentences(name);
     doubts.extend(guess(grain, name));
+    doubts.extend(inputs::foreign_unit(grain, name));
     doubts
 }
 

@@ -298,6 +298,9 @@ fn a_scan_is_a_clump_in_the_sizes_of_a_batch() {
         refused.contains("tells no volumes: of 2 grains all lack volume (half unseen)"),
         "{refused}"
     );
+    fs::write(&path, "path,status,volume\na.ply,failed,\nb.ply,failed,\n").unwrap();
+    let refused = errors(&grainform(&folder, &words_of_rest));
+    assert!(refused.contains("has no grain with a result"), "{refused}");
     // The same grains in micrometres, in another folder.
     let told = "path,unit,volume\na.ply,um,4.18879e9\nb.ply,um,1.413717e10\nc.ply,um,3.351032e10\nd.ply,,\n";
     fs::write(folder.path().join("results_um.csv"), told).unwrap();

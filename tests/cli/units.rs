@@ -221,3 +221,38 @@ fn a_model_keeps_its_unit() {
     );
     assert!(succeed(&folder, &["measure", "odd.csv"]).contains("in the scan's unit"));
 }
+
+#[test]
+fn a_unit_that_is_not_known_here_is_told_and_none_beside_it_taken() {
+    let folder = folder();
+    let rows: String = (0..400)
+        .map(|i| {
+            let (z, turn) = (1.0 - (2.0 * f64::from(i) + 1.0) / 400.0, 2.4 * f64::from(i));
+            let across = (1.0 - z * z).sqrt();
+            format!("{},{},{z}\n", across * turn.cos(), across * turn.sin())
+        })
+        .collect();
+    std::fs::write(
+        folder.path().join("far.csv"),
+        format!("x [km],y [km],z [km]\n{rows}"),
+    )
+    .unwrap();
+    succeed(&folder, &["fit", "far.csv", "-o", "far.json"]);
+    let report = json(&folder, &["measure", "far.json", "--only", "volume"]);
+    assert!(report["unit"].is_null());
+    let told = "far.json says that its lengths are in km, and so are its figures: no unit is told with them.";
+    assert_eq!(report["warnings"][0], told);
+    assert!(errors(&grainform(&folder, &["clump", "far.json"])).contains(told));
+    let export = |unit: &[&str]| {
+        let words = [
+            &["export-dem", "far.json", "--engine", "yade", "-o", "dem"],
+            unit,
+        ]
+        .concat();
+        errors(&grainform(&folder, &words))
+    };
+    assert!(export(&[]).contains(
+        "far.json has its lengths in km: expected nm, um, mm, cm, dm, m or inch; convert the scan"
+    ));
+    assert!(export(&["--unit", "mm"]).contains("convert the scan, or correct the file"));
+}
