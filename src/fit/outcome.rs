@@ -47,8 +47,8 @@ pub struct Fitted {
     /// The expansion of the whole sphere that comes as near to the estimate as the chosen cells. `None` where there are no
     /// cells.
     pub whole: Option<StarGrain>,
-    /// What a user should know of the scan and the fit.
-    pub warnings: Vec<FitWarning>,
+    /// See [`Self::warnings`]: standard errors follow from them too.
+    pub(crate) warnings: Vec<FitWarning>,
     /// Area, volume, moments and mean radius of the grain at unit size, once they are measured.
     pub(crate) measured: Option<Measured>,
     pub(crate) posterior: Option<Box<Estimate>>,
@@ -108,6 +108,11 @@ impl Residuals {
 }
 
 impl Fitted {
+    /// What a user should know of the scan and the fit.
+    pub fn warnings(&self) -> &[FitWarning] {
+        &self.warnings
+    }
+
     /// The survey of the grain as it was fitted, with exact integrals; what the fit measured is not measured again.
     pub fn survey(&self) -> Survey<'_> {
         match self.measured {

@@ -232,9 +232,9 @@ fn a_missing_cap_is_told_of_and_bridged() {
         let scan = Scan::from_points(synthetic.points);
         let fitted = fit(&scan, &FitOptions::default()).expect("a grain");
         assert!(
-            matches!(fitted.warnings[..], [FitWarning::Gap { .. }]),
+            matches!(fitted.warnings()[..], [FitWarning::Gap { .. }]),
             "{:?}",
-            fitted.warnings
+            fitted.warnings()
         );
         let found = grain_properties(&fitted.grain).properties;
         let volume = found.volume / synthetic.truth.properties.volume - 1.0;
@@ -259,8 +259,8 @@ fn gross_outliers_are_left_out_and_counted() {
         .count();
     let scan = Scan::from_points(synthetic.points);
     let fitted = fit(&scan, &FitOptions::default()).expect("a grain");
-    let left_out: usize = fitted.warnings.iter().map(left_out).sum();
-    assert_eq!(left_out, moved, "{:?}", fitted.warnings);
+    let left_out: usize = fitted.warnings().iter().map(left_out).sum();
+    assert_eq!(left_out, moved, "{:?}", fitted.warnings());
     assert_eq!(
         fitted.estimate.map(|estimate| estimate.outliers),
         Some(moved)

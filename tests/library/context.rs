@@ -183,12 +183,12 @@ fn warnings_are_data_and_sentences() {
         } => Some((half_angle, direction)),
         _ => None,
     };
-    let (half_angle, direction) = found.warnings.iter().find_map(gap).expect("a gap");
+    let (half_angle, direction) = found.warnings().iter().find_map(gap).expect("a gap");
     assert!(
         (0.8..1.6).contains(&half_angle) && direction.z < -0.9,
         "{direction}"
     );
-    let sentence = found.warnings[0].to_string();
+    let sentence = found.warnings()[0].to_string();
     assert!(sentence.starts_with("No point lies within "), "{sentence}");
 
     // One that stands alone, and one too few.
@@ -196,20 +196,20 @@ fn warnings_are_data_and_sentences() {
     spiked[most / 3].coords *= 1.08;
     let spiked = Scan::from_points(spiked);
     let found = fit(&spiked, &FitOptions::default()).expect("a grain");
-    assert_eq!(found.warnings, [FitWarning::Outliers { outliers: 1 }]);
+    assert_eq!(found.warnings(), [FitWarning::Outliers { outliers: 1 }]);
     assert_eq!(found.points, most - 1);
-    let sentence = found.warnings[0].to_string();
+    let sentence = found.warnings()[0].to_string();
     assert!(sentence.starts_with("1 point lies far off"), "{sentence}");
 
     let options = FitOptions::default()
         .with_max_segments(6)
         .with_max_degree(1);
     let found = fit(&scan, &options).expect("a grain");
-    let [FitWarning::LimitNotMet { rms, limit }] = found.warnings[..] else {
-        panic!("{:?}", found.warnings);
+    let [FitWarning::LimitNotMet { rms, limit }] = found.warnings()[..] else {
+        panic!("{:?}", found.warnings());
     };
     assert!(rms > limit && limit == found.search.limit);
-    let sentence = found.warnings[0].to_string();
+    let sentence = found.warnings()[0].to_string();
     assert!(sentence.contains("more than the limit of") && sentence.contains("--max-segments"));
 }
 

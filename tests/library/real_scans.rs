@@ -19,7 +19,7 @@ fn try_fit(path: &Path) -> Result<Fitted, FitError> {
 
 /// Whether a warning has these words.
 fn told(fitted: &Fitted, words: &str) -> bool {
-    let mut warnings = fitted.warnings.iter().map(ToString::to_string);
+    let mut warnings = fitted.warnings().iter().map(ToString::to_string);
     warnings.any(|warning| warning.contains(words))
 }
 
@@ -141,7 +141,7 @@ fn what_is_no_ball_is_refused_with_the_reason() {
 fn folds_are_followed_by_positions() {
     let scans = scans();
     let fitted = try_fit(&scans.join("stone/low_res_E34.ply")).expect("nearly star-shaped");
-    assert!(fitted.grain.position().is_some() && fitted.warnings.is_empty());
+    assert!(fitted.grain.position().is_some() && fitted.warnings().is_empty());
     // A radius leaves 1 % of the size.
     assert!(fitted.residuals.rms < 0.004 * fitted.mean_radius);
     let found = grain_properties(&fitted.grain).properties;
@@ -162,7 +162,7 @@ fn odd_clouds_of_the_hostile_folder_end_as_they_should() {
     let outliers = try_fit(&made.join("ply_084_outliers_1pct.ply")).expect("a grain");
     assert!(told(&outliers, "farther from it than their neighbours"));
     let half = try_fit(&made.join("ply_085_half_scan.ply")).expect("half a grain");
-    assert!(told(&half, "is a guess"), "{:?}", half.warnings);
+    assert!(told(&half, "is a guess"), "{:?}", half.warnings());
     assert!(try_fit(&made.join("ply_078_two_bodies.ply")).is_err());
 }
 
