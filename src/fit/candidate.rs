@@ -1,6 +1,5 @@
 //! The candidates of a search, and what became of them.
 
-use super::options::Seams;
 use crate::sphere::coefficient_count;
 
 /// One setting of the search and what became of it.
@@ -53,8 +52,6 @@ pub enum Rejection {
 /// What a search found.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Search {
-    /// How segments are joined.
-    pub seams: Seams,
     /// Every candidate: by segments and then by degree, or the rounds of a refinement.
     pub candidates: Vec<Candidate>,
     /// Index of the chosen one.

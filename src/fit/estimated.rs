@@ -5,7 +5,7 @@ use super::candidate::{Candidate, Search, Work};
 use super::context::{Context, Stage};
 use super::error::FitError;
 use super::estimate::Estimate;
-use super::options::{FitOptions, Seams, Tolerance};
+use super::options::{FitOptions, Tolerance};
 use super::outcome::{EstimateSummary, Fitted, Residuals};
 use super::prepare::{Origin, PreparedScan, Sample};
 use super::rippled::without_ripples;
@@ -220,7 +220,6 @@ fn search(estimate: &Estimate, aim: &Aim, cut: Option<&Outcome>) -> Search {
         .iter()
         .map(|round| near(round.degree, round.cells, round.coefficients, round.rms));
     Search {
-        seams: Seams::Blended,
         chosen: cut.map_or(0, |cut| 1 + cut.chosen),
         candidates: once(whole).chain(cells).collect(),
         limit: aim.limit,

@@ -4,7 +4,7 @@ use super::candidate::{Candidate, Search, Work};
 use super::context::Context;
 use super::error::FitError;
 use super::kind::choice::{KindChoice, Rival};
-use super::options::{FEWEST_CELLS, FitOptions, Seams};
+use super::options::{FEWEST_CELLS, FitOptions};
 use super::outcome::sound::{self, Off, not_followed};
 use super::outcome::{Fitted, Residuals};
 use super::points::scatter::scatter;
@@ -87,7 +87,6 @@ pub(super) fn positioned(
         grain,
         kind,
         search: Search {
-            seams: Seams::Blended,
             chosen: 0,
             candidates: vec![candidate],
             limit: fit.limit,

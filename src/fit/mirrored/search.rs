@@ -11,7 +11,7 @@ use crate::fit::candidate::{Candidate, Rejection, Search, Work, choose};
 use crate::fit::context::{Context, Stage};
 use crate::fit::error::FitError;
 use crate::fit::linear::Factorization;
-use crate::fit::options::{FitOptions, Seams};
+use crate::fit::options::FitOptions;
 use crate::fit::outcome::Residuals;
 use crate::fit::prepare::{CellGrid, PreparedScan, Sample};
 use crate::fit::segments::{
@@ -108,7 +108,6 @@ pub(crate) fn search(
         points: samples.len(),
         asymmetry: asymmetry(samples, symmetry),
         search: Search {
-            seams: Seams::Blended,
             candidates,
             chosen,
             limit,

@@ -24,7 +24,7 @@ use super::segment::SegmentFit;
 use crate::fit::candidate::{Candidate, Rejection, Search, Work, choose};
 use crate::fit::context::{Context, Stage};
 use crate::fit::error::FitError;
-use crate::fit::options::{FitOptions, Seams};
+use crate::fit::options::FitOptions;
 use crate::fit::outcome::Residuals;
 use crate::fit::prepare::PreparedScan;
 use crate::model::Segmented;
@@ -115,7 +115,6 @@ pub(crate) fn search(
         points: levels.points(),
         residuals,
         search: Search {
-            seams: Seams::None,
             candidates,
             chosen,
             limit,
