@@ -2,12 +2,9 @@
 
 use crate::digits::plural;
 use crate::fit::EstimateSummary;
-use crate::model::{Grain, Surface};
-use crate::sphere::cube_grid;
+use crate::model::Grain;
 use serde::Serialize;
 use std::fmt;
-use std::hint::black_box;
-use std::time::Instant;
 
 /// What the points say of the radius before it is cut in segments: lengths in the scan's unit.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -60,32 +57,17 @@ pub struct EvaluationRecord {
     pub coefficients: usize,
     /// Coefficients that one evaluation touches, as a mean over all directions.
     pub touched: f64,
-    /// Nanoseconds of one place, measured here and now.
-    pub nanoseconds: f64,
+    /// Nanoseconds of one place, where they were [measured](super::FitReport::timed).
+    pub nanoseconds: Option<f64>,
 }
-
-/// Cells along a cube's edge of the directions that are timed: 98 directions.
-const TIMED: usize = 4;
-
-/// Times that they are evaluated: the least is told.
-const REPEATS: usize = 3;
 
 impl EvaluationRecord {
     pub(super) fn new(grain: &Grain) -> Self {
-        let (directions, _) = cube_grid(TIMED);
-        let seconds = (0..REPEATS).map(|_| {
-            let started = Instant::now();
-            for n in &directions {
-                black_box(grain.place(black_box(n)));
-            }
-            started.elapsed().as_secs_f64()
-        });
-        let least = seconds.fold(f64::INFINITY, f64::min);
         Self {
             degree: grain.degree(),
             coefficients: grain.coefficient_count(),
             touched: grain.coefficients_touched(),
-            nanoseconds: 1e9 * least / directions.len() as f64,
+            nanoseconds: None,
         }
     }
 }
@@ -94,10 +76,11 @@ impl fmt::Display for EvaluationRecord {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
             f,
-            "{}, {:.0} per evaluation ({:.0} ns)",
+            "{}, {:.0} per evaluation",
             plural(self.coefficients, "coefficient"),
-            self.touched,
-            self.nanoseconds
-        )
+            self.touched
+        )?;
+        self.nanoseconds
+            .map_or(Ok(()), |time| write!(f, " ({time:.0} ns)"))
     }
 }

@@ -13,7 +13,7 @@ use super::standard_errors::{StandardErrorsRecord, recorded};
 use super::warning::sentences;
 use crate::fit::{FitOptions, Fitted, LARGEST_OF_NOISE, Reference, Tolerance};
 use crate::measure::Survey;
-use crate::model::{NoStandardErrors, StarGrain};
+use crate::model::{Grain, NoStandardErrors, StarGrain};
 use crate::sphere::Symmetry;
 use crate::unit::Unit;
 use serde::Serialize;
@@ -176,6 +176,16 @@ impl FitReport {
     pub fn extrapolated(scan: ReportedScan, fitted: &Fitted, options: &FitOptions) -> Self {
         let withheld = Withheld::of(&fitted.grain, true);
         Self::with_survey(scan, fitted, &fitted.survey(), options, &withheld)
+    }
+
+    /// The same with the time of one evaluation of the fitted grain, and of the whole sphere where there are both, in nanoseconds.
+    #[must_use]
+    pub fn timed(mut self, fitted: &Fitted, nanoseconds: impl Fn(&Grain) -> f64) -> Self {
+        self.evaluation.nanoseconds = Some(nanoseconds(&fitted.grain));
+        if let (Some(record), Some(whole)) = (&mut self.whole, &fitted.whole) {
+            record.nanoseconds = Some(nanoseconds(&whole.clone().into()));
+        }
+        self
     }
 
     /// The same with a survey of the fitted grain, of which more may be asked (what is measured is measured once), and with what
