@@ -94,33 +94,27 @@ fn pairs(edge: &Edge<'_>, vertices: &[Point3<f64>], corners: &[u32]) -> Vec<[usi
 
 #[cfg(test)]
 mod tests {
-    use super::super::weld::first_at_same_place;
+    use super::super::weld::Welder;
     use super::*;
     use nalgebra::Vector3;
 
     /// Unit cubes at these places, whose corners are one where they meet.
     fn cubes(places: &[[f64; 3]]) -> Mesh {
         let cube = Mesh::radial(1, |n| 0.5 / n.amax());
-        let (mut points, mut triangles) = (Vec::new(), Vec::new());
+        let (mut welder, mut numbers, mut triangles) = (Welder::default(), Vec::new(), Vec::new());
         for place in places {
-            let start = points.len() as u32;
+            let start = numbers.len() as u32;
             let offset = Vector3::from(*place);
             let corners = cube.vertices.iter();
-            points.extend(corners.map(|p| (p + offset).map(|x| (2.0 * x).round() / 2.0)));
+            let corners = corners.map(|p| (p + offset).map(|x| (2.0 * x).round() / 2.0));
+            numbers.extend(corners.map(|corner| welder.add(corner)));
             triangles.extend(cube.triangles.iter().map(|t| t.map(|i| i + start)));
         }
-        let same = first_at_same_place(&points);
-        let mut vertices = Vec::new();
-        for (point, &number) in points.iter().zip(&same) {
-            if number as usize == vertices.len() {
-                vertices.push(*point);
-            }
-        }
         for corner in triangles.as_flattened_mut() {
-            *corner = same[*corner as usize];
+            *corner = numbers[*corner as usize];
         }
         Mesh {
-            vertices,
+            vertices: welder.into_points().unwrap(),
             triangles,
         }
     }

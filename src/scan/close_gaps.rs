@@ -15,7 +15,7 @@ const OF_EDGES: f64 = 0.25;
 
 /// ... and of the longest side of the scan. Corners that were rounded to 32 bits differ by some 2e-7 of it; two thin sheets that are
 /// open along their rims may be 3e-4 apart.
-const FARTHEST: f64 = 3e-5;
+pub(super) const FARTHEST: f64 = 3e-5;
 
 /// Nearest corners that each is compared with: through these it reaches all that meet at a place.
 const COMPARED: NonZero<usize> = NonZero::new(16).unwrap();

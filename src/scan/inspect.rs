@@ -7,6 +7,7 @@ use super::mend::{flaps, repeats, wound_against};
 use super::topology::Topology;
 use super::weld::first_at_same_place;
 use crate::digits::plural;
+use crate::mesh::Bounds;
 
 /// Fills in `topology` and the warnings. All indices must be in range.
 pub(super) fn inspect(scan: &mut Scan) {
@@ -24,8 +25,8 @@ pub(super) fn inspect(scan: &mut Scan) {
         if !topology.closed {
             topology = Topology::new(&scan.points, &scan.triangles, &same);
         }
-        if topology.boundary_edges > 0 && part_at_junctions(scan, &same) {
-            topology = Topology::new(&scan.points, &scan.triangles, &same);
+        if topology.boundary_edges > 0 {
+            topology = part_at_junctions(scan, &same, topology);
         }
         if topology.branching_edges > 0 {
             topology = without_flaps(scan, &same, topology);
@@ -79,22 +80,35 @@ fn drop_repeated(scan: &mut Scan, same: &[u32]) -> bool {
     dropped > 0
 }
 
-/// Parts triangles along whose sides others have [corners](junctions).
-fn part_at_junctions(scan: &mut Scan, same: &[u32]) -> bool {
-    let found = junctions(&scan.points, &joined(&scan.triangles, same));
+/// Parts triangles on whose sides others have [corners](junctions) if that leaves fewer edges open.
+fn part_at_junctions(scan: &mut Scan, same: &[u32], before: Topology) -> Topology {
+    let points = &scan.points;
+    let all = Bounds::new(points.iter().copied(), 0.0).corners();
+    let extent = (all[1] - all[0]).max();
+    let found = junctions(points, &joined(&scan.triangles, same), extent);
     if found.is_empty() {
-        return false;
+        return before;
     }
-    let along = |side: usize| found.get(&side).map_or(&[][..], Vec::as_slice);
+    let on_side = |side: usize| found.get(&side).map_or(&[][..], Vec::as_slice);
     let triangles = scan.triangles.iter().enumerate();
-    let parts = triangles
-        .flat_map(|(at, &corners)| parted(corners, [0, 1, 2].map(|side| along(3 * at + side))));
-    scan.triangles = parts.collect();
+    let parts = triangles.flat_map(|(at, &corners)| {
+        parted(
+            points,
+            corners,
+            [0, 1, 2].map(|side| on_side(3 * at + side)),
+        )
+    });
+    let parts: Vec<[u32; 3]> = parts.collect();
+    let after = Topology::new(points, &parts, same);
+    if after.boundary_edges >= before.boundary_edges {
+        return before;
+    }
+    scan.triangles = parts;
     let sides = plural(found.len(), "side");
     scan.warnings.push(format!(
-        "Parted {sides} of triangles at corners of others that lie along them (T-junctions)."
+        "Parted {sides} of triangles at corners of others that lie on them (T-junctions)."
     ));
-    true
+    after
 }
 
 /// Drops flaps if that closes the surface.

@@ -1,24 +1,25 @@
-//! Sides of coarse faces along which finer ones have corners (T-junctions), as programs leave them that refine a mesh in part: the
+//! Sides of coarse faces on which finer ones have corners (T-junctions), as programs leave them that refine a mesh in part: the
 //! coarse faces are parted there, so that they share these corners.
 
+use super::close_gaps::FARTHEST;
 use super::topology::{after, each_edge};
+use crate::mesh::{Bounds, BoundsTree};
 use nalgebra::Point3;
 use std::collections::HashMap;
 
-/// A corner lies along a side if it is no farther from it than this share of its length: what lies between them is no hole.
-const ALONG: f64 = 0.05;
+/// A corner is on a side if it is no farther from it than this share of its length, nor than corners that are made one: what is wider is a
+/// hole.
+const ON_SIDE: f64 = 1e-2;
 
-/// Corners along one side, at most.
-const MOST: usize = 64;
+/// Sides that are compared with a corner, on an average, at most: of sides that all lie on each other nothing is parted.
+const COMPARED: usize = 200;
 
-/// An open side of a triangle: the end it goes to, and its number.
-type OpenSide = (u32, usize);
-
-/// For triangles with open sides along which those of others run, the corners of these others, by the number of the side and from
-/// its start to its end.
+/// For triangles with open sides on which others have corners, these corners, by the number of the side and from its start to its end.
+/// Corners at one place have one number; `extent` is the longest side of the scan.
 pub(super) fn junctions(
     points: &[Point3<f64>],
     triangles: &[[u32; 3]],
+    extent: f64,
 ) -> HashMap<usize, Vec<u32>> {
     let corners = triangles.as_flattened();
     let mut open: Vec<usize> = Vec::new();
@@ -27,82 +28,81 @@ pub(super) fn junctions(
             open.push(*side);
         }
     });
-    open.sort_unstable();
-    let mut from: HashMap<u32, Vec<OpenSide>> = HashMap::new();
-    for &side in &open {
-        let leaving = from.entry(corners[side]).or_default();
-        leaving.push((corners[after(side)], side));
-    }
-    let mut is_closed = vec![false; corners.len()];
-    let mut found = HashMap::new();
-    for side in open {
-        let ends = [corners[side], corners[after(side)]];
-        let opposite = corners[after(after(side))];
-        let Some(along) = run_back(points, ends, opposite, &from) else {
-            continue;
-        };
-        if along.iter().any(|(_, own)| is_closed[*own]) || is_closed[side] {
-            continue;
-        }
-        for (_, own) in &along {
-            is_closed[*own] = true;
-        }
-        is_closed[side] = true;
-        let inner = along[..along.len() - 1].iter().rev();
-        found.insert(side, inner.map(|(corner, _)| *corner).collect());
-    }
-    found
-}
-
-/// The open sides of others, two or more, that run back along one of a triangle, from its end to its start.
-fn run_back(
-    points: &[Point3<f64>],
-    [start, end]: [u32; 2],
-    opposite: u32,
-    from: &HashMap<u32, Vec<OpenSide>>,
-) -> Option<Vec<OpenSide>> {
     let place = |corner: u32| points[corner as usize];
-    let side = place(end) - place(start);
-    let share = |corner: u32| (place(corner) - place(start)).dot(&side) / side.norm_squared();
-    let is_along = |corner: u32, before: f64| {
-        let share = share(corner);
-        let foot = place(start) + side * share;
-        let off = (place(corner) - foot).norm();
-        corner != opposite && share > 0.0 && share < before && off <= ALONG * side.norm()
+    let ends = |side: usize| [corners[side], corners[after(side)]];
+    let reach = FARTHEST * extent;
+    let boxes = open
+        .iter()
+        .map(|&side| Bounds::new(ends(side).map(place), reach));
+    let tree = BoundsTree::new(boxes.collect());
+    let mut rim: Vec<u32> = open.iter().flat_map(|&side| ends(side)).collect();
+    rim.sort_unstable();
+    rim.dedup();
+    let mut left = COMPARED * rim.len();
+    let mut found: HashMap<usize, Vec<(f64, u32)>> = HashMap::new();
+    for corner in rim {
+        tree.near(&place(corner), 0.0, |leaf| {
+            left = left.saturating_sub(leaf.len());
+            for &at in &tree.order()[leaf] {
+                let side = open[at as usize];
+                let is_own = corners[3 * (side / 3)..][..3].contains(&corner);
+                let share = on_side(&place(corner), ends(side).map(place), reach);
+                if let Some(share) = share.filter(|_| !is_own) {
+                    found.entry(side).or_default().push((share, corner));
+                }
+            }
+            // Nothing is nearer than what holds it.
+            if left > 0 { 0.0 } else { -1.0 }
+        });
+    }
+    if left == 0 {
+        return HashMap::new();
+    }
+    let in_order = |mut on_side: Vec<(f64, u32)>| {
+        on_side.sort_unstable_by(|one, other| one.0.total_cmp(&other.0).then(one.1.cmp(&other.1)));
+        on_side.into_iter().map(|(_, corner)| corner).collect()
     };
-    from.get(&end)?.iter().find_map(|first| {
-        let mut run = vec![*first];
-        let mut before = 1.0;
-        while let Some(&(corner, _)) = run.last() {
-            if corner == start {
-                return Some(run);
-            }
-            let [next] = from.get(&corner)?.as_slice() else {
-                return None;
-            };
-            if run.len() > MOST || !is_along(corner, before) {
-                return None;
-            }
-            before = share(corner);
-            run.push(*next);
-        }
-        None
-    })
+    found
+        .into_iter()
+        .map(|(side, corners)| (side, in_order(corners)))
+        .collect()
 }
 
-/// A triangle parted by corners along its sides, which are given from the first corner on: all parts are wound as it is.
-pub(super) fn parted(corners: [u32; 3], along: [&[u32]; 3]) -> Vec<[u32; 3]> {
-    let Some(first) = along.iter().position(|inner| !inner.is_empty()) else {
+/// Where between the ends of a side a place on it lies, as a share of its length.
+fn on_side(place: &Point3<f64>, [start, end]: [Point3<f64>; 2], reach: f64) -> Option<f64> {
+    let along = end - start;
+    let length = along.norm();
+    let share = (place - start).dot(&along) / length.powi(2);
+    let off = (place - (start + along * share)).norm();
+    let is_between = (reach..length - reach).contains(&(share * length));
+    (is_between && off <= reach.min(ON_SIDE * length)).then_some(share)
+}
+
+/// A triangle parted by corners on its sides, which are given from the first corner on, the longest side first: all parts are wound as it
+/// is.
+pub(super) fn parted(
+    points: &[Point3<f64>],
+    corners: [u32; 3],
+    on_sides: [&[u32]; 3],
+) -> Vec<[u32; 3]> {
+    let length = |&side: &usize| {
+        let [from, to] =
+            [corners[side], corners[(side + 1) % 3]].map(|corner| points[corner as usize]);
+        (to - from).norm_squared()
+    };
+    let with_corners = (0..3).filter(|&side| !on_sides[side].is_empty());
+    let Some(first) = with_corners.max_by(|one, other| length(one).total_cmp(&length(other)))
+    else {
         return vec![corners];
     };
     let [a, b, c] = [0, 1, 2].map(|k| corners[(first + k) % 3]);
-    let [own, next, last] = [0, 1, 2].map(|k| along[(first + k) % 3]);
+    let [own, next, last] = [0, 1, 2].map(|k| on_sides[(first + k) % 3]);
     let mut parts = Vec::new();
     let mut before = a;
     for &corner in own.iter().chain([&b]) {
         let to = if corner == b { next } else { &[] };
         let back = if before == a { last } else { &[] };
-        parts.extend(parted([before, corner, c], [&[], to, back]));
+        parts.extend(parted(points, [before, corner, c], [&[], to, back]));
         before = corner;
     }
     parts
@@ -153,7 +153,7 @@ mod tests {
         let mut whole = Scan::of_mesh(Mesh::radial(8, |_| 1.0));
         inspect(&mut whole);
         let whole = whole.topology().unwrap().volume;
-        for (height, outside) in [(0.0, 0.0), (0.7, 0.0), (0.0, 0.005)] {
+        for (height, outside) in [(0.0, 0.0), (0.7, 0.0), (0.0, 1e-5)] {
             let mut scan = refined(height, outside);
             inspect(&mut scan);
             let topology = scan.topology().unwrap();
@@ -179,8 +179,8 @@ mod tests {
         inspect(&mut scan);
         assert_eq!(scan.topology().unwrap().boundary_edges, 3);
         assert!(!scan.warnings()[0].contains("T-junctions"));
-        // Corners that lie farther off than what is between faces may.
-        let mut scan = refined(0.0, 0.05);
+        // Corners that lie farther off leave slits.
+        let mut scan = refined(0.0, 1e-3);
         inspect(&mut scan);
         assert!(!scan.topology().unwrap().closed);
     }
@@ -197,7 +197,7 @@ mod tests {
             corner(1.5, 1.5),
             corner(0.0, 1.0),
         ];
-        let parts = super::parted([0, 1, 2], [&[3, 4], &[5], &[6]]);
+        let parts = super::parted(&points, [0, 1, 2], [&[3, 4], &[5], &[6]]);
         let area = |t: &[u32; 3]| {
             let [a, b, c] = t.map(|corner| points[corner as usize]);
             (b - a).cross(&(c - a)).dot(&Vector3::z()) / 2.0

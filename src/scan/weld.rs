@@ -35,10 +35,18 @@ impl Welder {
     }
 }
 
-/// For each point the number of its place; places are numbered in the order in which they come.
+/// For each point the first one at the same place.
 pub(super) fn first_at_same_place(points: &[Point3<f64>]) -> Vec<u32> {
     let mut welder = Welder::default();
-    points.iter().map(|&point| welder.add(point)).collect()
+    let mut firsts = Vec::new();
+    let first = |(&point, index)| {
+        let place = welder.add(point) as usize;
+        if place == firsts.len() {
+            firsts.push(index);
+        }
+        firsts[place]
+    };
+    points.iter().zip(0..).map(first).collect()
 }
 
 impl Scan {
@@ -56,12 +64,6 @@ impl Scan {
         let mut numbers = vec![None; self.points.len()];
         let mut vertices: Vec<Point3<f64>> = Vec::new();
         let mut triangles = Vec::with_capacity(self.triangles.len());
-        // The number given first to a place names the point that stands for it.
-        let mut firsts = vec![u32::MAX; self.points.len()];
-        for (index, &number) in same.iter().enumerate() {
-            let first = &mut firsts[number as usize];
-            *first = (*first).min(index as u32);
-        }
         for corners in &self.triangles {
             let [a, b, c] = corners.map(|corner| same[corner as usize]);
             if a == b || b == c || c == a {
@@ -69,7 +71,7 @@ impl Scan {
             }
             triangles.push([a, b, c].map(|corner| {
                 *numbers[corner as usize].get_or_insert_with(|| {
-                    vertices.push(self.points[firsts[corner as usize] as usize]);
+                    vertices.push(self.points[corner as usize]);
                     vertices.len() as u32 - 1
                 })
             }));

@@ -128,7 +128,7 @@ fn from_faces<'a>(scan: &'a Scan, unreferenced: &[u32]) -> Result<ScannedSurface
         }
     };
     // Others number the vertices of the mesh differently.
-    let made = match points.len() == mesh.vertices.len() {
+    let made = match points.len() == mesh.vertices.len() && !scan.is_of_voxels() {
         true => made_by_subdivision(&mesh),
         false => Vec::new(),
     };
