@@ -59,7 +59,7 @@ impl FitWarning {
             ),
             Self::Subdivided { made, points } => write!(
                 f,
-                "{made} of {points} vertices lie in the middles of the edges of a coarser mesh, where subdivision puts them: they \
+                "{made} of {points} vertices lie on the edges and faces of a coarser mesh, where subdivision puts them: they \
                  tell nothing of the grain, and the others are fitted."
             ),
             Self::Filled(Fill {
