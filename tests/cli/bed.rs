@@ -405,53 +405,33 @@ fn lammps_settles_the_same_bed_and_it_is_told_alike() {
     }
 }
 
+/// Words of a command, parted by blanks.
+fn words(text: &str) -> Vec<&str> {
+    text.split(' ').collect()
+}
+
+/// Puts a convex model in this unit into a folder.
+fn convex(folder: &tempfile::TempDir, unit: &str) {
+    succeed(
+        folder,
+        &words("synth ellipsoid --axes 3,2,1.5 --points 800 -o e.ply"),
+    );
+    let fit = format!("fit e.ply --surface superquadric --unit {unit} -o {unit}.json");
+    succeed(folder, &words(&fit));
+}
+
 #[test]
 fn the_unit_is_that_which_the_models_tell() {
     let folder = folder();
-    for unit in ["mm", "um"] {
-        let body = [
-            "synth",
-            "ellipsoid",
-            "--axes",
-            "3,2,1.5",
-            "--points",
-            "800",
-            "-o",
-            "e.ply",
-        ];
-        succeed(&folder, &body);
-        let model = format!("{unit}.json");
-        succeed(
-            &folder,
-            &[
-                "fit",
-                "e.ply",
-                "--surface",
-                "superquadric",
-                "--unit",
-                unit,
-                "-o",
-                &model,
-            ],
-        );
-    }
-    let bed = |models: &[&str]| {
-        let rest = [
-            "--grains",
-            "3",
-            "--box",
-            "20,20",
-            "--seconds",
-            "0.001",
-            "-o",
-            "bed",
-            "--json",
-        ];
-        grainform(&folder, &[&["bed"], models, &rest].concat())
+    convex(&folder, "mm");
+    convex(&folder, "um");
+    let bed = |models: &str| {
+        let bed = format!("bed {models} --grains 3 --box 20,20 --seconds 0.001 -o bed --json");
+        grainform(&folder, &words(&bed))
     };
-    let report: Value = serde_json::from_slice(&bed(&["um.json"]).stdout).unwrap();
+    let report: Value = serde_json::from_slice(&bed("um.json").stdout).unwrap();
     assert_eq!(report["unit"], "um");
-    let told = errors(&bed(&["um.json", "mm.json"]));
+    let told = errors(&bed("um.json mm.json"));
     assert!(
         told.contains("um.json has its lengths in um, and mm.json in mm: convert one"),
         "{told}"
@@ -463,43 +443,9 @@ fn what_another_bed_left_in_the_folder_is_told() {
     let folder = folder();
     std::fs::create_dir(folder.path().join("bed")).unwrap();
     std::fs::write(folder.path().join("bed/settled.dump"), "").unwrap();
-    let body = [
-        "synth",
-        "ellipsoid",
-        "--axes",
-        "3,2,1.5",
-        "--points",
-        "800",
-        "-o",
-        "e.ply",
-    ];
-    succeed(&folder, &body);
-    succeed(
-        &folder,
-        &[
-            "fit",
-            "e.ply",
-            "--surface",
-            "superquadric",
-            "--unit",
-            "mm",
-            "-o",
-            "m.json",
-        ],
-    );
-    let bed = [
-        "bed",
-        "m.json",
-        "--grains",
-        "3",
-        "--box",
-        "20,20",
-        "--seconds",
-        "0.001",
-        "-o",
-        "bed",
-    ];
-    let told = errors(&grainform(&folder, &bed));
+    convex(&folder, "mm");
+    let bed = "bed mm.json --grains 3 --box 20,20 --seconds 0.001 -o bed";
+    let told = errors(&grainform(&folder, &words(bed)));
     assert!(
         told.contains("bed also holds what this run did not write: settled.dump."),
         "{told}"
