@@ -140,7 +140,9 @@ fn among(
 
 #[cfg(test)]
 mod tests {
+    use super::super::surface::scanned_surface;
     use super::*;
+    use crate::fit::warning::FitWarning;
     use crate::mesh::{edges, undirected};
     use crate::scan::Scan;
     use nalgebra::Point3;
@@ -239,5 +241,17 @@ mod tests {
         // A cylinder's vertices lie on lines along it, those of a box on its sides and edges.
         let cube = Mesh::radial(24, |n| 1.0 / n.amax());
         assert!(made_by_subdivision(&cut_in_part(&cube, 0.0)).is_empty());
+    }
+
+    #[test]
+    fn what_was_made_is_left_out_beside_a_hole_too() {
+        let coarse = Mesh::radial(16, |n| 1.0 + 0.2 * n.x + 0.1 * n.y * n.z);
+        let mut mesh = cut_in_part(&coarse, 0.0);
+        mesh.triangles.drain(..2);
+        let scan = Scan::from_mesh(mesh).unwrap();
+        let surface = scanned_surface(&scan).unwrap();
+        assert_eq!(surface.points.len(), coarse.vertices.len());
+        let told = |warning: &FitWarning| matches!(warning, FitWarning::Subdivided { .. });
+        assert!(surface.warnings.iter().any(told));
     }
 }

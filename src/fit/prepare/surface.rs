@@ -128,22 +128,31 @@ fn from_faces<'a>(scan: &'a Scan, unreferenced: &[u32]) -> Result<ScannedSurface
         }
     };
     // Others number the vertices of the mesh differently.
-    let made = match points.len() == mesh.vertices.len() && !scan.is_of_voxels() {
-        true => made_by_subdivision(&mesh),
-        false => Vec::new(),
-    };
-    let subdivided = (!made.is_empty()).then(|| FitWarning::Subdivided {
-        made: made.len(),
-        points: points.len(),
-    });
-    let points = match made.is_empty() {
-        true => points,
-        false => Cow::Owned(without(&points, made)),
+    let (points, subdivided) = match points.len() == mesh.vertices.len() && !scan.is_of_voxels() {
+        true => without_made(&mesh, points),
+        false => (points, None),
     };
     Ok(ScannedSurface {
         warnings: crossing.into_iter().chain(subdivided).collect(),
         ..closed(mesh, points)
     })
+}
+
+/// The first vertices of a mesh without those that subdivision made.
+fn without_made<'a>(
+    mesh: &Mesh,
+    points: Cow<'a, [Point3<f64>]>,
+) -> (Cow<'a, [Point3<f64>]>, Option<FitWarning>) {
+    let mut made = made_by_subdivision(mesh);
+    made.retain(|at| *at < points.len());
+    if made.is_empty() {
+        return (points, None);
+    }
+    let warning = FitWarning::Subdivided {
+        made: made.len(),
+        points: points.len(),
+    };
+    (Cow::Owned(without(&points, made)), Some(warning))
 }
 
 /// A surface that goes through itself is told of, where it is by folds that hold next to nothing: those of noise are many, and a
@@ -200,7 +209,7 @@ fn from_parts(scan: &Scan) -> Result<ScannedSurface<'static>, FitError> {
     }
     let crossing = fitted_over(body.crossing)?;
     let mut surface = match body.defect {
-        None => filled(body.mesh, body.fill),
+        None => filled(body.mesh, body.fill, scan.is_of_voxels()),
         Some(defect) => {
             let cloud = from_directions(Cow::Owned(body.mesh.vertices.clone()), None)?;
             let unseen = match defect {
@@ -227,7 +236,7 @@ fn from_parts(scan: &Scan) -> Result<ScannedSurface<'static>, FitError> {
 }
 
 /// Of faces whose small holes are closed by triangles, which were not seen.
-fn filled(mesh: Mesh, fill: Option<Fill>) -> ScannedSurface<'static> {
+fn filled(mesh: Mesh, fill: Option<Fill>, is_of_voxels: bool) -> ScannedSurface<'static> {
     let seen = mesh.triangles.len() - fill.map_or(0, |fill| fill.triangles);
     let seen = mesh.triangles[..seen].to_vec();
     // Vertices are numbered as triangles come: those of the fill alone are last.
@@ -242,14 +251,19 @@ fn filled(mesh: Mesh, fill: Option<Fill>) -> ScannedSurface<'static> {
         triangles: seen,
     };
     let gap = Gap::new(&Scale::of(&faces).mesh(&faces)).warning();
+    let (points, subdivided) = match is_of_voxels {
+        true => (Cow::Owned(points), None),
+        false => without_made(&mesh, Cow::Owned(points)),
+    };
     ScannedSurface {
         faces: Some(faces),
         warnings: fill
             .map(FitWarning::Filled)
             .into_iter()
             .chain(gap)
+            .chain(subdivided)
             .collect(),
-        ..closed(mesh, Cow::Owned(points))
+        ..closed(mesh, points)
     }
 }
 
