@@ -4,9 +4,10 @@
 use super::Scan;
 use super::junctions::{junctions, parted};
 use super::mend::{flaps, repeats, wound_against};
+use super::slits::slits;
 use super::topology::Topology;
 use super::weld::first_at_same_place;
-use crate::digits::plural;
+use crate::digits::{plural, significant};
 use crate::mesh::Bounds;
 
 /// Fills in `topology` and the warnings. All indices must be in range.
@@ -27,6 +28,7 @@ pub(super) fn inspect(scan: &mut Scan) {
         }
         if topology.boundary_edges > 0 {
             topology = part_at_junctions(scan, &same, topology);
+            topology = fill_slits(scan, &same, topology);
         }
         if topology.branching_edges > 0 {
             topology = without_flaps(scan, &same, topology);
@@ -109,6 +111,27 @@ fn part_at_junctions(scan: &mut Scan, same: &[u32], before: Topology) -> Topolog
         "Parted {sides} of triangles at corners of others that lie on them (T-junctions)."
     ));
     after
+}
+
+/// Fills [slits] between coarse faces and finer ones.
+fn fill_slits(scan: &mut Scan, same: &[u32], before: Topology) -> Topology {
+    let found = slits(&scan.points, &joined(&scan.triangles, same));
+    if found.is_empty() {
+        return before;
+    }
+    let area = |corners: &[u32; 3]| {
+        let [a, b, c] = corners.map(|corner| scan.points[corner as usize]);
+        (b - a).cross(&(c - a)).norm() / 2.0
+    };
+    let filled: f64 = found.iter().map(area).sum();
+    let share = filled / scan.triangles.iter().map(area).sum::<f64>();
+    let slits = plural(found.len(), "slit");
+    scan.warnings.push(format!(
+        "Filled {slits} between coarse faces and finer ones: {} % of the area.",
+        significant(100.0 * share, 2)
+    ));
+    scan.triangles.extend(found);
+    Topology::new(&scan.points, &scan.triangles, same)
 }
 
 /// Drops flaps if that closes the surface.

@@ -18,6 +18,7 @@ mod obj;
 mod ply;
 mod polygon;
 mod repeated;
+mod slits;
 mod source;
 mod split;
 mod stl;
