@@ -24,6 +24,9 @@ const FEWEST_CORNERS: usize = 500;
 /// Vertices on edges, as a share of all, from which on they were put there: of scans next to none are.
 const IN_PART: f64 = 0.01;
 
+/// Neighbours of a vertex on an edge, at most.
+const MOST_NEIGHBOURS: usize = 64;
+
 /// The least angle, and the largest, between the coarse faces beside an edge on which vertices were put: the sides of a box are flat, and
 /// its edges sharp.
 const FOLDED: RangeInclusive<f64> = 1e-3..=0.5;
@@ -134,7 +137,8 @@ fn among(
         }
     }
     let all = neighbours.iter().enumerate();
-    let found = all.filter(|(own, others)| is_so(place(*own as u32), others));
+    let few = all.filter(|(_, others)| others.len() <= MOST_NEIGHBOURS);
+    let found = few.filter(|(own, others)| is_so(place(*own as u32), others));
     found.map(|(own, _)| own).collect()
 }
 
