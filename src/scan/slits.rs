@@ -33,9 +33,8 @@ pub(super) fn slits(points: &[Point3<f64>], triangles: &[[u32; 3]]) -> Vec<[u32;
     for a in starts {
         for &b in next(a) {
             for &c in next(b) {
-                let is_first = a < b && a < c;
                 let do_others_meet = [a, b, c].iter().any(|corner| next(*corner).len() > 1);
-                let is_slit = is_first && do_others_meet && next(c).contains(&a);
+                let is_slit = do_others_meet && next(c).contains(&a);
                 if !is_slit || !is_narrow([a, b, c].map(|corner| points[corner as usize])) {
                     continue;
                 }

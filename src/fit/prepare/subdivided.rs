@@ -246,6 +246,26 @@ mod tests {
     }
 
     #[test]
+    fn a_vertex_is_on_an_edge_where_both_sides_are_plane_and_not_one() {
+        let is_on_edge = |fold: f64, off: f64| {
+            let (sin, cos) = fold.sin_cos();
+            let around = [
+                Vector3::x(),
+                -2.0 * Vector3::x(),
+                Vector3::new(0.3, 1.0, 0.0),
+                Vector3::new(-0.5, 0.7, off),
+                Vector3::new(0.2, -cos, sin),
+                Vector3::new(-0.4, -2.0 * cos, 2.0 * sin),
+            ];
+            let own = Vector3::new(3.0, -2.0, 5.0);
+            is_folded(own, &around.map(|other| own + other))
+        };
+        assert!(is_on_edge(0.01, 0.0) && is_on_edge(0.4, 0.0));
+        assert!(!is_on_edge(0.0, 0.0) && !is_on_edge(1.0, 0.0));
+        assert!(!is_on_edge(0.1, 0.01));
+    }
+
+    #[test]
     fn what_was_made_is_left_out_beside_a_hole_too() {
         let coarse = Mesh::radial(16, |n| 1.0 + 0.2 * n.x + 0.1 * n.y * n.z);
         let mut mesh = cut_in_part(&coarse, 0.0);
