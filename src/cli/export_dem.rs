@@ -127,6 +127,7 @@ impl DeckArgs {
             (self.friction.is_some(), "--friction"),
             (self.restitution.is_some(), "--restitution"),
         ];
+        // Spheres and density make the clump; the rest is how it touches others.
         let (_, contact) = rest.split_at(3);
         let (options, reason) = match engine {
             EngineArg::Deck(Engine::Lammps | Engine::Yade) => return None,
