@@ -2,7 +2,7 @@
 
 use super::columns::is_figure;
 use super::gaps::{key, list};
-use super::table::Lot;
+use super::lot::Lot;
 use crate::digits::plural;
 use std::collections::BTreeSet;
 

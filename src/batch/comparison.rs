@@ -1,9 +1,9 @@
 //! Two lots of grains beside each other.
 
 use super::interval::{Sample, intervals};
+use super::lot::Lot;
 use super::own_error::computed_to;
 use super::statistics::moments;
-use super::table::Lot;
 use serde::Serialize;
 use std::f64::consts::SQRT_2;
 

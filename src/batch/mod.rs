@@ -20,6 +20,7 @@ mod inputs;
 mod interval;
 mod journal;
 mod left_over;
+mod lot;
 mod names;
 mod outliers;
 mod own_error;

@@ -1,9 +1,9 @@
 //! Grains that are worth a look.
 
 use super::columns::MAIN;
+use super::lot::Lot;
 use super::own_error::own_error;
 use super::statistics::median;
-use super::table::Lot;
 use crate::spread::PER_MEDIAN;
 use serde::Serialize;
 
