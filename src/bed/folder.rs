@@ -1,7 +1,7 @@
 //! A bed settles, and a folder keeps what it needs to go on after it was stopped at any moment.
 
 use super::former;
-use super::names::{FRAMES, STATE};
+use super::names::{FRAMES, STATE, VTK};
 use super::rest::Rest;
 use super::settings::{BedError, BedSettings};
 use super::settle::{Bed, State};
@@ -185,7 +185,7 @@ impl Folder<'_> {
             told(bed);
         };
         self.keep(bed)?;
-        let path = self.path.join("bed.vtk");
+        let path = self.path.join(VTK);
         write_atomically(&path, |writer| write_vtk(bed, self.unit, writer))?;
         Ok(rest)
     }

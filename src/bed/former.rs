@@ -1,13 +1,13 @@
 //! What a former bed has left in a folder.
 
-use super::names::{FRAMES, STATE};
+use super::names::{FRAMES, PICTURE, STATE, VTK};
 use std::fs;
 use std::io::{self, ErrorKind};
 use std::path::Path;
 
 /// Removes all files of the names that a bed writes, and the folder of frames if nothing else is in it.
 pub(super) fn clear(folder: &Path) -> io::Result<()> {
-    for name in [STATE, "bed.vtk", "bed.png"] {
+    for name in [STATE, VTK, PICTURE] {
         there(fs::remove_file(folder.join(name)))?;
     }
     let frames = folder.join(FRAMES);

@@ -34,6 +34,8 @@ pub use body::Body;
 pub use fabric::{Fabric, Forces, GrainContact, Order, fabric};
 pub use folder::{Folder, FolderError};
 pub use grain::{GrainError, GrainKind};
+#[cfg(feature = "cli")]
+pub(crate) use names::{FILES, PICTURE, VTK};
 pub(crate) use pace::check_pace;
 pub use pace::{BED_STEPS, PaceError};
 pub use packing::{Fraction, Layer, Packing, packing};

@@ -2,7 +2,7 @@
 
 use super::lammps::Lammps;
 use super::watch::Watch;
-use crate::bed::{Bed, Fabric, Folder, write_vtk};
+use crate::bed::{Bed, Fabric, Folder, VTK, write_vtk};
 use crate::cli::console::Console;
 use crate::cli::outputs;
 use crate::engines::{Deck, Engine, Settled};
@@ -34,7 +34,7 @@ impl Elsewhere<'_> {
             steps,
         } = Settled::read(self.path, &bed, &deck)?;
         let bed = bed.moved(bodies)?;
-        outputs::write(&self.path.join("bed.vtk"), |file| {
+        outputs::write(&self.path.join(VTK), |file| {
             write_vtk(&bed, self.unit, file)
         })?;
         let fabric = Fabric::of(&bed, &contacts);

@@ -10,7 +10,9 @@ mod watch;
 use super::args::BedArgs;
 use super::console::Console;
 use super::{inputs, outputs, signals, threads};
-use crate::bed::{Bed, BedError, BedSettings, Container, Folder, Rest, fabric, picture};
+use crate::bed::{
+    Bed, BedError, BedSettings, Container, FILES, Folder, PICTURE, Rest, fabric, picture,
+};
 use crate::mesh::Mesh;
 use crate::report::{BedInputsReport, BedReport, BedRunRecord, Unit, short};
 use anyhow::{Result, anyhow, bail};
@@ -20,9 +22,6 @@ use lammps::Lammps;
 use place::Place;
 use std::path::Path;
 use watch::Watch;
-
-/// What a bed that settles here writes in its folder.
-const OWN: [&str; 4] = ["state.json", "frames", "bed.vtk", "bed.png"];
 
 pub(super) fn run(args: BedArgs, console: Console) -> Result<()> {
     outputs::check_folder(&args.output)?;
@@ -76,11 +75,11 @@ pub(super) fn run(args: BedArgs, console: Console) -> Result<()> {
             None => {
                 let bed = Bed::new(settings, kinds.clone(), &shares, mesh.as_ref());
                 let done = settle(bed.map_err(failed)?, &path, metres, console)?;
-                warnings.extend(outputs::beside(&path, OWN.iter()));
+                warnings.extend(outputs::beside(&path, FILES.iter()));
                 done
             }
         };
-        outputs::write_image(&path.join("bed.png"), &picture(&bed))?;
+        outputs::write_image(&path.join(PICTURE), &picture(&bed))?;
         runs.push(run);
         last = Some(bed);
     }
