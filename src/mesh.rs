@@ -7,6 +7,8 @@ mod enclosing;
 mod kept;
 mod least_area;
 mod parts;
+#[cfg(test)]
+mod refined;
 mod relaxed;
 mod winding;
 
@@ -17,6 +19,8 @@ pub(crate) use enclosing::Enclosing;
 pub(crate) use kept::keep_vertices;
 pub(crate) use least_area::{LEAST_AREA_CORNERS, least_area};
 pub(crate) use parts::{part, parts};
+#[cfg(test)]
+pub(crate) use refined::{is_above, refined};
 pub(crate) use relaxed::relaxed;
 pub(crate) use winding::{polygon_winding_number, solid_angle, winding_number};
 

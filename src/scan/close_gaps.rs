@@ -1,7 +1,7 @@
 //! Corners of loose triangles that nearly coincide, as those that were computed anew for every triangle, are made one.
 
 use super::Scan;
-use super::topology::each_edge;
+use super::topology::{after, open_sides};
 use super::weld::first_at_same_place;
 use crate::digits::plural;
 use crate::disjoint_sets::DisjointSets;
@@ -134,18 +134,13 @@ fn sides(scan: &Scan) -> impl Iterator<Item = [u32; 2]> {
 
 /// The corners along open rims, in order.
 fn rim(scan: &Scan) -> Vec<u32> {
-    let mut is_on_rim = vec![false; scan.points.len()];
-    each_edge(scan.points.len(), &scan.triangles, |edge| {
-        if edge.triangles().len() == 1 {
-            for end in edge.ends {
-                is_on_rim[end as usize] = true;
-            }
-        }
-    });
-    let corners = (0..).zip(is_on_rim);
-    corners
-        .filter_map(|(corner, is_on_rim)| is_on_rim.then_some(corner))
-        .collect()
+    let corners = scan.triangles.as_flattened();
+    let open = open_sides(scan.points.len(), &scan.triangles).into_iter();
+    let ends = open.flat_map(|side| [corners[side], corners[after(side)]]);
+    let mut rim: Vec<u32> = ends.collect();
+    rim.sort_unstable();
+    rim.dedup();
+    rim
 }
 
 #[cfg(test)]

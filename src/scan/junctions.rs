@@ -2,7 +2,7 @@
 //! coarse faces are parted there, so that they share these corners.
 
 use super::close_gaps::FARTHEST;
-use super::topology::{after, each_edge};
+use super::topology::{after, open_sides};
 use crate::mesh::{Bounds, BoundsTree};
 use nalgebra::Point3;
 use std::collections::HashMap;
@@ -22,12 +22,7 @@ pub(super) fn junctions(
     extent: f64,
 ) -> HashMap<usize, Vec<u32>> {
     let corners = triangles.as_flattened();
-    let mut open: Vec<usize> = Vec::new();
-    each_edge(points.len(), triangles, |edge| {
-        if let [side] = edge.sides {
-            open.push(*side);
-        }
-    });
+    let open = open_sides(points.len(), triangles);
     let place = |corner: u32| points[corner as usize];
     let ends = |side: usize| [corners[side], corners[after(side)]];
     let reach = FARTHEST * extent;
@@ -112,40 +107,14 @@ pub(super) fn parted(
 mod tests {
     use super::super::Scan;
     use super::super::inspect::inspect;
-    use crate::mesh::Mesh;
+    use crate::mesh::{self, Mesh, is_above};
     use nalgebra::{Point3, Vector3};
-    use std::collections::HashMap;
 
     /// A ball of which the faces above some height are cut in four, with the new corners so far outside, as a share of the radius.
     fn refined(height: f64, outside: f64) -> Scan {
-        let Mesh {
-            mut vertices,
-            triangles,
-        } = Mesh::radial(8, |_| 1.0);
-        let mut middles = HashMap::new();
-        let mut fine = Vec::new();
-        for corners in triangles {
-            let places = corners.map(|corner| vertices[corner as usize]);
-            if places.iter().map(|place| place.z).sum::<f64>() < 3.0 * height {
-                fine.push(corners);
-                continue;
-            }
-            let [x, y, z] = [0, 1, 2].map(|side| {
-                let [a, b] = [corners[side], corners[(side + 1) % 3]];
-                *middles.entry([a.min(b), a.max(b)]).or_insert_with(|| {
-                    let middle = nalgebra::center(&vertices[a as usize], &vertices[b as usize]);
-                    vertices.push(middle + outside * middle.coords);
-                    vertices.len() as u32 - 1
-                })
-            });
-            let [a, b, c] = corners;
-            fine.extend([[a, x, z], [x, b, y], [z, y, c], [x, y, z]]);
-        }
-        Scan {
-            points: vertices,
-            triangles: fine,
-            ..Scan::default()
-        }
+        let moved = |middle: Vector3<f64>| middle * (1.0 + outside);
+        let ball = Mesh::radial(8, |_| 1.0);
+        Scan::of_mesh(mesh::refined(&ball, is_above(height), moved))
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! Slits of three edges between coarse faces and finer ones, as programs leave them that refine a mesh in part and move the new corners
 //! onto a curved surface. Where one ends the next begins, so that without what fills them the faces fall apart.
 
-use super::topology::{after, each_edge};
+use super::topology::{after, open_sides};
 use nalgebra::Point3;
 use std::collections::{HashMap, HashSet};
 
@@ -15,12 +15,10 @@ const MEET: usize = 16;
 pub(super) fn slits(points: &[Point3<f64>], triangles: &[[u32; 3]]) -> Vec<[u32; 3]> {
     let corners = triangles.as_flattened();
     let mut rims: HashMap<u32, Vec<u32>> = HashMap::new();
-    each_edge(points.len(), triangles, |edge| {
-        if let [side] = edge.sides {
-            let next = rims.entry(corners[after(*side)]).or_default();
-            next.push(corners[*side]);
-        }
-    });
+    for side in open_sides(points.len(), triangles) {
+        let next = rims.entry(corners[after(side)]).or_default();
+        next.push(corners[side]);
+    }
     let none = Vec::new();
     let next = |corner: u32| {
         let next = rims.get(&corner).unwrap_or(&none);
@@ -60,45 +58,18 @@ fn is_narrow([a, b, c]: [Point3<f64>; 3]) -> bool {
 mod tests {
     use super::super::Scan;
     use super::*;
-    use crate::mesh::Mesh;
+    use crate::mesh::{Mesh, is_above, refined};
     use std::f64::consts::PI;
 
     /// A ball of which the upper half is cut in four, with new corners on the ball.
-    fn refined() -> Mesh {
-        let Mesh {
-            mut vertices,
-            triangles,
-        } = Mesh::radial(8, |_| 1.0);
-        let mut middles = HashMap::new();
-        let mut fine = Vec::new();
-        for corners in triangles {
-            let [a, b, c] = corners;
-            let height: f64 = corners
-                .iter()
-                .map(|&corner| vertices[corner as usize].z)
-                .sum();
-            if height < 0.0 {
-                fine.push(corners);
-                continue;
-            }
-            let [x, y, z] = [[a, b], [b, c], [c, a]].map(|[a, b]| {
-                *middles.entry([a.min(b), a.max(b)]).or_insert_with(|| {
-                    let middle = vertices[a as usize].coords + vertices[b as usize].coords;
-                    vertices.push(middle.normalize().into());
-                    vertices.len() as u32 - 1
-                })
-            });
-            fine.extend([[a, x, z], [x, b, y], [z, y, c], [x, y, z]]);
-        }
-        Mesh {
-            vertices,
-            triangles: fine,
-        }
+    fn ball() -> Mesh {
+        let ball = Mesh::radial(8, |_| 1.0);
+        refined(&ball, is_above(0.0), |middle| middle.normalize())
     }
 
     #[test]
     fn slits_along_a_seam_close_and_are_told() {
-        let scan = Scan::from_mesh(refined()).unwrap();
+        let scan = Scan::from_mesh(ball()).unwrap();
         let topology = scan.topology().unwrap();
         assert!(
             topology.closed && topology.bodies == 1,

@@ -125,6 +125,17 @@ pub(crate) fn each_edge(points: usize, triangles: &[[u32; 3]], mut visit: impl F
     }
 }
 
+/// The sides that no other triangle lies along: those of the rims of holes.
+pub(super) fn open_sides(points: usize, triangles: &[[u32; 3]]) -> Vec<usize> {
+    let mut open = Vec::new();
+    each_edge(points, triangles, |edge| {
+        if let [side] = edge.sides {
+            open.push(*side);
+        }
+    });
+    open
+}
+
 /// Counts the parts that share no point, by union-find over the points.
 fn count_bodies(points: usize, triangles: &[[u32; 3]]) -> usize {
     let mut sets = DisjointSets::new(points);

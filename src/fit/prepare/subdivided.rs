@@ -147,32 +147,12 @@ mod tests {
     use super::super::surface::scanned_surface;
     use super::*;
     use crate::fit::warning::FitWarning;
-    use crate::mesh::{edges, undirected};
+    use crate::mesh::{is_above, refined};
     use crate::scan::Scan;
-    use nalgebra::Point3;
-    use std::collections::HashMap;
 
     /// Each face cut in four.
     fn cut(mesh: &Mesh) -> Mesh {
-        let mut vertices = mesh.vertices.clone();
-        let mut made = HashMap::new();
-        let mut middle = |ends: [u32; 2]| {
-            *made.entry(undirected(ends)).or_insert_with(|| {
-                let [a, b] = ends.map(|at| mesh.vertices[at as usize].coords);
-                vertices.push(Point3::from((a + b) / 2.0));
-                vertices.len() as u32 - 1
-            })
-        };
-        let parts = mesh.triangles.iter().flat_map(|face| {
-            let [a, b, c] = *face;
-            let [ab, bc, ca] = edges(face).map(&mut middle);
-            [[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]]
-        });
-        let triangles = parts.collect();
-        Mesh {
-            vertices,
-            triangles,
-        }
+        refined(mesh, |_| true, |middle| middle)
     }
 
     #[test]
@@ -208,20 +188,7 @@ mod tests {
 
     /// Those above some height are cut in four, and the faces beside them in two.
     fn cut_in_part(mesh: &Mesh, height: f64) -> Mesh {
-        let Mesh {
-            vertices,
-            triangles,
-        } = mesh.clone();
-        let is_high = |face: &&[u32; 3]| {
-            face.iter().map(|&at| vertices[at as usize].z).sum::<f64>() > 3.0 * height
-        };
-        let high = Mesh {
-            vertices: vertices.clone(),
-            triangles: triangles.iter().filter(is_high).copied().collect(),
-        };
-        let mut fine = cut(&high);
-        fine.triangles
-            .extend(triangles.iter().filter(|face| !is_high(face)));
+        let fine = refined(mesh, is_above(height), |middle| middle);
         let mut scan = Scan::from_mesh(fine).unwrap();
         Mesh {
             vertices: std::mem::take(&mut scan.points),
