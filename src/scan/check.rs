@@ -23,12 +23,11 @@ const LOOKED_AT: usize = 16;
 const FEW: usize = 10;
 
 /// What points that passed the check span.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Span {
-    /// Longest side of the bounding box, in the scan's unit.
-    pub(crate) extent: f64,
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Span {
     /// All points lie in one plane: no body, though a piece of a surface.
-    pub(crate) flat: bool,
+    Plane,
+    Space,
 }
 
 /// Refuses points that no calculation can start from: none, not finite, out of range, all the
@@ -60,7 +59,7 @@ pub(crate) fn check(points: &[Point3<f64>]) -> Result<Span, ParseError> {
     }
     let normal = across.normalize();
     let flat = offsets().all(|offset| normal.dot(&offset).abs() <= FLAT);
-    Ok(Span { extent, flat })
+    Ok(if flat { Span::Plane } else { Span::Space })
 }
 
 /// The few points that are far from all others, if these are one place beside their distances.
@@ -122,11 +121,10 @@ mod tests {
     }
 
     #[test]
-    fn points_of_a_body_pass_with_their_extent() {
+    fn points_of_a_body_and_of_a_plane_pass() {
         let points = body();
-        let flat = false;
-        assert_eq!(check(&points), Ok(Span { extent: 3.0, flat }));
-        assert!(check(&points[..3]).unwrap().flat);
+        assert_eq!(check(&points), Ok(Span::Space));
+        assert_eq!(check(&points[..3]), Ok(Span::Plane));
     }
 
     #[test]

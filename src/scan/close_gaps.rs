@@ -1,8 +1,7 @@
-//! Corners of loose triangles that nearly coincide, as those that were computed anew for every triangle, are made one.
+//! Corners along open rims that nearly coincide, as those that were computed anew for every triangle or patch, are made one.
 
 use super::Scan;
-use super::topology::{after, open_sides};
-use super::weld::first_at_same_place;
+use super::topology::{after, joined, open_sides};
 use crate::digits::plural;
 use crate::disjoint_sets::DisjointSets;
 use crate::mesh::edges;
@@ -20,29 +19,12 @@ pub(super) const FARTHEST: f64 = 3e-5;
 /// Nearest corners that each is compared with: through these it reaches all that meet at a place.
 const COMPARED: NonZero<usize> = NonZero::new(16).unwrap();
 
-/// Places of corners per triangle from which on triangles are loose: a closed surface has half a place for each, and triangles that
-/// share none have three.
-const LOOSE: f64 = 1.5;
-
-/// Whether the triangles of a scan share few corners.
-pub(super) fn are_loose(scan: &Scan) -> bool {
-    let are_too_many = |places: usize| places as f64 > LOOSE * scan.triangles.len() as f64;
-    if scan.triangles.is_empty() || !are_too_many(scan.points.len()) {
-        return false;
-    }
-    let same = first_at_same_place(&scan.points);
-    let corners = scan.triangles.as_flattened().iter();
-    let mut places: Vec<u32> = corners.map(|&corner| same[corner as usize]).collect();
-    places.sort_unstable();
-    places.dedup();
-    are_too_many(places.len())
-}
-
 /// Makes one, in their middle, of the corners along open rims that nearly coincide, whatever their order, and says so in a warning.
-pub(super) fn close_gaps(scan: &mut Scan, extent: f64) {
-    let same = nearly_same(scan, extent);
+/// `same` has for each point the first one at the same place; `extent` is the longest side of the scan. Whether there were such.
+pub(super) fn close_gaps(scan: &mut Scan, same: &[u32], extent: f64) -> bool {
+    let first = nearly_same(scan, same, extent);
     let mut shifts = vec![(Vector3::zeros(), 0.0); scan.points.len()];
-    for (point, &first) in scan.points.iter().zip(&same) {
+    for (point, &first) in scan.points.iter().zip(&first) {
         let (sum, count) = &mut shifts[first as usize];
         *sum += point - scan.points[first as usize];
         *count += 1.0;
@@ -50,7 +32,7 @@ pub(super) fn close_gaps(scan: &mut Scan, extent: f64) {
     let mut kept: Vec<Point3<f64>> = Vec::with_capacity(scan.points.len());
     let mut numbers: Vec<u32> = Vec::with_capacity(scan.points.len());
     let mut farthest = 0.0_f64;
-    for (point, (own, &first)) in scan.points.iter().zip(same.iter().enumerate()) {
+    for (point, (own, &first)) in scan.points.iter().zip(first.iter().enumerate()) {
         let (sum, count) = shifts[first as usize];
         let middle = scan.points[first as usize] + sum / count;
         farthest = farthest.max((point - middle).norm());
@@ -63,7 +45,7 @@ pub(super) fn close_gaps(scan: &mut Scan, extent: f64) {
     }
     let merged = scan.points.len() - kept.len();
     if merged == 0 {
-        return;
+        return false;
     }
     scan.warnings.push(format!(
         "Merged {} along open rims with others: none was moved by more than {farthest:.1e}.",
@@ -73,41 +55,44 @@ pub(super) fn close_gaps(scan: &mut Scan, extent: f64) {
     for corner in scan.triangles.as_flattened_mut() {
         *corner = numbers[*corner as usize];
     }
+    true
 }
 
-/// For each corner the first of those that it is to be one with: those that hang together by pairs within reach, unless a face would
-/// lose a corner.
-fn nearly_same(scan: &Scan, extent: f64) -> Vec<u32> {
+/// For each point the first of those that it is to be one with: those whose places hang together by pairs within reach, unless a face
+/// would lose a corner.
+fn nearly_same(scan: &Scan, same: &[u32], extent: f64) -> Vec<u32> {
+    let triangles = joined(&scan.triangles, same);
     let mut sets = DisjointSets::new(scan.points.len());
-    for [one, other] in pairs(scan, extent) {
+    let mut stays = vec![true; scan.points.len()];
+    for [one, other] in pairs(&scan.points, &triangles, extent) {
         sets.join(one, other);
+        stays[one as usize] = false;
+        stays[other as usize] = false;
     }
-    let first: Vec<u32> = (0..scan.points.len() as u32)
-        .map(|own| sets.of(own))
-        .collect();
-    let mut are_apart = vec![false; scan.points.len()];
-    for [from, to] in sides(scan) {
-        are_apart[first[from as usize] as usize] |= first[from as usize] == first[to as usize];
+    for ends in sides(&triangles) {
+        let [from, to] = ends.map(|end| sets.of(end));
+        if from == to {
+            stays[from as usize] = true;
+        }
     }
-    let own = (0..).zip(first);
-    own.map(|(own, first)| match are_apart[first as usize] {
-        true => own,
-        false => first,
-    })
-    .collect()
+    let first = |(own, &place): (u32, &u32)| {
+        let first = sets.of(place);
+        if stays[first as usize] { own } else { first }
+    };
+    (0..).zip(same).map(first).collect()
 }
 
-/// Pairs of corners along open rims that are near each other.
-fn pairs(scan: &Scan, extent: f64) -> Vec<[u32; 2]> {
-    let rim = rim(scan);
-    let place = |corner: u32| (scan.points[corner as usize] - scan.points[0]) / extent;
+/// Pairs of places along open rims that are near each other.
+fn pairs(points: &[Point3<f64>], triangles: &[[u32; 3]], extent: f64) -> Vec<[u32; 2]> {
+    let rim = rim(points.len(), triangles);
+    let place = |corner: u32| (points[corner as usize] - points[0]) / extent;
     let places: Vec<[f64; 3]> = rim.iter().map(|&corner| place(corner).into()).collect();
     let tree = ImmutableKdTree::<f64, 3>::new_from_slice(&places);
     let Some(tree) = tree.ok().filter(|_| !places.is_empty()) else {
         return Vec::new();
     };
-    let mut reach = vec![FARTHEST; scan.points.len()];
-    for ends in sides(scan) {
+    let mut reach = vec![FARTHEST; points.len()];
+    for ends in sides(triangles) {
         let edge = (place(ends[1]) - place(ends[0])).norm();
         for end in ends {
             reach[end as usize] = reach[end as usize].min(OF_EDGES * edge);
@@ -121,21 +106,26 @@ fn pairs(scan: &Scan, extent: f64) -> Vec<[u32; 2]> {
         near.map(|hit| (hit.distance.sqrt(), [own, rim[hit.item as usize]]))
             .collect::<Vec<_>>()
     });
-    near.filter(|(apart, ends)| ends.iter().all(|&end| *apart <= reach[end as usize]))
-        .map(|(_, ends)| ends)
-        .collect()
+    near.filter(|(apart, [one, other])| {
+        one != other
+            && [one, other]
+                .iter()
+                .all(|&&end| *apart <= reach[end as usize])
+    })
+    .map(|(_, ends)| ends)
+    .collect()
 }
 
 /// The sides of the triangles, from corner to corner, without those that have no length.
-fn sides(scan: &Scan) -> impl Iterator<Item = [u32; 2]> {
-    let sides = scan.triangles.iter().flat_map(edges);
+fn sides(triangles: &[[u32; 3]]) -> impl Iterator<Item = [u32; 2]> {
+    let sides = triangles.iter().flat_map(edges);
     sides.filter(|[from, to]| from != to)
 }
 
-/// The corners along open rims, in order.
-fn rim(scan: &Scan) -> Vec<u32> {
-    let corners = scan.triangles.as_flattened();
-    let open = open_sides(scan.points.len(), &scan.triangles).into_iter();
+/// The places along open rims, in order.
+fn rim(points: usize, triangles: &[[u32; 3]]) -> Vec<u32> {
+    let corners = triangles.as_flattened();
+    let open = open_sides(points, triangles).into_iter();
     let ends = open.flat_map(|side| [corners[side], corners[after(side)]]);
     let mut rim: Vec<u32> = ends.collect();
     rim.sort_unstable();
@@ -145,6 +135,7 @@ fn rim(scan: &Scan) -> Vec<u32> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::weld::first_at_same_place;
     use super::*;
     use crate::mesh::Mesh;
 
@@ -169,31 +160,21 @@ mod tests {
         scan
     }
 
+    fn closed(scan: &mut Scan) {
+        let same = first_at_same_place(&scan.points);
+        close_gaps(scan, &same, 1.0);
+    }
+
     fn ball() -> Mesh {
         Mesh::radial(8, |_| 0.5)
     }
 
     #[test]
-    fn triangles_with_corners_of_their_own_are_loose() {
-        let ball = Mesh::radial(6, |_| 1.0);
-        assert!(are_loose(&loose(&ball, 1e-6)));
-        assert!(!are_loose(&loose(&ball, 0.0)));
-        let mut beside = Scan::of_mesh(ball);
-        assert!(!are_loose(&beside));
-        // Points of no triangle are no corners.
-        let points = beside.points.clone();
-        beside
-            .points
-            .extend((1..9).flat_map(|k| points.iter().map(move |p| p * f64::from(k + 1))));
-        assert!(!are_loose(&beside));
-    }
-
-    #[test]
     fn corners_within_reach_are_merged_and_reported() {
-        for step in [0.0, 1e-7, 1e-6, 5e-6] {
+        for step in [1e-7, 1e-6, 5e-6] {
             let mut scan = loose(&ball(), step);
             let corners = scan.points.len();
-            close_gaps(&mut scan, 1.0);
+            closed(&mut scan);
             let mesh = Mesh {
                 vertices: scan.points.clone(),
                 triangles: scan.triangles.clone(),
@@ -216,8 +197,8 @@ mod tests {
         for corner in reversed.triangles.as_flattened_mut() {
             *corner = last - *corner;
         }
-        close_gaps(&mut scan, 1.0);
-        close_gaps(&mut reversed, 1.0);
+        closed(&mut scan);
+        closed(&mut reversed);
         assert_eq!(scan.warnings, reversed.warnings);
         for (one, other) in scan.triangles.iter().zip(&reversed.triangles) {
             for (one, other) in one.iter().zip(other) {
@@ -230,7 +211,7 @@ mod tests {
     #[test]
     fn corners_farther_apart_stay() {
         let mut scan = loose(&ball(), 0.01);
-        close_gaps(&mut scan, 1.0);
+        closed(&mut scan);
         assert_eq!(scan, loose(&ball(), 0.01));
     }
 
@@ -248,11 +229,35 @@ mod tests {
             ..Scan::default()
         };
         let mut merged = scan.clone();
-        close_gaps(&mut merged, 1.0);
+        closed(&mut merged);
         assert_eq!(merged, scan);
         // Without that face they are one.
         merged.triangles.remove(0);
-        close_gaps(&mut merged, 1.0);
+        closed(&mut merged);
         assert_eq!(merged.points.len(), scan.points.len() - 3);
+    }
+
+    /// Two halves of a ball, each with a rim of its own, of which one has every corner twice, as texture has it.
+    #[test]
+    fn patches_that_are_apart_by_rounding_are_joined() {
+        let ball = ball();
+        let is_upper = |corners: &&[u32; 3]| {
+            let heights = corners.map(|corner| ball.vertices[corner as usize].z);
+            heights.iter().sum::<f64>() > 0.0
+        };
+        let (upper, lower): (Vec<_>, Vec<_>) = ball.triangles.iter().partition(is_upper);
+        let mut scan = Scan::of_mesh(ball.clone());
+        let count = scan.points.len() as u32;
+        let rounded = |p: &Point3<f64>| p.map(|x| f64::from((x + 0.3) as f32) - 0.3);
+        scan.points.extend(ball.vertices.iter().map(rounded));
+        scan.points.extend_from_within(count as usize..);
+        scan.triangles = upper;
+        let others = (0_u32..).zip(lower);
+        scan.triangles
+            .extend(others.map(|(at, face)| face.map(|corner| corner + count * (1 + at % 2))));
+        crate::scan::inspect::inspect(&mut scan);
+        let topology = scan.topology().unwrap();
+        assert!(topology.closed && topology.bodies == 1, "{topology:?}");
+        assert!(scan.warnings()[0].starts_with("Merged "));
     }
 }

@@ -2,13 +2,15 @@
 //! side out, and warns of what a closed surface of one body would not have.
 
 use super::Scan;
+use super::close_gaps::close_gaps;
 use super::junctions::{junctions, parted};
 use super::mend::{flaps, repeats, wound_against};
 use super::slits::slits;
-use super::topology::Topology;
+use super::topology::{Topology, joined};
 use super::weld::first_at_same_place;
 use crate::digits::{plural, significant};
 use crate::mesh::Bounds;
+use nalgebra::Point3;
 
 /// Fills in `topology` and the warnings. All indices must be in range.
 pub(super) fn inspect(scan: &mut Scan) {
@@ -16,18 +18,22 @@ pub(super) fn inspect(scan: &mut Scan) {
     if scan.triangles.is_empty() {
         return;
     }
-    let own: Vec<u32> = (0..scan.points.len() as u32).collect();
-    let mut topology = Topology::new(&scan.points, &scan.triangles, &own);
+    let mut topology = Topology::of_own(&scan.points, &scan.triangles);
     if !topology.closed || topology.bodies > 1 {
-        let same = first_at_same_place(&scan.points);
+        let extent = extent(&scan.points);
+        let mut same = first_at_same_place(&scan.points);
+        if !topology.closed && close_gaps(scan, &same, extent) {
+            same = first_at_same_place(&scan.points);
+            topology = Topology::of_own(&scan.points, &scan.triangles);
+        }
         if drop_repeated(scan, &same) {
-            topology = Topology::new(&scan.points, &scan.triangles, &own);
+            topology = Topology::of_own(&scan.points, &scan.triangles);
         }
         if !topology.closed {
             topology = Topology::new(&scan.points, &scan.triangles, &same);
         }
         if topology.boundary_edges > 0 {
-            topology = part_at_junctions(scan, &same, topology);
+            topology = part_at_junctions(scan, &same, extent, topology);
             topology = fill_slits(scan, &same, topology);
         }
         if topology.branching_edges > 0 {
@@ -47,6 +53,12 @@ pub(super) fn inspect(scan: &mut Scan) {
     }
     scan.warnings.extend(warnings(&topology));
     scan.topology = Some(topology);
+}
+
+/// The longest side of the box round points.
+fn extent(points: &[Point3<f64>]) -> f64 {
+    let corners = Bounds::new(points.iter().copied(), 0.0).corners();
+    (corners[1] - corners[0]).max()
 }
 
 fn drop_degenerate(scan: &mut Scan) {
@@ -83,10 +95,8 @@ fn drop_repeated(scan: &mut Scan, same: &[u32]) -> bool {
 }
 
 /// Parts triangles on whose sides others have [corners](junctions) if that leaves fewer edges open.
-fn part_at_junctions(scan: &mut Scan, same: &[u32], before: Topology) -> Topology {
+fn part_at_junctions(scan: &mut Scan, same: &[u32], extent: f64, before: Topology) -> Topology {
     let points = &scan.points;
-    let all = Bounds::new(points.iter().copied(), 0.0).corners();
-    let extent = (all[1] - all[0]).max();
     let found = junctions(points, &joined(&scan.triangles, same), extent);
     if found.is_empty() {
         return before;
@@ -167,14 +177,6 @@ fn turn(scan: &mut Scan, same: &[u32]) -> bool {
         count => format!("Turned {count} triangles that were wound against their neighbours."),
     });
     true
-}
-
-/// Triangles between the points that stand for those at the same place.
-fn joined(triangles: &[[u32; 3]], same: &[u32]) -> Vec<[u32; 3]> {
-    let joined = triangles.iter();
-    joined
-        .map(|corners| corners.map(|corner| same[corner as usize]))
-        .collect()
 }
 
 fn warnings(topology: &Topology) -> impl Iterator<Item = String> {

@@ -121,7 +121,7 @@ impl Scan {
             });
         }
         let mut scan = Self::of_mesh(mesh);
-        scan.look_over(false)?;
+        scan.look_over()?;
         Ok(scan)
     }
 
@@ -133,7 +133,7 @@ impl Scan {
         }
     }
 
-    /// All points in file order, duplicates included.
+    /// All points in file order, duplicates included, except where corners along open rims were made one.
     pub fn points(&self) -> &[Point3<f64>] {
         &self.points
     }
@@ -181,14 +181,10 @@ impl Scan {
         }
     }
 
-    /// Checks the points, closes the gaps between loose triangles, and inspects these.
-    fn look_over(&mut self, are_loose: bool) -> Result<(), ParseError> {
-        let span = check::check(&self.points)?;
-        if span.flat {
+    /// Checks the points, and inspects the triangles.
+    fn look_over(&mut self) -> Result<(), ParseError> {
+        if check::check(&self.points)? == check::Span::Plane {
             self.warnings.push(FLAT.into());
-        }
-        if are_loose {
-            close_gaps::close_gaps(self, span.extent);
         }
         inspect::inspect(self);
         self.look_for_voxels();
@@ -257,7 +253,7 @@ impl Scan {
 
     /// Whether all points lie in one plane, or do not span one: they enclose nothing.
     pub fn is_flat(&self) -> bool {
-        check::check(&self.points).map_or(true, |span| span.flat)
+        check::check(&self.points).map_or(true, |span| span == check::Span::Plane)
     }
 }
 
@@ -310,9 +306,8 @@ pub(crate) fn starts_as_model(bytes: &[u8]) -> bool {
 ///
 /// Points on a lattice that are the centres of the voxels of a grain, all or the outermost, become the boundary of these voxels, with a
 /// warning.
-/// Triangles with coinciding corners or that repeat others are dropped, those along whose sides others have corners are parted there,
-/// and a mesh wound inwards is turned outwards;
-/// these and whatever else is odd, such as holes or several bodies, leave a warning.
+/// Corners along open rims that nearly coincide are made one, triangles with coinciding corners or that repeat others are dropped,
+/// those along whose sides others have corners are parted there, and a mesh wound inwards is turned outwards; these and whatever else is odd, such as holes or several bodies, leave a warning.
 ///
 /// # Errors
 ///
@@ -333,9 +328,7 @@ pub fn parse_scan(bytes: &[u8], extension: Option<&str>) -> Result<Scan, ParseEr
     }
     scan.warnings.extend(coarse::coarse(&scan.points));
     let odd = scan.warnings.clone();
-    let are_loose = format == Format::Stl || close_gaps::are_loose(&scan);
-    scan.look_over(are_loose)
-        .map_err(|error| error.beside(&odd))?;
+    scan.look_over().map_err(|error| error.beside(&odd))?;
     if scan.triangles.is_empty() {
         scan = scan.on_lattice();
     }

@@ -24,13 +24,16 @@ pub struct Topology {
 }
 
 impl Topology {
+    /// Reads the topology off triangles that share their corners by number.
+    pub(super) fn of_own(points: &[Point3<f64>], triangles: &[[u32; 3]]) -> Self {
+        let own: Vec<u32> = (0..points.len() as u32).collect();
+        Self::new(points, triangles, &own)
+    }
+
     /// Reads the topology off triangles that all have three distinct corners. `same` names for
     /// each point the one to take for it, so that meshes that repeat their points hang together.
     pub(super) fn new(points: &[Point3<f64>], triangles: &[[u32; 3]], same: &[u32]) -> Self {
-        let joined: Vec<_> = triangles
-            .iter()
-            .map(|corners| corners.map(|corner| same[corner as usize]))
-            .collect();
+        let joined = joined(triangles, same);
         let [mut boundary, mut branching, mut twisted] = [0; 3];
         each_edge(points.len(), &joined, |edge| match edge.triangles().len() {
             1 => boundary += 1,
@@ -123,6 +126,14 @@ pub(crate) fn each_edge(points: usize, triangles: &[[u32; 3]], mut visit: impl F
             });
         }
     }
+}
+
+/// Triangles between the points that stand for those at the same place.
+pub(super) fn joined(triangles: &[[u32; 3]], same: &[u32]) -> Vec<[u32; 3]> {
+    let joined = triangles.iter();
+    joined
+        .map(|corners| corners.map(|corner| same[corner as usize]))
+        .collect()
 }
 
 /// The sides that no other triangle lies along: those of the rims of holes.
