@@ -2,7 +2,7 @@
 //! fitted like others they make faces of it. Of cement particles whose meshes of 2562 vertices were so subdivided the area was 2 %
 //! too small, 20 to 40 standard errors; where a half or a third of the faces were, .6 to 1.2 %, 4 to 16.
 
-use crate::mesh::Mesh;
+use crate::mesh::{Mesh, edges};
 use nalgebra::Vector3;
 use std::ops::RangeInclusive;
 
@@ -40,7 +40,7 @@ pub(super) fn made_by_subdivision(mesh: &Mesh) -> Vec<usize> {
     }
 }
 
-/// Those on the edges between two coarse faces; none where they are few.
+/// Those on the edges between two coarse faces, and within these; none where the former are few.
 fn made_of_some(mesh: &Mesh) -> Vec<usize> {
     let all = mesh.vertices.len();
     let step = all.div_ceil(LOOKED_AT_FOR_SOME);
@@ -49,11 +49,56 @@ fn made_of_some(mesh: &Mesh) -> Vec<usize> {
     if are_few(looked_at.len(), all.div_ceil(step)) {
         return Vec::new();
     }
-    let made = among(mesh, |_| true, is_folded);
-    match are_few(made.len(), all) || all - made.len() < FEWEST_CORNERS {
+    let on_edges = among(mesh, |_| true, is_folded);
+    if are_few(on_edges.len(), all) {
+        return Vec::new();
+    }
+    let made = with_those_within(mesh, on_edges);
+    match all - made.len() < FEWEST_CORNERS {
         true => Vec::new(),
         false => made,
     }
+}
+
+/// Beside those on edges the vertices that hang together with them over flat faces: a second cut of a part puts them within a coarse face.
+fn with_those_within(mesh: &Mesh, on_edges: Vec<usize>) -> Vec<usize> {
+    let mut is_flat = vec![false; mesh.vertices.len()];
+    for at in among(mesh, |_| true, is_in_plane) {
+        is_flat[at] = true;
+    }
+    let mut beside: Vec<Vec<u32>> = vec![Vec::new(); mesh.vertices.len()];
+    for [one, other] in mesh.triangles.iter().flat_map(edges) {
+        if is_flat[other as usize] {
+            beside[one as usize].push(other);
+        }
+    }
+    let mut made = on_edges;
+    let mut at = 0;
+    while at < made.len() {
+        for &other in &beside[made[at]] {
+            if std::mem::take(&mut is_flat[other as usize]) {
+                made.push(other as usize);
+            }
+        }
+        at += 1;
+    }
+    made.sort_unstable();
+    made
+}
+
+/// Whether a vertex lies in one plane with all its neighbours.
+fn is_in_plane(own: Vector3<f64>, others: &[Vector3<f64>]) -> bool {
+    let towards: Vec<Vector3<f64>> = others
+        .iter()
+        .filter_map(|other| (other - own).try_normalize(0.0))
+        .collect();
+    let Some((first, rest)) = towards.split_first() else {
+        return false;
+    };
+    let across = rest.iter().map(|other| first.cross(other));
+    let normal = across.max_by(|one, other| one.norm_squared().total_cmp(&other.norm_squared()));
+    let normal = normal.and_then(|normal| normal.try_normalize(ROUNDING));
+    normal.is_some_and(|normal| towards.iter().all(|one| normal.dot(one).abs() < ROUNDING))
 }
 
 /// Whether a vertex lies between two of its neighbours, and the others to either side of that line in one plane each, which are folded.
@@ -210,6 +255,28 @@ mod tests {
         // Those of a box lie on its sides and edges.
         let cube = Mesh::radial(24, |n| 1.0 / n.amax());
         assert!(made_by_subdivision(&cut_in_part(&cube, 0.0)).is_empty());
+    }
+
+    /// A second cut puts some within coarse faces.
+    #[test]
+    fn what_is_cut_twice_in_part_keeps_its_corners() {
+        let coarse = Mesh::radial(16, |n| 1.0 + 0.2 * n.x + 0.1 * n.y * n.z);
+        let corners = coarse.vertices.len();
+        let mesh = cut_in_part(&cut_in_part(&coarse, 0.0), 0.2);
+        let made = made_by_subdivision(&mesh);
+        assert!(made[0] >= corners);
+        assert!(made.len() as f64 > 0.97 * (mesh.vertices.len() - corners) as f64);
+    }
+
+    #[test]
+    fn a_vertex_is_within_a_face_where_all_its_neighbours_are() {
+        let around = |off: f64| {
+            let towards = [[1.0, 0.0, 0.0], [0.1, 2.0, 0.0], [-3.0, -1.0, off]];
+            towards.map(|towards| Vector3::new(3.0, -2.0, 5.0) + Vector3::from(towards))
+        };
+        let own = Vector3::new(3.0, -2.0, 5.0);
+        assert!(is_in_plane(own, &around(0.0)) && !is_in_plane(own, &around(0.01)));
+        assert!(!is_in_plane(own, &[own + Vector3::x()]));
     }
 
     #[test]
