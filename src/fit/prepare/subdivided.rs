@@ -31,6 +31,9 @@ const MOST_NEIGHBOURS: usize = 64;
 /// its edges sharp.
 const FOLDED: RangeInclusive<f64> = 1e-3..=0.5;
 
+/// Sine of the angle from which on two edges of a coarse face run different ways: rulings of a cone differ by less than they are folded.
+const ANOTHER_WAY: f64 = 0.5;
+
 /// The vertices that subdivision made, ascending: of all faces, as often as may be, or of a part of them.
 pub(super) fn made_by_subdivision(mesh: &Mesh) -> Vec<usize> {
     let of_all = made_of_all(mesh);
@@ -45,38 +48,65 @@ fn made_of_some(mesh: &Mesh) -> Vec<usize> {
     let all = mesh.vertices.len();
     let step = all.div_ceil(LOOKED_AT_FOR_SOME);
     let are_few = |found: usize, of: usize| (found as f64) < IN_PART * of as f64;
-    let looked_at = among(mesh, |at| at.is_multiple_of(step), is_folded);
+    let looked_at = among(mesh, |at| at.is_multiple_of(step), fold);
     if are_few(looked_at.len(), all.div_ceil(step)) {
         return Vec::new();
     }
-    let on_edges = among(mesh, |_| true, is_folded);
-    if are_few(on_edges.len(), all) {
+    let folds = among(mesh, |_| true, fold);
+    let round_faces = round_faces(mesh, &folds);
+    if are_few(round_faces.len(), all) {
         return Vec::new();
     }
-    let made = with_those_within(mesh, on_edges);
+    let on_edges = folds.into_iter().map(|(at, _)| at);
+    let in_planes = among(mesh, |_| true, in_plane).into_iter();
+    let others = on_edges.chain(in_planes.map(|(at, ())| at));
+    let made = with_those_beside(mesh, round_faces, others);
     match all - made.len() < FEWEST_CORNERS {
         true => Vec::new(),
         false => made,
     }
 }
 
-/// Beside those on edges the vertices that hang together with them over flat faces: a second cut of a part puts them within a coarse face.
-fn with_those_within(mesh: &Mesh, on_edges: Vec<usize>) -> Vec<usize> {
-    let mut is_flat = vec![false; mesh.vertices.len()];
-    for at in among(mesh, |_| true, is_in_plane) {
-        is_flat[at] = true;
+/// Those on edges that lie beside one on another edge of the same coarse face, which runs another way. Rulings of a cone or cylinder are
+/// folds too, and run beside each other.
+fn round_faces(mesh: &Mesh, folds: &[(usize, Vector3<f64>)]) -> Vec<usize> {
+    let mut lines = vec![None; mesh.vertices.len()];
+    for &(at, line) in folds {
+        lines[at] = Some(line);
     }
+    let mut found = Vec::new();
+    for ends in mesh.triangles.iter().flat_map(edges) {
+        if let [Some(one), Some(other)] = ends.map(|end| lines[end as usize])
+            && one.cross(&other).norm() > ANOTHER_WAY
+        {
+            found.extend(ends.map(|end| end as usize));
+        }
+    }
+    found.sort_unstable();
+    found.dedup();
+    found
+}
+
+/// Some vertices with those of others that hang together with them: a second cut of a part puts some within a coarse face.
+fn with_those_beside(
+    mesh: &Mesh,
+    some: Vec<usize>,
+    others: impl Iterator<Item = usize>,
+) -> Vec<usize> {
+    let mut is_left = vec![false; mesh.vertices.len()];
+    others.for_each(|at| is_left[at] = true);
+    some.iter().for_each(|&at| is_left[at] = false);
     let mut beside: Vec<Vec<u32>> = vec![Vec::new(); mesh.vertices.len()];
     for [one, other] in mesh.triangles.iter().flat_map(edges) {
-        if is_flat[other as usize] {
+        if is_left[other as usize] {
             beside[one as usize].push(other);
         }
     }
-    let mut made = on_edges;
+    let mut made = some;
     let mut at = 0;
     while at < made.len() {
         for &other in &beside[made[at]] {
-            if std::mem::take(&mut is_flat[other as usize]) {
+            if std::mem::take(&mut is_left[other as usize]) {
                 made.push(other as usize);
             }
         }
@@ -87,47 +117,42 @@ fn with_those_within(mesh: &Mesh, on_edges: Vec<usize>) -> Vec<usize> {
 }
 
 /// Whether a vertex lies in one plane with all its neighbours.
-fn is_in_plane(own: Vector3<f64>, others: &[Vector3<f64>]) -> bool {
-    let towards: Vec<Vector3<f64>> = others
-        .iter()
-        .filter_map(|other| (other - own).try_normalize(0.0))
-        .collect();
-    let Some((first, rest)) = towards.split_first() else {
-        return false;
-    };
+fn in_plane(own: Vector3<f64>, others: &[Vector3<f64>]) -> Option<()> {
+    let towards = directions(own, others);
+    let (first, rest) = towards.split_first()?;
     let across = rest.iter().map(|other| first.cross(other));
-    let normal = across.max_by(|one, other| one.norm_squared().total_cmp(&other.norm_squared()));
-    let normal = normal.and_then(|normal| normal.try_normalize(ROUNDING));
-    normal.is_some_and(|normal| towards.iter().all(|one| normal.dot(one).abs() < ROUNDING))
+    let normal = across.max_by(|one, other| one.norm_squared().total_cmp(&other.norm_squared()))?;
+    let normal = normal.try_normalize(ROUNDING)?;
+    let is_in_plane = |one: &Vector3<f64>| normal.dot(one).abs() < ROUNDING;
+    towards.iter().all(is_in_plane).then_some(())
 }
 
-/// Whether a vertex lies between two of its neighbours, and the others to either side of that line in one plane each, which are folded.
-fn is_folded(own: Vector3<f64>, others: &[Vector3<f64>]) -> bool {
-    let towards: Vec<Vector3<f64>> = others
-        .iter()
-        .filter_map(|other| (other - own).try_normalize(0.0))
-        .collect();
+/// The way of the line along which a vertex lies between two of its neighbours, where the others lie to either side of it in one plane
+/// each, which are folded.
+fn fold(own: Vector3<f64>, others: &[Vector3<f64>]) -> Option<Vector3<f64>> {
+    let towards = directions(own, others);
     let mut pairs = (0..towards.len()).flat_map(|i| (i + 1..towards.len()).map(move |j| [i, j]));
-    let Some([i, j]) = pairs.find(|&[i, j]| (towards[i] + towards[j]).norm() < ROUNDING) else {
-        return false;
-    };
+    let [i, j] = pairs.find(|&[i, j]| (towards[i] + towards[j]).norm() < ROUNDING)?;
     let line = towards[i];
     let rest = (0..towards.len()).filter(|k| ![i, j].contains(k));
-    let across: Option<Vec<Vector3<f64>>> = rest
+    let across = rest
         .map(|k| (towards[k] - line * line.dot(&towards[k])).try_normalize(ROUNDING))
-        .collect();
-    let Some(across) = across else {
-        return false;
-    };
-    let Some(one) = across.first() else {
-        return false;
-    };
+        .collect::<Option<Vec<Vector3<f64>>>>()?;
+    let one = across.first()?;
     let are_alike = |a: &Vector3<f64>, b: &Vector3<f64>| (a - b).norm() < ROUNDING;
     let mut beyond = across.iter().filter(|side| !are_alike(one, side));
-    let Some(other) = beyond.next() else {
-        return false;
-    };
-    beyond.all(|side| are_alike(other, side)) && FOLDED.contains(&(one + other).norm())
+    let other = beyond.next()?;
+    let is_folded =
+        beyond.all(|side| are_alike(other, side)) && FOLDED.contains(&(one + other).norm());
+    is_folded.then_some(line)
+}
+
+/// The directions of others from a vertex.
+fn directions(own: Vector3<f64>, others: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
+    let towards = others.iter().map(|other| other - own);
+    towards
+        .filter_map(|towards| towards.try_normalize(0.0))
+        .collect()
 }
 
 /// The vertices that subdivision of all faces made; none where the numbers of vertices are not those of a mesh of which all faces were
@@ -157,21 +182,25 @@ fn made_of_all(mesh: &Mesh) -> Vec<usize> {
 
 /// Those of some vertices that lie in the middle between two of their neighbours.
 fn in_middles(mesh: &Mesh, is_looked_at: impl Fn(usize) -> bool) -> Vec<usize> {
-    among(mesh, is_looked_at, |own, others| {
-        others.iter().enumerate().any(|(i, one)| {
+    let in_middle = |own: Vector3<f64>, others: &[Vector3<f64>]| {
+        let mut others_before = others.iter().enumerate();
+        let is_in_middle = others_before.any(|(i, one)| {
             let one = one - own;
             let mut rest = others[i + 1..].iter().map(|other| other - own);
             rest.any(|other| (one + other).norm() < ROUNDING * (one - other).norm())
-        })
-    })
+        });
+        is_in_middle.then_some(())
+    };
+    let found = among(mesh, is_looked_at, in_middle).into_iter();
+    found.map(|(at, ())| at).collect()
 }
 
-/// Those of some vertices that are so beside their neighbours.
-fn among(
+/// What some vertices are beside their neighbours, by their numbers, of those that are it.
+fn among<T>(
     mesh: &Mesh,
     is_looked_at: impl Fn(usize) -> bool,
-    is_so: impl Fn(Vector3<f64>, &[Vector3<f64>]) -> bool,
-) -> Vec<usize> {
+    what: impl Fn(Vector3<f64>, &[Vector3<f64>]) -> Option<T>,
+) -> Vec<(usize, T)> {
     let place = |at: u32| mesh.vertices[at as usize].coords;
     let mut neighbours: Vec<Vec<Vector3<f64>>> = vec![Vec::new(); mesh.vertices.len()];
     for &[a, b, c] in &mesh.triangles {
@@ -183,8 +212,8 @@ fn among(
     }
     let all = neighbours.iter().enumerate();
     let few = all.filter(|(_, others)| others.len() <= MOST_NEIGHBOURS);
-    let found = few.filter(|(own, others)| is_so(place(*own as u32), others));
-    found.map(|(own, _)| own).collect()
+    few.filter_map(|(own, others)| Some((own, what(place(own as u32), others)?)))
+        .collect()
 }
 
 #[cfg(test)]
@@ -194,6 +223,8 @@ mod tests {
     use crate::fit::warning::FitWarning;
     use crate::mesh::{is_above, refined};
     use crate::scan::Scan;
+    use nalgebra::Point3;
+    use std::f64::consts::TAU;
 
     /// Each face cut in four.
     fn cut(mesh: &Mesh) -> Mesh {
@@ -268,6 +299,37 @@ mod tests {
         assert!(made.len() as f64 > 0.97 * (mesh.vertices.len() - corners) as f64);
     }
 
+    /// Their rulings are straight, and the faces between two of them in one plane.
+    #[test]
+    fn the_rulings_of_a_cone_and_of_a_cylinder_keep_all() {
+        let around = 96_u32;
+        let rows = 40_u32;
+        for widths in [[0.05, 1.0], [1.0, 1.0]] {
+            let vertex = |row: u32, at: u32| {
+                let (share, turn) = (
+                    f64::from(row) / f64::from(rows),
+                    TAU * f64::from(at) / f64::from(around),
+                );
+                let width = widths[0] + share * (widths[1] - widths[0]);
+                Point3::new(width * turn.cos(), width * turn.sin(), 3.0 * share)
+            };
+            let places = (0..=rows).flat_map(|row| (0..around).map(move |at| (row, at)));
+            let faces = (0..rows).flat_map(|row| (0..around).map(move |at| (row, at)));
+            let mesh = Mesh {
+                vertices: places.map(|(row, at)| vertex(row, at)).collect(),
+                triangles: faces
+                    .flat_map(|(row, at)| {
+                        let corner = |row: u32, at: u32| row * around + at % around;
+                        let [a, b] = [corner(row, at), corner(row, at + 1)];
+                        let [c, d] = [corner(row + 1, at), corner(row + 1, at + 1)];
+                        [[a, b, d], [a, d, c]]
+                    })
+                    .collect(),
+            };
+            assert!(made_of_some(&mesh).is_empty(), "{widths:?}");
+        }
+    }
+
     #[test]
     fn a_vertex_is_within_a_face_where_all_its_neighbours_are() {
         let around = |off: f64| {
@@ -275,14 +337,14 @@ mod tests {
             towards.map(|towards| Vector3::new(3.0, -2.0, 5.0) + Vector3::from(towards))
         };
         let own = Vector3::new(3.0, -2.0, 5.0);
-        assert!(is_in_plane(own, &around(0.0)) && !is_in_plane(own, &around(0.01)));
-        assert!(!is_in_plane(own, &[own + Vector3::x()]));
+        assert!(in_plane(own, &around(0.0)).is_some() && in_plane(own, &around(0.01)).is_none());
+        assert!(in_plane(own, &[own + Vector3::x()]).is_none());
     }
 
     #[test]
     fn a_vertex_is_on_an_edge_where_both_sides_are_plane_and_not_one() {
-        let is_on_edge = |fold: f64, off: f64| {
-            let (sin, cos) = fold.sin_cos();
+        let is_on_edge = |angle: f64, off: f64| {
+            let (sin, cos) = angle.sin_cos();
             let around = [
                 Vector3::x(),
                 -2.0 * Vector3::x(),
@@ -292,7 +354,7 @@ mod tests {
                 Vector3::new(-0.4, -2.0 * cos, 2.0 * sin),
             ];
             let own = Vector3::new(3.0, -2.0, 5.0);
-            is_folded(own, &around.map(|other| own + other))
+            fold(own, &around.map(|other| own + other)).is_some()
         };
         assert!(is_on_edge(0.01, 0.0) && is_on_edge(0.4, 0.0));
         assert!(!is_on_edge(0.0, 0.0) && !is_on_edge(1.0, 0.0));
