@@ -24,6 +24,7 @@ impl PreparedScan<'_> {
     /// prepared for, if the fit was cancelled, or if what was fitted is no body or far from the points.
     pub fn fit(&self, options: &FitOptions, context: &Context<'_>) -> Result<Fitted, FitError> {
         options.check()?;
+        options.tolerance.check(self.mean_radius)?;
         if options.symmetry != self.symmetry {
             return Err(FitError::OtherSymmetry);
         }

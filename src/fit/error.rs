@@ -2,7 +2,7 @@
 
 use super::context::Cancelled;
 use super::position::map::MapError;
-use crate::digits::plural;
+use crate::digits::{plural, significant};
 use crate::measure::SelfCrossing;
 use crate::model::InvalidGrain;
 use crate::sphere::Symmetry;
@@ -69,6 +69,17 @@ pub enum FitError {
         asked: usize,
         /// The degree of the estimate.
         reached: usize,
+    },
+    /// The tolerance leaves nothing of the grain's shape.
+    #[error(
+        "the tolerance of {tolerance} is more than a quarter of the mean radius, {}: ask for less, such as 1 % of it (--tolerance 1%)",
+        significant(*mean_radius, 3)
+    )]
+    WideTolerance {
+        /// The tolerance asked for, in the scan's unit.
+        tolerance: f64,
+        /// In the scan's unit.
+        mean_radius: f64,
     },
     /// The tolerance is not a positive number.
     #[error("the tolerance is {value}; it must be a positive length")]

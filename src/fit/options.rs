@@ -102,7 +102,22 @@ pub enum Tolerance {
     OfMeanRadius(f64),
 }
 
+/// The widest tolerance, as a share of the mean radius: so far may points be from a surface.
+const WIDEST: f64 = 0.25;
+
 impl Tolerance {
+    /// Refuses a tolerance that is wide beside this mean radius.
+    pub(in crate::fit) fn check(&self, mean_radius: f64) -> Result<(), FitError> {
+        let tolerance = self.length(mean_radius);
+        match tolerance > WIDEST * mean_radius {
+            true => Err(FitError::WideTolerance {
+                tolerance,
+                mean_radius,
+            }),
+            false => Ok(()),
+        }
+    }
+
     /// The tolerance in the unit of the mean radius.
     pub fn length(&self, mean_radius: f64) -> f64 {
         match *self {

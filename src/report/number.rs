@@ -28,7 +28,8 @@ pub(super) fn integrated(value: f64, error: Option<f64>, share: Option<f64>, uni
     match error {
         Some(error) => with_error(value, Some(error.hypot(by_quadrature))) + unit,
         None if by_quadrature > SHOWN * value => {
-            format!("{}{unit}, integrated to {by_quadrature:.1e}", short(value))
+            let share = significant(100.0 * by_quadrature / value, 2);
+            format!("{}{unit}, integrated to {share} %", short(value))
         }
         None => short(value) + unit,
     }

@@ -224,6 +224,33 @@ fn tolerance_is_a_length_or_a_share_of_the_mean_radius() {
     }
 }
 
+/// Who means 5 % may say 5, which is longer than the grain.
+#[test]
+fn a_tolerance_that_leaves_nothing_of_the_grain_is_refused() {
+    let folder = folder();
+    let maize = grain("maize.ply");
+    for tolerance in ["5", "40%"] {
+        for surface in ["auto", "position"] {
+            let options = [
+                "--tolerance",
+                tolerance,
+                "--surface",
+                surface,
+                "-o",
+                "m.json",
+            ];
+            let out = grainform(&folder, &[&["fit", &maize][..], &options].concat());
+            assert_eq!(out.status.code(), Some(2), "{out:?}");
+            let told = String::from_utf8_lossy(&out.stderr).into_owned();
+            assert!(
+                told.contains("is more than a quarter of the mean radius, "),
+                "{told}"
+            );
+            assert!(!folder.path().join("m.json").exists());
+        }
+    }
+}
+
 #[test]
 fn the_mean_radius_is_that_of_the_surface_however_few_the_points() {
     let folder = folder();

@@ -10,8 +10,9 @@
 //! - what the largest [holes](crate::fit::holes) may hide, at the end itself or where the body may reach farther;
 //! - a share of what the surface has above the highest point, which the prior alone has drawn: of clean grains with a point of
 //!   half the points' spacing it is some 5 % wrong;
-//! - where residuals are no noise, by how much the points near the ends are missed when they are
-//!   [left out](super::left_out), or by how much farther the body may reach, whichever is more;
+//! - by how much the ends lie off the smooth surface through the [points nearest to them](super::vicinity), or, where residuals are no
+//!   noise, by how much these are missed when they are [left out](super::left_out), or by how much farther the body may reach,
+//!   whichever is most;
 //! - what turning an axis by its standard deviation does to the extent beyond first order (of a box it grows whichever
 //!   way it turns), and the range of extents in the plane of two axes that are not told apart.
 
@@ -97,10 +98,11 @@ pub(super) fn dimensions(
             squares += (OF_UNSEEN * end.unseen(&estimate.cloud)).powi(2);
             squares += end.hidden(holes).powi(2);
             raised += plateau.rise(end, value);
-            if let Some(points) = left_out {
+            let off = end.off_smooth(&estimate.cloud).powi(2);
+            squares += left_out.map_or(off, |points| {
                 let missed = points.near(&end.direction) * end.by_radius * end.by_radius;
-                squares += missed.max(end.exceeded(points).powi(2));
-            }
+                missed.max(end.exceeded(points).powi(2)).max(off)
+            });
         }
         squares += missing * missing + chance + raised * raised;
         squares += (0.5 * found.excess[i]).powi(2);

@@ -16,6 +16,7 @@
 use super::cloud::Cloud;
 use super::left_out::LeftOut;
 use super::outcome::Estimate;
+use super::vicinity::off_smooth;
 use crate::farthest::Farthest;
 use crate::fit::holes::Holes;
 use crate::measure::support_near;
@@ -123,6 +124,12 @@ impl End {
         let highest = heights.fold(f64::NEG_INFINITY, f64::max);
         let unseen = self.point.dot(&towards) - highest;
         self.by_radius / self.along * unseen.max(0.0)
+    }
+
+    /// By how much the end lies off the smooth surface through the points nearest to it.
+    pub(super) fn off_smooth(&self, cloud: &Cloud) -> f64 {
+        let off = off_smooth(cloud, &self.point, &self.towards());
+        self.by_radius / self.along * off
     }
 
     /// The axis, in the stretched space.

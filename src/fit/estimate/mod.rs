@@ -53,6 +53,7 @@ mod tips;
 #[cfg(test)]
 mod trial;
 mod unresolved;
+mod vicinity;
 
 pub use local::RadiusError;
 pub(crate) use outcome::Estimate;

@@ -121,6 +121,7 @@ pub(super) fn fit_position_if(
     }
     let local = LocalFaces::new(scan)?;
     let radius = local.radius;
+    options.tolerance.check(radius)?;
     let tolerance = options.tolerance.length(radius);
     let limit = tolerance.max(OVER_SCATTER * scan.scatter().unwrap_or(0.0));
     let is_worth = |coefficients: usize, rms: f64| {

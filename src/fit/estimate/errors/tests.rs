@@ -1,4 +1,5 @@
 mod flat;
+mod grooved;
 mod pointed;
 mod textured;
 
