@@ -1,16 +1,16 @@
 //! By how much an end of an extent lies off the smooth surface through the points nearest to it.
 //!
 //! Where a groove is finer than the points tell, the surface ripples between them, on the other side of the grain too, and yet goes
-//! through them all: of coffee beans whose thickness was 1 to 8 % too large by that, the polynomial through sixteen points round each end
-//! tells so. Over noise, and next to edges, it tells nothing: there it is itself off the points by as much.
+//! through them all: of coffee beans whose thickness was 1 to 8 % too large by that, polynomials through ten and sixteen points round each
+//! end tell so. Over noise, and next to edges, they tell nothing: there they are themselves off the points by as much.
 
 use super::cloud::Cloud;
 use crate::fit::points::quadric::at_centre;
 use nalgebra::Vector3;
 
-/// Points that tell what is smooth round an end: fewer do where a groove is near.
-const FEWER: [usize; 2] = [10, NEAREST];
-const NEAREST: usize = 16;
+/// Points that tell what is smooth round an end: where a groove is near, the fewer.
+const NEAREST: [usize; 2] = [10, MOST];
+const MOST: usize = 16;
 
 /// By how much a place lies off the polynomial of second degree through the points nearest to it, along a unit vector, beyond what that
 /// leaves open. In the stretched space, in units of the mean.
@@ -26,23 +26,23 @@ pub(super) fn off_smooth(cloud: &Cloud, place: &Vector3<f64>, towards: &Vector3<
         [x, y, towards.dot(offset)]
     };
     let places: Vec<[f64; 3]> = near.iter().map(seen).collect();
-    let offs = FEWER.map(|count| {
+    let offs = NEAREST.map(|count| {
         let height = at_centre(&places[..count.min(places.len())]);
         height.map_or(0.0, |height| height.value.abs() - height.error)
     });
     offs.into_iter().fold(0.0, f64::max)
 }
 
-/// The points nearest to a place, from it.
+/// The [`MOST`] points nearest to a place, nearest first, from it.
 fn nearest(cloud: &Cloud, place: &Vector3<f64>) -> Vec<Vector3<f64>> {
-    let mut found: Vec<(f64, Vector3<f64>)> = Vec::with_capacity(NEAREST + 1);
+    let mut found: Vec<(f64, Vector3<f64>)> = Vec::with_capacity(MOST + 1);
     for (n, radius) in cloud.directions.iter().zip(&cloud.radii) {
         let offset = n * *radius - place;
         let square = offset.norm_squared();
         let at = found.partition_point(|(nearer, _)| *nearer <= square);
-        if at < NEAREST {
+        if at < MOST {
             found.insert(at, (square, offset));
-            found.truncate(NEAREST);
+            found.truncate(MOST);
         }
     }
     found.into_iter().map(|(_, offset)| offset).collect()
