@@ -124,7 +124,8 @@ fn compare(file: &str, scan: &Scan, control: &Scan) {
 /// File, class, and the number of points or, for STL, of triangles that are left to it.
 const FOUND: [(&str, Class, usize); 64] = [
     ("draco/Box.ply", Well, 24),
-    ("draco/delim_test.ply", Well, 24),
+    // Two corners of its 24 lie 7e-7 from others.
+    ("draco/delim_test.ply", Well, 24 - 2),
     ("draco/test_pos_color_big_endian.ply", Well, 114),
     ("draco/test_pos_color.ply", Well, 114),
     ("draco/test_extra_whitespace.ply", Well, 3),
