@@ -314,18 +314,25 @@ mod tests {
                 Point3::new(width * turn.cos(), width * turn.sin(), 3.0 * share)
             };
             let places = (0..=rows).flat_map(|row| (0..around).map(move |at| (row, at)));
-            let faces = (0..rows).flat_map(|row| (0..around).map(move |at| (row, at)));
+            let mut vertices: Vec<_> = places.map(|(row, at)| vertex(row, at)).collect();
+            let ends = vertices.len() as u32;
+            vertices.extend([Point3::origin(), Point3::new(0.0, 0.0, 3.0)]);
+            let corner = |row: u32, at: u32| row * around + at % around;
+            let quads = (0..rows).flat_map(|row| (0..around).map(move |at| (row, at)));
+            let sides = quads.flat_map(|(row, at)| {
+                let [a, b] = [corner(row, at), corner(row, at + 1)];
+                let [c, d] = [corner(row + 1, at), corner(row + 1, at + 1)];
+                [[a, b, d], [a, d, c]]
+            });
+            let lids = (0..around).flat_map(|at| {
+                let low = [ends, corner(0, at + 1), corner(0, at)];
+                [low, [ends + 1, corner(rows, at), corner(rows, at + 1)]]
+            });
             let mesh = Mesh {
-                vertices: places.map(|(row, at)| vertex(row, at)).collect(),
-                triangles: faces
-                    .flat_map(|(row, at)| {
-                        let corner = |row: u32, at: u32| row * around + at % around;
-                        let [a, b] = [corner(row, at), corner(row, at + 1)];
-                        let [c, d] = [corner(row + 1, at), corner(row + 1, at + 1)];
-                        [[a, b, d], [a, d, c]]
-                    })
-                    .collect(),
+                triangles: sides.chain(lids).collect(),
+                vertices,
             };
+            assert_eq!(mesh.check_closed(), Ok(()));
             assert!(made_of_some(&mesh).is_empty(), "{widths:?}");
         }
     }
