@@ -102,14 +102,14 @@ pub enum Tolerance {
     OfMeanRadius(f64),
 }
 
-/// The widest tolerance, as a share of the mean radius: so far may points be from a surface.
-const WIDEST: f64 = 0.25;
+/// How far points may be from the surface that was asked for, as a share of the mean radius (RMS), and how wide a tolerance may be.
+pub(in crate::fit) const FARTHEST: f64 = 0.25;
 
 impl Tolerance {
     /// Refuses a tolerance that is wide beside this mean radius.
     pub(in crate::fit) fn check(&self, mean_radius: f64) -> Result<(), FitError> {
         let tolerance = self.length(mean_radius);
-        match tolerance > WIDEST * mean_radius {
+        match tolerance > FARTHEST * mean_radius {
             true => Err(FitError::WideTolerance {
                 tolerance,
                 mean_radius,

@@ -6,6 +6,7 @@
 
 use super::cloud::Cloud;
 use crate::fit::points::quadric::at_centre;
+use crate::sphere::across;
 use nalgebra::Vector3;
 
 /// Points that tell what is smooth round an end: where a groove is near, the fewer.
@@ -17,12 +18,9 @@ const MOST: usize = 16;
 pub(super) fn off_smooth(cloud: &Cloud, place: &Vector3<f64>, towards: &Vector3<f64>) -> f64 {
     let near = nearest(cloud, place);
     let reach = near.last().map_or(1.0, |offset| offset.norm());
-    let one = towards
-        .cross(&Vector3::ith(towards.iamin(), 1.0))
-        .normalize();
-    let other = towards.cross(&one);
+    let aside = across(towards);
     let seen = |offset: &Vector3<f64>| {
-        let [x, y] = [one, other].map(|across| across.dot(offset) / reach);
+        let [x, y] = aside.map(|axis| axis.dot(offset) / reach);
         [x, y, towards.dot(offset)]
     };
     let places: Vec<[f64; 3]> = near.iter().map(seen).collect();

@@ -1,7 +1,7 @@
 //! Whether what was fitted is a body, and that of the points.
 
 use crate::fit::error::FitError;
-use crate::fit::options::FitOptions;
+use crate::fit::options::{FARTHEST, FitOptions};
 use crate::fit::outcome::{Fitted, Residuals};
 use crate::fit::warning::FitWarning;
 use crate::measure::grain_properties;
@@ -9,10 +9,7 @@ use crate::model::{Grain, InvalidGrain};
 use crate::sphere::RingGrid;
 use nalgebra::Vector3;
 
-/// How far points may be from the surface that was asked for, as a share of the mean radius (RMS); ...
-const FAR: f64 = 0.25;
-
-/// ... and from the estimate that it is cut from. Scans of grains and stones are within 5 %, a grain and the table
+/// The same as [`FARTHEST`] for the estimate that a surface is cut from. Scans of grains and stones are within 5 %, a grain and the table
 /// that it stands on 8 % or more.
 const FAR_FROM_ESTIMATE: f64 = 0.06;
 
@@ -64,8 +61,8 @@ pub(in crate::fit) fn check(
             FAR_FROM_ESTIMATE,
         ),
         // Of degree 0 even a ball is what was asked for.
-        (None, _) if is_asked_for => (0.0, FAR),
-        (None, _) => (rms, FAR),
+        (None, _) if is_asked_for => (0.0, FARTHEST),
+        (None, _) => (rms, FARTHEST),
     };
     let share = off / fitted.mean_radius;
     let is_far = |share: f64| share.is_nan() || share > far;

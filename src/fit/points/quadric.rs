@@ -13,7 +13,7 @@ pub(in crate::fit) fn off_quadric(places: &[[f64; 3]]) -> DVector<f64> {
     &heights - &basis * basis.tr_mul(&heights)
 }
 
-/// A height, and by how much it may be off.
+/// A height, and by how much single ones are off it, as root mean square.
 pub(in crate::fit) struct Height {
     pub(in crate::fit) value: f64,
     pub(in crate::fit) error: f64,
