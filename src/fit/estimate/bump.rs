@@ -25,12 +25,6 @@ pub(super) fn falls(sharpness: f64) -> Vec<f64> {
     (0..degrees).map(fall).collect()
 }
 
-/// b_l by degree, of the cusps exp(-k a) over the angle a: but for terms of the order 1 / k² those of a plane.
-pub(super) fn cusp_falls(steepness: f64) -> Vec<f64> {
-    let fall = |l: usize| (1.0 + ((l as f64 + 0.5) / steepness).powi(2)).powf(-1.5);
-    (0..HIGHEST).map(fall).collect()
-}
-
 /// A bump around a circle, by degree.
 pub(super) struct LegendreBump {
     /// Factors of the Legendre polynomials in the cosine of the polar angle.

@@ -48,7 +48,7 @@ const WIDE_PARTS: u16 = LocalErrors::PARTS / 2;
 const PER_WIDE_CELL: f64 = 4.0 * PER_CELL as f64;
 
 /// Cosine of the angle to a principal axis up to which a body may end there: where it ends is then told no better than by the
-/// errors of its dimensions, of which what is missing is a part though it may be chance.
+/// errors of its dimensions, of which what the pull of the prior takes is a part.
 const NEAR_END: f64 = 0.96;
 
 impl Estimate {
@@ -103,15 +103,19 @@ impl Estimate {
             let apart = apart(at).max(apart_around[wide(cell)]);
             let told = tensor(&Curvature::new(&towards[at], told));
             let difference = (told - exact).norm_squared();
-            let unshrunk = tensor(&Curvature::new(&towards[at], unshrunk));
-            let shrunk = (unshrunk - exact).norm_squared();
+            let pulled = tensor(&Curvature::new(&towards[at], unshrunk));
+            let shrunk = (pulled - exact).norm_squared();
             let rounding = FLOOR * FLOOR * exact.norm_squared();
             let [first, second] = [0, 1].map(|i| frame.axes.tr_mul(&curvature.directions[i]));
             let normal = frame.axes.tr_mul(&curvature.normal);
             let bend = self.bend(n, best.place.norm(), &normal, [first, second]);
             let bending = known.variance_at_least() * bending_per_value;
             let unknown = known.variance_at_least() + beside[cell] + height;
-            let radius = apart + unknown * known.scale.powi(2);
+            let taken = match n.amax() > NEAR_END {
+                true => unshrunk.place.norm() - best.place.norm(),
+                false => 0.0,
+            };
+            let radius = apart + taken.powi(2) + unknown * known.scale.powi(2);
             let rounding_of_place = (FLOOR * best.place.norm()).powi(2);
             Squares {
                 place: (radius + rounding_of_place) * normal.dot(n).powi(2),
@@ -133,22 +137,16 @@ impl Estimate {
         let tips = Tips::new(self, posterior);
         let in_cell = |cell: &CubeCell| {
             let middle = cell.middle();
-            let (missing, widest) = tips.missing_and_widest(&middle);
-            let is_no_chance = missing.is_no_chance();
-            let told = match is_no_chance || middle.amax() > NEAR_END {
-                true => missing,
+            let [likeliest, widest] = tips.likeliest_and_widest(&middle);
+            let told = match likeliest.is_no_chance() {
+                true => likeliest,
                 false => Missing::default(),
-            };
-            // What may be chance does not tell how sharp it is.
-            let sharpness = match is_no_chance {
-                true => missing.sharpness,
-                false => widest.sharpness,
             };
             let height = told.height.powi(2);
             let chance = widest.variance;
             [
                 height + told.variance + chance,
-                height * sharpness.powi(2) + chance * widest.sharpness.powi(2),
+                height * told.sharpness.powi(2) + chance * widest.sharpness.powi(2),
             ]
         };
         let cells = CubeCell::uniform(WIDE_PARTS);

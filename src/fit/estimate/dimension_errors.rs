@@ -5,8 +5,8 @@
 //!
 //! - half of the excess of a largest value, by the variance at the end itself, for a scan may be thinner there;
 //! - what [ripples](super::plateau) have raised the ends of flat sides by, at both of them;
-//! - the mean square of what is [missing](super::tips) at the ends, as far as the points tell it: the prior is the same
-//!   everywhere, and takes the last of a beak or a tip for noise;
+//! - what the estimate [flattens](super::flattened) of beaks and tips at the ends;
+//! - how far the points leave a [wide bump](super::tips) open at each of them;
 //! - what the largest [holes](crate::fit::holes) may hide, at the end itself or where the body may reach farther;
 //! - a share of what the surface has above the highest point, which the prior alone has drawn: of clean grains with a point of
 //!   half the points' spacing it is some 5 % wrong;
@@ -17,6 +17,7 @@
 //!   way it turns), and the range of extents in the plane of two axes that are not told apart.
 
 use super::dimensions::{End, Extent, Reach};
+use super::flattened::Flattened;
 use super::functionals::combined;
 use super::left_out::LeftOut;
 use super::outcome::Estimate;
@@ -50,7 +51,7 @@ pub(super) struct Dimensions {
 pub(super) fn dimensions(
     estimate: &Estimate,
     given: &Conditioned<'_>,
-    (reach, plateau): (&Reach, &Plateau<'_>),
+    (reach, plateau, flat): (&Reach, &Plateau<'_>, &Flattened<'_>),
     principal: &PrincipalInertia,
     (mass, covariances): (&[Vec<f64>], &[Vec<f64>]),
     sd: impl Fn(usize, usize) -> f64,
@@ -70,8 +71,8 @@ pub(super) fn dimensions(
         .collect();
     let solved = given.covariances(&ends);
     // Slopes are larger where radii are less well known.
-    let slope_per_value = slope_variance(&estimate.spectrum, &estimate.unlearnt)
-        / variance(&estimate.spectrum, &estimate.unlearnt);
+    let usual = variance(&estimate.spectrum, &estimate.unlearnt);
+    let slope_per_value = slope_variance(&estimate.spectrum, &estimate.unlearnt) / usual;
     let tips = Tips::new(estimate, given.posterior);
 
     let mut found = Dimensions {
@@ -88,13 +89,14 @@ pub(super) fn dimensions(
             combined(vectors, factors.iter())
         };
         let mut squares = dot(&whole(&ends, mass), &whole(&solved, covariances)).max(0.0);
-        let (mut missing, mut chance, mut raised) = (0.0, 0.0, 0.0);
+        let (mut flattened, mut raised) = (0.0, 0.0);
         for (at, end) in (2 * i..).zip(&extent.ends) {
             let value = dot(&ends[at], &solved[at]).max(0.0);
             found.excess[i] += end.excess(value, slope_per_value * value);
-            let at = tips.missing(&end.direction);
-            missing += at.height * end.by_radius;
-            chance += at.variance * end.by_radius * end.by_radius;
+            let odds = (value / usual).max(1.0);
+            flattened += flat.of_radius(&ends[at], odds) * end.by_radius;
+            let [_, wide] = tips.likeliest_and_widest(&end.direction);
+            squares += wide.variance * end.by_radius * end.by_radius;
             squares += (OF_UNSEEN * end.unseen(&estimate.cloud)).powi(2);
             squares += end.hidden(holes).powi(2);
             raised += plateau.rise(end, value);
@@ -104,7 +106,7 @@ pub(super) fn dimensions(
                 missed.max(end.exceeded(points).powi(2)).max(off)
             });
         }
-        squares += missing * missing + chance + raised * raised;
+        squares += flattened * flattened + raised * raised;
         squares += (0.5 * found.excess[i]).powi(2);
         squares += turned(reach, principal, i, extent.length, &sd);
         found.variances[i] = squares;

@@ -7,7 +7,7 @@
 //!   value of the estimate;
 //! - allowances for what second order brings: half of the area's excess, for it rests on degrees that the points
 //!   do not tell; [texture](super::texture) between the points, what noise along the surface [blurs](super::blur) of
-//!   it, what is missing of a [rim](super::rims) or over a [hole](crate::fit::holes); those of the [extents](super::dimension_errors); the repulsion of nearly
+//!   it, what is [flattened](super::flattened) of edges, what is missing of a [rim](super::rims) or over a [hole](crate::fit::holes); those of the [extents](super::dimension_errors); the repulsion of nearly
 //!   equal moments;
 //! - a floor, for rounding and quadrature.
 //!
@@ -20,6 +20,7 @@
 use super::blur::Blur;
 use super::dimension_errors::dimensions;
 use super::dimensions::Reach;
+use super::flattened::Flattened;
 use super::functionals::{RingSurface, combined};
 use super::known_errors::{EXCESS_SHARE, KnownErrors, of_inertia};
 use super::left_out::LeftOut;
@@ -36,7 +37,7 @@ use crate::fit::outcome::turn::entry_variance;
 use crate::fit::points::close_pairs;
 use crate::model::{NoStandardErrors, StandardErrors};
 use crate::vectorize::dot;
-use nalgebra::SMatrix;
+use nalgebra::{SMatrix, SVector};
 use std::f64::consts::PI;
 
 /// Half-angle of holes, in radians, up to which 95 % intervals of area and volume cover: of 20 degrees they do (92 %
@@ -151,6 +152,10 @@ fn known(
         covariance += left_out.covariance(&covariances);
     }
 
+    let flat = Flattened::new(estimate, residuals);
+    let flattened = flat.of_figures(&gradients, mass.area);
+    let flattened = SVector::<f64, INTEGRALS>::from_vec(flattened);
+    covariance += flattened * flattened.transpose();
     if let Some(rim) = Rim::of(estimate, residuals) {
         let with_it = rim.moments(&surface);
         let mut added = jacobian * (list(&with_it) - list(&moments));
@@ -173,7 +178,7 @@ fn known(
     let dimensions = dimensions(
         estimate,
         &given,
-        (&reach, &plateau),
+        (&reach, &plateau, &flat),
         &principal,
         mass_and,
         sd,

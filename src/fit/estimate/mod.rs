@@ -23,6 +23,7 @@ mod dimension_errors;
 mod dimensions;
 mod draws;
 mod errors;
+mod flattened;
 mod functionals;
 mod held_out;
 mod information;

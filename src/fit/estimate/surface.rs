@@ -12,9 +12,6 @@ const RESOLVED: f64 = 0.1;
 /// ... or below this share of the mean radius.
 const LEAST_RESOLUTION: f64 = 1e-6;
 
-/// Of degrees of which the points tell less, what they tell is noise for the most part.
-const MOSTLY_TOLD: f64 = 0.5;
-
 impl Estimate {
     /// The linear map of the space in which the radius is expanded.
     pub(crate) fn stretch(&self) -> Stretch {
@@ -114,11 +111,10 @@ impl Estimate {
 
     /// The expansion as the points tell it, without the pull of the prior, of the degrees that they tell for the most part.
     pub(super) fn unshrunk(&self) -> Whole {
-        let told = self.unlearnt.iter().enumerate();
-        let whole = told.flat_map(|(l, unlearnt)| {
-            let share = (1.0 - unlearnt).max(MOSTLY_TOLD);
-            let own = &self.coefficients[l * l..(l + 1) * (l + 1)];
-            own.iter().map(move |x| x * self.cloud.mean / share)
+        let whole = (0..=self.degree).flat_map(|l| {
+            let times = (1.0 + self.taken(l, 1.0)) * self.cloud.mean;
+            let own = &self.coefficients[l * l..coefficient_count(l)];
+            own.iter().map(move |x| x * times)
         });
         Whole::new(whole.collect()).expect("finite radii give finite coefficients")
     }

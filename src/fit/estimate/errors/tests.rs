@@ -189,7 +189,7 @@ fn errors_beside_an_edge_are_those_of_the_points_left_out() {
         assert!(off.abs() < 2.5, "{told} {truth}: {off}");
         assert!(error < 0.02 * truth, "{told} {truth}: {error}");
     }
-    assert!((told.area - area).abs() > 4.0 * surely.area, "{surely:?}");
+    assert!(errors.area > 1.5 * surely.area, "{surely:?}");
 }
 
 /// Noise hides that the rim is sharp.

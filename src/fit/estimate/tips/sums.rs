@@ -10,6 +10,9 @@ const LANES: usize = 2 * vectorize::LANES;
 /// Coefficients of exp(-v) by the powers of v - 1/2, over exp(-1/2): to 5e-13 for v from 0 to 1.
 const TAYLOR: [f64; 12] = taylor();
 
+/// How often exp(-|n - t|² / 4) is squared to half of the first bump.
+const SQUARINGS: usize = 4;
+
 /// Heights are held above this, whose square is still a normal number: others are slow.
 const LEAST: f64 = 1e-40;
 
@@ -36,28 +39,6 @@ impl Points {
 
     /// Sums of the bumps exp(k (n.t - 1)) about the end t: of the first k is 8.
     pub(super) fn bumps<const N: usize>(&self, end: &Vector3<f64>) -> [BumpSums; N] {
-        self.sums::<N, 4>(
-            end,
-            #[inline(always)]
-            |quarter| quarter,
-        )
-    }
-
-    /// Sums of the cusps exp(-k |n - t|): of the first k is 4.
-    pub(super) fn cusps<const N: usize>(&self, end: &Vector3<f64>) -> [BumpSums; N] {
-        self.sums::<N, 3>(
-            end,
-            #[inline(always)]
-            |quarter| quarter.sqrt(),
-        )
-    }
-
-    /// The first bump is exp(-v) squared so many times, with v from 0 to 1 made of |n - t|² / 4.
-    fn sums<const N: usize, const SQUARINGS: usize>(
-        &self,
-        end: &Vector3<f64>,
-        v: impl Fn(f64) -> f64,
-    ) -> [BumpSums; N] {
         let mut sums = [[[0.0; LANES]; 2]; N];
         vectorize(
             #[inline(always)]
@@ -69,7 +50,7 @@ impl Points {
                     for i in 0..LANES {
                         let away = [x[i] - end.x, y[i] - end.y, z[i] - end.z];
                         let squared = away[0] * away[0] + away[1] * away[1] + away[2] * away[2];
-                        beyond[i] = v(0.25 * squared) - 0.5;
+                        beyond[i] = 0.25 * squared - 0.5;
                     }
                     for coefficient in TAYLOR {
                         for i in 0..LANES {
@@ -144,10 +125,6 @@ mod tests {
             for (at, found) in points.bumps::<6>(&end).into_iter().enumerate() {
                 let k = 8.0 * f64::from(1 << at);
                 check(found, exact(&|n| (k * (n.dot(&end) - 1.0)).exp()));
-            }
-            for (at, found) in points.cusps::<4>(&end).into_iter().enumerate() {
-                let k = 4.0 * f64::from(1 << at);
-                check(found, exact(&|n| (-k * (n - end).norm()).exp()));
             }
         }
     }

@@ -20,6 +20,7 @@ fn the_length_of_a_cone_in_noise_is_told_no_too_surely() {
             Vector3::repeat(1.0),
         ));
         let error = found.errors(&found.figures).dimensions[0];
+        eprintln!("off {} error {error}", found.figures.dimensions[0] - 3.0);
         assert!(error < 0.15, "{error}");
         off.push((found.figures.dimensions[0] - 3.0) / error);
     }
@@ -52,4 +53,28 @@ fn the_length_of_a_pointed_grain_is_known_as_far_as_its_point_is_seen() {
     }
     // Of two ends a tenth is in the error.
     assert!(unseen.iter().all(|ratio| *ratio < 15.0), "{unseen:?}");
+}
+
+/// A double cone of clean dense points: no degree follows its edge and its tips.
+#[test]
+fn the_area_and_the_length_of_a_double_cone_are_known_as_far_as_its_edges_are_followed() {
+    let (up, down) = (1.5, 0.6);
+    let radius = |n: &Vector3<f64>| {
+        let height = if n.z > 0.0 { up } else { down };
+        1.0 / (n.x.hypot(n.y) + n.z.abs() / height)
+    };
+    let directions = Sampling::Random.directions(40_000, 1).unwrap();
+    let points = samples(&directions, radius, 0.0);
+    let estimate = estimated(&points, Vector3::new(1.0, 1.0, 1.0));
+    let told = best(&estimate).figures;
+    let errors = estimate.errors(&told).unwrap();
+    let area = PI * (1.0_f64.hypot(up) + 1.0_f64.hypot(down));
+    for (told, truth, error) in [
+        (told.area, area, errors.area),
+        (told.dimensions[0], up + down, errors.dimensions[0]),
+    ] {
+        let missing = (truth - told) / error;
+        assert!((0.0..3.0).contains(&missing), "{told} {truth} {error}");
+        assert!(error < 0.03 * truth, "{told} {truth} {error}");
+    }
 }
