@@ -222,7 +222,7 @@ fn what_cannot_be_pressed_is_refused_in_a_sentence() {
 #[test]
 fn an_uncertain_curvature_asks_for_what_was_not_done() {
     let folder = folder();
-    let scan = "synth ellipsoid --axes 3,2.5,2 --points 1500 --noise 2% --seed 7 -o s.ply";
+    let scan = "synth ellipsoid --axes 3,2.5,2 --points 1500 --noise 4% --seed 7 -o s.ply";
     succeed(&folder, &scan.split(' ').collect::<Vec<_>>());
     let told = |segments: &str| {
         let fit = ["fit", "s.ply", "--tolerance", "1%", "--segments", segments];
