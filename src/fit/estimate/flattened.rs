@@ -128,6 +128,7 @@ mod tests {
         assert_relative_eq!(beyond(&tip), rest, max_relative = 0.03);
         let hollow: Vec<f64> = tip.iter().map(|part| -part).collect();
         assert_eq!(beyond(&hollow), -beyond(&tip));
+        assert_eq!(beyond(&tip[..LEAST_DEGREES - 1]), 0.0);
         // Of a round one nearly nothing; where the quarters disagree, nothing.
         let round: Vec<f64> = (0..=60).map(|l| 0.7_f64.powi(l)).collect();
         assert!(beyond(&round) < 1e-6);

@@ -1,6 +1,7 @@
 use super::*;
 use crate::fit::estimate::trial::{estimated, samples};
 use crate::shapes::{Body, Sampling, SynthOptions, synthesize};
+use approx::assert_relative_eq;
 use std::f64::consts::TAU;
 
 /// A bump of which the estimate makes nothing is missing as it is; of one that it follows in part, so much of it.
@@ -10,6 +11,10 @@ fn a_bump_is_missing_as_far_as_its_degrees_are_unlearnt() {
     assert!((nothing.left - 1.0).abs() < 1e-12 && (nothing.left_of_squares - 1.0).abs() < 1e-12);
     let all_but_a_tenth = Bump::new(64.0, &falls(64.0), &[0.1; 48]);
     assert!((all_but_a_tenth.left - 0.1).abs() < 1e-12);
+    let told = all_but_a_tenth.told([0.2, 3.0], 0.01);
+    let information = 3.0 * all_but_a_tenth.left_of_squares / 0.01 + 1.0 / (EXPECTED * EXPECTED);
+    assert_relative_eq!(told.height, 0.1 * 20.0 / information);
+    assert_relative_eq!(told.variance, 0.01 / information);
     // Most of a wide bump lies in the low degrees, and they are learnt.
     let learnt: Vec<f64> = (0..48).map(|l| if l < 8 { 0.0 } else { 1.0 }).collect();
     assert!(Bump::new(8.0, &falls(8.0), &learnt).left < 0.05);

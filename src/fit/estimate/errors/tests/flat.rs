@@ -12,7 +12,7 @@ fn the_error_of_a_thickness_between_flat_sides_holds_their_ripples() {
     let excess = found.figures.dimensions[2] - 0.9;
     let error = found.errors(&found.figures).dimensions[2];
     assert!(
-        excess > 0.003 && (0.5..2.0).contains(&(error / excess)),
+        excess > 0.003 && (1.0..2.0).contains(&(error / excess)),
         "{excess} {error}"
     );
 }
