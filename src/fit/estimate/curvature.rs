@@ -1,6 +1,6 @@
 //! How well the surface of a grain is known from place to place.
 //!
-//! Where it is, is off by the [error of its radius](super::local) and, as squares, by a bump that is [missing](super::tips) and
+//! Where it is, is off by the [error of its radius](super::local) and, as squares, by what the prior took where the body may end, by a bump that is [missing](super::tips) and
 //! no chance, by what the points leave open of a wide one, by what a [hole](crate::fit::holes) may hide, and where residuals are no noise by how much the points near by are missed
 //! when they are [left out](super::left_out).
 //!

@@ -58,16 +58,14 @@ impl<'a> Flattened<'a> {
     /// Of the radius where the harmonics are these, in units of the mean, with such [odds](Estimate::taken).
     pub(super) fn of_radius(&self, harmonics: &[f64], odds: f64) -> f64 {
         let parts = self.parts(harmonics);
-        let most = OVER_RESIDUALS * self.largest_residual;
-        self.taken(&parts, odds) + OF_BEYOND * self.beyond(&parts, odds).clamp(-most, most)
+        self.taken(&parts, odds) + self.bounded(self.beyond(&parts, odds))
     }
 
     /// Of figures with these gradients, of which the first is the area, which is so large.
     pub(super) fn of_figures(&self, gradients: &[Vec<f64>], area: f64) -> Vec<f64> {
         let parts: Vec<Vec<f64>> = gradients.iter().map(|of| self.parts(of)).collect();
         let mut flattened: Vec<f64> = parts.iter().map(|of| self.taken(of, 1.0)).collect();
-        let most = OVER_RESIDUALS * self.largest_residual * area;
-        flattened[0] += OF_BEYOND * beyond(&parts[0]).clamp(-most, most);
+        flattened[0] += area * self.bounded(beyond(&parts[0]) / area);
         flattened
     }
 
@@ -80,13 +78,17 @@ impl<'a> Flattened<'a> {
 
     /// What lies beyond the degrees of which the points tell more than the prior takes.
     fn beyond(&self, parts: &[f64], odds: f64) -> f64 {
-        let whole = parts.iter().enumerate().map(|(l, part)| {
-            let taken = self.estimate.taken(l, odds);
-            (part * (1.0 + taken), taken < MOST)
-        });
-        let (whole, is_told): (Vec<f64>, Vec<bool>) = whole.unzip();
-        let told = is_told.iter().rposition(|is_told| *is_told);
-        beyond(&whole[..told.map_or(0, |last| last + 1)])
+        let taken = |l: usize| self.estimate.taken(l, odds);
+        let told = (0..parts.len()).rposition(|l| taken(l) < MOST);
+        let told = 0..told.map_or(0, |last| last + 1);
+        let whole: Vec<f64> = told.map(|l| parts[l] * (1.0 + taken(l))).collect();
+        beyond(&whole)
+    }
+
+    /// What counts of what lies beyond, as shares of the mean or of the area.
+    fn bounded(&self, beyond: f64) -> f64 {
+        let most = OVER_RESIDUALS * self.largest_residual;
+        OF_BEYOND * beyond.clamp(-most, most)
     }
 
     fn taken(&self, parts: &[f64], odds: f64) -> f64 {

@@ -2,7 +2,7 @@ use super::*;
 use crate::fit::estimate::tips::Tips;
 
 /// A ball with a tangent cone about x, as an apple seed and an almond have one: of the very tip the estimate makes too little,
-/// and what it leaves of the points there tells how much.
+/// and what it kept of each degree tells how much.
 #[test]
 fn the_length_of_a_cone_in_noise_is_told_no_too_surely() {
     let tangent = (PI / 6.0, PI / 3.0);
